@@ -25,7 +25,7 @@ std::vector<const DiagnosticKind *> &registry() {
   return kinds;
 }
 
-/// What JSON has no number for becomes null.
+/// Returns a JSON number, or null for a value that is not finite.
 Json number(const double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string print(const double value, const int digits) {
@@ -191,7 +191,7 @@ void Diagnostics::write_line(const std::string &line) {
   if (!is_first_)
     return;
   if (file_.is_open())
-    file_ << line << std::endl; // at once: a run may end at any time
+    file_ << line << std::endl; // flushed, since a run may end at any time
   else
     unwritten_.push_back(line);
 }
@@ -201,7 +201,7 @@ void Diagnostics::report(const Diagnostic &diagnostic) {
   if (is_new) {
     entries_.push_back({diagnostic, 1, diagnostic.measure(), diagnostic.time()});
     write_line(diagnostic.json());
-    if (is_first_ && print_ && diagnostic.kind().severity != Severity::error) // main() prints those
+    if (is_first_ && print_ && diagnostic.kind().severity != Severity::error) // main() prints errors
       print_(diagnostic.kind().severity, diagnostic.text());
     return;
   }

@@ -36,7 +36,7 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
     message = error.what();
   }
 
-  // The lowest rank that failed speaks for all.
+  // The lowest rank that failed provides kind and message for all.
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int speaker =

@@ -103,14 +103,14 @@ template <class Error> void print_error(const Error &error, const bool is_first)
     std::cerr << error.diagnostic().text() << std::endl;
 }
 
-/// As `--check --json` answers of a scene that is refused.
+/// Prints the JSON object of `--check --json` for a refused scene.
 void print_refusal(const std::string &file, const billet::InputError &error, const bool is_first) {
   if (is_first)
     std::cout << billet::describe_refusal_as_json(file, error.diagnostic()) << "\n";
 }
 
-/// Writes the scene of the first file under today's names to the second file, or prints it. What was changed
-/// is printed beside it.
+/// Writes the scene of the first file with current names to the second file, or prints it. Reports the
+/// changes.
 void update_scene(const std::vector<std::string> &files) {
   const billet::SceneUpdate update = billet::update_scene(files.front());
   const bool has_target = files.size() > 1;
@@ -172,7 +172,7 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
       try {
         billet::check_simulation(read_scene(file, command.restart_file), MPI_COMM_WORLD, std::cout,
                                  command.json);
-      } catch (const billet::InputError &error) { // of one scene; the others are checked all the same
+      } catch (const billet::InputError &error) { // the other scenes are still checked
         if (command.json)
           print_refusal(file, error, is_first);
         else
@@ -196,22 +196,22 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
 } // namespace
 
 int main(int argc, char *argv[]) {
-  // The program's name alone: PETSc, where deal.II has it, would take --check for an option of its own and
-  // complain. One thread a rank: more would only start idle workers.
+  // Only the program's name is passed on: PETSc, if deal.II has it, would interpret --check as its own
+  // option. One thread for each rank: more would be idle.
   int n_for_libraries = 1;
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   ExitCode code = ExitCode::success;
   try {
     code = perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
-  } catch (const billet::InputError &error) { // the same on all ranks, as is the next
+  } catch (const billet::InputError &error) { // thrown on all ranks, as is SolutionFailure
     print_error(error, is_first);
     code = ExitCode::bad_input;
   } catch (const billet::SolutionFailure &error) {
     print_error(error, is_first);
     code = ExitCode::failed_solution;
   } catch (const std::exception &error) {
-    // Other ranks may be waiting for this one: end them all.
+    // Other ranks may be waiting for this one: abort all of them.
     std::cerr << billet::Diagnostic(billet::diagnostic::internal_error, error.what()).text() << std::endl;
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
   }

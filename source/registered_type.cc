@@ -12,7 +12,7 @@ double parse_number(const std::string &text) {
   double value = std::numeric_limits<double>::quiet_NaN();
   try {
     value = dealii::Utilities::string_to_double(text);
-  } catch (const std::exception &) { // of which deal.II throws its own kinds
+  } catch (const std::exception &) { // deal.II throws various types
   }
   if (!std::isfinite(value))
     throw std::invalid_argument("'" + text + "' is not a finite number");

@@ -4,7 +4,7 @@
 
 #include "billet/diagnostics.h"
 
-/// Every kind of message, with its key, its meaning and its remedy. `billet --print-diagnostics` prints this
+/// Kinds of messages, each with its key, its meaning and its remedy. `billet --print-diagnostics` prints this
 /// table.
 namespace billet::diagnostic {
 

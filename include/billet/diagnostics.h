@@ -18,8 +18,8 @@ namespace billet {
 enum class Severity { note, warning, error };
 const char *to_string(Severity severity);
 
-/// A kind of message: what it is called, how serious it is, what it means and what a user can do. Each kind
-/// is one object in diagnostic_kinds.h, and enters all_diagnostic_kinds() by being constructed.
+/// Kind of message: its key, its severity, its meaning, and what a user can do. Each kind is one object in
+/// diagnostic_kinds.h; its constructor adds it to all_diagnostic_kinds().
 class DiagnosticKind {
 public:
   DiagnosticKind(const char *key, Severity severity, const char *meaning, const char *remedy);
@@ -31,28 +31,28 @@ public:
   const char *const meaning, *const remedy;
 };
 
-/// Every kind that the program knows, by ascending key.
+/// Returns every kind that the program knows, by ascending key.
 std::vector<const DiagnosticKind *> all_diagnostic_kinds();
-/// The kind of this key; throws std::out_of_range.
+/// Returns the kind with this key. Throws std::out_of_range.
 const DiagnosticKind &diagnostic_kind(const std::string &key);
 
-/// The same as a JSON array of objects.
+/// Returns all kinds as a JSON array of objects.
 std::string describe_diagnostic_kinds_as_json();
 
-/// One message about a run: its kind, what happened, where, and what to do. The setters return the object
-/// itself, so that a message is written as one expression.
+/// Message about a run: its kind, what happened, where, and what to do. The setters return the object itself,
+/// so that a message is written as one expression.
 class Diagnostic {
 public:
-  /// `what`: a sentence without its full stop.
+  /// Makes a message. `what`: a sentence without its full stop.
   Diagnostic(const DiagnosticKind &kind, std::string what) : kind_(&kind), what_(std::move(what)) {}
 
   Diagnostic &body(const std::string &name) { return part("body", name); }
   Diagnostic &pair(const std::string &name) { return part("pair", name); }
   Diagnostic &tool(const std::string &name) { return part("tool", name); }
   Diagnostic &support(const std::string &name) { return part("support", name); }
-  /// Where in the scene file: "scene.prm:12: 'Radius' in ...".
+  /// Sets the place in the scene file: "scene.prm:12: 'Radius' in ...".
   Diagnostic &origin(const std::string &text) { return part("origin", text); }
-  /// `what` is one of the five above. An empty name is left out.
+  /// Sets the name of a part; `what` is one of the five above. An empty name is left out.
   Diagnostic &part(const std::string &what, const std::string &name);
   Diagnostic &at(const dealii::Tensor<1, 3> &position) {
     position_ = position;
@@ -62,17 +62,17 @@ public:
     time_ = t;
     return *this;
   }
-  /// A number that belongs to the message, for programs that read it.
+  /// Adds a number for programs that read the message.
   Diagnostic &value(const std::string &name, const double number) {
     values_.emplace_back(name, number);
     return *this;
   }
-  /// The number by which one message of this kind is worse than another: the summary shows the largest.
+  /// Sets the number that ranks messages of this kind; the summary shows the largest.
   Diagnostic &measure(const std::string &name, const double number) {
     measure_ = number;
     return value(name, number);
   }
-  /// Sentences without the last full stop; in place of the remedy of the kind.
+  /// Replaces the remedy of the kind. `text`: sentences without the last full stop.
   Diagnostic &advice(std::string text) {
     advice_ = std::move(text);
     return *this;
@@ -83,15 +83,15 @@ public:
   const std::optional<double> &time() const { return time_; }
   const std::optional<double> &measure() const { return measure_; }
   const std::vector<std::pair<std::string, double>> &values() const { return values_; }
-  /// The name of a part, such as the pair's; empty: none is given.
+  /// Returns the name of a part, such as the pair; empty if none is given.
   std::string part(const std::string &what) const;
   std::string advice() const;
-  /// What tells it from others of its kind: the names in it.
+  /// Returns key and names of parts, which identify repetitions of the message.
   std::string identity() const;
 
-  /// "warning[key]: What happened (pair 'top', time 0.3). What to do."
+  /// Returns "warning[key]: What happened (pair 'top', time 0.3). What to do."
   std::string text() const;
-  /// The same as one JSON object, on one line.
+  /// Returns the message as one JSON object on one line.
   std::string json() const;
 
 private:
@@ -105,48 +105,50 @@ private:
 
 using DiagnosticList = std::vector<Diagnostic>;
 
-/// {"file": ..., "valid": false, "diagnostics": [...]}, as a refused scene is described.
+/// Returns {"file": ..., "valid": false, "diagnostics": [...]}, the description of a refused scene.
 std::string describe_refusal_as_json(const std::string &file, const Diagnostic &why);
 
-/// The first message of this kind in the list, or null.
+/// Returns the first message of this kind in the list, or null.
 const Diagnostic *find(const DiagnosticList &list, const DiagnosticKind &kind);
 
 /// Appends `more` to `list`.
 void append(DiagnosticList &list, DiagnosticList more);
 
-/// Collects the messages of a run. Each is printed, and written to a file of JSON lines, the first time that
-/// its kind is reported with these names; later ones are counted. All ranks report the same.
+/// Collects the messages of a run. The first message with a given identity is printed and written to a file
+/// of JSON lines; repetitions are counted. All ranks report the same messages.
 class Diagnostics {
 public:
   using Print = std::function<void(Severity, const std::string &)>;
 
-  /// `is_first`: this is the first rank, the only one that prints and writes.
+  /// Makes an empty collection. `is_first`: this is the first rank, the only one that prints and writes.
   explicit Diagnostics(const bool is_first) : is_first_(is_first) {}
 
-  /// From here on texts are printed by this, without a last line end; none: nothing is printed.
+  /// Sets the function that prints later messages, without a final line end. If it is empty, nothing is
+  /// printed.
   void set_print(Print print) { print_ = std::move(print); }
 
-  /// From here on, and for what was reported before, writes JSON lines to `file_name`; at its end if
-  /// `continues`. Throws InputError. First rank only.
+  /// Opens the file of JSON lines and writes the messages reported so far. Appends if `continues`. Throws
+  /// InputError. First rank only.
   void open(const std::string &file_name, bool continues);
 
   void report(const Diagnostic &diagnostic);
   void report(const DiagnosticList &diagnostics);
 
-  /// Different ones of this severity; what was only counted does not add to it.
+  /// Returns the number of different messages of this severity; repetitions do not count.
   std::size_t count(Severity severity) const;
-  /// Whether one of this kind was reported.
+  /// Whether a message of this kind was reported.
   bool has(const DiagnosticKind &kind) const;
-  /// "3 warnings, 1 note", empty if there is nothing to count.
+  /// Returns "1 error, 3 warnings"; empty if there is neither.
   std::string count_in_words() const;
-  /// One line for each message that was reported more than once, or got worse after it was printed.
+  /// Returns one line for each warning or error that was reported more than once, or became worse after it
+  /// was printed.
   std::vector<std::string> repetitions() const;
-  /// Writes the last JSON line, {"summary": ...}, with how often each message was reported. False if the file
-  /// could not be written.
+  /// Writes the last JSON line, {"summary": ...}, which counts the reports of each message. Returns false if
+  /// the file could not be written.
   bool write_summary(int exit_code);
   const std::string &file_name() const { return file_name_; }
 
-  /// For checkpoints: what has been reported so far, and back.
+  /// Saves and restores all reports so far, for checkpoints.
   std::string save() const;
   void load(const std::string &state);
 
@@ -154,15 +156,15 @@ private:
   struct Entry {
     Diagnostic first;
     std::size_t n = 1;
-    std::optional<double> worst, worst_time; ///< largest measure, and when
+    std::optional<double> worst, worst_time; ///< largest measure and its time
   };
   void write_line(const std::string &line);
 
   bool is_first_;
   Print print_;
-  std::vector<Entry> entries_; ///< in the order in which they came
+  std::vector<Entry> entries_; ///< in the order of their first reports
   std::map<std::string, std::size_t> index_;
-  std::vector<std::string> unwritten_; ///< while there is no file
+  std::vector<std::string> unwritten_; ///< JSON lines that precede open()
   std::ofstream file_;
   std::string file_name_;
 };

@@ -14,18 +14,18 @@
 
 namespace billet {
 
-/// What the program returns to the shell.
+/// Exit code of the program.
 enum class ExitCode : int {
   success = 0,
-  bad_input = 2,       ///< the scene file or the command line; nothing was written
-  failed_solution = 3, ///< the scene is sound, the solution stopped; what was computed is on disk
+  bad_input = 2,       ///< scene file or command line are unusable; nothing was written
+  failed_solution = 3, ///< the scene is valid, the solution failed; computed results are on disk
   internal_error = 4,  ///< a defect of the program or of the machine
-  stopped = 5,         ///< by a signal; a checkpoint says how to resume
-  warnings = 6,        ///< the run came to its end with warnings, and the scene says 'Warnings = errors'
-  target_missed = 7    ///< the run came to its end, and its estimated error exceeds the 'Target error'
+  stopped = 5,         ///< by a signal; the run can resume from a checkpoint
+  warnings = 6,        ///< the run completed with warnings, and the scene says 'Warnings = errors'
+  target_missed = 7    ///< the run completed, and its estimated error exceeds the 'Target error'
 };
 
-/// The user's input cannot be used. The message says where, what was found and what is allowed.
+/// Error for input that cannot be used. The message names the place, the value found and the allowed values.
 /// Thrown on all ranks or on none.
 class InputError : public std::runtime_error {
 public:
@@ -40,7 +40,8 @@ private:
   Diagnostic diagnostic_;
 };
 
-/// The computation cannot go on. The message says when, why and what to try. Thrown on all ranks or on none.
+/// Error for a computation that cannot continue. The message names the time, the cause and possible remedies.
+/// Thrown on all ranks or on none.
 class SolutionFailure : public std::runtime_error {
 public:
   explicit SolutionFailure(const std::string &message);
@@ -54,11 +55,11 @@ private:
   Diagnostic diagnostic_;
 };
 
-/// Calls `action` on every rank; if it throws on any of them, every rank throws: the same InputError or
-/// SolutionFailure where that was its kind, std::runtime_error else. `action` itself must not communicate.
+/// Calls `action` on every rank. If it throws on any of them, every rank throws: InputError or
+/// SolutionFailure if that was thrown, otherwise std::runtime_error. `action` itself must not communicate.
 void fail_together(MPI_Comm communicator, const std::function<void()> &action);
 
-/// Calls `action` while nothing has begun yet: what would fail the solution later is bad input now.
+/// Calls `action` before the run starts: rethrows a SolutionFailure as InputError.
 void check_before_start(const std::function<void()> &action);
 
 } // namespace billet

@@ -10,12 +10,12 @@
 
 namespace billet {
 
-// How the parts of a run hand over their state, and take it back, without knowing where it is kept. A class
-// with state has a pair save(StateWriter &) const, load(StateReader &): what load() gets is what save() gave,
-// on any number of ranks. Rows of numbers stand under keys that do not depend on the ranks: of nodes
-// NodeKeys, of elements element_key(). All functions are collective.
+// Interfaces through which the parts of a run save and restore their state, independent of where it is
+// stored. A class with state has a pair of functions save(StateWriter &) const and load(StateReader &).
+// load() reads what save() wrote, on any number of ranks. Rows of numbers have keys that do not depend on the
+// ranks: NodeKeys for nodes, element_key() for elements. All functions are collective.
 
-/// Takes state. Names are words; those within one group differ.
+/// Writes state. Names are words and unique within their group.
 class StateWriter {
 public:
   StateWriter() = default;
@@ -23,15 +23,15 @@ public:
   StateWriter &operator=(const StateWriter &) = delete;
   virtual ~StateWriter() = default;
 
-  /// Numbers of the whole run, the same on all ranks.
+  /// Writes numbers of the whole run, which are the same on all ranks.
   virtual void write(const std::string &name, const std::vector<double> &values) = 0;
   virtual void write_text(const std::string &name, const std::string &text) = 0;
-  /// Numbers in rows of `width`, the row of keys[i] at i width. A row that several ranks have may come from
-  /// each of them.
+  /// Writes rows of `width` numbers; the row of keys[i] begins at values[i width]. Several ranks may write
+  /// the same row.
   virtual void write_rows(const std::string &name, std::size_t width, const std::vector<std::uint64_t> &keys,
                           const std::vector<double> &values) = 0;
 
-  /// What `write` writes goes into a group of this name.
+  /// Calls `write` inside the group `name`.
   template <class Write> void in(const std::string &name, const Write &write) {
     enter(name);
     write();
@@ -43,7 +43,7 @@ private:
   virtual void leave() = 0;
 };
 
-/// Gives state back. Throws InputError, on all ranks, where something is not there or has another size.
+/// Reads state. Throws InputError, on all ranks, if an entry is missing or has another size.
 class StateReader {
 public:
   StateReader() = default;
@@ -51,19 +51,19 @@ public:
   StateReader &operator=(const StateReader &) = delete;
   virtual ~StateReader() = default;
 
-  /// Whether the group at hand has something, or a group, of this name.
+  /// Whether the current group has an entry or a group of this name.
   virtual bool has(const std::string &name) const = 0;
   virtual std::vector<double> read(const std::string &name) const = 0;
   virtual std::string read_text(const std::string &name) const = 0;
-  /// Those of these keys, in their order. Where `found` is given, keys may be missing: it says which are
-  /// there, and the others' numbers are 0.
+  /// Returns the rows of these keys, in their order. Without `found`, every key must be present. With
+  /// `found`, keys may be missing: it marks those present, and rows of missing keys are 0.
   virtual std::vector<double> read_rows(const std::string &name, std::size_t width,
                                         const std::vector<std::uint64_t> &keys,
                                         std::vector<bool> *found = nullptr) const = 0;
-  /// Of the run that wrote.
+  /// Returns the number of ranks of the run that wrote the state.
   virtual unsigned int n_ranks() const = 0;
 
-  /// A single number.
+  /// Returns a single number.
   double number(const std::string &name) const { return read(name).at(0); }
 
   template <class Read> void in(const std::string &name, const Read &read) {
@@ -77,14 +77,14 @@ private:
   virtual void leave() = 0;
 };
 
-/// Takes numbers from a row, one after the other.
+/// Reads the numbers of a row one after the other.
 class RowReader {
 public:
   explicit RowReader(const double *row) : next_(row) {}
 
   double number() { return *next_++; }
   bool flag() { return number() != 0.; }
-  /// Of any type with [] and three components.
+  /// Reads a vector of any type with [] and three components.
   template <class Vector> void vector(Vector &v) {
     for (unsigned int i = 0; i < 3; ++i)
       v[i] = number();
@@ -94,7 +94,7 @@ private:
   const double *next_;
 };
 
-/// Puts numbers after each other.
+/// Appends numbers to a list.
 class RowWriter {
 public:
   explicit RowWriter(std::vector<double> &values) : values_(values) {}
@@ -113,7 +113,7 @@ private:
   std::vector<double> &values_;
 };
 
-/// Numbers of each rank that stand under no keys, as many as it likes.
+/// Writes a list of any length for each rank, for numbers without keys.
 inline void write_list(StateWriter &writer, const std::string &name, const unsigned int rank,
                        const std::vector<double> &numbers) {
   std::vector<std::uint64_t> keys(numbers.size());
@@ -122,7 +122,7 @@ inline void write_list(StateWriter &writer, const std::string &name, const unsig
   writer.write_rows(name, 1, keys, numbers);
 }
 
-/// Those of one rank of the run that wrote, which may be another one on each.
+/// Returns the list of one rank of the run that wrote the state; each rank may read another one.
 inline std::vector<double> read_list(const StateReader &reader, const std::string &name,
                                      const unsigned int rank) {
   std::vector<std::uint64_t> keys(

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// What a scene may ask of the program, and pays for if it does: Scene::describe_capabilities() says which of
-/// the first it asks for.
+/// Capabilities that cost time and memory only in scenes that use them. Scene::describe() reports which of
+/// them a scene uses.
 enum class Capability {
   plasticity,
   stabilisation, ///< of one-point elements
@@ -32,17 +32,17 @@ enum class Capability {
   n
 };
 
-/// As in describe_capabilities().
+/// Returns the capability's name; Scene::describe() uses the same.
 const char *name_of(Capability capability);
 
-/// How often the loops of each capability have run in this process, over how many items (elements, nodes,
-/// pairs, tools, entries), and the most memory that they held. Counted by the loop, never inside one. What a
-/// scene does not ask for stays at 0.
+/// Counters of each capability in this process: calls of its loops, items in them (elements, nodes, pairs,
+/// tools, entries), and the peak of its memory. Loops are counted as a whole, never inside. Capabilities that
+/// a scene does not use stay at 0.
 class Usage {
 public:
   struct Entry {
     std::uint64_t calls = 0, items = 0;
-    std::uint64_t bytes = 0, peak = 0; ///< held now, and at most
+    std::uint64_t bytes = 0, peak = 0; ///< allocated now, and the maximum [bytes]
   };
 
   static void count(const Capability capability, const std::size_t n_items) {
@@ -50,7 +50,7 @@ public:
     ++entry.calls;
     entry.items += n_items;
   }
-  /// Counts where that is asked for.
+  /// Counts a call if the capability is used.
   static void count_if(const bool is_used, const Capability capability, const std::size_t n_items) {
     if (is_used)
       count(capability, n_items);
@@ -63,7 +63,7 @@ private:
   static std::array<Entry, static_cast<std::size_t>(Capability::n)> entries;
 };
 
-/// Memory that an object holds for a capability, as long as the object lives.
+/// Records the memory that an object allocates for a capability, for the lifetime of the object.
 class HeldMemory {
 public:
   explicit HeldMemory(const Capability capability) : capability_(capability) {}

@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// In programs in which floating-point exceptions are trapped: as long as one of these lives, they are not.
-/// For what may well be no number, and is looked at before it is used.
+/// Disables trapping of floating-point exceptions during its lifetime, for computations that may yield
+/// non-finite values and check for them.
 class WithoutTraps {
 public:
   WithoutTraps() { std::feholdexcept(&environment_); }

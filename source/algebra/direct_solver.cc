@@ -69,8 +69,8 @@ private:
   bool is_analysed_ = false;
 };
 
-/// MUMPS itself: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does not offer,
-/// or LU of the whole, with more memory where its guess was too small, which Amesos does not do.
+/// Direct interface to MUMPS: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does
+/// not offer, or LU of the whole matrix. If MUMPS underestimates its memory, it is called again with more.
 class MumpsSolver final : public LinearSolver {
 public:
   MumpsSolver(const bool is_symmetric, const Matrix &matrix, MPI_Comm communicator)
@@ -99,7 +99,7 @@ public:
     if (!is_analysed_ && !call(job_analyze))
       return false;
     is_analysed_ = true;
-    // MUMPS says when its guess of the memory was too small.
+    // MUMPS reports if its estimate of the memory was too small.
     for (int attempt = 0; attempt < 4; ++attempt) {
       if (call(job_factorize))
         return true;
@@ -126,7 +126,8 @@ public:
 
   std::string name() const override { return is_symmetric_ ? "MUMPS (symmetric)" : "MUMPS (unsymmetric)"; }
   double memory() const override {
-    // INFOG(19): allocated on all ranks, in 1e6 bytes. INFOG(29): entries of the factors, or minus millions.
+    // INFOG(19): allocated on all ranks, in 1e6 bytes. INFOG(29): entries of the factors; if negative,
+    // millions of them.
     const double n_entries = mumps_.infog[28] < 0 ? -1e6 * mumps_.infog[28] : mumps_.infog[28];
     return std::max(1e6 * mumps_.infog[18], sizeof(double) * n_entries);
   }

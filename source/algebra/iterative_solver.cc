@@ -22,7 +22,7 @@ namespace billet {
 
 namespace {
 
-/// What Trilinos asks of an operator, for one that has but an inverse to apply.
+/// Base class of Trilinos operators that only apply an inverse.
 class Preconditioner : public Epetra_Operator {
 public:
   explicit Preconditioner(const Epetra_Map &map) : map_(map) {}
@@ -53,10 +53,10 @@ double norm(const Epetra_MultiVector &v) {
 
 } // namespace
 
-/// The contact dofs: A_ΓΓ, factorised, and the stiffness that contacts put there.
+/// Contact dofs: the factorised block A_ΓΓ, and the stiffness of contacts in it.
 class IterativeSolver::ContactBlock {
 public:
-  /// `matrix` without the contacts.
+  /// `matrix`: without the contacts.
   ContactBlock(const Epetra_CrsMatrix &matrix, const std::vector<int> &dofs) : matrix_(&matrix), dofs_(dofs) {
     rows_.reserve(dofs.size());
     for (const int row : dofs)
@@ -78,7 +78,7 @@ public:
   double memory() const { return solver_ ? solver_->memory() : 0.; }
   const std::string &failure() const { return solver_->failure(); }
 
-  /// Takes over A_ΓΓ, and factorises it.
+  /// Copies A_ΓΓ and factorises it.
   bool factorize(const bool symmetric, MPI_Comm communicator) {
     const dealii::IndexSet owned(*map_);
     block_ = std::make_unique<Matrix>(owned, communicator);
@@ -104,8 +104,8 @@ public:
     return solver_->factorize();
   }
 
-  /// A copy of A = K + C with K + θ C in its place, where θ makes C's diagonal, on average, `stiffness` times
-  /// that of K.
+  /// Returns a copy of A = K + C with K + θ C instead, where θ makes C's diagonal, on average, `stiffness`
+  /// times that of K.
   std::unique_ptr<Epetra_CrsMatrix> soften(const double stiffness) const {
     double ratio = 0., n = 0.;
     for (std::size_t i = 0; i < dofs_.size(); ++i) {
@@ -140,7 +140,7 @@ public:
 
   /// z += R_Γᵀ A_ΓΓ⁻¹ R_Γ (r − A z)
   void correct(const Epetra_Vector &r, Epetra_Vector &z) const {
-    // Only the rows of Γ.
+    // Only the rows of Γ are needed.
     const Epetra_Vector *ghosted = &z;
     if (matrix_->Importer() != nullptr) {
       if (ghosted_ == nullptr)
@@ -176,15 +176,15 @@ private:
   const Epetra_CrsMatrix *matrix_;
   std::vector<int> dofs_;                 ///< by local row
   std::vector<std::vector<double>> rows_; ///< of K
-  std::unique_ptr<Epetra_Map> map_;       ///< of Γ, numbered by itself
-  std::vector<int> number_;               ///< in Γ, of the matrix's columns; −1: not in it
+  std::unique_ptr<Epetra_Map> map_;       ///< of Γ, with its own numbering
+  std::vector<int> number_;               ///< of the matrix's columns in Γ; −1: not in Γ
   std::unique_ptr<Matrix> block_;
   std::unique_ptr<LinearSolver> solver_;
   mutable Vector b_, x_; ///< of Γ
   mutable std::unique_ptr<Epetra_Vector> ghosted_;
 };
 
-/// Smoothed aggregation, and what else is done with each residual.
+/// Smoothed aggregation, followed by the direct solution for the contact dofs.
 class IterativeSolver::Multigrid final : public Preconditioner {
 public:
   Multigrid(const Settings &settings, const Epetra_CrsMatrix &matrix, const NodalGeometry &geometry,
@@ -214,18 +214,19 @@ public:
   int ApplyInverse(const Epetra_MultiVector &r, Epetra_MultiVector &z) const override {
     if (contact_ == nullptr)
       return ml_->ApplyInverse(r, z);
-    const Epetra_Vector residual(*r(0)); // Aztec may hand over the same vector twice
+    const Epetra_Vector residual(*r(0)); // Aztec may pass the same vector twice
     const int error = ml_->ApplyInverse(residual, z);
     if (error == 0)
       contact_->correct(residual, *z(0));
     return error;
   }
-  /// Goes on with another matrix' contact dofs, where the hierarchy of an earlier one is kept.
+  /// Sets the contact dofs of another matrix while the hierarchy of an earlier one is kept.
   void set_contact(const ContactBlock *contact) { contact_ = contact; }
   const char *Label() const override { return "smoothed aggregation"; }
   bool is_ready() const { return ml_->IsPreconditionerComputed(); }
   double memory() const {
-    // Entries with their columns: of the softened matrix, of the coarser ones, of the transfer between them.
+    // Counts entries with their columns: of the softened matrix, the coarser ones, and the transfer between
+    // them.
     double entries = softened_ != nullptr ? softened_->NumMyNonzeros() : 0.;
     const ML *levels = ml_->GetML();
     for (int level = 0; level < levels->ML_num_levels; ++level) {
@@ -302,7 +303,8 @@ void IterativeSolver::start_contact(const std::vector<int> &dofs) {
 }
 
 bool IterativeSolver::factorize() {
-  // What the last solve tells: a hierarchy is dear, and a Newton iteration changes little.
+  // Keep the hierarchy if the last solve converged well: it is expensive, and a Newton iteration changes
+  // little.
   const bool keeps_pace =
       multigrid_ != nullptr && last_pace_ >= settings_.least_pace * fresh_pace_ && fresh_pace_ > 0.;
   if (!keeps_pace)
@@ -363,7 +365,7 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
   };
   compute_residual();
   const double start = relative_residual_;
-  // What the recursions take for the residual may lie below it: then they go on from there.
+  // The recursive residual may be smaller than the true one: then the iterations continue from there.
   unsigned int left = most_iterations;
   for (unsigned int attempt = 0; relative_residual_ > relative_tolerance && attempt < 3 && left > 0;
        ++attempt) {

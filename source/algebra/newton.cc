@@ -30,7 +30,7 @@ struct HeldVector {
   Vector held;
 };
 
-/// A vector as NOX sees it, which computes on the values of ours.
+/// Vector in NOX's interface, which operates on the values of ours.
 class NoxVector final : private HeldVector, public NOX::Epetra::Vector {
 public:
   NoxVector(const billet::Vector &values, const NOX::CopyType type)
@@ -59,10 +59,10 @@ const Vector &values_of(const NOX::Abstract::Vector &vector) {
   return dynamic_cast<const NoxVector &>(vector).values();
 }
 
-/// The system as NOX sees it: a point x with what has been computed there.
+/// System in NOX's interface: a point x with the quantities computed there.
 class Group final : public NOX::Abstract::Group {
 public:
-  /// `residual_tolerance`: a residual that is this part of its scale is good enough.
+  /// `residual_tolerance`: a residual that is this part of its scale is sufficient.
   Group(NonlinearSystem &system, const double residual_tolerance, const Vector &x)
       : system_(&system), residual_tolerance_(residual_tolerance), x_(rcp(new NoxVector(x, NOX::DeepCopy))),
         f_(rcp(new NoxVector(x, NOX::ShapeCopy))), newton_(rcp(new NoxVector(x, NOX::ShapeCopy))) {}
@@ -108,8 +108,8 @@ public:
   }
   ReturnType computeNewton(Teuchos::ParameterList &options) override {
     if (!has_newton_) {
-      // No closer than what would end the iterations (Kelley, Iterative Methods for Linear and Nonlinear
-      // Equations, 1995, eq. 6.20).
+      // The tolerance need not be tighter than the one that ends the iterations (Kelley, Iterative Methods
+      // for Linear and Nonlinear Equations, 1995, eq. 6.20).
       const double enough = f_->norm() > 0. ? 0.5 * residual_tolerance_ * scale_ / f_->norm() : 0.;
       const double tolerance = std::min(0.1, std::max(options.get("Tolerance", 0.), enough));
       has_newton_ =
@@ -158,9 +158,9 @@ private:
 
 double dot(const NOX::Abstract::Vector &a, const NOX::Abstract::Vector &b) { return a.innerProduct(b); }
 
-/// Shortens a correction that leads to an inadmissible state, and, on request, one along which the residual
-/// does more work at its end than at its start: then the zero of R·d is approached by regula falsi
-/// (Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 9).
+/// Shortens a correction that leads to an inadmissible state, and, on request, one at whose end the residual
+/// does more work than at its start. In the second case regula falsi approaches the zero of R·d (Crisfield,
+/// Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 9).
 class LineSearch final : public NOX::LineSearch::Generic {
 public:
   explicit LineSearch(const bool by_energy) : by_energy_(by_energy) {}
@@ -224,8 +224,8 @@ private:
     return group.computeF() == NOX::Abstract::Group::Ok;
   }
 
-  /// Whether the residual has not got smaller in some iterations: nodes that touch, and touch no more, and
-  /// touch again, are a cycle in which each correction undoes the last one, with as much work.
+  /// Whether the residual has not decreased in some iterations. Contact chatter is a cycle in which each
+  /// correction undoes the last one, with as much work.
   bool is_stagnating(const double norm) {
     constexpr std::size_t window = 4;
     norms_.push_back(norm);
@@ -238,7 +238,7 @@ private:
   static constexpr unsigned int most_cuts_ = 5, most_trials_ = 4;
   static constexpr double enough_ = 0.8, enough_of_cycles_ = 0.3;
   bool by_energy_;
-  std::vector<double> norms_; ///< of residuals, the last ones
+  std::vector<double> norms_; ///< norms of the last residuals
 };
 
 class LineSearchFactory final : public NOX::LineSearch::UserDefinedFactory {
@@ -253,7 +253,7 @@ private:
   bool by_energy_;
 };
 
-/// Asks the judge.
+/// Convergence test that calls the judge.
 class Convergence final : public NOX::StatusTest::Generic {
 public:
   explicit Convergence(const NewtonJudge &judge) : judge_(judge) {}
@@ -286,7 +286,7 @@ private:
 RCP<Teuchos::ParameterList> make_options(const NewtonOptions &settings) {
   auto options = rcp(new Teuchos::ParameterList);
   options->set("Nonlinear Solver", "Line Search Based");
-  // NOX speaks through the judge alone.
+  // NOX prints nothing; the judge reports.
   const RCP<std::ostream> silence = rcp(new Teuchos::oblackholestream);
   options->sublist("Printing").set("Output Information", 0);
   options->sublist("Printing").set("Output Stream", silence);
@@ -297,7 +297,7 @@ RCP<Teuchos::ParameterList> make_options(const NewtonOptions &settings) {
   newton.sublist("Linear Solver").set("Tolerance", settings.linear_tolerance);
   if (settings.adapts_tolerance) {
     // η_k = γ (|R_k| / |R_{k−1}|)^α, but not below γ η_{k−1}^α while that is above 0.1: Eisenstat & Walker,
-    // SIAM J. Sci. Comput. 17 (1996) 16–32, eq. (2.6). Contact wants a better start than their 0.5.
+    // SIAM J. Sci. Comput. 17 (1996) 16–32, eq. (2.6). Contact needs a tighter start than their 0.5.
     newton.set("Forcing Term Method", "Type 2");
     newton.set("Forcing Term Initial Tolerance", settings.max_linear_tolerance);
     newton.set("Forcing Term Maximum Tolerance", settings.max_linear_tolerance);
@@ -328,7 +328,7 @@ NewtonEnd solve_by_newton(NonlinearSystem &system, const NewtonOptions &options,
     while (status == NOX::StatusTest::Unconverged || status == NOX::StatusTest::Unevaluated)
       status = solver->step();
     x = values_of(solver->getSolutionGroup().getX());
-  } catch (const char *) { // where a correction cannot be computed; NOX's text, "NOX Error", says nothing
+  } catch (const char *) { // a correction cannot be computed; NOX's text, "NOX Error", gives no reason
     return NewtonEnd::failed;
   }
   return status == NOX::StatusTest::Converged ? NewtonEnd::converged : NewtonEnd::failed;

@@ -252,7 +252,7 @@ void BodyContact::visit_supporting(const VisitSupporting &visit) const {
 
 std::string BodyContact::describe_restless() const {
   const MPI_Comm communicator = nodes_.discretization().communicator();
-  std::array<double, 5> mine{}; // how often, where, how many nodes
+  std::array<double, 5> mine{}; // number of changes, position, number of nodes
   for (const auto &node : contact_->measures().find_restless()) {
     mine[4] += 1.;
     if (node.n_changes > mine[0])
@@ -285,8 +285,8 @@ void BodyContact::allow_overlap() {
   }
   if (!pair_.overlap.is_allowed && !(pair_.overlap.closed_gap > 0.))
     return;
-  // A node's mean gap over overlapping facets hides what is deeper in some part of them: again, then, until
-  // nothing is left. Each time takes a part of it.
+  // A node's mean gap over overlapping facets hides larger penetrations in parts of them. Repetition reduces
+  // these until none remain.
   constexpr unsigned int most_times = 200;
   constexpr double none = 1e-10; // facet sizes
   const MPI_Comm communicator = nodes_.discretization().communicator();

@@ -12,7 +12,8 @@ namespace billet {
 
 namespace {
 
-/// The same on any number of ranks, and no other facet's: those of two opposite corners.
+/// Returns the key of a facet from those of two opposite corners: unique, and the same on any number of
+/// ranks.
 std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
   const std::uint64_t first = keys(facet.dofs[0][0]), second = keys(facet.dofs[3][0]);
   return (std::min(first, second) << 32U) | std::max(first, second);
@@ -36,7 +37,7 @@ BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const 
       facet.reach = std::max(contact_reach(boundary), 1.1 * pair.overlap.closed_gap);
       facet.bulge = bulge_of(boundary, pair.correction);
       facet.wall = boundary.thickness;
-      constexpr double part_of_facet = 0.4; // all methods find nodes there, and no element is as thin
+      constexpr double part_of_facet = 0.4; // all methods find nodes there, and all elements are thicker
       depths.push_back(part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
@@ -67,7 +68,7 @@ double BodySurfaces::find_smallest_size(MPI_Comm communicator) const {
 
 PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const BodySurfaces &surfaces,
                                 MPI_Comm communicator) {
-  std::array<double, 6> totals{}; // area, number of facets and volume below them, by surface
+  std::array<double, 6> totals{}; // area, number of facets and volume below them, for each surface
   for (std::size_t f = 0; f < surfaces.facets.size(); ++f) {
     totals[surfaces.facets[f].surface] += surfaces.areas[f];
     totals[2 + surfaces.facets[f].surface] += 1.;

@@ -9,7 +9,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// The constraints of a node's dofs, which name no other nodes' dofs: u = free u + value.
+/// Constraints of a node's dofs, without dofs of other nodes: u = free u + value.
 struct NodeConstraint {
   std::array<std::array<double, 3>, 3> free{{{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}};
   std::array<double, 3> value{};
@@ -66,12 +66,12 @@ void ContactBlocks::add_entries(SparsityPattern &pattern) const {
 }
 
 void ContactBlocks::add_tangent(const ContactTangent tangent, const TangentSystem &system) const {
-  // Of nodes of other ranks, constraints are known there.
+  // Only their own ranks know the constraints of ghost nodes.
   std::vector<NodeConstraint> constraints;
   for (const unsigned int node : local_nodes_)
     constraints.push_back(constraint_of(system.constraints, nodes_.dofs(node)));
   contact_.exchange().update(constraints);
-  const auto all_dofs = find_all_dofs(); // ghosts may have changed places since the couplings were found
+  const auto all_dofs = find_all_dofs(); // indices of ghosts may have changed since the couplings were found
   FacetSearch::Positions lift(all_dofs.size());
   dealii::FullMatrix<double> half, condensed;
   std::vector<DofIndex> dofs;

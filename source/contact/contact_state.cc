@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// What contact keeps from step to step, given to a checkpoint and taken back.
+// SPDX-License-Identifier: LGPL-2.1-or-later Saves the contact state to checkpoints and loads it.
 #include "billet/contact/rigid_contact.h"
 
 #include <algorithm>
@@ -90,7 +89,7 @@ void RigidContact::save(StateWriter &writer, const NodeKeys &keys) const {
 }
 
 void RigidContact::load_nodes(const StateReader &reader, const SlaveSurface::Range &range) {
-  // A tool that was another one, or another mesh's, may have had other points inside facets.
+  // With another tool or mesh before the restart, the points inside facets may have been different.
   std::vector<bool> is_known(range.keys.size(), true);
   std::vector<bool> *const found = range.prefix.empty() ? nullptr : &is_known;
   if (knows_pressures_) {
@@ -125,7 +124,7 @@ void RigidContact::load_nodes(const StateReader &reader, const SlaveSurface::Ran
       row.vector(slaves_.nodes[i].behind_at);
     }
   }
-  // A law that is new begins without traction.
+  // A new friction law begins without traction.
   if (!pair_.has_friction() || !reader.has(range.prefix + "friction"))
     return;
   const std::vector<double> friction =

@@ -22,7 +22,7 @@ bool ContactSurfaces::update(const Positions &positions_n, const Positions &posi
   exchange_.update(positions_n_);
   exchange_.update(positions_);
   const auto over_all_ranks = [this](BoundingBox motion) {
-    // One reduction for both ends of the box: the largest of −low and of high.
+    // One reduction covers both ends of the box: the maximum of −low and of high.
     std::array<double, 6> ends{-motion.low[0], -motion.low[1], -motion.low[2],
                                motion.high[0], motion.high[1], motion.high[2]};
     MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MAX, communicator_);

@@ -13,7 +13,7 @@ Contacts::Contacts(const Scene &scene, const Discretization &discretization, con
     own_nodes_ = std::make_unique<LocalNodes>(discretization);
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     of_bodies_.emplace_back(scene, p, *own_nodes_, tangent);
-    if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+    if (!scene.parameters().restart.is_wanted()) // a restart begins with deformed bodies
       check_overlap(scene, p, discretization);
   }
   list_all();
@@ -27,7 +27,7 @@ Contacts::Contacts(const Scene &scene, const LocalNodes &nodes) : n_tools_(scene
   }
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
     of_bodies_.emplace_back(scene, p, nodes, ContactTangent::consistent);
-    if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+    if (!scene.parameters().restart.is_wanted()) // a restart begins with deformed bodies
       check_overlap(scene, p, discretization);
   }
   list_all();

@@ -21,22 +21,24 @@ Tensor<1, 3> unit_normal(const facet::Expansion &surface) {
   return size > 0. ? area_vector / size : Tensor<1, 3>();
 }
 
-/// Towards the ends of an edge, which are nodes that facets see, its part ceases; without a kink, and over
-/// all of its half, since steps have to resolve it. And its derivative by the parameter.
+/// Returns the factor by which an edge's share fades towards its ends, and its derivative with respect to the
+/// parameter. The ends are nodes, which facets detect. The factor is smooth and extends over each half of the
+/// edge, since steps must resolve it.
 std::array<double, 2> fade(const double parameter) {
   const double z = 2. * std::min(parameter, 1. - parameter);
   return {z * z * (3. - 2. * z), 12. * z * (1. - z) * (parameter < 0.5 ? 1. : -1.)};
 }
 
-/// Of flush faces edges meet at their ends, and round-off decides whether they cross. Their area is none.
+/// Whether edges meet at their ends, as those of flush faces do. Their area is 0, and round-off decides
+/// whether they cross.
 bool meets_at_end(const SegmentPair &pair) {
   constexpr double rounding = 1e-6;
   return std::any_of(pair.parameters.begin(), pair.parameters.end(),
                      [](const double s) { return std::min(s, 1. - s) < rounding; });
 }
 
-/// With a, b the edges and d the difference, d·a = d·b = 0 at any positions. What nodes do adds δr to d at
-/// fixed s and t, and δa, δb to the edges; so
+/// Sets the area and its gradients. With a, b the edges and d the difference, d·a = d·b = 0 at any positions.
+/// Motions of nodes add δr to d at fixed s and t, and δa, δb to the edges; therefore
 ///   a² δs − a·b δt = −(a·δr + d·δa),   a·b δs − b² δt = −(b·δr + d·δb).
 void set_area(const Tensor<1, 3> &a, const Tensor<1, 3> &b, EdgeContact::Crossing &crossing) {
   const double aa = a * a, bb = b * b, ab = a * b, determinant = aa * bb - ab * ab;
@@ -91,7 +93,7 @@ void EdgeContact::connect(const std::vector<SurfaceFacet> &facets) {
       edge.facets[1] = f;
       if (facets_[f].key < facets_[edge.facets[0]].key) {
         std::swap(edge.facets[0], edge.facets[1]);
-        edge.nodes = {a, b}; // from the same facet on all ranks, so that they compute the same
+        edge.nodes = {a, b}; // from the same facet on all ranks, for equal results
         edge.id = {facets_[f].key, i};
       }
       edge.reach = std::min(edge.reach, facets_[f].reach);
@@ -125,7 +127,7 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
 
 bool EdgeContact::is_between_normals(const Edge &edge, const Tensor<1, 3> &normal,
                                      const Positions &positions) const {
-  constexpr double beside = 0.35; // radians that the normal may be out of the angle between theirs
+  constexpr double beside = 0.35; // radians: tolerance of the normal outside the angle between theirs
   Tensor<1, 3> middle = unit_normal(corners_of(facets_[edge.facets[0]], positions));
   if (edge.facets[1] != none)
     middle = 0.5 * (middle + unit_normal(corners_of(facets_[edge.facets[1]], positions)));
@@ -137,7 +139,7 @@ bool EdgeContact::may_touch(const Edge &slave, const Edge &target) const {
   const SurfaceFacet &a = facets_[slave.facets[0]], &b = facets_[target.facets[0]];
   if (a.surface != b.surface)
     return a.surface < b.surface;
-  // Edges that the same facet names are too close to touch.
+  // Edges with a common facet are too close to touch.
   if (partners_ == FacetSearch::Partners::other_surfaces || a.key >= b.key)
     return false;
   for (const unsigned int i : slave.facets)
@@ -188,7 +190,7 @@ std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &
     if (!closest.is_crossing || meets_at_end(closest))
       continue;
     const Tensor<1, 3> along_1 = first[1] - first[0], along_2 = second[1] - second[0];
-    // Edges that are nearly parallel have no common normal to speak of: nodes see what they do.
+    // Nearly parallel edges have no well-defined common normal; node-to-facet contact covers them.
     constexpr double least_sine = 0.1;
     Tensor<1, 3> normal = dealii::cross_product_3d(along_1, along_2);
     const double sine = normal.norm() / (along_1.norm() * along_2.norm());

@@ -45,8 +45,8 @@ void EdgeSprings::add_forces(Positions &forces) const {
 
 void EdgeSprings::add_row_sums(std::vector<double> &sums) const {
   for (const auto &crossing : crossings_) {
-    // Of ½ k A g², but for the second derivatives of A and g, which count g/L less. The whole area, always:
-    // it changes fast where it fades.
+    // The second derivatives of ½ k A g², except those of A and g, which are smaller by g/L. The full area
+    // applies always, since the reduced area changes fast where it fades.
     const double k = stiffness_of(crossing), depth = std::max(-crossing.counted_gap(), 0.);
     double sum = 0.;
     for (const auto &gradient : crossing.area_gradients)

@@ -49,7 +49,7 @@ void FacetBounds::add_crossings(Crossings &crossings) const {
   double farthest = 0.;
   for (std::size_t i = 0; i < positions.size(); ++i)
     farthest = std::max(farthest, (positions[i] - positions_n[i]).norm_square());
-  // A node and a facet may go towards each other; Crossings looks twice as far.
+  // A node and a facet may approach each other; Crossings covers twice the distance.
   farthest = 4. * std::sqrt(farthest);
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];

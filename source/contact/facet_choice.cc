@@ -15,19 +15,19 @@ using dealii::Tensor;
 
 namespace {
 
-/// By how much the scalar product of the normals of node and facet has to be less for another facet to
-/// replace the last one.
+/// Reduction of the scalar product of the normals of node and facet for which another facet replaces the last
+/// one.
 constexpr double far_better = 0.5;
 
-/// A node that is less beyond the border than this is in line with it, as where the ends of two bodies lie in
-/// one plane: round-off must not tell whether it is beside the body.
+/// Maximum distance beyond a facet's edge at which a node counts as in line with it, as where the ends of two
+/// bodies are coplanar. Round-off must not decide whether the node is beside the body.
 constexpr double in_line = 1e-3;
 
-/// Facets whose normals have a scalar product greater than this one lie in one plane or above each other: to
-/// a node that touches the one, the other is not a concave edge's other side.
+/// Minimum scalar product of the normals of facets that count as coplanar or stacked. For a node that touches
+/// one of them, the other is not the second flank of a concave edge.
 constexpr double one_plane = 0.99;
 
-/// The choice for one node. Each consider_ adds a facet to what is chosen from.
+/// Choice of a facet for one node. Each consider_ function adds a facet to the options.
 template <class Facet> class Choice {
 public:
   Choice(const MovedFacets &facets, const unsigned int node, const FacetSearch::Positions &positions_n,
@@ -37,8 +37,8 @@ public:
 
   const TouchedFacet &best() const { return best_; }
 
-  /// One around the last one: where they do not meet smoothly, as at the edge of an end, the node may be far
-  /// behind one of them and never have come through it.
+  /// Considers a facet around the last one. The two may not meet smoothly, as at the edge of an end. The node
+  /// may then be far behind one of them without having come through it.
   void consider_around(const TouchedFacet &last, const unsigned int facet) {
     TouchedFacet touched = look_at(facet, {});
     if (!touched.exists() || !is_held(touched))
@@ -51,7 +51,7 @@ public:
       take_better(touched);
   }
 
-  /// The one that the node touches.
+  /// Considers the facet that the node touches.
   void consider_held(const TouchedFacet &last) {
     TouchedFacet touched = look_at(last.facet, last.projection.parameters);
     touched.offset = std::min(last.offset, depth_of(touched));
@@ -59,14 +59,14 @@ public:
       take_better(touched);
   }
 
-  /// One that the node may have come through.
+  /// Considers a facet that the node may have come through.
   void consider_new(const unsigned int facet) {
     TouchedFacet touched = look_at(facet, {});
     if (touched.exists() && has_come_through(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
 
-  /// Only where it meets the one that is held in a concave edge, or faces the node far better.
+  /// Considers a facet only if it meets the touched facet at a concave edge, or faces the node much better.
   void consider_beside_held(const unsigned int facet) {
     if (facet == best_.facet ||
         facets_.plane(facet).normal() * facets_.plane(best_.facet).normal() > one_plane)
@@ -79,7 +79,7 @@ public:
       best_ = held;
   }
 
-  /// The seam of facets around the last one, all of which the node is behind.
+  /// Considers the seam of facets around the last one if the node is behind all of them.
   void consider_seam(const TouchedFacet &last) {
     TouchedFacet nearest;
     nearest.projection.excess = limits_.seam_tolerance;
@@ -108,7 +108,7 @@ private:
     return facets_.project<Facet>(facet, x_, make_limits(tolerance, limits_), start);
   }
 
-  /// The facet, if the node is behind it, and not farther beyond its border than where it may be shared.
+  /// Returns the facet if the node is behind it and within the zone in which facets may share it.
   TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
     const PlanedFacet &plane = facets_.plane(facet);
@@ -136,10 +136,9 @@ private:
     return touched.projection.gap >= -limits_.held_depth * search_.facets()[touched.facet].reach;
   }
 
-  /// At the start of the step the node was before the facet, or not far behind, which sets the offset. Its
-  /// plane is enough to tell.
-  /// A node that is out of the body has no reason to have been behind: it was under the body's end, beside
-  /// this facet, and is leaving.
+  /// Whether the node was in front of the facet at the start of the step, or slightly behind it, which sets
+  /// the offset. The facet's plane suffices for this. A node that is now outside the body but was behind the
+  /// facet was under the body's end, beside this facet, and is leaving.
   bool has_come_through(TouchedFacet &touched) const {
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
@@ -150,8 +149,8 @@ private:
     return depth <= target.reach && !is_out(touched);
   }
 
-  /// Calls visit(projection, whether it meets smoothly) for the facets around the corner that is nearest to a
-  /// node beyond the border of one of them.
+  /// Calls visit(projection, whether it meets smoothly) for the facets around the corner nearest to a node
+  /// beyond the edge of one of them.
   template <class Visit> void visit_beside(const TouchedFacet &touched, const Visit &visit) const {
     search_.visit_around(
         search_.nearest_corner(touched.facet, touched.projection.parameters), [&](const unsigned int facet) {
@@ -162,8 +161,9 @@ private:
         });
   }
 
-  /// Before a facet around the nearest corner that bounds the body there, as beside a block; whether beyond
-  /// the border or not, since a corner bulges and the block's top is then above its end's border.
+  /// Whether the node is in front of a facet around the nearest corner that bounds the body there, as beside
+  /// a block. Its edges do not matter: a corner bulges, so that the block's top is then above the edge of its
+  /// end.
   bool is_out(const TouchedFacet &touched) const {
     bool is_out = false;
     visit_beside(touched, [&](const FacetProjection &p, const bool is_smooth) {
@@ -172,8 +172,8 @@ private:
     return is_out;
   }
 
-  /// A node that is beyond the border, within the tolerance, must not be out of the body. Farther out it must
-  /// be one that a smooth neighbour shares.
+  /// Whether a node beyond the facet's edge is on the facet's side: within the tolerance, it must not be
+  /// outside the body. Farther out, a smooth neighbour must share it.
   bool is_on_its_own_side(const TouchedFacet &touched) const {
     const double excess = touched.projection.excess;
     if (excess <= std::min(in_line, limits_.tolerance))
@@ -186,7 +186,7 @@ private:
     return is_near && !is_out;
   }
 
-  /// The middle of neither lies behind the other.
+  /// Whether the middle of neither facet lies behind the other facet.
   bool is_concave(const TouchedFacet &a, const TouchedFacet &b) const {
     const Tensor<1, 3> from_a_to_b = facets_.plane(b.facet).centre() - facets_.plane(a.facet).centre();
     return from_a_to_b * a.projection.normal >= 0. && from_a_to_b * b.projection.normal <= 0.;
@@ -209,7 +209,7 @@ private:
   const unsigned int node_;
   const Tensor<1, 3> x_n_, x_;
   const FacetLift lift_;
-  std::optional<Tensor<1, 3>> normal_; ///< of the node, once it has been asked for
+  std::optional<Tensor<1, 3>> normal_; ///< of the node, computed on first use
   TouchedFacet best_;
 };
 

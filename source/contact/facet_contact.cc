@@ -28,7 +28,7 @@ void FacetContact::update_surfaces(const Positions &positions_n, const Positions
       parts_.overlaps->rebuild(surfaces, parts_.settings.has_self_contact(), parts_.settings.two_pass);
     if (parts_.edges)
       parts_.edges->rebuild(surfaces);
-    // Ghosts have changed places.
+    // Indices of ghosts have changed.
     parts_.start.find_facets(surfaces.search().facets());
   }
   if (parts_.overlaps)
@@ -89,7 +89,7 @@ void FacetContact::commit() {
   }
   if (parts_.friction)
     parts_.friction->commit();
-  // What leaves the facet begins without when it comes back.
+  // A node that leaves the facet returns without an offset.
   parts_.offsets.augmentation.commit([&](const std::size_t s) { return parts_.touching[s].presses(); });
   if (parts_.edges)
     parts_.edges->commit();
@@ -97,7 +97,7 @@ void FacetContact::commit() {
 
 void FacetContact::close_initial_gaps(const Positions &positions, const double within) {
   Positions ignored(parts_.surfaces.exchange().n_own_nodes());
-  // Of overlaps the mean gap is known of facets that are lowered so far that they overlap.
+  // The mean gap of overlaps is known only for facets that overlap; they are therefore lowered.
   const double lowered = parts_.overlaps ? within : 0.;
   parts_.offsets.depths.assign(parts_.slaves.size(), -lowered);
   add_forces(positions, positions, 0., ignored);
@@ -133,7 +133,7 @@ void FacetContact::take_back_augmentation() {
 }
 
 void FacetContact::augment() {
-  if (parts_.friction) // asks for the offsets so far
+  if (parts_.friction) // uses the offsets so far
     parts_.friction->augment();
   parts_.offsets.augmentation.augment(parts_.slaves.size(), [&](const std::size_t s) {
     const SlaveState &state = parts_.touching[s];
@@ -211,7 +211,7 @@ void FacetContact::load(const StateReader &reader) {
   if (has_depths)
     depths.emplace(keys.size());
   if (is_augmented || has_depths) {
-    std::vector<bool> is_known; // of a pair that was in one pass before, slaves may be new
+    std::vector<bool> is_known; // slaves may be new if the pair had one pass before
     const std::vector<double> rows = reader.read_rows("lifts", 2, keys, &is_known);
     for (std::size_t s = 0; s < keys.size(); ++s) {
       if (is_augmented)

@@ -13,8 +13,8 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double unseen = 0.125;         // part of a facet's length by which a tool may enter unseen
-constexpr std::size_t max_points = 4000; // of a picture; of a finer one every second, third ... counts
+constexpr double unseen = 0.125;         // part of a facet's length by which a tool may enter undetected
+constexpr std::size_t max_points = 4000; // of a triangulation; a finer one is thinned out
 const double diagonal = std::sqrt(0.5);
 
 /// Directions at angles of multiples of 45 degrees across a normal.
@@ -34,7 +34,7 @@ FacetDivision::FacetDivision(const RigidSurface &surface, const PictureRegion &r
   const std::size_t stride = 1 + picture.points.size() / max_points;
   for (std::size_t i = 0; i < picture.points.size(); i += stride)
     add_samples(picture.points[i], distance);
-  // Middles: what the picture draws with few facets has its points on its edges alone.
+  // Middles of facets are samples, too: a coarse triangulation has points only on its edges.
   for (std::size_t i = 0; i < picture.facets.size(); i += stride) {
     Tensor<1, 3> middle;
     for (const unsigned int point : picture.facets[i])
@@ -54,7 +54,8 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
     const Tensor<1, 3> x = position + distance * (normal + aside);
     const auto beside = surface_.project(x, at.patch);
     const Tensor<1, 3> foot = x - beside.gap * beside.normal;
-    // On smooth surfaces the foot moves along; on a convex edge the normal turns about the same foot.
+    // On smooth surfaces the foot point moves along; at a convex edge the normal rotates about a fixed foot
+    // point.
     if (beside.exists && beside.gap > 0. && (foot - position).norm() < 0.1 * distance)
       samples_.push_back({position, beside.normal});
   }
@@ -62,7 +63,7 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
 
 bool FacetDivision::is_seen(const double spacing, const double length) const {
   constexpr double round_off = 1e-9;
-  constexpr double opposing = 0.5; // cosine: what touches a flank as steep as that only lets the tool pass
+  constexpr double opposing = 0.5; // cosine: contact on a steeper flank lets the tool pass
   const auto is_met_at = [&](const Tensor<1, 3> &x, const Tensor<1, 3> &normal) {
     const auto projection = surface_.project(x);
     return projection.exists && projection.gap <= round_off * length &&
@@ -73,7 +74,7 @@ bool FacetDivision::is_seen(const double spacing, const double length) const {
     for (const unsigned int turned : {0U, 1U}) {
       bool is_met = false;
       for (unsigned int corner = turned; corner < 8 && !is_met; corner += 2)
-        // Of thin tools only some depths are inside.
+        // For thin tools, only some of the depths are inside.
         for (double depth = unseen; depth > 0.1 * unseen && !is_met; depth *= 0.5)
           is_met = is_met_at(sample.position + diagonal * spacing * around[corner] -
                                  depth * length * sample.normal,

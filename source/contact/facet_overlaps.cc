@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// 1 where facets face each other within 60 degrees, 0 from 80 degrees on.
+/// Returns 1 for facets that face each other within 60 degrees, and 0 from 80 degrees on.
 double facing_part(const Tensor<1, 3> &area_vector, const Tensor<1, 3> &other) {
   constexpr double least = 0.17, enough = 0.5;
   const double cosine = -(area_vector * other) / (area_vector.norm() * other.norm());

@@ -16,14 +16,14 @@ namespace {
 
 using Positions = FacetSearch::Positions;
 
-/// Near the surface the way goes on by this part of the depth.
+/// Increment of the path near the surface, relative to the depth.
 constexpr double resolution = 0.25;
 
 Tensor<1, 3> between(const Tensor<1, 3> &from, const Tensor<1, 3> &to, const double part) {
   return (1. - part) * from + part * to;
 }
 
-/// The facets that one node may come to touch in a motion, as one surface.
+/// The facets that one node may touch in a motion, as one surface.
 class MovingSurface {
 public:
   MovingSurface(const std::vector<SurfaceFacet> &facets, const Positions &from, const Positions &to)
@@ -54,7 +54,7 @@ public:
         const double distance = (x - point).norm();
         if (distance > result.distance + rounding * size)
           continue;
-        if (distance < result.distance - rounding * size) // else the two meet there
+        if (distance < result.distance - rounding * size) // otherwise the two meet there
           normals = 0.;
         normals += area / area.norm();
         if (distance < result.distance) {
@@ -74,7 +74,7 @@ public:
     return result;
   }
 
-  /// Bounds the way of the node relative to any point of the candidates.
+  /// Bounds the path length of the node relative to any point of the candidates.
   double bound_way(const unsigned int node) const {
     double longest = 0.;
     for (const unsigned int f : candidates_)
@@ -90,7 +90,7 @@ public:
     return least;
   }
 
-  /// Forgets the facets that the node is straight behind at the start, and too deep.
+  /// Removes the facets that the node is directly behind at the start, and too deep.
   void drop_walls_above(const unsigned int node) {
     const std::vector<unsigned int> all = candidates_;
     std::vector<unsigned int> kept;
@@ -108,7 +108,7 @@ private:
   std::vector<unsigned int> candidates_;
 };
 
-/// The facets around each node.
+/// Returns the facets around each node.
 std::vector<std::vector<unsigned int>> collect_around(const std::vector<SurfaceFacet> &facets,
                                                       const std::size_t n_nodes) {
   std::vector<std::vector<unsigned int>> around(n_nodes);
@@ -124,7 +124,7 @@ FacetPaths::FacetPaths(MPI_Comm communicator, const FacetSearch::Partners partne
                        std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
                        const std::vector<double> depths)
     : communicator_(communicator), partners_(partners), exchange_(communicator, std::move(node_keys), [&] {
-        for (std::size_t f = 0; f < facets.size(); ++f) // here that is what ghosts have to bring along
+        for (std::size_t f = 0; f < facets.size(); ++f) // here ghosts transfer the depth as their reach
           facets[f].reach = depths[f];
         return std::move(facets);
       }()) {
@@ -137,7 +137,7 @@ FacetPaths::FacetPaths(MPI_Comm communicator, const FacetSearch::Partners partne
 }
 
 double FacetPaths::find_free_part(const Positions &from, const Positions &to, const bool is_thorough) {
-  std::array<double, 6> ends; // the largest of −motion and of motion
+  std::array<double, 6> ends; // maximum of −motion and of motion
   ends.fill(-std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < from.size(); ++i)
     for (unsigned int c = 0; c < 3; ++c) {
@@ -153,7 +153,7 @@ double FacetPaths::find_free_part(const Positions &from, const Positions &to, co
   const double least_way = is_thorough ? 0. : resolution * least_depth_;
   if (!(range.norm() > least_way) || !std::isfinite(range.norm()))
     return 1.;
-  Positions start = from, end = to; // what all have in common takes nobody through anything
+  Positions start = from, end = to; // a common motion takes no node through a facet
   for (auto &x : end)
     x -= common;
   exchange_.rebuild(start, end, largest_depth_);
@@ -199,7 +199,7 @@ double FacetPaths::find_free_part_of_rank(const Positions &from, const Positions
     BoundingBox way = BoundingBox::empty();
     way.add(from[node]);
     way.add(to[node]);
-    // The tree knows spheres only: one around the way.
+    // The tree searches spheres only: this one surrounds the path.
     const double square = 0.25 * (to[node] - from[node]).norm_square();
     auto &candidates = surface.candidates();
     candidates.clear();

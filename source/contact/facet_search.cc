@@ -26,7 +26,7 @@ void FacetSearch::set_surface(std::vector<SurfaceFacet> facets, std::vector<Slav
   for (const auto &slave : slaves_)
     n_nodes = std::max<std::size_t>(n_nodes, slave.node + 1);
 
-  // The facets around each node: count, then fill from the back.
+  // Facets around each node: count, then fill from the back.
   first_around_.assign(n_nodes + 1, 0);
   for (const auto &facet : facets_)
     for (const unsigned int node : facet.nodes)
@@ -90,7 +90,7 @@ void FacetSearch::rebuild(const Positions &positions_n, const Positions &positio
     BoundingBox way = BoundingBox::empty();
     way.add(positions_n[slave.node]);
     way.add(positions[slave.node]);
-    // The tree knows spheres only: one around the way.
+    // The tree searches spheres only: this one surrounds the path.
     const Tensor<1, 3> middle = 0.5 * (positions_n[slave.node] + positions[slave.node]);
     const double square = 0.25 * (positions[slave.node] - positions_n[slave.node]).norm_square();
     first_candidate_[s] = candidates_.size();

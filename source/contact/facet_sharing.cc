@@ -18,7 +18,7 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
   const FacetSearch &search = facets.search();
   const FacetProjection &own = touched.projection;
   const std::size_t first = shares.size();
-  // Twice the zone, since a larger neighbour's is wider: (1 − |ξ|)/2 is the distance from the border.
+  // Twice the zone, since that of a larger neighbour is wider: (1 − |ξ|)/2 is the distance from the edge.
   const double inner = 1. - 4. * limits.zone;
   if (std::max(std::abs(own.parameters[0]), std::abs(own.parameters[1])) > inner)
     search.visit_around(search.nearest_corner(touched.facet, own.parameters), [&](const unsigned int f) {

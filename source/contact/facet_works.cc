@@ -68,7 +68,7 @@ void FacetWorks::add_slave(const std::size_t s, const bool hands_load_over, Face
   add_forces(s, load);
   load.absolute_force += state.own_area * state.traction.traction.norm();
   const double augmentation = parts_.offsets.augmentation[s];
-  // What augmented tractions hold is no stretch of a spring.
+  // Multipliers do not stretch springs.
   load.stored_energy += parts_.offsets.augmentation.is_empty()
                             ? state.own_area * state.traction.stored_energy
                             : 0.5 * state.own_area * parts_.penalties[s].normal *
@@ -96,7 +96,7 @@ void FacetWorks::add_forces(const std::size_t s, FacetContactLoad &load) const {
         }
         const unsigned int of_node = parts_.slaves.surface(s),
                            of_facet = parts_.surfaces.facet(share.facet).surface;
-        if (of_node == of_facet) // nothing in all
+        if (of_node == of_facet) // the sum is 0
           return;
         if (of_node == 0) {
           load.force += force;

@@ -20,17 +20,18 @@ using dealii::Tensor;
 
 namespace {
 
-/// A facet with the smooth surface that it stands for.
+/// A facet with the smooth surface that it represents.
 struct CurvedFacet {
   FacetCorners corners;
   std::array<DofIndex, 4> nodes; ///< the first dof of each
   Tensor<1, 3> normal;           ///< unit
   double size;                   ///< [length]
   FacetBulge bulge{};
-  double curvature = 0.; ///< 8 b/L² of the edge with the largest [1/length]; > 0: convex
+  double curvature = 0.; ///< maximum of 8 b/L² over the edges [1/length]; > 0: convex
 };
 
-/// The facets of all ranks, or of this one with the normals of all; first those of this rank.
+/// Collects the facets of all ranks, or those of this rank with the normals of all; those of this rank come
+/// first.
 std::vector<CurvedFacet> collect_facets(const Discretization &discretization, const std::size_t body,
                                         const std::vector<unsigned int> &boundary_ids,
                                         const Vector *displacements, std::size_t &n_own_facets) {
@@ -69,7 +70,7 @@ std::vector<CurvedFacet> collect_facets(const Discretization &discretization, co
     for (const DofIndex node : facet.nodes)
       normals_at[node].push_back(facet.normal);
   for (auto &facet : facets) {
-    constexpr double cosine_of_edge = 0.64; // of 50 degrees: eight facets around are still a circle
+    constexpr double cosine_of_edge = 0.64; // of 50 degrees: eight facets still form a circle
     FacetCorners normals;
     for (unsigned int a = 0; a < 4; ++a) {
       for (const auto &normal : normals_at[facet.nodes[a]])
@@ -89,7 +90,7 @@ std::vector<CurvedFacet> collect_facets(const Discretization &discretization, co
   return facets;
 }
 
-/// The facets that a point may be near.
+/// Search for the facets near a point.
 class NearFacets {
 public:
   explicit NearFacets(const std::vector<CurvedFacet> &facets) : facets_(facets), tree_(make_boxes(facets)) {}
@@ -98,7 +99,7 @@ public:
     const CurvedFacet *facet = nullptr;
     FacetProjection projection;
   };
-  /// The nearest facet that faces this normal, no farther away than `reach`.
+  /// Finds the nearest facet that faces this normal, at most at the distance `reach`.
   Found find(const Tensor<1, 3> &x, const Tensor<1, 3> &normal, const double reach) const {
     constexpr double cosine_of_facing = -0.5;
     Found found;
@@ -139,7 +140,7 @@ bool fit(const CurvedFacet &facet, const CurvedFacet &other) {
              difference * std::max(std::abs(facet.curvature), std::abs(other.curvature));
 }
 
-/// The part of the clearance above which a chord gap counts.
+/// Part of the clearance above which a chord gap counts.
 constexpr double part_of_clearance = 0.2;
 
 } // namespace
@@ -220,7 +221,7 @@ void check_correction(const Scene &scene, const BodyPair &pair, const Discretiza
       const Tensor<1, 3> middle = facet::interpolate(facet::weights({0., 0.}), facet.corners);
       worst = std::max(worst, {tilt, middle[0], middle[1], middle[2]});
     }
-    // Ranks add in orders of their own, and have to decide alike.
+    // The order of summation differs between ranks, but their decisions must agree.
     named = dealii::Utilities::MPI::max(named, communicator);
     of_normals = dealii::Utilities::MPI::max(of_normals, communicator);
     const std::string &body = scene.bodies()[pair.bodies[side]].name;
@@ -245,13 +246,13 @@ namespace {
 
 using Correction = parameters::ContactPair::Correction;
 
-/// Of pairs of two bodies that nothing corrects.
+/// Whether a pair consists of two bodies without surface correction.
 bool is_faceted(const BodyPair &pair) {
   return pair.correction.kind == Correction::Kind::none && !pair.is_self_contact &&
          pair.bodies[0] != pair.bodies[1];
 }
 
-/// By how much the corrected facets of both sides miss the surface that a scene names, at most [length].
+/// Returns the maximum error of the corrected facets of both sides against the surface in the scene [length].
 /// Between the corners the surface has the bilinear radius of these. Collective.
 double find_correction_error(const Discretization &discretization, const BodyPair &pair) {
   constexpr std::array<double, 3> along{-0.5, 0., 0.5};

@@ -27,7 +27,7 @@ FrictionAccount compute_static_account(const FrictionStep &step, const FrictionR
   FrictionAccount account;
   if (step.touches) {
     account.dissipation_n = std::max(0., by_slip_n);
-    if (step.limit_n > 0.) { // the trapezoidal rule counts t_n·γ even where it pushes
+    if (step.limit_n > 0.) { // the trapezoidal rule counts t_n·γ even where t_n drives the slip
       account.missed_n = std::max(0., 0.5 * step.limit_n * std::sqrt(slip_squared) - account.dissipation_n);
       account.beyond_n = by_slip_n - account.dissipation_n;
     }

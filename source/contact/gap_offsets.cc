@@ -26,7 +26,7 @@ void MultiplierOffsets::augment_one(const std::size_t s, const std::optional<dou
 double MultiplierOffsets::find_pace(const std::size_t s, const double gap) const {
   const auto [offset_before, gap_before] = last_[s];
   const double taken_up = offsets_[s] - offset_before, closed = gap - gap_before;
-  // Not where neighbours decided what became of it.
+  // The secant does not apply if the motion of neighbours dominates the change.
   const bool goes_on =
       gap_before * gap > 0. && std::abs(gap) < std::abs(gap_before) && taken_up * closed > 0.;
   constexpr double fastest = 4.;

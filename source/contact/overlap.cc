@@ -32,13 +32,13 @@ template <class Points> BoundingBox box_around(const Points &points) {
   return box;
 }
 
-/// The elements of this rank.
+/// Search in the elements of this rank.
 class Elements {
 public:
   explicit Elements(const std::vector<Element> &elements)
       : elements_(elements), tree_(make_boxes(elements)) {}
 
-  /// How many of them the point is in, up to a tolerance in reference coordinates.
+  /// Returns the number of elements that contain the point, up to a tolerance in reference coordinates.
   unsigned int count_around(const dealii::Point<3> &x, const double tolerance) const {
     unsigned int n = 0;
     const double nowhere_else = 0.;
@@ -47,7 +47,7 @@ public:
         if (dealii::GeometryInfo<3>::is_inside_unit_cell(
                 mapping_.transform_real_to_unit_cell(elements_[e].cell, x), tolerance))
           ++n;
-      } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // far outside of a distorted element
+      } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // far outside a distorted element
       }
     });
     return n;
@@ -100,8 +100,8 @@ private:
   BoxTree tree_;
 };
 
-/// Where a segment meets a triangle, as a parameter in [0, 1] from its first end, if it does and does not lie
-/// in its plane. A segment that meets the border meets the triangle.
+/// Returns where a segment meets a triangle, as a parameter in [0, 1] from its first end. Returns nothing if
+/// it does not, or if it lies in the triangle's plane. The edges belong to the triangle.
 std::optional<double> meet(const Segment &segment, const Tensor<1, 3> &a, const Tensor<1, 3> &b,
                            const Tensor<1, 3> &c) {
   constexpr double rounding = 1e-9;
@@ -151,17 +151,17 @@ std::vector<ProbedFacet> gather_facets(const std::vector<BoundaryFacet> &facets,
   return all;
 }
 
-/// The side of a facet between two corners that follow each other around it.
+/// Returns the side of a facet between two consecutive corners around it.
 Segment side_of(const FacetCorners &corners, const unsigned int side) {
   return {corners[facet::around[side]], corners[facet::around[(side + 1) % 4]]};
 }
 
-/// Points that tell what is inside the bodies below these facets.
+/// Test points inside the bodies below these facets.
 class Probes {
 public:
   explicit Probes(const std::vector<ProbedFacet> &facets) : facets_(facets) {}
 
-  /// A grid just below each facet and within its border, and the middle of the element.
+  /// Adds a grid just below each facet and within its edges, and the middle of the element.
   void add_grids() {
     constexpr std::array<double, 3> along{-1. + 2. * inset, 0., 1. - 2. * inset};
     for (const auto &facet : facets_) {
@@ -172,9 +172,9 @@ public:
     }
   }
 
-  /// Where sides of the facets go through the other body's faces: between two places where a side meets them,
-  /// or one and its end, it is either all in the other body or all out of it. `facets` are those of this
-  /// rank. Bodies in each other, of which neither is as a whole in the other, have such a side.
+  /// Adds points where sides of the facets pierce the other body's faces. Between two such intersections, or
+  /// between one and its end, a side is either entirely inside or entirely outside the other body. `facets`
+  /// are those of this rank. Bodies that overlap have such a side unless one contains the other.
   void add_pierced_sides(const std::vector<BoundaryFacet> &facets, MPI_Comm communicator) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(facets.size());
@@ -188,7 +188,7 @@ public:
         const double square = 0.25 * (segment[1] - segment[0]).norm_square() * (1. + 1e-9);
         tree.visit_near(0.5 * (segment[0] + segment[1]), square, [&](const unsigned int other) {
           const auto &c = facets[other].corners;
-          // Of a facet that is not plane both ways to fold it.
+          // Both diagonals, for a facet that is not plane.
           for (const auto &corners : {std::array<unsigned int, 3>{0, 1, 3}, {0, 3, 2}, {0, 1, 2}, {1, 3, 2}})
             if (const auto t = meet(segment, c[corners[0]], c[corners[1]], c[corners[2]]))
               own.push_back({static_cast<double>(f), static_cast<double>(side), *t});
@@ -210,7 +210,7 @@ public:
     }
   }
 
-  /// The corners themselves.
+  /// Adds the corners themselves.
   void add_corners() {
     for (const auto &facet : facets_)
       for (const auto &corner : facet.corners)
@@ -220,8 +220,8 @@ public:
   const std::vector<Tensor<1, 3>> &points() const { return points_; }
 
 private:
-  /// Depth relative to the element's thickness. Points of bodies that only touch are in none of the other's
-  /// elements.
+  /// Depth relative to the element's thickness, so that no points of a touching body are in elements of the
+  /// other body.
   static constexpr double inset = 1e-3;
 
   void add(const ProbedFacet &facet, const std::array<double, 2> &parameters, const double depth) {
@@ -243,8 +243,8 @@ private:
   std::vector<Tensor<1, 3>> points_;
 };
 
-/// The deepest of these points, which are the same on all ranks, that are in at least so many elements of the
-/// body: the depth is the distance to its faces.
+/// Finds the deepest of these points, which are the same on all ranks, among those in at least `n_elements`
+/// elements of the body. The depth is the distance to its faces.
 Overlap find_deepest(const Discretization &discretization, const std::vector<Tensor<1, 3>> &points,
                      const std::size_t body, const std::vector<BoundaryFacet> &faces,
                      const unsigned int n_elements, const double tolerance) {
@@ -359,7 +359,7 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   const MPI_Comm communicator = discretization.communicator();
   std::array<double, 2> sums{}; // area and number of facets
   double least_reach = std::numeric_limits<double>::infinity();
-  std::array<double, 2> chords{}; // by which facets of both sides miss the true surface
+  std::array<double, 2> chords{}; // distances of facets of both sides from the true surface
   for (unsigned int side = 0; side < (bodies.is_self_contact ? 1 : 2); ++side)
     for (const auto &facet :
          collect_boundary_facets(discretization, bodies.bodies[side], bodies.boundary_ids[side])) {
@@ -388,10 +388,11 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
     if (overlap.depth > deepest.depth)
       deepest = overlap;
   }
-  // Deeper ones are allowed as far as they are found: half of where a step loses them.
+  // Allowed penetrations are limited to those that contact finds: half of those that a step loses.
   const bool is_by_overlaps = bodies.facets == parameters::ContactPair::Facets::overlap;
   const double found = least_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::depth : 1.);
-  // The middle of a facet of a sphere is as far below the surface as its edges of both directions, (C8).
+  // The middle of a facet of a sphere is as far below the surface as its edges of both directions together,
+  // (C8).
   const double of_edges =
       bodies.correction.kind == parameters::ContactPair::Correction::Kind::sphere ? 2.02 : 1.01;
   const double allowed = bodies.overlap.is_allowed ? found

@@ -17,17 +17,17 @@ using dealii::Tensor;
 
 namespace {
 
-/// Beyond the border of a tool's surface its pressure fades within this part of the facets around a node.
+/// Width of the zone beyond the edge of a tool's surface in which its pressure fades [facet sizes].
 constexpr double fading_width = 0.05;
 
-/// In explicit scenes what springs hold that are deeper than this stands on an area that does not change:
-/// that of the last step in which the node was not so deep. None of what springs hold that harden, so that no
-/// energy comes or goes where the normal jumps, as at an edge of the tool.
+/// Returns the maximum penetration up to which the spring energy acts on current areas in explicit scenes.
+/// The excess acts on a fixed area: that of the last step in which the node was not so deep. The limit is 0
+/// for hardening springs, so that energy is conserved where the normal jumps, as at an edge of the tool.
 double depth_on_current_areas(const ContactPoint &node) {
   return std::isinf(node.hardening_depth) ? 0.1 * node.spacing : 0.;
 }
 
-/// Of a surface whose normal turns like this.
+/// Returns the maximum curvature of a surface whose normal has this gradient.
 double largest_curvature(const dealii::Tensor<2, 3> &turning) {
   const auto principal = dealii::eigenvalues(dealii::symmetrize(turning));
   return std::max(std::abs(principal[0]), std::abs(principal[2]));
@@ -139,7 +139,7 @@ double RigidContact::stiffness_ahead(const std::size_t i) const {
 bool RigidContact::is_far(DividedFacet &divided) {
   if (divided.may_touch)
     return false;
-  // Gaps are distances, so that none in the facet is less than that of the nearest corner less the way there.
+  // Gaps are distances: no gap in the facet is less than that of the nearest corner minus the distance to it.
   std::array<const ToolContactState *, 4> corners{};
   double least = std::numeric_limits<double>::infinity(), approach = 0., size = 0.;
   for (unsigned int a = 0; a < 4; ++a) {
@@ -160,7 +160,7 @@ bool RigidContact::is_far(DividedFacet &divided) {
     ToolContactState &state = states_[i];
     state.position = slaves_.at(i, [&](const std::size_t parent) { return states_[parent].position; });
     state.gap = gap;
-    if (!friction_.empty()) // it was open before, too
+    if (!friction_.empty()) // it was also open before
       friction_[i].tool_position = placement_.to_tool(state.position);
   }
   return true;
@@ -232,14 +232,14 @@ bool RigidContact::misses(const ContactPoint &node, const Tensor<1, 3> &position
                           const RigidSurface::Projection &projection) const {
   if (!has_inertia_)
     return false;
-  if (projection.exists) // and it has not come through from the front of what is before it now
+  if (projection.exists) // and it has not come through from the front of the surface before it
     return node.is_behind && projection.gap - lift_of(node) < 0. &&
            projection.gap - projection.normal * (on_tool - node.behind_at) < 0.;
   if (!projection.is_behind)
     return false;
   if (node.is_behind)
     return true;
-  constexpr double far = 2.; // facet sizes: what is farther away comes by here first
+  constexpr double far = 2.; // facet sizes: a node farther away passes this zone first
   const double width = fading_width * node.size;
   const double along_squared = projection.gap * projection.gap - projection.beyond * projection.beyond;
   return projection.beyond >= width && projection.beyond < far * node.size &&
@@ -272,12 +272,12 @@ ToolContactState RigidContact::evaluate(const Law &law, const std::size_t i, con
     state.fading_stiffness = fading.stiffness;
   }
   state.gap = projection.gap - lift_of(node);
-  if (state.is_passed) // how far it is from being in front
+  if (state.is_passed) // distance to the front
     state.gap = -state.gap;
   state.patch = projection.patch;
-  // A node that starts on the tool counts as touching: its stiffness may be all that holds the body. Inertia
-  // holds it anyway, and a stiffness without a force would mislead Newton's method when it lifts off: so it
-  // does only while round-off alone has lifted it.
+  // A node that starts on the tool counts as touching: its stiffness may be the only constraint of the body.
+  // With inertia the body needs no constraint, and a stiffness without a force would mislead Newton's method
+  // at lift-off. The node then counts only while its lift-off is within round-off.
   const double on_it = node.touching_gap;
   const double rounding = 1e-13 * node.size + 4. * std::numeric_limits<double>::epsilon() * position.norm();
   const bool rests = node.gap_n <= on_it && state.gap <= std::min(on_it, node.gap_n + rounding);
@@ -302,7 +302,7 @@ ToolContactState RigidContact::evaluate(const Law &law, const std::size_t i, con
     if (touches)
       apply_friction(law, node, state, fades ? &fading : nullptr, history_n, *history);
     else {
-      if (history_n.is_active) { // its spring lets go
+      if (history_n.is_active) { // its spring is released
         state.normal = placement_.rotation * projection.normal;
         const auto along = [&](const Tensor<1, 3> &axis) {
           return (placement_.rotation * (dealii::transpose(placement_n_.rotation) * axis)) *
@@ -322,7 +322,7 @@ ToolContactState RigidContact::evaluate(const Law &law, const std::size_t i, con
     }
     history->tool_position = on_tool;
   }
-  if (fades && touches) { // what is not friction is pressure
+  if (fades && touches) { // all except friction is pressure
     state.pressure = (state.pressure * state.normal + fading.push).norm();
     state.traction += fading.push;
     state.tangent += fading.tangent;
@@ -340,14 +340,14 @@ void RigidContact::apply_friction(const FrictionLaw &law, const ContactPoint &no
   const Frame &Z = history.frame;
   const std::array<Tensor<1, 3>, 3> axes{Z.q, Z.r, Z.n};
 
-  // Relative displacement over the step, against the tool's material point that was at the node (eq. (33),
-  // with the tool's motion).
+  // Displacement over the step relative to the tool's material point that was at the node (eq. (33), with the
+  // tool's motion).
   const Tensor<1, 3> displacement = state.position - placement_.to_space(history_n.tool_position);
   TangentialIncrement increment{{displacement * Z.q, displacement * Z.r}};
   increment.per_time = duration_ > 0. ? 1. / duration_ : 0.;
   increment.rate = history_n.slip_rate;
 
-  // A node that enters within the step has slid along the tool for the part φ = g/(g − g_n) of it only.
+  // A node that enters within the step has slid along the tool only for the part φ = g/(g − g_n) of it.
   ContactStiffness stiffness = node.stiffness;
   stiffness.normal = state.share * node.spring().secant(std::max(-state.gap, 0.));
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ
@@ -356,7 +356,7 @@ void RigidContact::apply_friction(const FrictionLaw &law, const ContactPoint &no
     stiffness.tangential *= fraction;
     relative_slope = node.gap_n / (state.gap * (node.gap_n - state.gap));
   }
-  // The frame turns with the normal, δn = H δx:
+  // The frame rotates with the normal, δn = H δx:
   //   δΔg_q = q·δx − (Δ·n) q·Hδx + Δg_r spin·Hδx,  δΔg_r = r·δx − (Δ·n) r·Hδx − Δg_q spin·Hδx.
   const Tensor<1, 3> Hq = state.turning * Z.q, Hr = state.turning * Z.r, Hs = state.turning * Z.spin;
   if (tangent_ == ContactTangent::exact) {
@@ -437,7 +437,7 @@ template <class Add> void RigidContact::for_each_near(const Add &add) const {
   for (unsigned int i = 0; i < slaves_.nodes.size(); ++i) {
     const ContactPoint &node = slaves_.nodes[i];
     const double gap = states_[i].gap;
-    // The step in which a node enters must be short enough already, and equal steps keep the energy best.
+    // The step in which a node enters must be short enough already, and equal steps conserve energy best.
     const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
     if (states_[i].status == ContactStatus::open && gap >= 0. && is_near && is_owned_[i])
       add(i, node.spacing * node.spacing);
@@ -500,8 +500,8 @@ void RigidContact::add_start_crossings(Crossings &crossings, const NodalVectors 
 }
 
 double RigidContact::stored_energy(const std::size_t i) const {
-  // What augmented tractions hold is no stretch of a spring.
-  const double gap = states_[i].gap + slaves_.nodes[i].lift; // but for what is allowed
+  // Multipliers do not stretch springs.
+  const double gap = states_[i].gap + slaves_.nodes[i].lift; // except the allowed penetration
   return states_[i].share * slaves_.nodes[i].spring().energy(gap) +
          (pair_.is_augmented() ? 0. : states_[i].tangential_energy);
 }
@@ -515,13 +515,13 @@ void RigidContact::add_forces(ContactFacet &facet, NodalVectors &forces, NodalVe
                               ContactLoad &load) {
   const CornerStates states = states_of(facet);
   std::array<double, 4> areas{}, energies{};
-  double depth = 0.;     // that goes with the largest energy
+  double depth = 0.;     // of the corner with the maximum energy
   double hardening = 1.; // of the stiffest spring
   for (unsigned int a = 0; a < 4; ++a)
     if (states[a]->status != ContactStatus::open) {
       const SpringEnergy springs = springs_of(facet.nodes[a]);
       if (!springs.is_split())
-        facet.shallow_areas[a] = SpringEnergy::no_area; // what it is here is found below
+        facet.shallow_areas[a] = SpringEnergy::no_area; // set below
       energies[a] = springs.on_current_area;
       const double stiffness = slaves_.nodes[facet.nodes[a]].stiffness.normal;
       depth = std::max(depth, 2. * springs.total / stiffness);
@@ -586,7 +586,7 @@ double RigidContact::stiffness_against_tool() const {
   double sum = 0.;
   const auto add = [&](const unsigned int i, const double area) {
     const ToolContactState &state = states_[i];
-    const Tensor<1, 3> n = // which open nodes do not know
+    const Tensor<1, 3> n = // undefined for open nodes
         state.status != ContactStatus::open
             ? state.normal
             : placement_.rotation *
@@ -633,7 +633,7 @@ void RigidContact::add_divided_tangent(const DividedFacet &divided, const Tangen
     if (!compute_facet_tangent(part, of_part))
       continue;
     touches = true;
-    // Which corner of the facet, with which weight.
+    // Weights of the facet's corners for each corner of the part.
     std::array<std::array<double, 4>, 4> weights{};
     for (unsigned int p = 0; p < 4; ++p)
       slaves_.for_each_parent(part.nodes[p], [&](const unsigned int parent, const double weight) {
@@ -744,8 +744,7 @@ double RigidContact::add_tool_derivatives(const ToolRate &rate, Vector &column, 
             power[i] -= v[b][j] * K(3 * b + j, 3 * a + i);
           }
       power_slope += v[a] * along;
-      // The arm turns with the tool about a centre that does not: ω × v adds nothing that is not there
-      // already.
+      // The arm rotates with the tool about a fixed centre: ω × v adds no further term.
       slaves_.add_to_dofs(facet.nodes[a], -along, column);
       slaves_.add_to_dofs(facet.nodes[a], power, row);
     }
@@ -807,7 +806,7 @@ void RigidContact::commit() {
   }
   for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
     ContactPoint &node = slaves_.nodes[i];
-    if (states_[i].status == ContactStatus::open) { // it begins without when it comes back
+    if (states_[i].status == ContactStatus::open) { // it returns without an offset
       node.gap_n += node.lift;
       node.lift = 0.;
     }
@@ -823,7 +822,7 @@ void RigidContact::commit() {
           any_touches(states) ? compute_projected_areas(states, false).areas : std::array<double, 4>{};
     }
   remember_pressures();
-  if (is_explicit_) // not before what springs held is released
+  if (is_explicit_) // only after the springs' energy is released
     for (auto &facet : slaves_.facets)
       for (unsigned int a = 0; a < 4; ++a)
         if (states_[facet.nodes[a]].status == ContactStatus::open)
@@ -840,7 +839,7 @@ void RigidContact::remember_pressures() {
     const ToolContactState &state = states_[i];
     PressureHistory &history = pressed_n_[i];
     history.pressure = state.pressure;
-    // What augmented tractions hold is no depth.
+    // Multipliers are no penetration.
     history.depth = state.pressure > 0. ? std::max(0., -(state.gap + slaves_.nodes[i].lift)) : 0.;
     history.normal = dealii::transpose(placement_.rotation) * state.normal;
     history.position = placement_.to_tool(state.position);
@@ -888,7 +887,7 @@ StepWorks RigidContact::compute_step_works(const double weight) const {
                 ramp_depth, weight);
     }
   }
-  if (pair_.has_friction() && is_static_ && !is_removed_) // alike on all ranks
+  if (pair_.has_friction() && is_static_ && !is_removed_) // the same on all ranks
     visit_friction(presses_at_both_ends(),
                    [&](const FrictionAccount &account, const double area_n, const double area) {
                      works.touching -= account.taken_beyond(area_n, area) - account.missed(area_n);
@@ -921,7 +920,7 @@ void RigidContact::scale_penalties(const double normal, const double tangential)
   stiffening_ *= normal;
   tangential_stiffening_ *= tangential;
   for (auto &node : slaves_.nodes) {
-    if (node.is_fixed) // its force is that of its spring alone
+    if (node.is_fixed) // only its spring gives its force
       continue;
     node.stiffness = {stiffening_ * node.given.normal, tangential_stiffening_ * node.given.tangential};
     node.lift /= normal;
@@ -1053,7 +1052,7 @@ ContactLoad RigidContact::local_load(const bool hands_over) const {
 }
 
 FrictionRule RigidContact::friction_rule(const ContactPoint &node) const {
-  // What augmented tractions hold is no stretch of a spring.
+  // Multipliers do not stretch springs.
   const bool stores = !pair_.is_augmented();
   return {node.stiffness.tangential, start_weight_, is_static_, stores, stores};
 }
@@ -1135,7 +1134,7 @@ void RigidContact::average_over_points(std::vector<ContactNodeReport> &reports) 
     reports[i].traction = sums[i].traction / reports[i].area;
     reports[i].penetration = sums[i].depth;
     reports[i].curvature = sums[i].curvature;
-    // A tool that is thin beside the facets is as sharp as a radius of half its thickness.
+    // A tool that is thin compared with the facets counts as a radius of half its thickness.
     if (thin_tool_ && thin_tool_->thickness() < 0.5 * slaves_.nodes[i].size)
       reports[i].curvature = std::max(reports[i].curvature, 2. / thin_tool_->thickness());
     reports[i].status = sums[i].slipping > 0.5 * sums[i].force ? ContactStatus::slip : ContactStatus::stick;
@@ -1156,7 +1155,7 @@ std::vector<ContactNodeReport> RigidContact::report() const {
     slaves_.for_each_parent(
         i, [&](const unsigned int parent, const double weight) { reports[parent].area += weight * area; });
   });
-  // Along the sides of long facets the tool may turn by more than over the root of their area.
+  // Along the sides of long facets the tool's normal may change more than over the root of their area.
   constexpr std::array<std::array<unsigned int, 2>, 4> sides{{{0, 1}, {0, 2}, {1, 3}, {2, 3}}};
   for (const auto &facet : slaves_.facets)
     for (const auto &side : sides) {

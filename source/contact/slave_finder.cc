@@ -10,7 +10,7 @@ namespace billet {
 
 namespace {
 
-constexpr double rounding = 1e-13; ///< penetration that round-off makes, relative to a facet's size
+constexpr double rounding = 1e-13; ///< penetration due to round-off [facet sizes]
 
 } // namespace
 
@@ -34,7 +34,7 @@ template <class Facet> void SlaveFinder<Facet>::find(const std::size_t s) {
     } else if (parts_.start.has_started()) {
       state.touched.offset = std::min(state.touched.offset, -state.contact.gap);
       state.contact.gap += state.touched.offset;
-    } else // where bodies start in each other they part
+    } else // initially penetrating bodies separate here
       state.touched.offset = 0.;
   }
   if (!state.touched.exists() && has_candidates)
@@ -50,7 +50,7 @@ TouchedFacet SlaveFinder<Facet>::choose(const std::size_t s, const TouchedFacet 
   const FacetSearch::Positions &positions_n = parts_.surfaces.positions_n();
   const FacetLift lift = parts_.offsets.of(s);
   TouchedFacet touched;
-  // Indices of facets are those of the last search, which a restless node outlives seldom.
+  // Indices of facets are valid only for the last search; it is rarely rebuilt while a node is restless.
   if (parts_.restless.is_restless(s) && last_iteration.exists() && !parts_.surfaces.is_rebuilt())
     touched = keep_facet<Facet>(facets, s, positions_n, last_iteration, parts_.settings.limits, lift);
   if (!touched.exists())
@@ -84,8 +84,7 @@ bool SlaveFinder<Facet>::is_resting(const TouchedFacet &below, const std::size_t
 }
 
 template <class Facet> void SlaveFinder<Facet>::compute_areas(const std::size_t s, SlaveState &state) const {
-  // What is only near counts in bounds alone, which want to know it about: undeformed, a quarter of each
-  // facet.
+  // A near node counts only in bounds, for which an estimate suffices: a quarter of each undeformed facet.
   const double quarter = 0.25 * parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s);
   const unsigned int node = parts_.slaves.node(s);
   parts_.surfaces.search().visit_around(node, [&](const unsigned int f) {
@@ -129,7 +128,7 @@ void SlaveFinder<OverlapFacet>::find(const std::size_t s) {
     state.own_area += parts_.touching.area_of(state, shares[i]);
   if (state.contact.gap < -rounding * slaves.facet_size(s))
     return;
-  // Facets that fit just touch; others are within the lifts of their other corners.
+  // Flush facets just touch; others are within the gap offsets of their other corners.
   state.contact.gap = std::max(0., state.contact.gap);
   state.rests = state.contact.gap <= slaves.flush_gap(s);
   if (!state.rests)

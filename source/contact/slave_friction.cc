@@ -36,7 +36,7 @@ void SlaveFriction::account_for(const std::size_t s, const SlaveTraction &tracti
   const FrictionRule rule{penalties_[s].tangential, start_weight_, is_static_,
                           offsets_.augmentation.was_empty(), offsets_.augmentation.is_empty()};
   const SlaveStart::Pressure &pressed_n = start_.pressed(s);
-  double part = 1.; // of the step, in which it touches
+  double part = 1.; // part of the step in contact
   if (is_static_ && history_[s].is_active && !history_n_[s].is_active)
     part = part_in_contact(slaves_[s].contact.gap + motion.lift, slaves_[s].contact.normal, motion);
   else if (is_static_ && !history_[s].is_active)
@@ -87,7 +87,7 @@ void SlaveFriction::augment_one(const std::size_t s) {
     base.tangential = now.tangential;
     return;
   }
-  // A frame that does not depend on the normal that is sought: from_normal() jumps.
+  // The frame must not depend on the unknown normal, since from_normal() jumps.
   const Tensor<2, 3> rotation = slaves_.motion_of(s).rotation;
   base.is_active = true;
   base.frame = Frame::from_normal(dealii::transpose(rotation) * now.frame.n);
@@ -109,9 +109,9 @@ void SlaveFriction::save(StateWriter &writer, const std::vector<std::uint64_t> &
 }
 
 void SlaveFriction::load(const StateReader &reader, const std::vector<std::uint64_t> &keys) {
-  if (!reader.has("friction")) // a law that is new begins without traction
+  if (!reader.has("friction")) // a new friction law begins without traction
     return;
-  std::vector<bool> is_known; // of a pair that was in one pass before, slaves may be new
+  std::vector<bool> is_known; // slaves may be new if the pair had one pass before
   const std::vector<double> rows = reader.read_rows("friction", friction_width, keys, &is_known);
   for (std::size_t s = 0; s < history_n_.size(); ++s) {
     RowReader row(&rows[friction_width * s]);

@@ -58,7 +58,7 @@ void SlaveStart::save(StateWriter &writer, const std::vector<std::uint64_t> &key
 void SlaveStart::load(const StateReader &reader, const std::vector<std::uint64_t> &keys,
                       const bool has_started) {
   has_started_ = has_started;
-  // Of a pair that was in one pass before, slaves may be new.
+  // Slaves may be new if the pair had one pass before.
   std::vector<bool> is_known;
   const std::vector<double> touches = reader.read_rows("touched", touch_width, keys, &is_known);
   for (std::size_t s = 0; s < touched_.size(); ++s) {
@@ -66,7 +66,7 @@ void SlaveStart::load(const StateReader &reader, const std::vector<std::uint64_t
     TouchedFacet &touched = touched_[s];
     touched = TouchedFacet();
     if (row.flag())
-      touched.facet = 0; // which one, find_facets() finds by its key
+      touched.facet = 0; // find_facets() sets the index by its key
     facet_keys_[s] = read_key(row);
     touched.offset = row.number();
     touched.projection.parameters[0] = row.number();

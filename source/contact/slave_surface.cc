@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// Nodes that may touch a tool, and points inside facets where it could enter between them.
+// SPDX-License-Identifier: LGPL-2.1-or-later Collects nodes that may touch a tool, and points inside facets
+// between which it could enter.
 #include "billet/contact/slave_surface.h"
 
 #include "billet/contact/facet_division.h"
@@ -20,10 +20,11 @@ using dealii::Tensor;
 
 namespace {
 
-// Points inside the facets of a pair, of all ranks: half a kilobyte each. Beyond it facets have fewer parts.
+// Maximum number of points inside the facets of a pair on all ranks, half a kilobyte each. Above it, facets
+// have fewer parts.
 constexpr double max_interior_points = 400'000.;
 
-// Facets whose lengths differ by less than this factor have the same number of parts.
+// Facets with lengths that differ by less than this factor have the same number of parts.
 const double same_length = std::pow(2., 0.125);
 
 constexpr std::uint64_t points_per_key = 1024; // > (FacetDivision::max_parts + 1)²
@@ -141,7 +142,7 @@ void SlaveSurface::divide_facets(const Tool &tool, const Discretization &discret
                   .first;
     const double n = found->second.n;
     std::array<unsigned int, 2> n_of_facet{};
-    for (unsigned int i = 0; i < 2; ++i) // of the shorter sides as many as make parts as long as others
+    for (unsigned int i = 0; i < 2; ++i) // shorter sides have fewer parts, of about the same length
       n_of_facet[i] =
           n == 1. ? 1 : std::max(1U, static_cast<unsigned int>(std::ceil(n * lengths[i] / length - 1e-6)));
     n_parts.push_back(n_of_facet);
@@ -242,7 +243,7 @@ void SlaveSurface::divide(const std::array<unsigned int, 4> &corners,
 }
 
 void SlaveSurface::harden_springs(const double tool_thickness) {
-  constexpr double hardening = 0.002; // part of what is between points, or of the tool's thickness
+  constexpr double hardening = 0.002; // part of the distance between points, or of the tool's thickness
   for (auto &node : nodes)
     if (node.is_divided)
       node.hardening_depth = hardening * std::min(node.spacing, tool_thickness);

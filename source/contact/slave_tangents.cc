@@ -18,7 +18,8 @@ using dealii::Tensor;
 
 namespace {
 
-/// An overlap with derivatives by the variables of its corners: each corner's coordinates are variables.
+/// Computes an overlap with derivatives with respect to the variables of its corners: each corner's
+/// coordinates are variables.
 template <class Number>
 FacetOverlapOf<Number>
 follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
@@ -27,7 +28,8 @@ follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number>
   if constexpr (std::is_same_v<Number, double>)
     return compute_overlap(slave, target, depth, lifts, augmentation, slave_bulge, target_bulge);
   else {
-    // By the 24 of this pair alone, and then by the chain rule: many fewer than a slave depends on.
+    // Derivatives with respect to the 24 coordinates of this pair, then the chain rule: a slave depends on
+    // many more.
     constexpr int n = 24;
     FacetCornersOf<Derivative> s, t;
     for (unsigned int a = 0; a < 4; ++a)
@@ -69,7 +71,7 @@ follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number>
   }
 }
 
-/// The projection `found` as it follows the corners and the node x.
+/// Computes the projection `found` as a function of the corners and the node x.
 template <class Facet, class Number>
 FacetProjectionOf<Number> follow(const FacetCornersOf<Number> &corners, const Tensor<1, 3, Number> &x,
                                  const FacetLimits &limits, const FacetProjection &found) {
@@ -81,13 +83,13 @@ FacetProjectionOf<Number> follow(const FacetCornersOf<Number> &corners, const Te
     return PlanedFacetOf<Number>(corners).project(x, limits);
 }
 
-/// The closed tangents with friction or without, and what all kinds share.
+/// Closed-form tangents with or without friction, and common parts of all kinds.
 template <class Law> class TangentsOfLaw : public SlaveTangents {
 protected:
   explicit TangentsOfLaw(const FacetContactParts &parts) : parts_(parts), touching_(parts.touching) {}
 
   const SurfaceFacet &facet(const unsigned int f) const { return parts_.surfaces.facet(f); }
-  /// The nodes on whose positions the forces of slave s depend, itself first.
+  /// Returns the nodes on whose positions the forces of slave s depend, itself first.
   std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
   void add_closed_tangent(ContactTangent kind, std::size_t s, const Add &add) const;
 
@@ -127,8 +129,7 @@ void TangentsOfLaw<Law>::add_closed_tangent(const ContactTangent kind, const std
     (void)kind;
   const std::vector<unsigned int> nodes = collect_nodes(s, false);
   FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
-  // By how much the node's motion, and forces of this rank, are those of the nodes; of all shares, and of
-  // one.
+  // Weights of the nodes in the slave's motion, and in forces of this rank, for all shares and for one.
   std::vector<double> weights(nodes.size()), areas(nodes.size()), own(nodes.size());
   const auto add_product = [&](const std::vector<double> &rows, const std::vector<double> &columns,
                                const double factor, const Tensor<2, 3> &D) {
@@ -162,7 +163,7 @@ void TangentsOfLaw<Law>::add_closed_tangent(const ContactTangent kind, const std
   add(nodes, matrix);
 }
 
-/// All tangents, of slaves on facets as a Facet sees them.
+/// All tangents of slaves on facets of type Facet.
 template <class Facet, class Law> class SlaveTangentsOf final : public TangentsOfLaw<Law> {
 public:
   using Add = SlaveTangents::Add;
@@ -185,7 +186,7 @@ private:
 
   static constexpr bool are_overlaps = std::is_same_v<Facet, OverlapFacet>;
 
-  /// The nodes that a slave depends on, and where they are.
+  /// Nodes on which a slave depends, and their positions.
   template <class Number> struct Placed {
     const std::vector<unsigned int> &nodes;
     const std::vector<Tensor<1, 3, Number>> &x;
@@ -197,10 +198,10 @@ private:
       return corners;
     }
   };
-  /// What it touches there.
+  /// Shares and contact of a slave at these positions.
   template <class Number> struct Touched {
     std::vector<FacetShareOf<Number>> shares;
-    std::vector<Tensor<1, 3, Number>> points; ///< as TouchingSlaves::point_of()
+    std::vector<Tensor<1, 3, Number>> points; ///< as in TouchingSlaves::point_of()
     SharedGapOf<Number> contact;
   };
 
@@ -212,7 +213,7 @@ private:
   void add_exact_tangent(std::size_t s, const Add &add) const;
   void add_numerical_tangent(std::size_t s, const Add &add) const;
 
-  /// Forces of slave s on these nodes, with the facets and the branches of its state.
+  /// Computes the forces of slave s on these nodes, with the facets and the branches of its state.
   template <class Number>
   std::vector<Tensor<1, 3, Number>> follow_forces(std::size_t s, const Placed<Number> &placed) const;
   template <class Number> Touched<Number> follow_contact(std::size_t s, const Placed<Number> &placed) const;
@@ -222,7 +223,7 @@ private:
   template <class Number>
   Number follow_own_area(std::size_t s, const Placed<Number> &placed,
                          const Tensor<1, 3, Number> &normal) const;
-  /// The share as it was at the start of the step: the slave node, or a point of its facet.
+  /// Returns the point of a share at the start of the step: the slave node, or a point of its facet.
   template <class Number>
   Tensor<1, 3, Number> point_n(std::size_t s, const FacetShareOf<Number> &share) const;
 };
@@ -260,7 +261,7 @@ auto SlaveTangentsOf<Facet, Law>::follow_contact(const std::size_t s, const Plac
     touched.contact = {only.projection.normal, only.projection.gap};
   } else
     touched.contact = combine(touched.shares, 0);
-  // Overlaps know what depths allow.
+  // Overlaps already contain the allowed penetrations.
   touched.contact.gap -=
       are_overlaps ? parts_.offsets.augmentation[s] : parts_.offsets.of(s).now - state.touched.offset;
   return touched;
@@ -383,7 +384,7 @@ void SlaveTangentsOf<Facet, Law>::add_exact_tangent(const std::size_t s, const A
 
 template <class Facet, class Law>
 void SlaveTangentsOf<Facet, Law>::add_numerical_tangent(const std::size_t s, const Add &add) const {
-  if (touching_[s].rests) { // it sticks once it is pressed, which small differences do not show
+  if (touching_[s].rests) { // it sticks once it is pressed, which finite differences do not show
     this->add_closed_tangent(ContactTangent::consistent, s, add);
     return;
   }

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// Tools that are small beside the facets that they meet: what nodes alone do not feel, or go through.
+// SPDX-License-Identifier: LGPL-2.1-or-later Contact of tools that are small compared with facets, which
+// nodes alone miss or pass through.
 #include "billet/contact/rigid_contact.h"
 
 #include "billet/diagnostic_kinds.h"

@@ -11,10 +11,10 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr std::size_t n_boxes = 64;       // most of one rank
-constexpr std::size_t n_group_nodes = 16; // fewer are not worth a box
+constexpr std::size_t n_boxes = 64;       // maximum for one rank
+constexpr std::size_t n_group_nodes = 16; // minimum number of nodes in a box
 
-/// MPI_Waitall for requests that own nothing but their buffers' addresses.
+/// Calls MPI_Waitall in its destructor, for requests that refer to buffers without owning them.
 class Requests {
 public:
   explicit Requests(MPI_Comm communicator) : communicator_(communicator) {}
@@ -40,7 +40,7 @@ private:
   std::vector<MPI_Request> requests_;
 };
 
-/// Sends a list to each of these ranks, and returns those that they send.
+/// Sends a list to each of these ranks, and returns the lists that they send.
 template <class T>
 std::vector<std::vector<T>> swap_lists(MPI_Comm communicator, const std::vector<int> &ranks,
                                        const std::vector<std::vector<T>> &to_send) {
@@ -82,7 +82,7 @@ std::vector<int> SurfaceExchange::find_near_ranks(const BoundingBox &box, const 
   std::vector<BoundingBox> boxes(static_cast<std::size_t>(n_ranks_));
   MPI_Allgather(&box, sizeof(BoundingBox), MPI_BYTE, boxes.data(), sizeof(BoundingBox), MPI_BYTE,
                 communicator_);
-  // Each rank of a pair must come to the same answer, bit by bit: else one would wait for the other.
+  // Both ranks of a pair must compute the same answer, bit by bit; otherwise one would wait for the other.
   const auto is_near = [&](const BoundingBox &other) {
     bool all = true;
     for (unsigned int i = 0; i < 3; ++i)
@@ -98,7 +98,7 @@ std::vector<int> SurfaceExchange::find_near_ranks(const BoundingBox &box, const 
 
 std::vector<BoundingBox> SurfaceExchange::make_boxes(const Positions &positions_n,
                                                      const Positions &positions) const {
-  // Groups of nodes, halved along their longest extent until there are enough of them.
+  // Groups of nodes are halved along their longest extent until there are enough of them.
   std::vector<unsigned int> nodes(node_keys_.size());
   std::iota(nodes.begin(), nodes.end(), 0);
   struct Group {

@@ -10,17 +10,17 @@ std::optional<ThinToolWatch> ThinToolWatch::make(const RigidSurface &surface, co
   double thickness = box.high[0] - box.low[0];
   for (unsigned int i = 1; i < 3; ++i)
     thickness = std::min(thickness, box.high[i] - box.low[i]);
-  constexpr double far = 2.; // facet sizes that no node travels in a step, nor is pressed in
+  constexpr double far = 2.; // facet sizes: exceeds the travel of a node in a step, and its penetration
   if (!(thickness > 0. && thickness < far * max_facet_size))
     return {};
   return ThinToolWatch(surface, thickness);
 }
 
 bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
-  // Chords that cut less deep graze it.
+  // Paths that enter less deep only graze the tool.
   const double deep = 0.1 * thickness_, fine = 0.125 * thickness_;
-  constexpr double middle = 0.45; // beyond it the other side is about as near
-  constexpr double square = 1e-6; // cosine: what lies in one side of a square edge may come in by the other
+  constexpr double middle = 0.45; // above it the other side is about as near
+  constexpr double square = 1e-6; // cosine: a node in one side of a square edge may enter through the other
   if (node.penetration > middle * thickness_)
     return true;
   const dealii::Tensor<1, 3> &from = positions_n_[i], &to = node.position;
@@ -31,11 +31,12 @@ bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
   const auto start = surface_->project(from, node.patch), end = surface_->project(to, node.patch);
   const bool starts_inside = start.exists && start.gap < 0., ends_inside = end.exists && end.gap < 0.;
   if (starts_inside || ends_inside) {
-    // From one side to the other; or, deep inside, off the end of the tool to a side: an edge cuts in.
+    // The node passes from one side to the other or, deep inside, from the end of the tool to a side: an edge
+    // cuts in.
     const double turned = start.exists && end.exists ? start.normal * end.normal : 1.;
     return turned < -square || (turned < 0.5 && std::max(start.gap, end.gap) < -deep);
   }
-  // From outside to outside: as far as nothing can be in between, and on from there.
+  // From outside to outside: each increment is a distance in which the node cannot meet the tool.
   for (double done = std::max(start.gap, fine); done < length;) {
     const auto here = surface_->project(from + done / length * way, node.patch);
     if (here.exists && here.gap < -deep)

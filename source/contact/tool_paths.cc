@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// How far nodes and tools may move until nodes have gone through a tool.
+// SPDX-License-Identifier: LGPL-2.1-or-later Computes how far nodes and tools may move before nodes pass
+// through a tool.
 #include "billet/contact/crossing.h"
 #include "billet/contact/rigid_contact.h"
 
@@ -13,8 +13,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// Near the tool, and in it, ways go on by this part of the facets around the node. What is thinner is
-/// (T9)'s.
+/// Increment of paths near and inside the tool [facet sizes]. (T9) covers thinner tools.
 constexpr double fine = 0.125;
 
 /// A rigid tool between two placements.
@@ -33,7 +32,7 @@ public:
     }
     return placement;
   }
-  /// Bounds the way of a point that moves in a straight line, relative to the tool.
+  /// Bounds the path length of a point on a straight path, relative to the tool.
   double bound_way(const Tensor<1, 3> &x_from, const Tensor<1, 3> &x_to) const {
     const double arm = std::max((x_from - from_.moved_centre()).norm(), (x_to - to_.moved_centre()).norm());
     return (x_to - x_from - (to_.translation - from_.translation)).norm() +
@@ -52,7 +51,7 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
   const Tensor<1, 3> X = placement.to_tool(x);
   const auto here = surface.project(X, patch);
   SurfaceSide result{Side::beyond, std::abs(here.gap), {}, false};
-  if (!here.exists) { // but a border that is only round-off away is none
+  if (!here.exists) { // but an edge within round-off does not count
     if (here.beyond <= 1e-3 * shallow)
       result.side = here.is_behind ? Side::behind : Side::front;
     return result;
@@ -60,7 +59,7 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
   result.side = here.gap < 0. ? Side::behind : Side::front;
   result.normal = placement.rotation * here.normal;
   if (result.side == Side::behind && result.distance > shallow) {
-    // Twice as deep, is the same point of the surface still the nearest one, or nearly so?
+    // Tests whether, at twice the depth, the same point of the surface is still nearest, or nearly so.
     constexpr double nearly = 0.6;
     const auto deeper = surface.project(X - result.distance * here.normal, here.patch);
     result.is_too_deep = deeper.exists && deeper.gap > -2. * nearly * result.distance;

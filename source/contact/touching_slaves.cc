@@ -29,7 +29,7 @@ SlaveMotion TouchingSlaves::motion_of(const std::size_t s) const {
         surfaces_.moved().corners(share.facet), share.projection.weights,
         point_of(s, share, surfaces_.positions_n()), point_of(s, share, surfaces_.positions()), duration_);
     mean.displacement += share.share * motion.displacement;
-    // Nearly a rotation; what it carries along is made a unit vector again.
+    // The sum is nearly a rotation; transported vectors are normalised again.
     mean.rotation += share.share * motion.rotation;
   }
   return mean;

@@ -16,14 +16,14 @@ FrameTraction compute_frictionless_traction(const double normal_stiffness, const
 
 namespace {
 
-/// The slip γ >= 0 with |t*| − k_t γ = L(p, γ/Δt), by Newton inside a bracket. There is one, where L does not
-/// rise with the slip rate and its fall gets no steeper.
+/// Returns the slip γ >= 0 with |t*| − k_t γ = L(p, γ/Δt), by Newton's method inside a bracket. It exists and
+/// is unique if L does not increase with the slip rate and its decrease does not get steeper.
 double solve_slip(const FrictionLaw &law, const double pressure, const double trial, const double k_t,
                   const double per_time) {
   const auto excess = [&](const double slip) {
     return trial - k_t * slip - law.limit(pressure, slip * per_time).value;
   };
-  // At γ = 0 the excess is positive; where all of the trial traction has gone it is not.
+  // The excess is positive at γ = 0, and not positive where the slip has consumed the trial traction.
   double low = 0., high = trial / k_t;
   double slip = std::max(0., (trial - law.limit(pressure, 0.).value) / k_t);
   for (unsigned int i = 0; i < 100; ++i) {

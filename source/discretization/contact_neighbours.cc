@@ -13,7 +13,7 @@ namespace {
 
 /// Boundary faces on one side of a pair.
 struct Side {
-  std::vector<unsigned int> cells; ///< by active index
+  std::vector<unsigned int> cells; ///< active index
   std::vector<Tensor<1, 3>> middles;
   std::vector<double> sizes;
 };
@@ -41,7 +41,7 @@ void add_nearest(const Side &from, const Side &to, dealii::DynamicSparsityPatter
     points[i].add(to.middles[i]);
   const BoxTree tree(points);
   for (std::size_t i = 0; i < from.cells.size(); ++i) {
-    // As far away as the diagonals of both allow.
+    // Maximum distance: the diagonals of both faces.
     double square = 2. * from.sizes[i] * from.sizes[i];
     unsigned int nearest = dealii::numbers::invalid_unsigned_int;
     tree.visit_near(from.middles[i], square, [&](const unsigned int other) {
@@ -63,7 +63,7 @@ void add_nearest(const Side &from, const Side &to, dealii::DynamicSparsityPatter
 void add_contact_neighbours(const Scene &scene, const dealii::Triangulation<3> &mesh,
                             dealii::DynamicSparsityPattern &pattern) {
   for (const auto &pair : scene.body_pairs()) {
-    if (pair.is_self_contact) // whose faces are neighbours already, or far away
+    if (pair.is_self_contact) // its faces are already neighbours, or far apart
       continue;
     const Side first = collect_side(mesh, pair.bodies[0], pair.boundary_ids[0]),
                second = collect_side(mesh, pair.bodies[1], pair.boundary_ids[1]);

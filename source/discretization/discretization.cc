@@ -18,7 +18,7 @@ namespace billet {
 
 namespace {
 
-/// First rank only: the whole mesh, cut by METIS into as many parts as there are ranks.
+/// Builds the whole mesh, partitioned by METIS into one part for each rank. First rank only.
 void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::Triangulation<3> &mesh) {
   scene.build_mesh(MeshDetail::full, mesh);
   if (mesh.n_active_cells() < n_parts)
@@ -34,8 +34,8 @@ void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::T
                                              dealii::SparsityTools::Partitioner::metis);
 }
 
-/// Where the part of the mesh that a rank knows ends deal.II sees a boundary, with the id 0, which is none:
-/// its faces get an id that no scene can name.
+/// Gives the faces at the edge of the rank's part of the mesh an id that no scene can name. Otherwise deal.II
+/// would treat them as boundary faces with id 0.
 void close_rim(const dealii::TriangulationDescription::Description<3, 3> &description,
                dealii::Triangulation<3> &mesh) {
   constexpr dealii::types::boundary_id rim = dealii::numbers::internal_face_boundary_id - 1;
@@ -59,7 +59,7 @@ Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
 
-  dealii::Triangulation<3> whole; // on the first rank, until it is sent out
+  dealii::Triangulation<3> whole; // on the first rank, until it is distributed
   fail_together(communicator, [&] {
     if (is_first)
       build_partitioned(scene, n_ranks, whole);

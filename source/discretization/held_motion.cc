@@ -11,9 +11,9 @@ using dealii::Tensor;
 HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
   for (const auto &[dof, held] : collect_held_nodes(scene, nodes.discretization())) {
     Node node{nodes.find(dof), held.position, {}};
-    if (node.node == dealii::numbers::invalid_unsigned_int) // of a ghost cell alone
+    if (node.node == dealii::numbers::invalid_unsigned_int) // only at ghost cells
       continue;
-    // Gram-Schmidt on the planes' normals. One that depends on those before it adds nothing.
+    // Gram-Schmidt on the planes' normals. A dependent normal adds nothing.
     for (const Hold *hold : held.holds) {
       Direction direction{hold->normal, {}};
       if (hold->value != nullptr)
@@ -65,7 +65,7 @@ void HeldMotion::constrain(const double t, const double dt, const NodalVectors &
     Tensor<1, 3> change;
     const Tensor<1, 3> velocity = get_vector(velocities.data(), node.node);
     for (const auto &direction : node.directions) {
-      // From where the node is, so that round-off does not add up.
+      // The velocity starts at the node's current position, so that round-off does not accumulate.
       const double wanted = (value(direction, t + dt, node.position) -
                              get_vector(displacements.data(), node.node) * direction.e) /
                             dt;

@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// The smallest det ∂x/∂ξ of the corners, over that of a cube of the undeformed element's volume.
+/// Returns the minimum of det ∂x/∂ξ over the corners, relative to a cube of the undeformed element's volume.
 double smallest_corner_jacobian(const Element &element, const Vector *displacements) {
   const CellIterator &cell = element.cell;
   std::array<Tensor<1, 3>, n_element_nodes> x;
@@ -24,7 +24,7 @@ double smallest_corner_jacobian(const Element &element, const Vector *displaceme
   double smallest = std::numeric_limits<double>::infinity();
   for (unsigned int v = 0; v < n_element_nodes; ++v) {
     std::array<Tensor<1, 3>, 3> edges;
-    for (unsigned int i = 0; i < 3; ++i) { // the corners of an axis' ends differ in one bit
+    for (unsigned int i = 0; i < 3; ++i) { // the two corners of an edge differ in one bit
       const unsigned int bit = 1U << i, high = v | bit, low = v & ~bit;
       edges[i] = x[high] - x[low];
     }
@@ -33,13 +33,13 @@ double smallest_corner_jacobian(const Element &element, const Vector *displaceme
   return smallest / cell->measure();
 }
 
-/// Reports bodies of which more than this part of the elements is so.
+/// Returns a message for each body with more than this fraction of inverted elements.
 DiagnosticList find(const Scene &scene, const Discretization &discretization, const Vector *displacements,
                     const DiagnosticKind &kind, const double part) {
   DiagnosticList diagnostics;
   constexpr double rounding = 1e-9;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
-    std::array<double, 5> own{}; // how many, the worst, where
+    std::array<double, 5> own{}; // number, minimum, its position
     for (const auto &element : discretization.elements(b)) {
       const double jacobian = smallest_corner_jacobian(element, displacements);
       if (!(jacobian < -rounding))
@@ -83,7 +83,7 @@ DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &d
 
 DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization,
                                      const Vector &displacements) {
-  constexpr double few = 0.05; // as in folds: they are wrong for themselves alone
+  constexpr double few = 0.05; // as in folds: these affect only themselves
   return find(scene, discretization, &displacements, diagnostic::inverted_at_end, few);
 }
 

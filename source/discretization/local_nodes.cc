@@ -36,7 +36,7 @@ unsigned int LocalNodes::find(const DofIndex first_dof) const {
 }
 
 void LocalNodes::find_sharers() {
-  // All cells around a node are here, as own ones or ghosts, and name their owners.
+  // All cells around a node are on this rank, owned or as ghosts, and know their owners.
   std::vector<std::set<unsigned int>> ranks(size());
   for (const auto &cell : discretization_.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())

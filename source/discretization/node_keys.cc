@@ -10,7 +10,7 @@ NodeKeys::NodeKeys(const Discretization &discretization) {
     for (const auto &element : discretization.elements(body))
       for (unsigned int a = 0; a < n_element_nodes; ++a)
         keys_.emplace(element.dofs[std::size_t{3} * a], static_cast<std::uint64_t>(-1));
-  // All elements around a node are here, as own ones or ghosts.
+  // All elements around a node are on this rank, owned or as ghosts.
   for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())
       continue;

@@ -27,7 +27,7 @@ void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vect
 }
 
 std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization) {
-  // Ghost cells count too: every rank knows all faces around the nodes of its own cells.
+  // Ghost cells are included: every rank knows all faces around the nodes of its own cells.
   std::map<DofIndex, HeldNode> nodes;
   const double tolerance = 1e-8 * discretization.radius();
   for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
@@ -56,7 +56,7 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
 }
 
 std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization) {
-  constexpr double independent = 1e-8; // as eliminate() has it
+  constexpr double independent = 1e-8; // as in eliminate()
   std::set<DofIndex> fixed;
   for (const auto &[dof, node] : collect_held_nodes(scene, discretization)) {
     std::vector<dealii::Tensor<1, 3>> basis;
@@ -101,7 +101,7 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
       if (row.pivot < 0 || std::abs(row.n[i]) > std::abs(row.n[static_cast<unsigned int>(row.pivot)]))
         row.pivot = static_cast<int>(i);
     const double pivot = row.n[static_cast<unsigned int>(row.pivot)];
-    if (std::abs(pivot) < 1e-10) { // unit normals: this one depends on those before
+    if (std::abs(pivot) < 1e-10) { // for unit normals: this one depends on earlier ones
       row.pivot = -1;
       continue;
     }
@@ -163,7 +163,7 @@ Constraints Supports::at_time(const double t) const {
                 << redundancy.position << ") is held by " << redundancy.holds
                 << ", and they contradict each other by " << std::abs(sum)
                 << ". Allowed are prescribed displacements that agree where their boundaries meet";
-        throw SolutionFailure(message.str()); // bad input, when it shows at the start
+        throw SolutionFailure(message.str()); // becomes an InputError at the start
       }
     }
   });
@@ -180,7 +180,7 @@ Constraints Supports::change(const double t_n, const double t, bool &moves) cons
       std::count_if(prescriptions_.begin(), prescriptions_.end(),
                     [](const Prescription &prescription) { return !prescription.terms.empty(); });
   Usage::count_if(n_moving > 0, Capability::moving_supports, static_cast<std::size_t>(n_moving));
-  // Time by time: an expression is parsed anew when the time changes.
+  // One time after the other: an expression is parsed again when the time changes.
   std::vector<double> values;
   fail_together(discretization_.communicator(), [&] {
     for (const auto &prescription : prescriptions_)

@@ -27,7 +27,7 @@ dealii::Point<3> centre_of(const BoundaryFacet &facet) {
   return centre;
 }
 
-/// Returns the values of the expressions, once where they are the same everywhere.
+/// Returns the values of the expressions; only one value for a uniform expression.
 template <class Site>
 LoadValues evaluate(const AppliedLoad &load, const double t, const std::vector<Site> &sites) {
   const auto &expressions = load.expressions;
@@ -56,7 +56,7 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
     for (const AppliedLoad &load : scene.bodies()[b].loads)
       std::visit([&](const auto &action) { place(load, *action, b); }, load.load.action);
   memory_.set(memory_of(on_bodies_) + memory_of(on_faces_) + memory_of(on_nodes_));
-  // An expression without a value shows before anything is written.
+  // Detects expressions without a value before any output is written.
   fail_together(nodes.discretization().communicator(), [&] {
     check_before_start([&] {
       const NodalVectors at_rest = nodes.make_vectors();

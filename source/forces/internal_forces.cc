@@ -13,7 +13,7 @@ namespace billet {
 
 namespace {
 
-/// Axes of a body's elements through the thickness; throws InputError where none is clearly nearest to the
+/// Finds the thickness axes of a body's elements. Throws InputError if no axis is clearly nearest to the
 /// direction.
 std::vector<ThicknessAxis> find_thickness_axes(const Scene &scene, const std::size_t b,
                                                const Discretization &discretization,

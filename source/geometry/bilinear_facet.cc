@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double last_step = 1e-9; // of parameters: what Newton's method leaves after it is round-off
+constexpr double last_step = 1e-9; // of parameters: smaller steps are round-off
 
 double into_range(const double value, const double range) { return std::min(std::max(value, -range), range); }
 
@@ -20,7 +20,7 @@ double into_range(const double value, const double range) { return std::min(std:
 
 std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const double range,
                                                   const std::array<double, 2> &at) const {
-  // Derivatives of ½|X − x|². A parameter at the end of its range that wants to go on stays.
+  // Derivatives of ½|X − x|². A parameter stays at the end of its range if its step points outwards.
   const Tensor<1, 3> away = difference(at, arm);
   const std::array<Tensor<1, 3>, 2> tangents{surface_.e_1 + at[1] * surface_.e_3,
                                              surface_.e_2 + at[0] * surface_.e_3};
@@ -31,7 +31,7 @@ std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const
   const std::array<double, 2> diagonal{tangents[0].norm_square(), tangents[1].norm_square()};
   std::array<double, 2> step{};
   if (is_free[0] && is_free[1]) {
-    // Where the surface bends away so much that there is no minimum near, without its curvature.
+    // If the curvature leaves no minimum nearby, neglect it.
     for (const double mixed : {tangents[0] * tangents[1] + away * surface_.e_3, tangents[0] * tangents[1]}) {
       const double determinant = diagonal[0] * diagonal[1] - mixed * mixed;
       if (determinant > 1e-8 * diagonal[0] * diagonal[1]) {
@@ -55,7 +55,7 @@ std::array<double, 2> BilinearFacet::minimise(const Tensor<1, 3> &arm, const dou
     const std::array<double, 2> step = compute_step(arm, range, at);
     const double size = std::max(std::abs(step[0]), std::abs(step[1]));
     bool is_lower = false;
-    // Without the curvature, or cut off at the end of the range, a full step may lead away.
+    // A full step may increase the distance if it neglects the curvature or is clipped to the range.
     for (double length = 1.; !is_lower && length > 1e-10; length *= 0.5) {
       const std::array<double, 2> next{into_range(at[0] + length * step[0], range),
                                        into_range(at[1] + length * step[1], range)};
@@ -102,8 +102,7 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
     return 0.5 * std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
   };
   const Tensor<1, 3> arm = surface_.e_0 - x;
-  const double range =
-      1.1 + 2. * limits.tolerance; // so that the end of the range is not within the tolerance
+  const double range = 1.1 + 2. * limits.tolerance; // keeps the end of the range outside the tolerance
   std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
   projection.excess = excess_of(at);
   bool is_straight = projection.excess <= limits.tolerance;
@@ -112,7 +111,7 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
     const std::array<double, 2> other = nearest_on_border(arm);
     if (difference(other, arm).norm_square() < difference(at, arm).norm_square())
       at = minimise(arm, 1., other);
-    // The surface may bend so much that it has another closest point.
+    // A strongly curved surface may have another closest point.
     is_straight = std::max(std::abs(at[0]), std::abs(at[1])) < 1.;
     if (is_straight)
       projection.excess = 0.;

@@ -7,7 +7,7 @@
 namespace billet {
 
 namespace {
-constexpr unsigned int leaf_size = 4; // boxes
+constexpr unsigned int leaf_size = 4; // number of boxes
 } // namespace
 
 BoxTree::BoxTree(const std::vector<BoundingBox> &boxes) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Faces from CAD files, through the OpenCASCADE that deal.II may have been built with. Planes, cylinders,
-// cones, spheres and tori are projected on in closed form; other surfaces by Newton's method from the nearest
-// facet of a triangulation.
+// Faces from CAD files, by the OpenCASCADE with which deal.II may have been built. Projections onto planes,
+// cylinders, cones, spheres and tori are in closed form; those onto other surfaces use Newton's method from
+// the nearest facet of a triangulation.
 #include "billet/geometry/surface_type.h"
 
 #include <deal.II/base/config.h>
@@ -54,14 +54,14 @@ using Kind = TypeParameter::Kind;
 
 using dealii::Tensor;
 
-constexpr double chord_angle = 0.2;       // of the triangulation [radians]
+constexpr double chord_angle = 0.2;       // maximum angle in the triangulation [radians]
 constexpr double chord_deviation = 1e-3;  // over the size of the shape
 constexpr double sewing_tolerance = 1e-5; // of loose faces, over the size of the shape
 
 template <class Triple> Tensor<1, 3> tensor(const Triple &t) { return Tensor<1, 3>({t.X(), t.Y(), t.Z()}); }
 gp_Pnt point(const Tensor<1, 3> &x) { return {x[0], x[1], x[2]}; }
 
-/// Parameters along a curve, in space or in a plane, between which it turns little.
+/// Returns parameters along a curve, in space or in a plane, between which its direction changes little.
 template <class Curve> std::vector<double> sample(const Curve &curve) {
   if (curve.GetType() == GeomAbs_Line)
     return {curve.FirstParameter(), curve.LastParameter()};
@@ -73,7 +73,8 @@ template <class Curve> std::vector<double> sample(const Curve &curve) {
   return result;
 }
 
-/// Parameter of the nearest point of a curve, in closed form where it is a line or a circle.
+/// Returns a function for the parameter of the nearest point of a curve, in closed form for lines and
+/// circles.
 std::function<double(const Tensor<1, 3> &)> nearest_on(const GeomAdaptor_Curve &curve) {
   const double first = curve.FirstParameter(), last = curve.LastParameter();
   if (curve.GetType() == GeomAbs_Line)
@@ -117,7 +118,7 @@ TrimmedSurface::Edge convert(const TopoDS_Edge &edge, const TopoDS_Face &face) {
   return result;
 }
 
-/// The triangulation of a face; `parameters` of its points.
+/// Returns the triangulation of a face, and `parameters` of its points.
 TriangleMesh facets_of(const TopoDS_Face &face, std::vector<std::array<double, 2>> &parameters) {
   TriangleMesh mesh;
   TopLoc_Location location;
@@ -151,7 +152,7 @@ SampledSurface sample(const TopoDS_Face &face, const GeomAdaptor_Surface &surfac
     surface.D2(u, v, p, u_1, v_1, u_2, v_2, uv);
     return SurfacePoint{tensor(p), tensor(u_1), tensor(v_1), tensor(u_2), tensor(uv), tensor(v_2)};
   };
-  if (surface.GetType() == GeomAbs_Sphere) // other directions than the parameters', which have poles
+  if (surface.GetType() == GeomAbs_Sphere) // directions without the poles of the parameters
     evaluate = [sphere = surface.Sphere()](const double u, const double v) {
       const Tensor<1, 3> p = tensor(ElSLib::Value(u, v, sphere)), arm = p - tensor(sphere.Location());
       const double radius = sphere.Radius(), turned = sphere.Direct() ? 1. : -1.;
@@ -161,7 +162,8 @@ SampledSurface sample(const TopoDS_Face &face, const GeomAdaptor_Surface &surfac
   return {evaluate, ranges, std::move(mesh), std::move(parameters)};
 }
 
-/// The nearest point of a cone on the sheet where the middle of the face is: ElSLib may choose the other one.
+/// Returns the parameters of the nearest point on that sheet of a cone which contains the middle of the face;
+/// ElSLib may choose the other one.
 TrimmedSurface::Parameters project(const gp_Cone &cone, const double sheet, const Tensor<1, 3> &x) {
   const gp_Ax3 &axes = cone.Position();
   const Tensor<1, 3> arm = x - tensor(axes.Location());
@@ -171,7 +173,7 @@ TrimmedSurface::Parameters project(const gp_Cone &cone, const double sheet, cons
           (sheet * std::hypot(a, b) - cone.RefRadius()) * sine + arm * tensor(axes.Direction()) * cosine};
 }
 
-/// Nothing where there is no closed form. `v`: a parameter of the face.
+/// Returns the projection in closed form, or nothing if there is none. `v` is a parameter of the face.
 std::function<TrimmedSurface::Parameters(const Tensor<1, 3> &)>
 closed_form_of(const GeomAdaptor_Surface &surface, const double v) {
   const auto with = [](const auto &elementary) {
@@ -222,7 +224,7 @@ std::unique_ptr<const SurfacePatch> convert(const TopoDS_Face &face, const doubl
       {tensor(box.CornerMin()), tensor(box.CornerMax())}});
 }
 
-/// By the suffix of the file's name.
+/// Whether the file is an IGES file, by the suffix of its name.
 bool is_iges(const TypeInput &input) {
   const std::string name = input.text("File");
   const auto dot = name.rfind('.');
@@ -238,7 +240,7 @@ bool is_iges(const TypeInput &input) {
 TopoDS_Shape read_shape(const TypeInput &input) {
   const std::string name = input.file("File");
   Message::DefaultMessenger()->RemovePrinters(
-      STANDARD_TYPE(Message_Printer)); // it would report on the console
+      STANDARD_TYPE(Message_Printer)); // otherwise they print on the console
   TopoDS_Shape shape;
   try {
     STEPControl_Reader step;
@@ -265,7 +267,7 @@ double size_of(const TopoDS_Shape &shape) {
   return box.IsVoid() ? 0. : std::sqrt(box.SquareExtent());
 }
 
-/// Those faces that the user named, one shape.
+/// Returns the faces that the user selected, as one shape.
 TopoDS_Shape choose_faces(const TypeInput &input, const TopoDS_Shape &shape) {
   const TopTools_IndexedMapOfShape faces = faces_of(shape);
   if (faces.IsEmpty())
@@ -285,7 +287,8 @@ TopoDS_Shape choose_faces(const TypeInput &input, const TopoDS_Shape &shape) {
   return chosen;
 }
 
-/// The edges of only one face may be those of another one, twice: as far apart as their tolerance says.
+/// Returns the maximum distance of coincident edges. An edge with only one face may duplicate an edge of
+/// another face, within its tolerance.
 double border_accuracy(const TopoDS_Shape &shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
@@ -306,7 +309,7 @@ SurfacePatches make(const TypeInput &input) {
     placement.SetScale(gp_Pnt(), scale);
     placement.SetTranslationPart(gp_Vec(translation[0], translation[1], translation[2]));
     shape = BRepBuilderAPI_Transform(shape, placement, true).Shape();
-    if (is_iges(input)) { // where each face has edges of its own
+    if (is_iges(input)) { // in which each face has edges of its own
       BRepBuilderAPI_Sewing sewing(sewing_tolerance * size_of(shape));
       sewing.Add(shape);
       sewing.Perform();

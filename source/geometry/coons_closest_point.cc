@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The closest point of a Coons patch: Newton's method from the nearest middle of a cell, then from every cell
-// that may still hold a nearer point.
+// Closest point of a Coons patch: Newton's method from the nearest cell centre, then from every cell that may
+// still contain a nearer point.
 #include "billet/geometry/coons_patch.h"
 
 #include <algorithm>
@@ -16,18 +16,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double round_off = std::numeric_limits<double>::epsilon();
-// Parts of the distance and the patch's size: less is not nearer; farther aside is not straight above.
+// Tolerances for "nearer" and for "directly above", relative to the distance and to the patch's size.
 constexpr double not_nearer = 1e-13, straight_above = 1e-10;
 
-/// g·s + s·H s/2 over s = (s_u, s_v), in lengths.
+/// Quadratic function g·s + s·H s/2 of s = (s_u, s_v), in lengths.
 struct Quadratic {
   double g_u, g_v, uu, uv, vv;
 
   double least_eigenvalue() const { return 0.5 * (uu + vv) - half_difference(); }
   double largest_eigenvalue() const { return 0.5 * (uu + vv) + half_difference(); }
   double half_difference() const { return std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv); }
-  /// With the sizes of the eigenvalues λ_1, λ_2 of H in their place, (H² + |λ_1 λ_2| I)/(|λ_1| + |λ_2|), not
-  /// less than `least`.
+  /// Replaces the eigenvalues λ_1, λ_2 of H with their absolute values, by (H² + |λ_1 λ_2| I)/(|λ_1| +
+  /// |λ_2|), and raises them to at least `least`.
   void make_convex(const double least) {
     const double first = std::abs(least_eigenvalue()), second = std::abs(largest_eigenvalue());
     if (first + second > 0.) {
@@ -45,10 +45,10 @@ struct Quadratic {
   }
 };
 
-/// In lengths.
+/// Pair of coordinates, in lengths.
 using Pair = std::array<double, 2>;
 
-/// Where a convex quadratic is least between `low` and `high`: inside, or on one of the four sides.
+/// Returns the minimum of a convex quadratic between `low` and `high`: inside, or on one of the four sides.
 Pair minimum(const Quadratic &q, const Pair &low, const Pair &high) {
   const double determinant = q.uu * q.vv - q.uv * q.uv;
   const Pair inside{(q.uv * q.g_v - q.vv * q.g_u) / determinant, (q.uv * q.g_u - q.uu * q.g_v) / determinant};
@@ -70,7 +70,7 @@ Pair minimum(const Quadratic &q, const Pair &low, const Pair &high) {
   return best;
 }
 
-/// u + step, at the end of the range to the last bit if it is there.
+/// Returns u + step, clipped exactly to the range.
 double moved(const double u, const double step, const double low, const double high) {
   const double there = u + step;
   return there - low < 1e-14 ? low : high - there < 1e-14 ? high : there;
@@ -78,7 +78,7 @@ double moved(const double u, const double step, const double low, const double h
 
 } // namespace
 
-/// A rectangle of cells.
+/// Rectangle of cells.
 struct CoonsPatch::Block {
   unsigned int low_i, high_i, low_j, high_j;
 
@@ -90,8 +90,8 @@ struct CoonsPatch::Block {
   }
 };
 
-/// Whether the cell may hold a point that is nearer to x than `distance`, by the hull of its corners with the
-/// slack around it, seen along `arm`, from the cell's middle to x, whose square is given.
+/// Whether the cell may contain a point nearer to x than `distance`. It uses the hull of the cell's corners
+/// plus the slack, projected on `arm`, the vector from the cell's middle to x, whose square is given.
 bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const double square,
                                const double distance) const {
   double towards = -infinity;
@@ -102,11 +102,11 @@ bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const d
   return square == 0. || square - towards < distance * std::sqrt(square);
 }
 
-/// Whether no point of the block is nearer to x than `foot`, a minimum in it: for X = foot + X_α δ^α + B,
-/// where d = x − foot makes no acute angle with X_α δ^α,
+/// Whether no point of the block is nearer to x than `foot`, a minimum in it. For X = foot + X_α δ^α + B, if
+/// d = x − foot makes no acute angle with X_α δ^α,
 ///   |X − x|² − d² >= (|X_α δ^α| − |B|)² − 2 d·B,
-/// with 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`; d·X_αβ is that in the foot, and a change
-/// bounded by third derivatives. All in lengths a, b instead of u, v.
+/// with 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`. d·X_αβ is its value at the foot plus a
+/// change bounded by third derivatives. All quantities use lengths a, b instead of u, v.
 bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block) const {
   const Range &low = cells_[block.low_i * n_v_ + block.low_j].range,
               &high = cells_[block.high_i * n_v_ + block.high_j].range;
@@ -135,10 +135,10 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
   return std::min(towards.largest_eigenvalue(), distance * std::max(bend_u, bend_v)) <= left * left;
 }
 
-/// A step of Newton's method on
+/// Returns a step of Newton's method on
 ///   (X − x)·X_u = 0,  (X − x)·X_v = 0
-/// (Bittencourt & Creus 1998, eqs. (10), (11)): to the minimum, within the range, of the second-order model
-/// of |X − x|²/2, which is made convex where it is not, and damped as Marquardt did.
+/// (Bittencourt & Creus 1998, eqs. (10), (11)). The step leads to the minimum, within the range, of the
+/// second-order model of |X − x|²/2. The model is made convex if necessary, and has Marquardt's damping.
 CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const Range &range,
                                          const double damping) const {
   const Jet &jet = foot.jet;
@@ -147,7 +147,7 @@ CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const
                   (jet.u * jet.u + r * jet.uu) / (length_u_ * length_u_),
                   (jet.u * jet.v + r * jet.uv) / (length_u_ * length_v_),
                   (jet.v * jet.v + r * jet.vv) / (length_v_ * length_v_)};
-  // On a border that the way down leads across, the other parameter is alone.
+  // On an edge that the descent direction crosses, only the other parameter is free.
   const bool is_held_u = model.g_u > 0. ? foot.u == range.low_u : model.g_u < 0. && foot.u == range.high_u,
              is_held_v = model.g_v > 0. ? foot.v == range.low_v : model.g_v < 0. && foot.v == range.high_v;
   if (is_held_u || is_held_v)
@@ -171,7 +171,7 @@ CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const
   return {u, v, is_convex && damping == 0.};
 }
 
-/// Newton's method from `foot` downhill to a minimum of the distance in the range.
+/// Descends by Newton's method from `foot` to a minimum of the distance in the range.
 CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &range) const {
   double damping = 0., last_length = infinity;
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
@@ -194,7 +194,7 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &rang
     }
     foot = next;
     damping = damping > 0.1 ? damping / 8. : 0.;
-    // The next Newton step would be below round-off, or steps are made of round-off only.
+    // The next Newton step would be below round-off, or the steps consist of round-off.
     if (step.is_newton && (length <= 1e-10 * size_ || (length <= 1e-6 * size_ && length > 0.5 * last_length)))
       return foot;
     last_length = length;
@@ -202,8 +202,8 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &rang
   return foot;
 }
 
-/// On a side that has shrunk to a point the parameter along it leads nowhere, but decides in which direction
-/// the patch goes on. Moves `foot` off such a point, nearer to x, if it can.
+/// Moves `foot` off a side that is a point, nearer to x, if possible. The parameter along such a side does
+/// not move the point, but selects the direction in which the patch continues.
 bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) const {
   const bool at_low_v = foot.v == 0. && is_pole_[0], at_high_u = foot.u == 1. && is_pole_[1],
              at_high_v = foot.v == 1. && is_pole_[2], at_low_u = foot.u == 0. && is_pole_[3];
@@ -216,7 +216,7 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
   const auto at_pole = [&](const double t) { return along_v ? at(foot.u, t) : at(t, foot.v); };
   const auto slope = [&](const Jet &jet) { return inwards * (r * (along_v ? jet.u : jet.v)); };
 
-  // The steepest way down: among samples, then where the slope's own derivative vanishes, by bisection.
+  // Find the steepest descent: among samples, then by bisection for the zero of the slope's derivative.
   constexpr unsigned int n = 16;
   unsigned int steepest = 0;
   double least = infinity;
@@ -255,7 +255,7 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
   return false;
 }
 
-/// From `foot` downhill to a minimum of the distance in the range of a cell.
+/// Descends from `foot` to a minimum of the distance in the range of a cell.
 CoonsPatch::Foot CoonsPatch::descend(const Point &x, Foot foot, const Range &range) const {
   foot = newton(x, foot, range);
   for (unsigned int i = 0; i < 10 && leave_pole(x, range, foot); ++i)
@@ -270,14 +270,14 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
     return Foot{0.5 * (range.low_u + range.high_u), 0.5 * (range.low_v + range.high_v), cells_[cell].middle,
                 square};
   };
-  std::array<double, most_cells * most_cells> squares; // of the distances to the middles
+  std::array<double, most_cells * most_cells> squares; // squared distances to the middles
   const std::size_t n = balls_.size();
   double least_square = infinity;
   for (std::size_t cell = 0; cell < n; ++cell) {
     squares[cell] = (x - balls_[cell].centre).norm_square();
     least_square = std::min(least_square, squares[cell]);
   }
-  // Of a point that is not a number none is the nearest.
+  // If x is not a number, no cell is nearest.
   const std::size_t found = std::find(squares.begin(), squares.begin() + n, least_square) - squares.begin();
   const std::size_t nearest = found < n ? found : 0;
   Foot best = descend(x, start(nearest, least_square), whole);
@@ -311,11 +311,11 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
   return best;
 }
 
-/// W (I + gap W)⁻¹ with the shape operator W = ∂n/∂X on the tangent plane: from the second fundamental form
-/// b_αβ = n·X_αβ and X_α = e_k J_kα with orthonormal e_k, W = −J⁻ᵀ b J⁻¹.
+/// Returns W (I + gap W)⁻¹ with the shape operator W = ∂n/∂X on the tangent plane. From the second
+/// fundamental form b_αβ = n·X_αβ and X_α = e_k J_kα with orthonormal e_k, W = −J⁻ᵀ b J⁻¹.
 Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const double gap) const {
   Jet jet = foot.jet;
-  // Where the parameters degenerate, W is that of a point a little inside.
+  // Where the parameters degenerate, W is taken at a point slightly inside.
   if (dealii::cross_product_3d(jet.u, jet.v).norm() < 1e-4 * length_u_ * length_v_)
     jet = at(foot.u + 2e-4 * (0.5 - foot.u), foot.v + 2e-4 * (0.5 - foot.v));
   Point e = jet.u - (jet.u * normal) * normal;
@@ -327,13 +327,12 @@ Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const do
   const double b_uu = normal * jet.uu, b_uv = normal * jet.uv, b_vv = normal * jet.vv;
   const double w_ee = -a * a * b_uu, w_ef = -a * (b * b_uu + c * b_uv),
                w_ff = -(b * b * b_uu + 2. * b * c * b_uv + c * c * b_vv);
-  // W = mean I + D with D² = half² I and principal curvatures mean ± half, so W (I + gap W)⁻¹ is of that
-  // form, too: the half sum of the turned curvatures, and D times their difference over that of the
-  // curvatures.
+  // W = mean I + D with D² = half² I and principal curvatures mean ± half, so W (I + gap W)⁻¹ has the same
+  // form. Its mean is that of the curvatures after turned(); D is scaled by the ratio of their differences.
   const double mean = 0.5 * (w_ee + w_ff), half = std::hypot(0.5 * (w_ee - w_ff), w_ef);
   const double high = turned(mean + half, gap), low = turned(mean - half, gap);
   const double part_high = 1. + gap * (mean + half), part_low = 1. + gap * (mean - half);
-  // Their difference is 2 half/((1 + κ_high gap)(1 + κ_low gap)), but in a centre of curvature.
+  // Their difference is 2 half/((1 + κ_high gap)(1 + κ_low gap)), except in a centre of curvature.
   const bool is_centre = high == 0. || low == 0.;
   const double ratio = !is_centre ? 1. / (part_high * part_low) : half > 0. ? 0.5 * (high - low) / half : 0.;
   const double sum = 0.5 * (high + low), across = ratio * 0.5 * (w_ee - w_ff);

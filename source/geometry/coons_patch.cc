@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The patch and its cells; coons_closest_point.cc searches them.
+// Coons patch and its cells; coons_closest_point.cc searches them.
 #include "billet/geometry/coons_patch.h"
 
 #include "billet/geometry/self_crossing.h"
@@ -16,11 +16,12 @@ using Kind = CurveSketch::Kind;
 
 namespace {
 
-constexpr double meeting = 1e-8; // parts of the patch's size: curves nearer than this meet
-// What a cell turns at most, in radians: Newton's method is safe from its middle, and its box is tight.
+constexpr double meeting = 1e-8; // maximum distance of curves that meet, relative to the patch's size
+// Maximum change of direction in a cell [radians], such that Newton's method from its middle is safe and its
+// box is tight.
 constexpr double cell_angle = 0.2;
 constexpr unsigned int facets_per_cell =
-    2; // of the picture and of the search for folds and crossings, along a side
+    2; // along a side, for output and for the search for folds and intersections
 
 double size_of(const std::array<CurveSketch, 4> &round) {
   double size = 0.;
@@ -30,7 +31,7 @@ double size_of(const std::array<CurveSketch, 4> &round) {
   return size;
 }
 
-/// The curves, each from where the one before ends, to the last bit.
+/// Returns the curves, each starting exactly at the end of the previous one.
 std::array<CurveSketch, 4> joined(std::array<CurveSketch, 4> round, const double size) {
   for (unsigned int i = 0; i < 4; ++i) {
     const unsigned int j = (i + 1) % 4;
@@ -47,7 +48,7 @@ std::array<CurveSketch, 4> joined(std::array<CurveSketch, 4> round, const double
       throw std::invalid_argument("curves " + std::to_string(std::min(i, j) + 1) + " and " +
                                   std::to_string(std::max(i, j) + 1) +
                                   ", which are neighbours, have both shrunk to a point");
-    // A point moves as a whole; what comes before it has met it within the tolerance.
+    // A point moves as a whole; the previous curve meets it within the tolerance.
     start = end;
   }
   return round;
@@ -98,7 +99,7 @@ Point CoonsPatch::normal(const Jet &jet, const double u, const double v) const {
   Point normal = dealii::cross_product_3d(jet.u, jet.v);
   double length = normal.norm();
   if (length < nothing) {
-    // First order: (X_u × X_v)_u and (X_u × X_v)_v times the way to the middle.
+    // First order: (X_u × X_v)_u and (X_u × X_v)_v times the distance to the middle.
     normal = (0.5 - u) * (dealii::cross_product_3d(jet.uu, jet.v) + dealii::cross_product_3d(jet.u, jet.uv)) +
              (0.5 - v) * (dealii::cross_product_3d(jet.uv, jet.v) + dealii::cross_product_3d(jet.u, jet.vv));
     length = normal.norm();
@@ -106,7 +107,7 @@ Point CoonsPatch::normal(const Jet &jet, const double u, const double v) const {
   return length < nothing ? Point() : normal / length;
 }
 
-/// Lengths, and with them how many cells there are to be.
+/// Computes the lengths and, from them, the number of cells.
 void CoonsPatch::measure() {
   constexpr unsigned int n = 6;
   double square_u = 0., square_v = 0., twist = 0., area = 0.;
@@ -160,7 +161,7 @@ CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int 
   cell.arms = {
       at(low_u, low_v).position - cell.middle.position, at(high_u, low_v).position - cell.middle.position,
       at(high_u, high_v).position - cell.middle.position, at(low_u, high_v).position - cell.middle.position};
-  // X_uu and X_vv are means of the curves'.
+  // X_uu and X_vv are means of the curves' second derivatives.
   const Point uu =
                   largest(curves_[0].largest_second(low_u, high_u), curves_[2].largest_second(low_u, high_u)),
               vv =
@@ -206,8 +207,8 @@ void CoonsPatch::refuse_folds() const {
 
 void CoonsPatch::refuse_crossings() const {
   const unsigned int n_u = facets_per_cell * n_u_, n_v = facets_per_cell * n_v_;
-  // Not in equal steps: the corners of two sheets that cross symmetrically would meet where none pierces the
-  // other.
+  // The steps are unequal. With equal steps the corners of two sheets that cross symmetrically would
+  // coincide, and no triangle would pierce another.
   const auto parameter = [](const unsigned int i, const unsigned int n) {
     const double t = i / static_cast<double>(n);
     return t + 0.1 * t * (1. - t);
@@ -217,7 +218,7 @@ void CoonsPatch::refuse_crossings() const {
   for (unsigned int i = 0; i <= n_u; ++i)
     for (unsigned int j = 0; j <= n_v; ++j)
       points.push_back(at(parameter(i, n_u), parameter(j, n_v)).position);
-  // All points of a side that has shrunk to one are its first.
+  // All points of a side that is a point are its first.
   const auto corner = [&](unsigned int i, unsigned int j) {
     if ((j == 0 && is_pole_[0]) || (j == n_v && is_pole_[2]))
       i = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Coons patches as a user writes them: one in the scene file, or many in a file of their own.
+// Coons patches as the user defines them: one in the scene file, or many in a file of their own.
 #include "billet/geometry/coons_patch.h"
 #include "billet/geometry/surface_type.h"
 
@@ -31,7 +31,7 @@ Sketch read_curves(const std::vector<std::string> &parts) {
   return curves;
 }
 
-/// Parts between semicolons, empty ones left out.
+/// Returns the non-empty parts between semicolons.
 std::vector<std::string> split(const std::string &line) {
   std::vector<std::string> parts;
   std::istringstream stream(line);
@@ -44,10 +44,10 @@ std::vector<std::string> split(const std::string &line) {
   return parts;
 }
 
-/// A side of a patch of a set: neighbours run along it in opposite directions.
+/// Side of a patch of a set; the two adjacent patches traverse it in opposite directions.
 struct Side {
   dealii::Tensor<1, 3> start, middle, end;
-  unsigned int line; ///< of the file
+  unsigned int line; ///< line of the file
 };
 
 void add_sides(const Sketch &curves, const unsigned int line, std::vector<Side> &sides) {
@@ -56,7 +56,7 @@ void add_sides(const Sketch &curves, const unsigned int line, std::vector<Side> 
       sides.push_back({sketch.points.front(), Curve(sketch).at(0.5).position, sketch.points.back(), line});
 }
 
-/// Throws std::invalid_argument where neighbours do not face the same way.
+/// Throws std::invalid_argument if adjacent patches have opposite orientations.
 void check_sides(std::vector<Side> sides) {
   BoundingBox box = BoundingBox::empty();
   for (const auto &side : sides) {

@@ -11,10 +11,10 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double flat_angle = 2e-4;   // between the normals of a flat region [radians]
-constexpr double least_height = 3e-7; // of a facet that has an area, over the size of the mesh
+constexpr double flat_angle = 2e-4;   // maximum angle between the normals of a flat region [radians]
+constexpr double least_height = 3e-7; // minimum height of a facet with an area, over the size of the mesh
 
-/// Sets that grow together.
+/// Disjoint sets that can be merged.
 class UnionFind {
 public:
   explicit UnionFind(const std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -29,10 +29,10 @@ private:
   std::vector<unsigned int> parent_;
 };
 
-/// Facets that are connected in one plane.
+/// Connected facets in one plane.
 struct FlatRegion {
-  double radius;  ///< about its centroid [length]
-  bool is_single; ///< one facet
+  double radius;  ///< radius about the centroid [length]
+  bool is_single; ///< whether it is one facet
 };
 
 FlatRegion measure(const TriangleMesh &mesh, const FacetNormals &facets,
@@ -52,7 +52,7 @@ FlatRegion measure(const TriangleMesh &mesh, const FacetNormals &facets,
   return {radius, region.size() == 1};
 }
 
-/// The region of each facet. Large facets collect theirs first.
+/// Returns the region of each facet. Large facets collect their regions first.
 std::vector<FlatRegion> flat_regions(const TriangleMesh &mesh, const TriangleEdges &edges,
                                      const FacetNormals &facets) {
   std::vector<unsigned int> seeds(mesh.facets.size());
@@ -108,8 +108,8 @@ FacetNormals::FacetNormals(const TriangleMesh &mesh, const TriangleEdges &edges)
     areas.push_back(is_sliver ? 0. : 0.5 * cross.norm());
     normals.push_back(is_sliver ? Tensor<1, 3>() : cross / cross.norm());
   }
-  // A sliver only connects others: it looks where its neighbour at its longest side does. Chains of slivers
-  // take as many rounds as they are long.
+  // A sliver takes the normal of the facet at its longest side. A chain of slivers needs as many passes as
+  // its length.
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (const unsigned int f : slivers) {
@@ -142,7 +142,7 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
     if (facets.is_sharp(edge, sharp_angle))
       continue;
     const auto [a, b] = edge.facets;
-    const auto [i, j] = edge.corners; // the second facet walks the edge the other way
+    const auto [i, j] = edge.corners; // the second facet traverses the edge in the opposite direction
     groups.unite(3 * a + i, 3 * b + (j + 1) % 3);
     groups.unite(3 * a + (i + 1) % 3, 3 * b + j);
   }

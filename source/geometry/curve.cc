@@ -14,9 +14,9 @@ using Point = Curve::Point;
 
 namespace {
 
-constexpr double in_line = 1e-9; // sine of an angle that counts as none
+constexpr double in_line = 1e-9; // maximum sine of the angle between collinear directions
 
-/// Three numbers and nothing else.
+/// Reads exactly three numbers; returns false otherwise.
 bool read_point(const std::string &text, Point &point) {
   std::istringstream stream(text);
   char first_comma = 0, second_comma = 0;
@@ -25,7 +25,7 @@ bool read_point(const std::string &text, Point &point) {
          second_comma == ',' && !(stream >> rest) && std::isfinite(point.norm_square());
 }
 
-/// Points with 'via' and 'to' between them; false where there is anything else.
+/// Reads points with 'via' and 'to' between them; returns false for anything else.
 bool read_points(const std::string &text, std::vector<Point> &points, std::vector<std::string> &links) {
   std::istringstream words(text + " to");
   std::string word, part;
@@ -40,7 +40,7 @@ bool read_points(const std::string &text, std::vector<Point> &points, std::vecto
       return false;
     part.clear();
   }
-  links.pop_back(); // the one that was added to end the last point
+  links.pop_back(); // the terminator added after the last point
   return true;
 }
 
@@ -113,7 +113,7 @@ Curve::Curve(const CurveSketch &sketch) {
 void Curve::make_arc(const std::vector<Point> &points) {
   const Point a = points[1] - points[0], b = points[2] - points[0];
   Point axis = dealii::cross_product_3d(a, b);
-  const double area = axis.norm(); // twice the triangle's
+  const double area = axis.norm(); // twice the area of the triangle
   const double radicand = a.norm_square() * b.norm_square();
   if (area <= in_line * std::sqrt(radicand))
     throw std::invalid_argument("the points of an arc are in line, or its ends coincide, at " +
@@ -131,7 +131,7 @@ void Curve::make_arc(const std::vector<Point> &points) {
     sweep_ += 2. * M_PI;
 }
 
-// Boost.Math has such splines for equidistant knots only.
+// Boost.Math has such splines only for equidistant knots.
 void Curve::make_spline(const std::vector<Point> &points) {
   const std::size_t n = points.size() - 1;
   std::vector<double> knots(n + 1, 0.);
@@ -184,7 +184,7 @@ Point Curve::largest_second(const double from, const double to) const {
     const Span &span = spans_[i];
     if (span.start > to || end_of(i) < from)
       continue;
-    for (const double t : {std::max(from, span.start), std::min(to, end_of(i))}) // linear between them
+    for (const double t : {std::max(from, span.start), std::min(to, end_of(i))}) // linear in between
       for (unsigned int c = 0; c < 3; ++c)
         largest[c] = std::max(largest[c], std::abs(2. * span.c2[c] + 6. * (t - span.start) * span.c3[c]));
   }

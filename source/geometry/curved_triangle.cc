@@ -9,7 +9,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// A function of (u, v) with its derivatives.
+/// Function of (u, v) with its derivatives.
 struct Jet {
   double f, u, v, uu = 0., uv = 0., vv = 0.;
 };
@@ -38,13 +38,13 @@ Jet operator/(const Jet &a, const Jet &b) {
   return q;
 }
 
-/// α + β (λ_j − λ_i)
+/// Returns α + β (λ_j − λ_i).
 Jet linear(const CurvedTriangle::Seam &seam, const Jet &i, const Jet &j) {
   const double a = seam.alpha, b = seam.beta;
   return {a + b * (j.f - i.f), b * (j.u - i.u), b * (j.v - i.v)};
 }
 
-/// F. In the corners, where its second derivatives depend on the direction, they are set to zero.
+/// Returns F. At the corners its second derivatives depend on the direction; there they are set to zero.
 Jet turning_part(const std::array<CurvedTriangle::Seam, 3> &seams, const double u, const double v) {
   const Jet l_0{1. - u - v, -1., -1.}, l_1{u, 1., 0.}, l_2{v, 0., 1.};
   const Jet l_01 = l_0 * l_1, l_12 = l_1 * l_2, l_20 = l_2 * l_0;
@@ -68,7 +68,7 @@ CurvedTriangle::CurvedTriangle(const std::array<Point, 3> &corners, const std::a
     up_ = dealii::cross_product_3d(Point(corners[1] - corners[0]), Point(corners[2] - corners[0]));
 }
 
-/// Without F.
+/// Returns the point without F.
 SurfacePoint CurvedTriangle::quadratic_point_at(const double u, const double v) const {
   return {origin_ + u * (u_ + u * uu_ + v * uv_) + v * (v_ + v * vv_),
           u_ + 2. * u * uu_ + v * uv_,
@@ -97,7 +97,7 @@ CurvedTriangle::Point CurvedTriangle::area_normal(const double u, const double v
   return dealii::cross_product_3d(point.p_u, point.p_v);
 }
 
-/// |F| is no more: w u v is at most 1/27, and the rest a mean of the l.
+/// Returns an upper bound of |F|: w u v is at most 1/27, and the other factor is a mean of the l.
 double CurvedTriangle::largest_turning_part() const {
   double largest = 0.;
   for (const Seam &seam : seams_)
@@ -109,7 +109,7 @@ bool CurvedTriangle::is_farther(const Point &x, const double square) const {
   constexpr double third = 1. / 3.;
   const Point arm = x - origin_,
               view = arm - third * (u_ + v_) - third * third * (uu_ + uv_ + vv_); // from near the centroid
-  // Control points from the first corner.
+  // Control points relative to the first corner.
   const double u = u_ * view, v = v_ * view, uu = uu_ * view, uv = uv_ * view, vv = vv_ * view;
   double farthest = std::max({0., 0.5 * u, 0.5 * v, u + uu, v + vv, 0.5 * (u + v + uv)});
   if (has_seams_)
@@ -136,14 +136,14 @@ CurvedTriangle::Shape CurvedTriangle::shape() const {
   const SurfacePoint centre = quadratic_point_at(third, third);
   const Matrix g = metric(centre);
   const double det_g = determinant(g);
-  // The roots k of det(m − k g) = 0.
+  // Roots k of det(m − k g) = 0.
   const auto roots = [&](const Matrix &m) {
     const double half = 0.5 * (m.uu * g.vv + m.vv * g.uu - 2. * m.uv * g.uv);
     const double root = std::sqrt(std::max(0., half * half - det_g * determinant(m)));
     return std::array<double, 2>{(half - root) / det_g, (half + root) / det_g};
   };
   Shape result{1.F, 0.F};
-  // The corners from both sides, where F's second derivatives depend on the direction.
+  // Approach the corners from both sides: F's second derivatives depend on the direction there.
   constexpr double in = 1e-3;
   constexpr unsigned int n_samples = 16;
   constexpr std::array<std::array<double, 2>, n_samples> samples{{{0., 0.},

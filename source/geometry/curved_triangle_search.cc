@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The closest point of a curved triangle.
+// Closest point of a curved triangle.
 #include "billet/geometry/curved_triangle.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace billet {
 
 namespace {
 
-/// How the weight of corner i changes with (u, v).
+/// Returns the change of the weight of corner i along (u, v).
 double weight_change(const unsigned int i, const double u, const double v) {
   return i == 0 ? -u - v : i == 1 ? u : v;
 }
@@ -37,7 +37,7 @@ CurvedTriangle::Iterate CurvedTriangle::at(const Point &x, double u, double v,
 
 bool CurvedTriangle::has_one_minimum(const Point &x, const Shape &shape) const {
   constexpr double third = 1. / 3.;
-  constexpr double safety = 0.9; // the least value between the samples
+  constexpr double safety = 0.9; // accounts for smaller values between the samples
   const SurfacePoint centre = quadratic_point_at(third, third);
   const Point arm = x - centre.p;
   const Matrix g = metric(centre), b = bending(arm, centre);
@@ -48,7 +48,7 @@ bool CurvedTriangle::has_one_minimum(const Point &x, const Shape &shape) const {
   return uu > 0. && uu * vv - uv * uv > 0.;
 }
 
-/// The foot on the plane of the corners, moved into the triangle.
+/// Returns the foot on the plane of the corners, moved into the triangle.
 CurvedTriangle::Iterate CurvedTriangle::start_below(const Point &x) const {
   const Point a = u_ + uu_, b = v_ + vv_, arm = x - origin_; // along the chords
   const double aa = a * a, ab = a * b, bb = b * b, xa = arm * a, xb = arm * b;
@@ -77,7 +77,7 @@ CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) {
     return result;
   };
 
-  // Where no minimum is near, the metric alone leads downwards.
+  // If no minimum is near, use the metric alone: a descent direction.
   Step step;
   step.is_newton = newton.uu > 0. && determinant(newton) > 1e-10 * g.uu * g.vv;
   const Matrix &h = step.is_newton ? newton : g;
@@ -87,7 +87,7 @@ CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) {
   if (!leaves(step, 3))
     return step;
 
-  // It would leave the triangle: the best step along an edge, if there is one.
+  // The step would leave the triangle: take the best step along an edge, if there is one.
   Step best;
   best.is_possible = false;
   for (unsigned int i = 0; i < 3; ++i) {
@@ -109,8 +109,8 @@ CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) {
   return best;
 }
 
-/// Newton's method with line search inside the triangle: at an edge it goes along the edge until the way
-/// inwards is open again. Ends at a minimum over the triangle.
+/// Descends by Newton's method with line search inside the triangle. At an edge it follows the edge until
+/// descent inwards is possible again. It ends at a minimum over the triangle.
 CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) const {
   constexpr unsigned int most_steps = 60;
   for (unsigned int n = 0; n < most_steps; ++n) {
@@ -132,7 +132,7 @@ CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) co
     }
     const double largest = std::max(std::abs(step.u), std::abs(step.v));
     const double round_off = 1e-15 * (1. + std::sqrt(here.square / here.point.p_u.norm_square()));
-    // Newton's method doubles the number of right digits.
+    // Newton's method doubles the number of correct digits.
     const bool is_last = hit == 3 && largest < (step.is_newton ? 1e-8 : 1e-13) + round_off;
     Iterate next = here;
     for (unsigned int cut = 0; cut < 40; ++cut, part *= 0.5, hit = 3) {
@@ -150,7 +150,7 @@ CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) co
   return here;
 }
 
-/// The point t of the edge opposite to corner i, which runs from 0 to 1.
+/// Returns the point at parameter t, from 0 to 1, of the edge opposite to corner i.
 CurvedTriangle::Iterate CurvedTriangle::at_edge(const Point &x, const unsigned int i, const double t) const {
   constexpr std::array<unsigned int, 3> start{1, 0, 0}, end{2, 2, 1};
   std::array<bool, 3> edges{i == 0, i == 1, i == 2};
@@ -162,11 +162,11 @@ CurvedTriangle::Iterate CurvedTriangle::at_edge(const Point &x, const unsigned i
   return at(x, (i == 0 ? 1. : 0.) + t * u, t * v, edges);
 }
 
-/// The nearest point of the edge opposite to corner i: the derivative of the squared distance along it is
-/// cubic, and rises or falls throughout between the roots of its own derivative.
+/// Returns the nearest point of the edge opposite to corner i. The derivative of the squared distance along
+/// it is cubic, and monotonic between the roots of its own derivative.
 CurvedTriangle::Iterate CurvedTriangle::nearest_on_edge(const Point &x, const unsigned int i) const {
   const auto [u, v] = edge_direction[i];
-  const double start = i == 0 ? 1. : 0.; // of u
+  const double start = i == 0 ? 1. : 0.; // start value of u
   const Point arm = x - position(start, 0.);
   const Point b = u * (u_ + 2. * start * uu_) + v * (v_ + start * uv_);
   const Point c = u * (u * uu_ + v * uv_) + v * v * vv_;
@@ -206,8 +206,7 @@ CurvedTriangle::Iterate CurvedTriangle::nearest_on_edge(const Point &x, const un
   return best;
 }
 
-/// The least of the minima on the edges and of those reached from every point of a grid that is nearer than
-/// its neighbours there.
+/// Returns the least of the minima on the edges and of those reached from local minima of a grid.
 CurvedTriangle::Iterate CurvedTriangle::descend_from_all(const Point &x) const {
   Iterate best = descend_once(x);
   const auto consider = [&](const Iterate &start) {
@@ -219,7 +218,7 @@ CurvedTriangle::Iterate CurvedTriangle::descend_from_all(const Point &x) const {
     consider(nearest_on_edge(x, i));
 
   constexpr int n = 8;
-  std::array<std::array<double, n + 3>, n + 3> squares; // with a rim outside of the triangle
+  std::array<std::array<double, n + 3>, n + 3> squares; // with a margin outside the triangle
   for (auto &row : squares)
     row.fill(std::numeric_limits<double>::infinity());
   for (int i = 0; i <= n; ++i)
@@ -233,7 +232,7 @@ CurvedTriangle::Iterate CurvedTriangle::descend_from_all(const Point &x) const {
   return best;
 }
 
-/// First without F, which is small.
+/// Descends first without F, which is small.
 CurvedTriangle::Iterate CurvedTriangle::descend_once(const Point &x) const {
   if (!has_seams_)
     return descend(x, start_below(x));

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double picture_angle = M_PI / 18.;
 
-/// The bend of an edge of chord d with the tangents' slopes m_0 at its start and m_1 at its end towards `up`
-/// [both times a length].
+/// Returns the bend of an edge with chord d. m_0 and m_1 are the tangents' slopes towards `up` at its start
+/// and end [times a length].
 Tensor<1, 3> bend(const Tensor<1, 3> &d, const Tensor<1, 3> &up, const double m_0, const double m_1) {
   const double sum = m_0 + m_1;
   if (m_0 * m_1 <= 0. || std::abs(m_0 * m_1 / sum) < 1e-10 * d.norm())
@@ -27,12 +27,12 @@ Tensor<1, 3> bend_smooth(const Tensor<1, 3> &d, const Tensor<1, 3> &n_0, const T
   return square < 0.25 ? Tensor<1, 3>() : bend(d, mean / square, n_0 * d, -(n_1 * d));
 }
 
-/// Slope of the tangent that the normals of both sides allow at an end of a sharp edge, across its direction
-/// `along`. False if it is steeper than 45°.
+/// Computes the slope, across `along`, of the tangent at an end of a sharp edge that is orthogonal to the
+/// normals of both sides. Returns false if it is steeper than 45°.
 bool crease_slope(const Tensor<1, 3> &along, const Tensor<1, 3> &n_a, const Tensor<1, 3> &n_b,
                   Tensor<1, 3> &slope) {
   Tensor<1, 3> tangent = dealii::cross_product_3d(n_a, n_b);
-  if (tangent.norm() < 0.2) { // the edge begins or ends here: one tangent plane
+  if (tangent.norm() < 0.2) { // the sharp edge begins or ends here: one tangent plane
     const Tensor<1, 3> n = (n_a + n_b) / (n_a + n_b).norm();
     tangent = along - (along * n) * n;
   }
@@ -40,7 +40,8 @@ bool crease_slope(const Tensor<1, 3> &along, const Tensor<1, 3> &n_a, const Tens
   return slope.norm() <= 1.;
 }
 
-/// `normals`: of side a at the start and the end, and of side b.
+/// Returns the bend of a sharp edge. `normals` are those of side a at the start and the end, then those of
+/// side b.
 Tensor<1, 3> bend_crease(const Tensor<1, 3> &d, const std::array<Tensor<1, 3>, 4> &normals) {
   const double length = d.norm();
   const Tensor<1, 3> along = d / length;
@@ -55,7 +56,7 @@ Tensor<1, 3> bend_crease(const Tensor<1, 3> &d, const std::array<Tensor<1, 3>, 4
   return bend(d, up, -length * (slope_0 * up), length * (slope_1 * up));
 }
 
-/// One triangle of a set.
+/// Patch of one triangle of a set.
 class TrianglePatch final : public SurfacePatch {
 public:
   TrianglePatch(std::shared_ptr<const CurvedTriangles> triangles, const unsigned int facet)
@@ -122,7 +123,7 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
     const auto [a, b] = edge.facets;
     const auto [i, j] = edge.corners;
     const bool is_border = b == TriangleEdges::none;
-    if (facets_.areas[a] == 0. || (!is_border && facets_.areas[b] == 0.)) // of a sliver: straight, as it is
+    if (facets_.areas[a] == 0. || (!is_border && facets_.areas[b] == 0.)) // slivers stay straight
       continue;
     const Tensor<1, 3> d = mesh_.points[edge.points[1]] - mesh_.points[edge.points[0]];
     const Tensor<1, 3> &start = normals[a][i], &end = normals[a][(i + 1) % 3];
@@ -132,8 +133,8 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
   }
 }
 
-/// Where the normals are so far from those of a facet that its triangle would fold over, its edges stay
-/// straight; then those of its neighbours that fold now.
+/// Straightens the edges of facets whose triangles would fold over, since the normals are too far from that
+/// of the facet; then those of neighbours that fold as a consequence.
 void CurvedTriangles::straighten_where_folded() {
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
@@ -150,7 +151,7 @@ void CurvedTriangles::straighten_where_folded() {
   }
 }
 
-/// Whether the normal leaves that of the flat facet far behind.
+/// Whether the normal deviates too far from that of the flat facet.
 bool CurvedTriangles::is_folded(const unsigned int facet) const {
   constexpr std::array<std::array<double, 2>, 9> samples{
       {{0., 0.}, {1., 0.}, {0., 1.}, {0.5, 0.5}, {0., 0.5}, {0.5, 0.}, {0.2, 0.2}, {0.6, 0.2}, {0.2, 0.6}}};
@@ -159,11 +160,11 @@ bool CurvedTriangles::is_folded(const unsigned int facet) const {
   const CurvedTriangle patch = triangle(facet);
   return std::any_of(samples.begin(), samples.end(), [&](const auto &uv) {
     const double along = patch.area_normal(uv[0], uv[1]) * facets_.normals[facet];
-    return !(along > 0.2 * facets_.areas[facet]); // nor not a number
+    return !(along > 0.2 * facets_.areas[facet]); // also true for NaN
   });
 }
 
-/// Triangles on both sides of a smooth edge get the same normals along it.
+/// Makes the normals of the triangles on both sides of a smooth edge equal along it.
 void CurvedTriangles::join_normals(const TriangleEdges &edges, const CornerNormals &normals,
                                    const double sharp_angle) {
   auto seams = seams_;
@@ -186,7 +187,7 @@ CurvedTriangle::Seam CurvedTriangles::seam_at(const unsigned int facet, const un
   const unsigned int next = (corner + 1) % 3, opposite = (corner + 2) % 3;
   const Tensor<1, 3> &n_0 = normals[facet][corner], &n_1 = normals[facet][next];
   const Tensor<1, 3> up = 2. * facets_.areas[facet] * facets_.normals[facet];
-  // What a step towards the opposite corner must rise along `up` to be orthogonal to the normal.
+  // Rise along `up` with which a step towards the opposite corner is orthogonal to the normal.
   const auto missing = [&](const double t) {
     std::array<double, 3> at{}, step{-0.5, -0.5, -0.5};
     at[corner] = 1. - t;
@@ -203,7 +204,7 @@ CurvedTriangle::Seam CurvedTriangles::seam_at(const unsigned int facet, const un
     const Tensor<1, 3> normal = mean - (mean * tangent) / tangent.norm_square() * tangent;
     return -(derivative(step) * normal) / (up * normal);
   };
-  // In the corners it is 0, but where an edge is straighter than the normals want it.
+  // At the corners it is 0, unless the edge is straighter than the normals require.
   const double first = missing(0.), last = missing(1.);
   const auto line = [&](const double t) {
     return (missing(t) - (1. - t) * first - t * last) / (t * (1. - t));

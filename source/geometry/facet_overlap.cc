@@ -21,15 +21,15 @@ template <class Number> Point<Number> operator-(const Point<Number> &a, const Po
   return {a[0] - b[0], a[1] - b[1]};
 }
 
-/// A convex polygon in the target's plane.
+/// Convex polygon in the target's plane.
 template <class Number> struct Polygon {
   std::array<Point<Number>, 9> corners;
   unsigned int n = 0;
 
   void add(const Point<Number> &corner) { corners[n++] = corner; }
 
-  /// Cuts off where the linear function `value` is < 0. A corner nearer to that line than `rounding` counts
-  /// as on it: where facets fit, edges lie on each other.
+  /// Clips the polygon where the linear function `value` is < 0. A corner nearer to that line than `rounding`
+  /// counts as on it, since edges of matching facets coincide.
   template <class Function> void clip(const Function &value, const double rounding) {
     if (n == 0)
       return;
@@ -59,10 +59,10 @@ template <class Number> struct Polygon {
   }
 };
 
-/// A facet as four triangles in the target's plane, around the middle, anticlockwise as its own side sees
-/// them; with heights above that plane.
+/// Facet as four triangles in the target's plane, around the middle, counter-clockwise seen from its own
+/// side, with heights above that plane.
 template <class Number> struct Fan {
-  std::array<Point<Number>, 4> corners; ///< in the order of FacetCorners
+  std::array<Point<Number>, 4> corners; ///< corners in the order of FacetCorners
   std::array<Number, 4> heights;
   Point<Number> middle;
   Number middle_height;
@@ -82,13 +82,13 @@ template <class Number> struct Fan {
   }
 };
 
-/// A linear function on the plane.
+/// Linear function on the plane.
 template <class Number> struct Linear {
   Number constant, along_q, along_r;
   Number operator()(const Point<Number> &x) const { return constant + along_q * x[0] + along_r * x[1]; }
 };
 
-/// One triangle of a fan: the functions of its facet's corners on it.
+/// One triangle of a fan, with the functions of its facet's corners.
 template <class Number> class Triangle {
 public:
   Triangle(const Fan<Number> &fan, const unsigned int edge)
@@ -100,8 +100,8 @@ public:
     barycentric_ = {line(b, c), line(c, a), line(a, b)};
   }
 
-  Number double_area; ///< signed: > 0 if anticlockwise
-  /// 0 on an edge and 1 at the corner that is opposite to it.
+  Number double_area; ///< signed: > 0 if counter-clockwise
+  /// Returns the linear functions that are 0 on an edge and 1 at the opposite corner.
   const std::array<Linear<Number>, 3> &barycentric() const { return barycentric_; }
   std::array<Point<Number>, 3> corners() const {
     return {fan_.corners[first_], fan_.corners[second_], fan_.middle};
@@ -116,7 +116,7 @@ public:
     }
     return result;
   }
-  /// Of the facet's four corners.
+  /// Returns the functions of the facet's four corners at x.
   std::array<Number, 4> functions(const Point<Number> &x) const {
     const Number of_middle = 0.25 * barycentric_[2](x);
     std::array<Number, 4> values{of_middle, of_middle, of_middle, of_middle};
@@ -125,7 +125,7 @@ public:
     return values;
   }
 
-  /// ξ (0) or η (1) of the facet, by its functions.
+  /// Returns ξ (i = 0) or η (i = 1) of the facet as a linear function.
   Linear<Number> parameter(const unsigned int i) const {
     const double of_first = facet::signs[first_][i], of_second = facet::signs[second_][i];
     const Linear<Number> &a = barycentric_[0], &b = barycentric_[1];
@@ -134,7 +134,7 @@ public:
   }
 
 private:
-  /// 0 on the line from p to q, scaled by the triangle's area.
+  /// Returns the linear function that is 0 on the line from p to q, scaled by the triangle's area.
   Linear<Number> line(const Point<Number> &p, const Point<Number> &q) const {
     const Number along_q = -(q[1] - p[1]) / double_area, along_r = (q[0] - p[0]) / double_area;
     return {Number(-(along_q * p[0] + along_r * p[1])), along_q, along_r};
@@ -145,7 +145,7 @@ private:
   std::array<Linear<Number>, 3> barycentric_;
 };
 
-/// What the smooth surfaces take from the gap of a slave's and a target's triangle.
+/// Heights of the smooth surfaces, which reduce the gap between a slave's and a target's triangle.
 template <class Number> class Heights {
 public:
   Heights(const Triangle<Number> &slave, const FacetBulge &slave_bulge, const Triangle<Number> &target,
@@ -159,7 +159,7 @@ public:
       sum += facet::height<Number>(side.bulge, {side.parameters[0](x), side.parameters[1](x)});
     return sum;
   }
-  /// The linear function that has the same value and slope at x.
+  /// Returns the linear function with the same value and slope at x.
   Linear<Number> about(const Point<Number> &x) const {
     Linear<Number> result{(*this)(x), Number(0.), Number(0.)};
     for (const Side &side : sides_) {
@@ -189,7 +189,7 @@ void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, co
     const std::array<Point<Number>, 3> x{polygon.corners[0], polygon.corners[i], polygon.corners[i + 1]};
     using std::abs;
     const Number third = abs(cross<Number>(x[1] - x[0], x[2] - x[0])) / 6.;
-    for (unsigned int j = 0; j < 3; ++j) { // the middles of the edges: exact for squares
+    for (unsigned int j = 0; j < 3; ++j) { // edge midpoints: exact for quadratic functions
       const Point<Number> &a = x[j], &b = x[(j + 1) % 3];
       const Point<Number> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
       const std::array<Number, 4> phi = slave.functions(middle), psi = target.functions(middle);
@@ -230,11 +230,11 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
   const std::array<Tensor<1, 3, Number>, 3> axes{q, dealii::cross_product_3d(overlap.normal, q),
                                                  overlap.normal};
   const Fan<Number> of_slave(slave, surface.e_0, axes, lowered), of_target(target, surface.e_0, axes, {});
-  constexpr double rounding = 1e-10; // of a facet's size, by which corners that fit may miss each other
+  constexpr double rounding = 1e-10; // maximum mismatch of matching corners, relative to a facet's size
   const double height_rounding = rounding * depth;
   for (unsigned int t = 0; t < 4; ++t) {
     const Triangle<Number> below(of_target, t);
-    if (!(below.double_area > 0.)) // a triangle's tip
+    if (!(below.double_area > 0.)) // degenerate at the tip of a triangular facet
       continue;
     const Linear<Number> low = below.height();
     for (unsigned int s = 0; s < 4; ++s) {

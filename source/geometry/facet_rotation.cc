@@ -12,7 +12,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// Rows q, r, n: any frame about the mean normal.
+/// Returns an arbitrary frame about the mean normal.
 template <class Number> FrameOf<Number> make_frame(const facet::ExpansionOf<Number> &surface) {
   const Tensor<1, 3, Number> area_vector = surface.mean_area_vector();
   return FrameOf<Number>::from_normal(area_vector / area_vector.norm());
@@ -32,9 +32,9 @@ Tensor<2, 3, Number> facet_rotation(const FacetCorners &from, const FacetCorners
   }
   const Frame old_frame = make_frame(old_surface);
   const FrameOf<Number> frame = make_frame(surface);
-  // With the corners' coordinates p on the old and s on the new q and r, from their means, the angle from p
-  // to s that makes Σ |turned p − s|² least has the cosine Σ p·s and the sine Σ p × s, but for a common
-  // factor. They are ± e_1 ± e_2 ± e_3 with signs orthogonal to each other, so that the sums go over these.
+  // Let p and s be the corners' coordinates, relative to their means, on the old and on the new q and r. The
+  // angle that minimises Σ |rotated p − s|² has the cosine Σ p·s and the sine Σ p × s, up to a common factor.
+  // p and s are ± e_1 ± e_2 ± e_3 with mutually orthogonal signs, so the sums run over these vectors.
   Number cosine = 0., sine = 0.;
   const auto add = [&](const Tensor<1, 3> &p, const Tensor<1, 3, Number> &s) {
     const double p_q = p * old_frame.q, p_r = p * old_frame.r;
@@ -47,7 +47,7 @@ Tensor<2, 3, Number> facet_rotation(const FacetCorners &from, const FacetCorners
   add(old_surface.e_3, surface.e_3);
   using std::sqrt;
   const Number square = cosine * cosine + sine * sine;
-  if (square > 0.) { // not after a stretch that leaves no best angle
+  if (square > 0.) { // zero after a stretch without a best angle
     const Number size = sqrt(square);
     cosine /= size;
     sine /= size;

@@ -30,7 +30,7 @@ FacetTree::Foot FacetTree::nearest_on(const unsigned int facet, const Tensor<1, 
     corners[i] = mesh_.points[mesh_.facets[facet][i]];
   const Tensor<1, 3> a = corners[1] - corners[0], b = corners[2] - corners[0], arm = x - corners[0];
   const double aa = a * a, ab = a * b, bb = b * b, xa = arm * a, xb = arm * b, det = aa * bb - ab * ab;
-  if (det > 0.) { // else it is a line, as at the poles of surfaces
+  if (det > 0.) { // otherwise it is a line, as at the poles of surfaces
     const double u = (bb * xa - ab * xb) / det, v = (aa * xb - ab * xa) / det;
     if (u >= 0. && v >= 0. && u + v <= 1.)
       return {facet, {1. - u - v, u, v}, (arm - u * a - v * b).norm_square()};

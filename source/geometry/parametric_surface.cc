@@ -33,8 +33,8 @@ ClosestPoint at_foot(const SurfacePoint &foot, const Tensor<1, 3> &x, const doub
 
 namespace {
 
-/// The step of Newton's method, or where that is none towards a minimum, of steepest descent in the metric;
-/// in the free directions only.
+/// Returns the step of Newton's method in the free directions or, if that does not lead towards a minimum, of
+/// steepest descent in the metric.
 std::array<double, 2> choose_step(const SurfacePoint &here, const Tensor<1, 3> &arm,
                                   const std::array<bool, 2> &is_fixed, bool &is_newton) {
   const double slope_u = -(arm * here.p_u), slope_v = -(arm * here.p_v);
@@ -107,7 +107,7 @@ SurfaceFoot descend_to_foot(const std::function<SurfacePoint(double, double)> &s
     }
     here = there;
     uv = next;
-    // Newton's method doubles the number of right digits.
+    // Newton's method doubles the number of correct digits.
     if (!is_clipped && length < (is_newton ? 1e-8 : 1e-13) * scale)
       break;
   }
@@ -124,7 +124,7 @@ SampledSurface::SampledSurface(Surface surface, const std::array<ParameterRange,
                  v_length = point.p_v.norm() * (ranges_[1].high - ranges_[1].low);
     poles_.push_back(u_length < 1e-6 * v_length ? 1 : v_length < 1e-6 * u_length ? 2 : 0);
   }
-  constexpr double safety = 1.5; // of the samples' largest deviation
+  constexpr double safety = 1.5; // factor on the samples' maximum deviation
   constexpr double third = 1. / 3.;
   constexpr std::array<std::array<double, 3>, 4> samples{
       {{third, third, third}, {0.5, 0.5, 0.}, {0., 0.5, 0.5}, {0.5, 0., 0.5}}};
@@ -158,7 +158,8 @@ SurfaceFoot SampledSurface::descend(const Tensor<1, 3> &x, const FacetTree::Foot
   return descend_to_foot(surface_, ranges_, x, uv[0], uv[1]);
 }
 
-/// Next to a pole the facets tell little about the parameter `around` it: that of the nearest of some points.
+/// Improves the start near a pole, where facets give a poor estimate of the parameter `around` it: takes that
+/// of the nearest of several points.
 std::array<double, 2> SampledSurface::turn_about_pole(const Tensor<1, 3> &x, std::array<double, 2> uv,
                                                       const unsigned int around) const {
   constexpr unsigned int n = 24;

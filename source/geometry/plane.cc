@@ -37,7 +37,7 @@ namespace {
 const TypeParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
                                      "Normal out of the tool, towards the bodies."};
 
-/// A line along x, y being the normal; closed where it begins on the axis that it is revolved about.
+/// Returns a line along x with the normal y; closed if it begins on the axis of revolution.
 Profile flat_profile(const double from, const double to, const bool is_closed = false) {
   return Profile({Profile::Segment::line(Profile::Point({from, 0.}), Profile::Point({to, 0.}))},
                  Profile::Outside::left, is_closed);

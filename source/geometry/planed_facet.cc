@@ -33,7 +33,7 @@ PlanedFacetOf<Number>::PlanedFacetOf(const facet::ExpansionOf<Number> &surface) 
     const InPlane edge{to[0] - from[0], to[1] - from[1]};
     const Number factor = 2. / double_area_;
     borders_[i] = {{-factor * edge[1], factor * edge[0]}, factor * cross(from, edge)};
-    if (!(edge[0] * edge[0] + edge[1] * edge[1] > 0.)) // the tip of a triangle is no border
+    if (!(edge[0] * edge[0] + edge[1] * edge[1] > 0.)) // the tip of a triangle is no edge
       borders_[i].offset = std::numeric_limits<double>::infinity();
   }
 }
@@ -61,8 +61,8 @@ void PlanedFacetOf<Number>::locate(const InPlane &x, const double zone,
 
 template <class Number>
 std::array<Number, 2> PlanedFacetOf<Number>::compute_parameters(const InPlane &x) const {
-  // x = ξ e_1 + η e_2 + ξη e_3. The cross product with e_1 + η e_3 leaves A η² + B η + C = 0, whose slope at
-  // the root is the Jacobian: the root where that is positive.
+  // x = ξ e_1 + η e_2 + ξη e_3. The cross product with e_1 + η e_3 gives A η² + B η + C = 0, whose slope at a
+  // root is the Jacobian. The right root has a positive Jacobian.
   using std::sqrt;
   const Number A = cross(e_3_, e_2_), B = cross(x, e_3_) + cross(e_1_, e_2_), C = cross(x, e_1_),
                square_of_root = B * B - 4. * A * C,
@@ -78,7 +78,7 @@ std::array<Number, 2> PlanedFacetOf<Number>::compute_parameters(const InPlane &x
   eta = into_range(eta);
   const InPlane along{e_1_[0] + eta * e_3_[0], e_1_[1] + eta * e_3_[1]};
   const Number square = along[0] * along[0] + along[1] * along[1];
-  // At the tip of a triangle ξ means nothing.
+  // At the tip of a triangle ξ is undefined.
   const Number xi =
       square > 0.
           ? into_range(((x[0] - eta * e_2_[0]) * along[0] + (x[1] - eta * e_2_[1]) * along[1]) / square)

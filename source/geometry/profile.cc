@@ -16,7 +16,7 @@ using Point = Profile::Point;
 using Segment = Profile::Segment;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Parts of the profile's size that count as nothing: ends that meet, points that lie on an end.
+// Tolerances relative to the profile's size: for ends that meet, and for points on an end.
 constexpr double meeting = 1e-9, on_the_end = 1e-10;
 
 Point left_of(const Point &tangent) { return Point({-tangent[1], tangent[0]}); }
@@ -24,7 +24,7 @@ Point at_angle(const double angle) { return Point({std::cos(angle), std::sin(ang
 double cross(const Point &a, const Point &b) { return a[0] * b[1] - a[1] * b[0]; }
 double angle_of(const Point &a) { return std::atan2(a[1], a[0]); }
 
-/// `angle` plus whole turns, into [0, 2π).
+/// Returns `angle` modulo 2π, in [0, 2π).
 double positive_angle(const double angle) {
   const double turn = 2. * M_PI;
   const double rest = std::fmod(angle, turn);
@@ -60,7 +60,7 @@ Segment Segment::arc(const Point &centre, const double radius, const double from
 
 Segment Segment::arc_through(const Point &start, const Point &middle, const Point &end) {
   const Point a = middle - start, b = end - start;
-  const double area = cross(a, b); // twice the triangle's
+  const double area = cross(a, b); // twice the area of the triangle
   if (std::abs(area) <= 1e-12 * std::max(a.norm_square(), b.norm_square()))
     return line(start, end);
   // Circumcentre: (c − start)·a = a²/2, (c − start)·b = b²/2
@@ -70,7 +70,7 @@ Segment Segment::arc_through(const Point &start, const Point &middle, const Poin
   const double from = angle_of(start - centre), to = angle_of(end - centre);
   const double left = positive_angle(to - from);
   Segment segment = arc(centre, arm.norm(), from, area > 0. ? left : left - 2. * M_PI);
-  segment.start = start; // to the last bit
+  segment.start = start; // exact
   segment.end = end;
   return segment;
 }
@@ -125,7 +125,7 @@ Profile::Closest Profile::at_joint(const Point &x, const Point &joint, const Poi
                                    const Point &second_normal, const double curvature) const {
   Point normal = first_normal + second_normal;
   const double length = normal.norm();
-  normal = length > 1e-6 ? normal / length : first_normal; // of a needle: any
+  normal = length > 1e-6 ? normal / length : first_normal; // arbitrary for a needle
   const Point arm = x - joint;
   const double distance = arm.norm();
   const bool is_smooth = std::abs(cross(first_normal, second_normal)) <= 1e-9;
@@ -141,7 +141,7 @@ Profile::Closest Profile::closest_point(const Point &x) const {
   double best_square = infinity;
   std::size_t best = 0;
   Point best_position;
-  int best_end = 0; // −1, 1: at the segment's start, end; 0: between them
+  int best_end = 0; // −1: start of the segment, 1: end, 0: between them
   for (std::size_t s = 0; s < segments_.size(); ++s) {
     const Segment &segment = segments_[s];
     Point position = segment.foot(x);
@@ -170,7 +170,7 @@ Profile::Closest Profile::closest_point(const Point &x) const {
   if (best_end == 0)
     return straight_above;
 
-  // At an end of a segment. The chain goes on there, or is mirrored there, or has its border there.
+  // The point is an end of a segment: the chain continues, is mirrored or ends there.
   const bool is_first = best == 0 && best_end < 0, is_last = best + 1 == segments_.size() && best_end > 0;
   if ((is_first || is_last) && !is_loop_) {
     if (is_first ? closed_start_ : closed_end_)
@@ -232,7 +232,7 @@ std::string print(const Point &point) {
   return stream.str();
 }
 
-/// The endless curve at `offset` to the left of a segment.
+/// Returns the extended curve at `offset` to the left of a segment.
 Segment offset_curve(const Segment &segment, const double offset) {
   Segment result = segment;
   if (segment.is_arc)
@@ -255,7 +255,7 @@ std::vector<Point> intersections(const Segment &a, const Segment &b) {
       return {};
     return {a.start + cross(b.start - a.start, v) / sine * u};
   }
-  // A foot on the line (of the centres' radical line, for two circles) and half a chord.
+  // Foot on the line (for two circles, on their radical line) and half a chord.
   Point foot, along;
   if (!a.is_arc) {
     foot = a.foot(b.centre);
@@ -275,7 +275,7 @@ std::vector<Point> intersections(const Segment &a, const Segment &b) {
   return {foot + std::sqrt(chord) * along, foot - std::sqrt(chord) * along};
 }
 
-/// Rounds the corner between two segments; shortens them.
+/// Returns the fillet of the corner between two segments, and shortens them.
 Segment round_off(Segment &before, Segment &after, const double radius) {
   const Point corner = before.end;
   const double slack = 1e-9 * std::max(radius, (before.end - before.start).norm());
@@ -322,20 +322,20 @@ Segment round_off(Segment &before, Segment &after, const double radius) {
   return best;
 }
 
-/// Distance from x to the nearest point between a and b.
+/// Returns the distance from x to the nearest point between a and b.
 double distance_to(const Point &x, const Point &a, const Point &b) {
   const Point along = b - a;
   const double part = std::clamp((x - a) * along / along.norm_square(), 0., 1.);
   return (x - a - part * along).norm();
 }
 
-/// Chords of the segments, which must meet each other only where they follow each other, and not turn back
-/// there.
+/// Throws if chords of the segments meet other than consecutive ones at their common end, or if these fold
+/// back.
 void check_crossings(const std::vector<Segment> &segments) {
   const Profile profile(segments, Profile::Outside::left);
   const std::vector<Point> points = profile.polyline(M_PI / 60., Point(), 0.);
   const double tolerance = meeting * profile.size();
-  const std::size_t n = points.size() - 1; // chords
+  const std::size_t n = points.size() - 1; // number of chords
   const bool is_loop = (points.back() - points.front()).norm() <= tolerance;
   const auto side = [](const Point &a, const Point &b, const Point &c) { return cross(b - a, c - a); };
   for (std::size_t i = 0; i < n; ++i)
@@ -370,7 +370,7 @@ std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners)
     if ((end - start).norm() <= meeting * size)
       throw std::invalid_argument("two points coincide at " + print(end));
     if (corners[i].has_via) {
-      // In line, between the ends, it is a flat arc, a line; elsewhere there is no arc.
+      // A collinear point between the ends gives a flat arc, a line; elsewhere there is no arc.
       const Point along = end - start;
       const double part = (corners[i].via - start) * along / along.norm_square();
       legs.push_back(Segment::arc_through(start, corners[i].via, end));
@@ -387,7 +387,7 @@ std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners)
       segments.push_back(round_off(segments.back(), legs[i], corners[i].fillet));
     segments.push_back(legs[i]);
   }
-  // Of a leg between two fillets nothing may be left.
+  // A line between two fillets may vanish.
   segments.erase(
       std::remove_if(segments.begin(), segments.end(),
                      [size](const Segment &s) { return (s.end - s.start).norm() <= meeting * size; }),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Profiles of lines and arcs as a user draws them, revolved or extruded.
+// Profiles of lines and arcs as the user defines them, revolved or extruded.
 #include "billet/geometry/sector.h"
 #include "billet/geometry/swept_profile.h"
 
@@ -22,7 +22,7 @@ const TypeParameter outside_parameter{
     "Outside", "left", Kind::choice,
     "left|right: Where the bodies are, for one who walks along the corners."};
 
-/// Two numbers and nothing else.
+/// Reads exactly two numbers; returns false otherwise.
 bool read_point(const std::string &text, Point &point) {
   std::istringstream stream(text);
   char comma = 0;

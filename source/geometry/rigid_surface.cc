@@ -13,12 +13,12 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double far_round_off = 1e-7; // of closest points of far points, over the distance
-constexpr double smooth = 1e-6;        // sine of an angle between normals that counts as none
-constexpr double along_edge = 1e-4;    // sine of an angle by which an arm may lean along an edge
+constexpr double far_round_off = 1e-7; // round-off of closest points, relative to the distance
+constexpr double smooth = 1e-6;        // maximum sine of the angle between normals at a smooth seam
+constexpr double along_edge = 1e-4;    // maximum sine of the angle by which an arm may lean along an edge
 
-/// Whether a corner's normal lies among those of its patches, or about as near to their mean: else it points
-/// beyond a border that ends in the corner.
+/// Whether a corner's normal lies among those of its patches, or about as near to their mean. Otherwise it
+/// points beyond a free edge that ends in the corner.
 bool is_between(const Tensor<1, 3> &normal, const std::vector<Tensor<1, 3>> &normals,
                 const Tensor<1, 3> &mean) {
   constexpr double slack = 0.1; // radians
@@ -54,7 +54,7 @@ RigidSurface::Projection RigidSurface::project(const Tensor<1, 3> &x, const unsi
   ClosestPoint nearest = patches_[nearest_patch]->closest_point(x);
   if (patches_.size() > 1) {
     double nearest_square = (x - nearest.position).norm_square();
-    // Of patches that are equally near, the first in the set counts, whatever the guess.
+    // If patches are equally near, the first in the set is chosen, for any guess.
     tree_.visit_near(x, nearest_square, [&](const unsigned int i) {
       if (i == nearest_patch || patches_[i]->is_farther(x, nearest_square))
         return;
@@ -73,7 +73,7 @@ RigidSurface::Projection RigidSurface::project(const Tensor<1, 3> &x, const unsi
   return {true, nearest.normal, nearest.gap, nearest.turning, nearest_patch};
 }
 
-/// Those that come as near to x, and there.
+/// Returns the patches that are as near to x, at the same point.
 RigidSurface::Neighbours RigidSurface::find_neighbours(const Tensor<1, 3> &x, const ClosestPoint &nearest,
                                                        const unsigned int patch) const {
   Neighbours found;
@@ -105,7 +105,7 @@ RigidSurface::Neighbours RigidSurface::find_neighbours(const Tensor<1, 3> &x, co
     }
   });
   found.turning /= double(found.normals.size());
-  found.mean = sum.norm() > 1e-6 ? sum / sum.norm() : nearest.normal; // of a knife's edge: any
+  found.mean = sum.norm() > 1e-6 ? sum / sum.norm() : nearest.normal; // arbitrary for a knife edge
   return found;
 }
 
@@ -122,16 +122,15 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   const Neighbours around = find_neighbours(x, nearest, patch);
   if (around.normals.size() == 1)
     return none;
-  if (around.is_straight_below) // as near by round-off
+  if (around.is_straight_below) // equally near within round-off
     return around.below;
 
-  // The surface goes on beyond the seam. Seen from there it is an edge: outside of the tool where that is
-  // convex, inside where it is concave; the gap is the distance to it, of the sign that the mean normal
-  // tells.
+  // The surface continues beyond the seam, which acts as an edge: seen from outside if the tool is convex,
+  // from inside if it is concave. The gap is the distance to it, with the sign given by the mean normal.
   Projection projection{true, around.mean, arm * around.mean, around.turning, patch};
   if (around.sharpness < smooth || around.sharpness * distance <= tolerance_) {
     const double aside = (arm - projection.gap * around.mean).norm();
-    return aside > 2. * smooth * distance + tolerance_ ? none : projection; // or past the seam's end
+    return aside > 2. * smooth * distance + tolerance_ ? none : projection; // none if past the seam's end
   }
   projection.gap = projection.gap < 0. ? -distance : distance;
   projection.normal = arm / projection.gap;
@@ -154,9 +153,10 @@ RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned 
   if (!(border.beyond > 0.))
     return border;
   border.outward = aside / border.beyond;
-  // How the border's point and normal go along with x, by central differences: patches do not tell.
+  // Derivatives of the edge's point and normal by x, from central differences, since patches do not provide
+  // them.
   const Tensor<1, 3> along = dealii::cross_product_3d(border.normal, border.outward);
-  const double h = std::max(1e-3 * border.beyond, 1e-6 * width); // of less, little is left but round-off
+  const double h = std::max(1e-3 * border.beyond, 1e-6 * width); // smaller steps leave mostly round-off
   const ClosestPoint before = patches_[patch]->closest_point(x - h * along),
                      after = patches_[patch]->closest_point(x + h * along);
   const double carried = along * (after.position - before.position) / (2. * h);
@@ -169,8 +169,8 @@ RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned 
 
 double RigidSurface::turning_along_edge(const Projection &projection, const ClosestPoint &nearest,
                                         const unsigned int patch, const Neighbours &around) const {
-  // Both patches tell the edge's curvature vector k in the plane across the edge: on the surface itself
-  // e·∂n/∂x·e = −k·n. With n = a n_1 + b n_2, the same of n is κ = a κ_1 + b κ_2.
+  // Both patches determine the edge's curvature vector k in the plane across the edge: on the surface
+  // e·∂n/∂x·e = −k·n. With n = a n_1 + b n_2, the value for n is κ = a κ_1 + b κ_2.
   const auto curvature = [&](const unsigned int i) {
     return around.edge * patches_[i]->closest_point(nearest.position).turning * around.edge;
   };

@@ -10,7 +10,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// Of the point of the segment that is nearest to x, in [0, 1].
+/// Returns the parameter, in [0, 1], of the point of the segment that is nearest to x.
 double nearest_parameter(const Segment &segment, const Tensor<1, 3> &x) {
   const Tensor<1, 3> along = segment[1] - segment[0];
   const double square = along.norm_square();

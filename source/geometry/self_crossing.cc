@@ -14,11 +14,11 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
-constexpr double on_it = 1e-9; // parts of the triangle's size that count as nothing
+constexpr double on_it = 1e-9; // tolerance, relative to the triangle's size
 
 struct Triangle {
   Corners corners;
-  Point normal; ///< unit
+  Point normal; ///< unit vector
   double size, area;
 };
 
@@ -29,7 +29,7 @@ Triangle make_triangle(const Corners &x) {
           0.5 * twice};
 }
 
-/// Whether a point of the triangle's plane is in it, round-off allowed.
+/// Whether a point of the triangle's plane is inside it, within round-off.
 bool contains(const Triangle &triangle, const Point &x, const double slack) {
   for (unsigned int i = 0; i < 3; ++i) {
     const Point &a = triangle.corners[i], &b = triangle.corners[(i + 1) % 3];
@@ -39,7 +39,7 @@ bool contains(const Triangle &triangle, const Point &x, const double slack) {
   return true;
 }
 
-/// Whether an edge of the first goes through the second.
+/// Whether an edge of the first pierces the second.
 bool pierces(const Triangle &first, const Triangle &second) {
   const double nothing = on_it * second.size;
   for (unsigned int i = 0; i < 3; ++i) {
@@ -54,8 +54,8 @@ bool pierces(const Triangle &first, const Triangle &second) {
   return false;
 }
 
-/// Whether the two lie in one plane and have more in common than a border. Of generic triangles, that is
-/// those with a corner of one inside of the other, or edges that cross.
+/// Whether the two lie in one plane and share more than an edge. For generic triangles, a corner of one is
+/// then inside the other, or edges cross.
 bool overlap_in_plane(const Triangle &first, const Triangle &second) {
   for (const auto &corner : first.corners)
     if (std::abs((corner - second.corners[0]) * second.normal) > on_it * second.size)

@@ -53,7 +53,7 @@ public:
   TriangleMesh read() {
     FacetCollector facets;
     expect("solid");
-    skip_line(); // the solid's name
+    skip_line(); // name of the solid
     while (true) {
       if (accept("facet")) {
         expect("normal");
@@ -82,7 +82,7 @@ public:
   }
 
 private:
-  /// The next word, in lower case; empty at the end of the file.
+  /// Returns the next word, in lower case; empty at the end of the file.
   std::string word() {
     for (; next_ != end_ && std::isspace(static_cast<unsigned char>(*next_)) != 0; ++next_)
       line_ += *next_ == '\n' ? 1 : 0;
@@ -129,7 +129,7 @@ private:
   std::string word_;
 };
 
-constexpr std::size_t header_size = 84, facet_size = 50; // bytes of a binary file
+constexpr std::size_t header_size = 84, facet_size = 50; // sizes in a binary file [bytes]
 
 std::uint32_t read_integer(const char *bytes) {
   std::uint32_t value = 0;
@@ -174,7 +174,7 @@ TriangleMesh read_stl(const std::string &file_name) {
   std::ostringstream buffer;
   buffer << stream.rdbuf();
   const std::string bytes = buffer.str();
-  // Binary files may begin with "solid" too: what tells is the size.
+  // Binary files may begin with "solid", too: the size identifies them.
   const std::size_t n = bytes.size() >= header_size ? read_integer(bytes.data() + header_size - 4) : 0;
   if (bytes.size() >= header_size && bytes.size() == header_size + n * facet_size)
     return read_binary(bytes);

@@ -13,12 +13,12 @@ using dealii::Tensor;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double picture_angle = M_PI / 36.; // of facets that picture an arc
+constexpr double picture_angle = M_PI / 36.; // maximum angle of facets that represent an arc
 
-/// a b, where 0 times infinity is 0.
+/// Returns a b, where 0 times infinity is 0.
 double product(const double a, const double b) { return std::abs(a) < 1e-14 ? 0. : a * b; }
 
-/// Quadrilaterals between neighbouring rows of points.
+/// Adds quadrilaterals between adjacent rows of points.
 void add_grid(const std::vector<std::vector<Tensor<1, 3>>> &rows, SurfacePicture &picture) {
   const auto first = static_cast<unsigned int>(picture.points.size());
   const auto n = static_cast<unsigned int>(rows.front().size());
@@ -51,7 +51,7 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
   const double height = arm * axes_.z;
   const double a = arm * axes_.x, b = arm * axes_.y;
   double radius = std::hypot(a, b);
-  // On the axis every direction is as good, in which the surface is oblique to it.
+  // On the axis the direction is arbitrary; here the surface may be oblique to the axis.
   constexpr double oblique = 1e-6;
   const double tiny = 1e-14 * (profile_.size() + std::abs(height));
   Tensor<1, 3> outwards = radius > tiny ? (a * axes_.x + b * axes_.y) / radius : axes_.x;
@@ -60,7 +60,8 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
     double turned = std::atan2(b, a) - from_;
     turned -= 2. * M_PI * std::floor(turned / (2. * M_PI));
     if (radius <= tiny || turned > sweep_) {
-      // The nearer one of the two bordering half-planes; in it the point may have a negative radius.
+      // Project onto the nearer one of the two bounding half-planes, in which the point may have a negative
+      // radius.
       const double to_start = 2. * M_PI - turned, to_end = turned - sweep_;
       const double angle = radius > tiny && to_end < to_start ? from_ + sweep_ : from_;
       outwards = std::cos(angle) * axes_.x + std::sin(angle) * axes_.y;
@@ -76,13 +77,13 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
   result.gap = closest.gap;
   result.is_beyond_border = closest.is_beyond_border || is_beside;
   if (is_full_ && radius <= tiny && closest.gap < 0. && !closest.is_beyond_border &&
-      std::abs(closest.normal[1]) > oblique) { // in a tip: the mean of all directions
+      std::abs(closest.normal[1]) > oblique) { // at a tip: the mean of all directions
     result.normal = std::copysign(1., closest.normal[1]) * axes_.z;
     result.position = x - result.gap * result.normal;
   }
   const Tensor<1, 3> along = -closest.normal[1] * outwards + closest.normal[0] * axes_.z;
   const Tensor<1, 3> around = dealii::cross_product_3d(axes_.z, outwards);
-  // Near the axis the surface is as round one way as the other.
+  // Near the axis both principal curvatures are equal.
   const double around_turning =
       std::abs(radius) > 1e-9 * profile_.size() ? closest.normal[0] / radius : closest.turning;
   result.turning = closest.turning * dealii::outer_product(along, along) +

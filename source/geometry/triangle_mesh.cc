@@ -33,22 +33,22 @@ std::string describe_edge(const TriangleMesh &mesh, const std::array<unsigned in
   return "from " + describe(mesh.points[points[0]]) + " to " + describe(mesh.points[points[1]]);
 }
 
-/// "1 edge has", "2 edges have"
+/// Returns "1 edge has", "2 edges have" etc.
 std::string count_edges(const std::size_t n) {
   return std::to_string(n) + (n == 1 ? " edge has" : " edges have");
 }
 
-/// Finds points that are near to others, in a grid of cubes.
+/// Grid of cubes that finds nearby points.
 class PointGrid {
 public:
   PointGrid(const Tensor<1, 3> &origin, const double tolerance)
       : origin_(origin), tolerance_(tolerance), width_(8. * tolerance) {}
 
-  /// The index of the first of the `points` that is nearer than the tolerance; `index`, and the point is
-  /// noted, if there is none.
+  /// Returns the index of the first of the `points` that is nearer than the tolerance. If there is none, it
+  /// adds the point and returns `index`.
   unsigned int find_or_add(const Tensor<1, 3> &point, const unsigned int index,
                            const std::vector<Tensor<1, 3>> &points) {
-    // All cubes that the tolerance reaches: mostly one.
+    // Visit all cubes within the tolerance, usually one.
     std::array<std::array<std::int64_t, 2>, 3> range{};
     for (unsigned int i = 0; i < 3; ++i)
       range[i] = {cube(point[i] - tolerance_ - origin_[i]), cube(point[i] + tolerance_ - origin_[i])};
@@ -67,7 +67,7 @@ public:
 
 private:
   std::int64_t cube(const double x) const { return static_cast<std::int64_t>(std::floor(x / width_)); }
-  /// Cubes that share a key only cost time.
+  /// Returns the key of a cube; collisions only cost time.
   static std::uint64_t key(const std::int64_t a, const std::int64_t b, const std::int64_t c) {
     return (static_cast<std::uint64_t>(a) * 73856093U) ^ (static_cast<std::uint64_t>(b) * 19349663U) ^
            (static_cast<std::uint64_t>(c) * 83492791U);
@@ -94,7 +94,7 @@ bool TriangleMesh::has_area() const {
 
 double TriangleMesh::six_volumes() const {
   double sum = 0.;
-  const Tensor<1, 3> origin = points.empty() ? Tensor<1, 3>() : points.front(); // against cancellation
+  const Tensor<1, 3> origin = points.empty() ? Tensor<1, 3>() : points.front(); // reduces cancellation
   for (const auto &facet : facets)
     sum += (points[facet[0]] - origin) * dealii::cross_product_3d(Tensor<1, 3>(points[facet[1]] - origin),
                                                                   Tensor<1, 3>(points[facet[2]] - origin));

@@ -11,7 +11,7 @@ namespace billet {
 using dealii::Tensor;
 
 namespace {
-constexpr double smooth_pole = 1. - 1e-4; // length of the mean of the normals around it
+constexpr double smooth_pole = 1. - 1e-4; // minimum length of the mean of the normals around a smooth pole
 } // namespace
 
 TrimmedSurface::TrimmedSurface(Description description)
@@ -59,7 +59,7 @@ bool TrimmedSurface::is_inside(Parameters parameters) const {
   return loops_.contains(parameters);
 }
 
-/// At a pole of the parameters, the derivatives next to it.
+/// Returns the surface point; at a pole of the parameters, with the derivatives next to it.
 SurfacePoint TrimmedSurface::regular_point(const Parameters &parameters) const {
   const auto [u, v] = parameters;
   const SurfacePoint here = d_.surface.at(u, v);
@@ -80,7 +80,7 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   for (const Edge &edge : border_) {
     const double t = edge.is_pole ? 0.5 * (edge.samples.front() + edge.samples.back()) : edge.nearest(x);
     const Parameters at = edge.on_surface(t);
-    // The edge's own curve is the same for both of its faces.
+    // The edge's spatial curve is the same for both of its faces.
     const Tensor<1, 3> p = edge.is_pole ? d_.surface.at(at[0], at[1]).p : edge.position(t);
     if ((x - p).norm_square() < least) {
       least = (x - p).norm_square();
@@ -93,9 +93,9 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   foot.p = position;
   ClosestPoint result = at_foot(foot, x, d_.side);
   const Tensor<1, 3> arm = x - position;
-  if (nearest->is_pole && goes_around(*nearest)) { // no border, but a point of the surface
+  if (nearest->is_pole && goes_around(*nearest)) { // a point inside the surface, not on an edge
     const Tensor<1, 3> mean = mean_normal(*nearest);
-    if (mean.norm() < smooth_pole && least > 0.) { // or its tip
+    if (mean.norm() < smooth_pole && least > 0.) { // it is a tip
       result.gap = arm * mean < 0. ? -arm.norm() : arm.norm();
       result.normal = arm / result.gap;
       result.turning = projector_across(result.normal) / result.gap;
@@ -108,7 +108,7 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   return result;
 }
 
-/// Whether the face goes all around a pole.
+/// Whether the face surrounds a pole.
 bool TrimmedSurface::goes_around(const Edge &pole) const {
   const Parameters begin = pole.on_surface(pole.samples.front()), end = pole.on_surface(pole.samples.back());
   for (unsigned int i = 0; i < 2; ++i)
@@ -117,7 +117,7 @@ bool TrimmedSurface::goes_around(const Edge &pole) const {
   return false;
 }
 
-/// Points around a pole, a small part `aside` of the way to the middle of the face away from it.
+/// Returns points around a pole, at the small fraction `aside` of the distance to the middle of the face.
 std::vector<SurfacePoint> TrimmedSurface::ring_about(const Edge &pole, const double aside) const {
   constexpr unsigned int n = 12;
   std::vector<SurfacePoint> result;
@@ -132,7 +132,7 @@ std::vector<SurfacePoint> TrimmedSurface::ring_about(const Edge &pole, const dou
   return result;
 }
 
-/// Of normals around a pole; shorter than 1 at a tip.
+/// Returns the mean of the normals around a pole; shorter than 1 at a tip.
 Tensor<1, 3> TrimmedSurface::mean_normal(const Edge &pole) const {
   Tensor<1, 3> result;
   const auto ring = ring_about(pole, 1e-6);
@@ -143,8 +143,8 @@ Tensor<1, 3> TrimmedSurface::mean_normal(const Edge &pole) const {
   return result;
 }
 
-/// Next to a pole the derivatives are lost in round-off; there the surface is taken as the paraboloid that
-/// touches it in the pole.
+/// Adds a cap: close to a pole, derivatives are lost in round-off, and the osculating paraboloid replaces the
+/// surface.
 void TrimmedSurface::add_cap(const Edge &pole) {
   const Tensor<1, 3> mean = mean_normal(pole);
   if (mean.norm() < smooth_pole)
@@ -168,7 +168,7 @@ ClosestPoint TrimmedSurface::Cap::project(const Tensor<1, 3> &x) const {
   const Tensor<1, 3> arm = x - position;
   const double height = arm * normal;
   const Tensor<2, 3> stretch = Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) + height * curvature;
-  const bool is_focus = std::abs(dealii::determinant(stretch)) < 1e-12; // all around is as near
+  const bool is_focus = std::abs(dealii::determinant(stretch)) < 1e-12; // all directions are equally near
   const Tensor<2, 3> shrink = is_focus ? Tensor<2, 3>() : dealii::invert(stretch);
   const Tensor<1, 3> aside = shrink * (arm - height * normal);
   ClosestPoint result;

@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// The second coordinate of an end, the same for all curves that meet there.
+/// Returns the second coordinate of an end, the same for all curves that meet there.
 double TrimmingLoops::joined(const Point &end) {
   for (const Point &other : ends_)
     if (std::hypot(end[0] - other[0], end[1] - other[1]) <= tolerance_)
@@ -24,7 +24,7 @@ void TrimmingLoops::add(const Curve &curve, const std::vector<double> &parameter
   points.front().second[1] = joined(points.front().second);
   points.back().second[1] = joined(points.back().second);
 
-  // Where the curve turns back, its turning point by golden section.
+  // Where the curve reverses, find its turning point by golden section.
   std::vector<std::pair<double, Point>> ordered{points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     const double before = points[i].second[1] - points[i - 1].second[1],
@@ -76,7 +76,7 @@ void TrimmingLoops::add_piece(const double t_0, const Point &p_0, const double t
   pieces_.push_back(piece);
 }
 
-/// First coordinate of the piece's point of this height, by the secant rule of Illinois.
+/// Returns the first coordinate of the piece's point at this height, by the Illinois method.
 double TrimmingLoops::crossing(const Piece &piece, const double height) const {
   const Curve &curve = curves_[piece.curve];
   double a = piece.t_low, b = piece.t_high;

@@ -27,7 +27,7 @@ public:
     }
   }
 
-  /// The derivative is symmetric only where the pressure is uniform and its border held, or none.
+  /// The derivative is symmetric only if the pressure is uniform and its edge is fixed or does not exist.
   LoadTangent tangent() const override { return LoadTangent::unsymmetric; }
 
   /// −∂F_a/∂x_b = ∫ p N_a (N_b,ξ [· × x,η] + N_b,η [x,ξ × ·]) dξdη.

@@ -10,7 +10,7 @@ RateFactorType cowper_symonds_type();
 
 namespace {
 
-/// 1 + (ε̇/D)^{1/p}, (M16) of doc/theory.md (Cowper & Symonds 1957).
+/// Factor 1 + (ε̇/D)^{1/p}, (M16) of doc/theory.md (Cowper & Symonds 1957).
 class CowperSymonds final : public RateFactor {
 public:
   CowperSymonds(const double reference, const double p) : reference_(reference), exponent_(1. / p) {}

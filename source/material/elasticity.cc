@@ -22,7 +22,7 @@ TypeTable<std::shared_ptr<const Elasticity>> &elasticity_types() {
 
 namespace {
 
-/// Elasticity that bulk and shear modulus determine.
+/// Elasticity determined by bulk and shear modulus.
 class IsotropicElasticity final : public Elasticity {
 public:
   using Maker = SharedLaw (*)(const ElasticModuli &, SharedFlow);
@@ -31,7 +31,7 @@ public:
       : young_(young), moduli_(ElasticModuli::from_young_poisson(young, poisson)), make_(make) {}
 
   const ElasticModuli &moduli() const override { return moduli_; }
-  double young_modulus() const override { return young_; } // as it was given, to the last digit
+  double young_modulus() const override { return young_; } // the given value, without round-off
   SharedLaw make_elastic_law() const override { return make_(moduli_, nullptr); }
   SharedLaw make_plastic_law(SharedFlow flow) const override { return make_(moduli_, std::move(flow)); }
 
@@ -69,7 +69,7 @@ SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow) {
 
 namespace {
 
-/// Null for another name.
+/// Returns the factory of a law; null for an unknown name.
 IsotropicElasticity::Maker find_maker(const std::string &name) {
   if (name == hencky)
     return &make_hencky_law;

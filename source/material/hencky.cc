@@ -11,7 +11,7 @@ using dealii::Tensor;
 bool compute_principal_state(const SymmetricTensor<2, 3> &b, PrincipalElasticState &state) {
   if (!std::isfinite(b.norm()))
     return false;
-  // Jacobi: the most accurate of the three methods, also where eigenvalues nearly coincide.
+  // Jacobi's method is the most accurate of the three, also for nearly coincident eigenvalues.
   const auto pairs = dealii::eigenvectors(b, dealii::SymmetricTensorEigenvectorMethod::jacobi);
   std::array<double, 3> log_strains{};
   for (unsigned int a = 0; a < 3; ++a) {
@@ -48,7 +48,7 @@ namespace {
 
 using Vector6 = std::array<double, 6>;
 
-/// sym(a ⊗ b) in the order 11, 22, 33, 12, 13, 23.
+/// Returns sym(a ⊗ b) in the order 11, 22, 33, 12, 13, 23.
 Vector6 symmetric_dyad(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
   return {a[0] * b[0],
           a[1] * b[1],
@@ -64,7 +64,7 @@ void add_dyad(SpatialModuli &moduli, const double factor, const Vector6 &v, cons
       moduli[i][j] += factor * v[i] * w[j];
 }
 
-/// ln(1 + x)/x, 1 at x = 0.
+/// Returns ln(1 + x)/x, 1 at x = 0.
 double log_ratio(const double x) { return x == 0. ? 1. : std::log1p(x) / x; }
 
 } // namespace

@@ -68,7 +68,7 @@ GradientModuli compute_trial_moduli(const MidpointIncrement &increment, const do
       for (unsigned int i = 0; i < 3; ++i)
         spin[i] = 0.5 * (D[(i + 2) % 3][(i + 1) % 3] - D[(i + 1) % 3][(i + 2) % 3]);
       spin = a * (spin + 0.5 * dealii::cross_product_3d(w, spin));
-      Tensor<2, 3> turned; // spin × s; its double symmetric part is what the turning adds
+      Tensor<2, 3> turned; // spin × s; the rotation adds twice its symmetric part
       for (unsigned int c = 0; c < 3; ++c)
         for (unsigned int i = 0; i < 3; ++i)
           turned[i][c] = spin[(i + 1) % 3] * s[(i + 2) % 3][c] - spin[(i + 2) % 3] * s[(i + 1) % 3][c];

@@ -10,7 +10,7 @@ using dealii::Tensor;
 
 double complete_unimodular(const SymmetricTensor<2, 3> &X) {
   const double i_2 = 0.5 * (X * X), i_3 = dealii::determinant(X);
-  double x = 1. + X.norm(); // beyond the largest root: Newton comes down to it
+  double x = 1. + X.norm(); // above the largest root: Newton's method decreases monotonically to it
   for (unsigned int i = 0; i < 100; ++i) {
     const double change = (x * x * x - i_2 * x + i_3 - 1.) / (3. * x * x - i_2);
     x -= change;
@@ -59,7 +59,8 @@ void compute_neo_hookean_moduli(const ElasticModuli &elastic, const IsochoricSta
 
 namespace {
 
-/// ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of q and m = 3 μ̄:
+/// Returns ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of q and m =
+/// 3 μ̄:
 ///   q q̇ = (m s + 3 dev s²) : d,   ṁ = 2 s : d.
 dealii::SymmetricTensor<2, 3> compute_beta_rate(const dealii::SymmetricTensor<2, 3> &s, const double q,
                                                 const double m, const double beta, const double k,
@@ -107,7 +108,7 @@ bool NeoHookeanPlasticity::update(const dealii::Tensor<2, 3> &F, const History &
   if (delta_alpha > 0.) {
     history.equivalent_plastic_strain += delta_alpha;
     flow_->advance(alpha_n, delta_alpha, step.dt, history_n.flow, history.flow);
-    // F⁻¹ b̄_e F⁻ᵀ with b̄_e = β dev b̄_trial + x 1: a multiple of C⁻¹ is all that is added.
+    // F⁻¹ b̄_e F⁻ᵀ with b̄_e = β dev b̄_trial + x 1: only a multiple of C⁻¹ is added.
     const double x = complete_unimodular(beta * trial.deviator);
     const dealii::SymmetricTensor<2, 3> C_inverse =
         dealii::invert(dealii::symmetrize(dealii::transpose(F) * F));

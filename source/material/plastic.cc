@@ -21,7 +21,7 @@ bool HenckyPlasticity::update(const dealii::Tensor<2, 3> &F, const History &hist
   if (delta_alpha > 0.) {
     history.equivalent_plastic_strain += delta_alpha;
     flow_->advance(history_n.equivalent_plastic_strain, delta_alpha, step.dt, history_n.flow, history.flow);
-    // b_e = Σ exp(2 ε_e) m_A after the return; C_p⁻¹ = F⁻¹ b_e F⁻ᵀ.
+    // After the return map, b_e = Σ exp(2 ε_e) m_A; C_p⁻¹ = F⁻¹ b_e F⁻ᵀ.
     dealii::SymmetricTensor<2, 3> b_e;
     for (unsigned int a = 0; a < 3; ++a)
       b_e += std::exp(2. *
@@ -55,7 +55,7 @@ bool HenckyPlasticity::respond(const dealii::Tensor<2, 3> &F, const History &his
   if (!(J > 0.) ||
       !compute_principal_state(dealii::symmetrize(F * C_p_inverse * dealii::transpose(F)), trial))
     return false;
-  // det C_p = 1 exactly: with Σ ε_A instead, its round-off would add up over the steps into a pressure.
+  // This keeps det C_p = 1 exactly; with Σ ε_A, round-off would accumulate over the steps to a pressure.
   trial.volumetric_log_strain = std::log(J);
 
   const double two_g = 2. * elastic_.shear;

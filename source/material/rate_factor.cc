@@ -23,7 +23,7 @@ std::string RateDependentFlow::description() const {
 
 namespace {
 
-/// σ_y(α) R((α − α_n)/Δt), as solve_consistency() takes a law.
+/// Flow stress of a step, σ_y(α) R((α − α_n)/Δt), in the form that solve_consistency() requires.
 struct FlowOfStep {
   const HardeningLaw &hardening;
   const RateFactor &factor;
@@ -41,7 +41,7 @@ struct FlowOfStep {
 
 PlasticIncrement RateDependentFlow::solve(const double q, const double m, const double alpha_n,
                                           const double dt) const {
-  // An infinite slope, as at rest, is as stiff as one beyond every modulus.
+  // An infinite slope, as at rest, is replaced with one far above every modulus.
   const double steep = m / std::numeric_limits<double>::epsilon();
   if (!(dt > 0.))
     return {0., steep};

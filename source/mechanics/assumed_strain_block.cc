@@ -5,7 +5,7 @@
 namespace billet {
 
 ElementType assumed_strain_type();
-// Each in a file of its own, for the sake of compilation.
+// Each is in a file of its own, to reduce compile time.
 std::unique_ptr<ElementBlock> make_assumed_strain_block_3(const std::shared_ptr<const PointLaw> &law,
                                                           const ElementFormulation &formulation);
 std::unique_ptr<ElementBlock> make_assumed_strain_block_5(const std::shared_ptr<const PointLaw> &law,

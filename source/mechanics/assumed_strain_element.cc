@@ -20,14 +20,14 @@ namespace {
 
 constexpr unsigned int n_directions = 9; ///< components of the columns a_k
 constexpr unsigned int n_vectors = AssumedStrainElement<>::n_vectors;
-constexpr unsigned int n_unknowns = 3 * n_vectors; ///< and of the hourglass vectors
-constexpr unsigned int thinning = n_unknowns;      ///< of bricks with layers X is one more, the last
+constexpr unsigned int n_unknowns = 3 * n_vectors; ///< columns and hourglass vectors
+constexpr unsigned int thinning = n_unknowns; ///< bricks with layers have X as one more unknown, the last
 constexpr unsigned int thinning_direction = n_directions;
-// Rows are longer than that, for the sake of processors: a multiple of the lanes.
+// Rows are padded to a multiple of the SIMD width.
 constexpr unsigned int width = 24, direction_width = 10;
 constexpr unsigned int n_tensors = 6; ///< strains: three linear, three bilinear
 using Direction = Dual<double, direction_width>;
-/// A number for each unknown.
+/// One number for each unknown.
 using Row = std::array<double, width>;
 template <std::size_t n> using Rows = std::array<Row, n>;
 
@@ -41,7 +41,7 @@ double poisson_ratio(const ElasticModuli &elastic) {
 double reciprocal(const double x) { return 1. / x; }
 double root(const double x) { return std::sqrt(x); }
 
-/// How much of each strain a point has.
+/// Factors of each strain at each point.
 template <unsigned int n_through> using Shares = std::array<std::array<double, n_tensors>, 4 * n_through>;
 template <unsigned int n_through> Shares<n_through> compute_shares() {
   Shares<n_through> shares{};
@@ -78,13 +78,13 @@ template <class Real> const Real *tensor(const Strains<Real> &strains, const uns
   return t < 3 ? strains.linear[t] : strains.bilinear[t - 3];
 }
 
-/// S v.
+/// Computes S v.
 template <class Fixed, class Real> void multiply(const Fixed *s, const Real *v, Real *result) {
   for (unsigned int i = 0; i < 3; ++i)
     result[i] = s[symmetric[i][0]] * v[0] + s[symmetric[i][1]] * v[1] + s[symmetric[i][2]] * v[2];
 }
 
-/// The strains in space, Σ h_ab a^a ⊗ a^b.
+/// Computes the spatial strains, Σ h_ab a^a ⊗ a^b.
 template <class Real, class Thinning>
 void compute_spatial_strains(const strain_modes::Constants<double> &constants, const Frame<Real> &frame,
                              const Real (*hourglass)[3], const Thinning &of_layers, Strains<Real> &strains) {
@@ -110,7 +110,7 @@ void compute_spatial_strains(const strain_modes::Constants<double> &constants, c
   }
 }
 
-/// The thinning and its force as numbers of type `Real`: those of the element, or what stands for none.
+/// Returns the thinning and its force as numbers of type `Real`; GivenThinning without layers.
 template <class Real, unsigned int n_through>
 auto thinning_of(const typename AssumedStrainElement<n_through>::Reference &reference,
                  const typename AssumedStrainElement<n_through>::Kinematics &kinematics) {
@@ -125,7 +125,7 @@ auto thinning_of(const typename AssumedStrainElement<n_through>::Reference &refe
   }
 }
 
-/// No thinning at all.
+/// Returns zero thinning.
 template <class Real, unsigned int n_through> auto no_thinning() {
   if constexpr (n_through == 2)
     return strain_modes::GivenThinning();
@@ -133,8 +133,8 @@ template <class Real, unsigned int n_through> auto no_thinning() {
     return strain_modes::FreeThinning<Real>{Real{}, Real{}};
 }
 
-/// Sums over the points, w their volumes: w (p 1 + Y dev τ Y⁻¹), which the mean gradient works on, and
-/// w sym(dev τ Y⁻¹) of each strain.
+/// Sums over the points, with volumes w: w (p 1 + Y dev τ Y⁻¹), conjugate to the mean gradient, and w sym(dev
+/// τ Y⁻¹) for each strain.
 struct StressSums {
   Tensor<2, 3> mean;
   Strains<double> of_strains{};
@@ -162,7 +162,7 @@ StressSums sum_stresses(const typename AssumedStrainElement<n_through>::Referenc
   return sums;
 }
 
-/// Forces of the seven vectors.
+/// Returns the forces of the seven vectors.
 template <class Real, class Thinning>
 std::array<std::array<Real, 3>, n_vectors>
 compute_vector_forces(const strain_modes::Constants<double> &constants, const Frame<Real> &frame,
@@ -176,7 +176,7 @@ compute_vector_forces(const strain_modes::Constants<double> &constants, const Fr
   strain_modes::multiply(frame, hourglass, products);
   Strains<Real> strains, stresses;
   strain_modes::compute_strains<double>(constants, frame, products, strains, of_layers);
-  // In T : (δh_ab a^a ⊗ a^b) the duals follow the columns: δa^a = −Σ_k (a^a·δa_k) a^k.
+  // In T : (δh_ab a^a ⊗ a^b) the duals depend on the columns: δa^a = −Σ_k (a^a·δa_k) a^k.
   Real of_duals[3][3] = {}; // [a][k]
   for (unsigned int t = 0; t < n_tensors; ++t) {
     const double *T = tensor(sums.of_strains, t);
@@ -208,7 +208,7 @@ compute_vector_forces(const strain_modes::Constants<double> &constants, const Fr
   return result;
 }
 
-/// The frame with its derivatives by the columns' components, 3 k + i.
+/// Returns the frame with its derivatives by the columns' components, 3 k + i.
 Frame<Direction> differentiate(const Frame<double> &frame) {
   Frame<Direction> result;
   for (unsigned int k = 0; k < 3; ++k)
@@ -222,7 +222,7 @@ Frame<Direction> differentiate(const Frame<double> &frame) {
   return result;
 }
 
-/// Derivatives of the strains by the unknowns.
+/// Returns the derivatives of the strains by the unknowns.
 template <unsigned int n_through>
 std::array<Rows<6>, n_tensors>
 compute_strain_rates(const typename AssumedStrainElement<n_through>::Reference &reference,
@@ -255,7 +255,7 @@ compute_strain_rates(const typename AssumedStrainElement<n_through>::Reference &
   return rates;
 }
 
-/// A symmetric or other tensor as plain numbers.
+/// Tensor, symmetric or not, as plain numbers.
 struct Numbers {
   double a[3][3];
 
@@ -267,7 +267,8 @@ struct Numbers {
   const double *operator[](const unsigned int i) const { return a[i]; }
 };
 
-/// Rates of the Kirchhoff stress by the unknowns, from those of the gradient, L = δF F⁻¹ (3 i + j).
+/// Computes the rates of the Kirchhoff stress by the unknowns, from those of the gradient, L = δF F⁻¹ (3 i +
+/// j).
 void compute_stress_rates(const Numbers &tau, const SpatialModuli &c, const Rows<9> &L, Rows<6> &rates) {
   Rows<6> d;
   for (unsigned int r = 0; r < 6; ++r) {
@@ -289,7 +290,7 @@ void compute_stress_rates(const Numbers &tau, const SpatialModuli &c, const Rows
   }
 }
 
-/// The same of a law in rate form, of which the deviator alone follows L.
+/// Does the same for a law in rate form, in which only the deviator depends on L.
 void compute_stress_rates(const Numbers &, const GradientModuli &A, const Rows<9> &L, Rows<6> &rates) {
   for (unsigned int r = 0; r < 6; ++r) {
     rates[r].fill(0.);
@@ -304,14 +305,15 @@ void compute_stress_rates(const Numbers &, const GradientModuli &A, const Rows<9
 template <class Moduli> constexpr bool is_rate_form = false;
 template <> constexpr bool is_rate_form<GradientModuli> = true;
 
-/// row = a x + b y + c z.
+/// Sets row = a x + b y + c z.
 inline void combine(const double a, const Row &x, const double b, const Row &y, const double c, const Row &z,
                     Row &row) {
   for (unsigned int u = 0; u < width; ++u)
     row[u] = a * x[u] + b * y[u] + c * z[u];
 }
 
-/// What the points add to the rates of StressSums by the unknowns; of the mean only for the first `n_mean`.
+/// Adds the points' contributions to the rates of StressSums by the unknowns; those of the mean only for the
+/// first `n_mean` unknowns.
 template <unsigned int n_mean, unsigned int n_through, class Moduli>
 void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &reference,
                      const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
@@ -412,7 +414,7 @@ void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &
   }
 }
 
-/// K of the unknowns, of which the first 21 are read, to that of the nodes.
+/// Transforms K from the unknowns, of which the first 21 are read, to the nodes.
 template <class Reference, std::size_t n>
 void scatter(const Reference &reference, const Rows<n> &K, ElementMatrix &matrix) {
   std::array<std::array<double, n_element_dofs>, n_unknowns> half;
@@ -445,7 +447,7 @@ template <unsigned int n_through, std::size_t n>
 void add_thinning(const typename AssumedStrainElement<n_through>::Reference &reference,
                   const Frame<double> &frame, const Frame<Direction> &directions,
                   const Direction (*hourglass)[3], Rows<n> &K) {
-  Row rates{}; // of E − X
+  Row rates{}; // rates of E − X
   Products<Direction> products;
   strain_modes::multiply(directions, hourglass, products);
   const Direction stretch =
@@ -473,8 +475,9 @@ void add_thinning(const typename AssumedStrainElement<n_through>::Reference &ref
   }
 }
 
-/// The exact tangent, (B6): what the rates of the stresses do, and, at frozen stresses, what the directions
-/// do, from the forces' own code with derivatives by the columns. `is_symmetric`: as the moduli.
+/// Computes the exact tangent, (B6): the part from the rates of the stresses and, at fixed stresses, that
+/// from the directions. The latter uses the code of the forces with derivatives by the columns.
+/// `is_symmetric` holds for symmetric moduli.
 template <bool is_symmetric, unsigned int n_through, class Moduli>
 void compute_element_tangent(
     const typename AssumedStrainElement<n_through>::Reference &reference,
@@ -498,7 +501,7 @@ void compute_element_tangent(
 
   Rows<n_all> K{};
   for (unsigned int v = 0; v < n_vectors; ++v) {
-    // b̂_m makes no strain that varies as ξ_m, ĉ none that is linear.
+    // b̂_m contributes no strain that varies as ξ_m, ĉ none that is linear.
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int t = v < 6 ? 0 : 3; t < (v < 3 || v == 6 ? n_tensors : 3); ++t) {
         if (v >= 3 && v < 6 && t == v - 3)
@@ -566,7 +569,7 @@ strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &el
       }
   for (unsigned int k = 0; k < 3; ++k) {
     const double both = constants.share[(k + 1) % 3][k] * constants.share[(k + 2) % 3][k];
-    // Of ν towards −1 no thinning is so far below zero.
+    // The bound avoids a negative radicand as ν approaches −1.
     constants.thinning[k] = 0.5 * (std::sqrt(std::max(0., 3. + 6. * nu / ((1. - nu) * both))) - 1.);
   }
   constants.fourth = std::sqrt(2. * (1. + nu) / (3. * (1. + 2. / 3. * theta * theta)));
@@ -576,7 +579,7 @@ strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &el
 template <unsigned int n_through>
 bool AssumedStrainElement<n_through>::initialize(const ElementVectors &positions, Reference &reference,
                                                  const ThicknessAxis &axis) const {
-  ReferenceElement points; // a mesh that eight points refuse is refused
+  ReferenceElement points; // a brick that is invalid with eight points is rejected
   if (!compute_reference_element(positions, points))
     return false;
   std::array<unsigned int, n_element_nodes> corners{};
@@ -604,7 +607,7 @@ bool AssumedStrainElement<n_through>::initialize(const ElementVectors &positions
   if constexpr (is_layered) {
     const double nu = poisson_ratio(elastic_), part = nu / (1. - nu);
     const auto &share = reference.constants.share;
-    // Towards ν = ½ and −1 a finite modulus above zero is left.
+    // The bounds keep the modulus finite and positive as ν approaches ½ and −1.
     constexpr double least = -0.45;
     const double counted =
         std::max(least, std::min(part / (share[0][2] * share[1][2]), 1. - 0.25 * (1. - part)));
@@ -632,12 +635,12 @@ bool AssumedStrainElement<n_through>::initialize(const ElementVectors &positions
 
 namespace {
 
-/// The points' gradients from Y; false if one is not admissible.
+/// Computes the points' gradients from Y. Returns false if one is inadmissible.
 template <class Kinematics> bool complete_points(const Tensor<2, 3> &mean_F, Kinematics &kinematics) {
   for (unsigned int q = 0; q < kinematics.Y.size(); ++q) {
     const SymmetricTensor<2, 3> &Y = kinematics.Y[q];
     const double determinant = dealii::determinant(Y);
-    // Positive definite: no fibre turned inside out, nor two.
+    // Y must be positive definite: neither one nor two fibres are inverted.
     if (!(determinant > 0.) || !(dealii::trace(Y) > 0.) || !(dealii::second_invariant(Y) > 0.) ||
         !std::isfinite(determinant))
       return false;

@@ -29,7 +29,7 @@ void MeanDilatationElement::compute_rate_tangent(const Reference &reference, con
     reference_volume += reference.volumes[q];
     volumetric += reference.volumes[q] * dealii::trace(tau[q]) / 3.;
   }
-  // The pressure that makes Π J w [tr δL tr L − tr(δL L)]/v of the weights J w/J̄.
+  // Pressure that gives Π J w [tr δL tr L − tr(δL L)]/v with the weights J w/J̄.
   const double pressure = volumetric * kinematics.volume_ratio / kinematics.current_volume;
   for (unsigned int q = 0; q < n_points; ++q) {
     const auto &g = kinematics.gradients[q];

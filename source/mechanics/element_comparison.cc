@@ -17,12 +17,12 @@ ElementComparison::ElementComparison(std::shared_ptr<const PointLaw> law,
     : elastic_(law->elastic()), formulation_(formulation), law_(std::move(law)), flow_(law_->flow_stress()) {}
 
 double ElementComparison::equivalent_plastic_strain(const double elastic_deviatoric_energy) const {
-  // G e:e = ½ 3G ε², ε the equivalent strain.
+  // G e:e = ½ 3G ε² with the equivalent strain ε.
   const double stiffness = 3. * elastic_.shear;
   const double strain = std::sqrt(2. * elastic_deviatoric_energy / stiffness);
   if (flow_ == nullptr || stiffness * strain <= flow_->stress(0.))
     return 0.;
-  // 3G (ε − α) = σ(α), of which the left falls faster than the right.
+  // Solve 3G (ε − α) = σ(α); the left side decreases faster than the right.
   double low = 0., high = strain;
   constexpr unsigned int n_bisections = 48;
   for (unsigned int i = 0; i < n_bisections; ++i) {
@@ -45,7 +45,7 @@ double ElementComparison::energy(const double volumetric_strain,
 }
 
 ElementComparison::Strains ElementComparison::measure(const dealii::Tensor<2, 3> &F) const {
-  // C − I, without the digits that C would lose.
+  // C − I, without the cancellation error of C.
   dealii::Tensor<2, 3> H = F;
   for (unsigned int i = 0; i < 3; ++i)
     H[i][i] -= 1.;
@@ -86,7 +86,7 @@ double ElementComparison::dissipation(const Strains &strains) const {
 
 double
 ElementComparison::dissipation_between(const std::array<dealii::Tensor<2, 3>, n_element_points> &F) const {
-  constexpr unsigned int n_within = 3; // in each direction
+  constexpr unsigned int n_within = 3; // points in each direction
   static const dealii::QGauss<3> within(n_within);
   double mean = 0.;
   for (unsigned int p = 0; p < within.size(); ++p) {
@@ -111,7 +111,7 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
     moved[i] += displacements[i];
   const ModalGeometry reference(positions);
   const auto modes = compute_modes(moved);
-  // The mean strain: that of the centre is another one in tapered bricks, by parts of the bending.
+  // Mean strain; in tapered bricks it differs from that at the centre by parts of the bending.
   Tensor<2, 3> jacobian, moved_jacobian;
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j) {
@@ -125,8 +125,8 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
                young = 9. * elastic_.bulk * shear / (3. * elastic_.bulk + shear);
   const Tensor<2, 3> back = invert(F);
   double energy = 0.;
-  for (unsigned int i = 0; i < 3; ++i)     // along which the brick bends
-    for (unsigned int j = 0; j < 3; ++j) { // through its thickness
+  for (unsigned int i = 0; i < 3; ++i)     // direction along which the brick bends
+    for (unsigned int j = 0; j < 3; ++j) { // direction through its thickness
       if (i == j)
         continue;
       const unsigned int k = 3 - i - j, between = 3 + k;
@@ -137,7 +137,7 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
       const double bending = (back * modes[between] - reference.modes[between]) * along / length;
       if (bending == 0.)
         continue;
-      const auto tapered = [&](const unsigned int mode, const double other) { // that of a_i and the other
+      const auto tapered = [&](const unsigned int mode, const double other) { // taper of a_i and other
         return -bending * reference.modes[mode] * along / other * length / thickness;
       };
       const double wanted = tapered(between, thickness), sheared = tapered(3 + j, width);
@@ -184,7 +184,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
   if (!add_one_point(positions, displacements, one_point) ||
       !add_points(AssumedStrainElement<>(elastic_, formulation_), own.accurate))
     return false;
-  // A body that yields stores less of all its strains.
+  // The energy of the taper is reduced in the same ratio where the body yields.
   own.tapered = elastic > 0. ? own.accurate * energy_of_taper(positions, displacements) / elastic : 0.;
   own.one_point = one_point.used;
   if (formulation_.element == BrickElement::mean_dilatation) {
@@ -193,7 +193,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
   } else if (formulation_.element == BrickElement::one_point)
     own += one_point;
   else
-    own.used = own.accurate; // also of elements that are not known here, which nothing is said of
+    own.used = own.accurate; // also for other elements, for which there is no comparison
   if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered + own.plastic_within))
     return false;
   energies += own;

@@ -11,7 +11,7 @@ namespace {
 
 using NodalValues = std::array<double, n_element_nodes>;
 
-/// N_a at the points of ReferenceElement.
+/// Returns N_a at the points of ReferenceElement.
 std::array<NodalValues, n_element_points> make_shape_values() {
   std::array<NodalValues, n_element_points> values{};
   const double g = 1. / std::sqrt(3.);

@@ -19,7 +19,7 @@ TypeTable<BrickElement> &element_types() {
 
 namespace {
 
-/// Input of a type without parameters: there is nothing to ask.
+/// Input of a type without parameters.
 class NoInput final : public TypeInput {
 public:
   bool is_set(const std::string &) const override { return false; }

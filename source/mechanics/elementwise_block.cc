@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-/// ‖A²‖_∞^{1/2} of (X16).
+/// Returns ‖A²‖_∞^{1/2} of (X16).
 double bound_gradients(const ReferenceElement &reference, const MeanDilatationKinematics &kinematics) {
   double A[n_element_nodes][n_element_nodes] = {};
   for (unsigned int q = 0; q < n_element_points; ++q) {
@@ -79,7 +79,7 @@ public:
                        smallest_step * find_rate(stiffness, damp(last_[e].omega, 0.).rate * last_[e].omega);
       if (excess <= 1.)
         continue;
-      // Stiffness over mass is the square of a rate, and damping over mass grows as its root.
+      // Stiffness/mass scales as the square of a rate, damping/mass linearly with it.
       const double factor = excess * excess;
       for (double &mass : masses_[e]) {
         added += (factor - 1.) * mass;
@@ -129,7 +129,7 @@ public:
     return result;
   }
 
-  void renew(const double *) override {} // nothing is added up in float
+  void renew(const double *) override {} // nothing accumulates in float
 
   void add_masses(double *masses) const override {
     for (std::size_t e = 0; e < size(); ++e)
@@ -173,7 +173,7 @@ public:
   }
 
 private:
-  /// Numbers of an element's last call.
+  /// Data of an element's last call.
   struct Last {
     double volume, omega, viscous_pressure, plastic_work;
   };
@@ -182,7 +182,7 @@ private:
   struct Damping {
     double pressure, rate;
   };
-  /// Bulk viscosity ρ L (c_1 c |d| + c_2² L d²) with L² = 4/(ρ Ω), as in the kernels.
+  /// Computes the bulk viscosity ρ L (c_1 c |d| + c_2² L d²) with L² = 4/(ρ Ω), as in the kernels.
   Damping damp(const double omega, const double rate_of_volume) const {
     const double linear = 2. * formulation_.linear_viscosity * wave_speed_ * std::sqrt(density_ / omega),
                  quadratic = 4. * formulation_.quadratic_viscosity * formulation_.quadratic_viscosity /
@@ -190,7 +190,7 @@ private:
     return {(linear + quadratic) * rate_of_volume, 3. * (linear + 2. * quadratic)};
   }
 
-  /// 1/Δt where M − Δt C/2 − Δt² K/4 stays positive: K ≤ M ω², C ≤ M c.
+  /// Returns the minimum 1/Δt for which M − Δt C/2 − Δt² K/4 stays positive: K ≤ M ω², C ≤ M c.
   static double find_rate(const double omega_squared, const double c) {
     return 0.5 * (0.5 * c + std::sqrt(0.25 * c * c + omega_squared));
   }
@@ -215,7 +215,7 @@ private:
   std::unique_ptr<ElementBlock> block_;
   std::vector<std::array<unsigned int, n_element_nodes>> nodes_;
   std::vector<ReferenceElement> references_;
-  std::vector<std::array<double, n_element_nodes>> masses_; ///< lumped, of the elements' nodes
+  std::vector<std::array<double, n_element_nodes>> masses_; ///< lumped masses of the elements' nodes
   std::vector<Last> last_;
 };
 

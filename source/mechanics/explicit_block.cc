@@ -31,7 +31,7 @@ double harden(const void *flow, const double q, const double m, const double alp
   return delta;
 }
 
-/// Numbers of the hardening law that kernels compute themselves.
+/// Sets the parameters of a hardening law that kernels support.
 void set_hardening(const LaneHardening &form, Material &material) {
   material.hardening_kind = form.kind;
   material.yield_stress = form.yield_stress;
@@ -60,7 +60,7 @@ bool compute_logarithm(const double *b, double *deviator, double &mean) {
   return true;
 }
 
-/// The same in other units and another type of number.
+/// Converts to the kernel's units and number type.
 template <class Number>
 explicit_kernels::BasicMaterial<Number> convert(const Material &material, const KernelUnits &units) {
   const auto to_number = [](const double x) { return static_cast<Number>(x); };
@@ -84,7 +84,7 @@ explicit_kernels::BasicMaterial<Number> convert(const Material &material, const 
   return result;
 }
 
-/// Mean extent of the elements.
+/// Returns the mean size of the elements [length].
 double typical_length(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
                       const double *positions) {
   double sum = 0.;
@@ -103,8 +103,8 @@ double typical_length(const std::vector<std::array<unsigned int, n_element_nodes
   return sum / static_cast<double>(elements.size());
 }
 
-/// While one lives, numbers below the normal ones of their type are zero: processors take a hundred times as
-/// long for them. In float products of what little is ahead of a wave are such numbers.
+/// Guard that flushes subnormal numbers to zero, since processors are a hundred times slower with them. In
+/// float, products of small values ahead of a wave are subnormal.
 class NoSubnormals {
 public:
 #ifdef __SSE2__
@@ -118,12 +118,12 @@ public:
 
 private:
 #ifdef __SSE2__
-  static constexpr unsigned int bits = 0x8040; // of MXCSR: results are flushed to zero, operands taken for it
+  static constexpr unsigned int bits = 0x8040; // of MXCSR: subnormal results and operands become zero
   unsigned int before_;
 #endif
 };
 
-/// The block of a law that kernels have.
+/// Block of a law that kernels support.
 template <class Number> class Block final : public ExplicitBlock {
 public:
   Block(std::shared_ptr<const PointLaw> law, const LaneLaw lane_law, const LaneElement lane_element,
@@ -175,7 +175,7 @@ public:
   }
 
   double scale_mass(const double smallest_step) override {
-    // The kernel itself, element by element, says what their steps are.
+    // The kernel itself computes the stable step of each element.
     const dealii::AlignedVector<double> at_rest(storage_.nodal_size(), 0.);
     dealii::AlignedVector<double> ignored_forces(storage_.nodal_size(), 0.);
     typename ExplicitStorage<Number>::Copy copy;
@@ -185,7 +185,7 @@ public:
       kernel_(storage_.copy_element(element, copy), kernel_material_, functions_,
               make_step({at_rest.data(), at_rest.data(), ignored_forces.data()}, 0.), result);
       const double excess = smallest_step * largest_rate(result);
-      if (excess > 1.) // stiffness over mass is the square of a rate, and damping over mass grows as its root
+      if (excess > 1.) // stiffness/mass scales as the square of a rate, damping/mass linearly with it
         added += material_.density * storage_.scale_mass(element, excess * excess);
     }
     return added;
@@ -201,7 +201,7 @@ public:
     [[maybe_unused]] const std::conditional_t<is_single, NoSubnormals, std::monostate> guard{};
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
     const double energy = units_.energy(), rate = largest_rate(result);
-    // A rank without an element sets no limit.
+    // A rank without elements sets no limit.
     const double longest = rate > 0. ? 1. / rate : std::numeric_limits<double>::infinity();
     return {longest,
             energy * result.elastic_energy,
@@ -290,12 +290,13 @@ private:
             1. / units_.length,  units_.force()};
   }
 
-  /// What a rate has lost to rounding, a few parts in 10⁷, must not make a step longer than what is stable.
+  /// Returns the rate with a margin in float: its round-off, a few parts in 10⁷, must not make the step
+  /// unstable.
   double largest_rate(const explicit_kernels::Result &result) const {
     return (is_single ? 1. + 2e-6 : 1.) * result.largest_rate / units_.time;
   }
 
-  /// The inverse of compute_distortion(): a PointState's tensor from dev τ.
+  /// Returns a PointState's tensor from dev τ, the inverse of compute_distortion().
   dealii::SymmetricTensor<2, 3> elastic_tensor(const dealii::SymmetricTensor<2, 3> &dev_tau) const {
     const dealii::SymmetricTensor<2, 3> X = dev_tau / material_.shear;
     switch (lane_law_) {
@@ -309,7 +310,7 @@ private:
     return dev_tau;
   }
 
-  /// dev τ and the energy that it stores per reference volume, from a PointState's tensor.
+  /// Computes dev τ from a PointState's tensor. Returns its stored energy per reference volume.
   double compute_distortion(const dealii::SymmetricTensor<2, 3> &tensor,
                             dealii::SymmetricTensor<2, 3> &dev_tau) const {
     const double G = material_.shear;
@@ -339,14 +340,14 @@ private:
   ExplicitFormulation formulation_;
   std::shared_ptr<const PointLaw> law_;
   LaneLaw lane_law_;
-  const FlowStress *flow_; ///< null of elastic bodies
+  const FlowStress *flow_; ///< null for elastic bodies
   Material material_;
   KernelUnits units_;
   explicit_kernels::BasicMaterial<Number> kernel_material_{};
   explicit_kernels::LaneFunctions functions_{};
   ExplicitStorage<Number> storage_;
   explicit_kernels::Kernel<Number> kernel_;
-  bool is_fresh_ = true; ///< no history but that of initialize()
+  bool is_fresh_ = true; ///< history is still that of initialize()
 };
 
 void require(const bool holds, const char *reason) {

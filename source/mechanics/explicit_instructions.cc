@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which kernels were compiled (CMake says so), and which of them this processor can run.
+// Selection of kernels: those that were compiled (set by CMake) and that this processor can run.
 #include "billet/mechanics/explicit_instructions.h"
 
 namespace billet {
@@ -8,13 +8,13 @@ namespace {
 
 using explicit_kernels::KernelTable;
 
-/// The kernels of an instruction set for both types of number.
+/// Kernels of an instruction set for both number types.
 struct Tables {
   const KernelTable<double> *in_double = nullptr;
   const KernelTable<float> *in_float = nullptr;
 };
 
-/// Nulls where it was not compiled or the processor cannot run it.
+/// Returns null pointers if it was not compiled or the processor cannot run it.
 Tables find(const InstructionSet instructions) {
   using namespace explicit_kernels;
   switch (instructions) {

@@ -24,7 +24,7 @@ constexpr std::size_t n_mode_numbers = 21, eight_point_modes = 2;
 
 double next_power_of_two(const double x) { return std::exp2(std::round(std::log2(x))); }
 
-/// ∂ξ/∂X at a point: the gradient of the field that has the corners' coordinates ξ as nodal values.
+/// Returns ∂ξ/∂X at a point: the gradient of the field with the corners' coordinates ξ as nodal values.
 Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const unsigned int q) {
   Tensor<2, 3> result;
   for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -34,7 +34,7 @@ Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const u
   return result;
 }
 
-/// Largest sum of the sizes in a row, a bound of a symmetric matrix's eigenvalues.
+/// Returns the maximum absolute row sum, a bound of a symmetric matrix's eigenvalues.
 template <std::size_t n> double bound_by_rows(const std::array<std::array<double, n>, n> &matrix) {
   double largest = 0.;
   for (const auto &row : matrix) {
@@ -46,8 +46,8 @@ template <std::size_t n> double bound_by_rows(const std::array<std::array<double
   return largest;
 }
 
-/// Bound of λ_max of A Aᵀ per squared displacement, A the vectors that follow from the seven modes as these
-/// rows say: modes are orthogonal, of squared length 1/8.
+/// Returns a bound of λ_max of A Aᵀ per squared displacement. A maps the nodal values to vectors; `rows` are
+/// their coefficients by the seven modes, which are orthogonal with squared length 1/8.
 template <std::size_t n> double bound_squares(const std::array<std::array<double, 7>, n> &rows) {
   std::array<std::array<double, n>, n> matrix{};
   for (std::size_t k = 0; k < n; ++k)
@@ -57,7 +57,7 @@ template <std::size_t n> double bound_squares(const std::array<std::array<double
   return bound_by_rows(matrix) / 8.;
 }
 
-/// The columns of J̄ by the modes.
+/// Returns the coefficients of the columns of J̄ by the modes.
 std::array<std::array<double, 7>, 3> rows_of_mean(const ModalGeometry &geometry) {
   std::array<std::array<double, 7>, 3> rows{};
   for (unsigned int k = 0; k < 3; ++k)
@@ -66,7 +66,7 @@ std::array<std::array<double, 7>, 3> rows_of_mean(const ModalGeometry &geometry)
   return rows;
 }
 
-/// And with them the modes b and c less `part` of what the mean gradient makes of them.
+/// Returns the same with the modes b and c added, minus `part` times the contribution of the mean gradient.
 std::array<std::array<double, 7>, 7> rows_of_all(const ModalGeometry &geometry, const Tensor<2, 3> &inverse,
                                                  const double part) {
   std::array<std::array<double, 7>, 7> rows{};
@@ -81,7 +81,7 @@ std::array<std::array<double, 7>, 7> rows_of_all(const ModalGeometry &geometry, 
   return rows;
 }
 
-/// Over the largest square.
+/// Returns the metric of the columns, relative to the maximum square.
 hourglass::Metric<double> measure_columns(const ModalGeometry &geometry) {
   const auto &a = geometry.modes;
   const double unit = std::max({a[0].norm_square(), a[1].norm_square(), a[2].norm_square()});
@@ -94,7 +94,7 @@ hourglass::Metric<double> measure_columns(const ModalGeometry &geometry) {
   return metric;
 }
 
-/// M_h of (X12): bound of the stiffness of hourglass strains over their weighted squares.
+/// Returns M_h of (X12): a bound of the stiffness of hourglass strains over their weighted squares.
 double bound_hourglass(const ElasticModuli &elastic, const hourglass::Metric<double> &metric) {
   const hourglass::Moduli<double> moduli(elastic.bulk, elastic.shear);
   constexpr std::size_t n = 12;
@@ -114,7 +114,7 @@ double bound_hourglass(const ElasticModuli &elastic, const hourglass::Metric<dou
   return bound_by_rows(matrix);
 }
 
-/// Bound of the eigenvalues of J⁻¹ J⁻ᵀ.
+/// Returns a bound of the eigenvalues of J⁻¹ J⁻ᵀ.
 double bound_metric(const Tensor<2, 3> &inverse_jacobian) {
   const Tensor<2, 3> metric = inverse_jacobian * transpose(inverse_jacobian);
   double largest = 0.;
@@ -200,7 +200,7 @@ bool ExplicitStorage<Number>::initialize(
     if (!initialize_element(offender, density, yield_stress))
       return false;
   }
-  // The lanes beyond the last element repeat it.
+  // Lanes beyond the last element repeat it.
   for (std::size_t e = elements.size(); e % n_lanes_ != 0; ++e) {
     const std::size_t last = elements.size() - 1;
     for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -406,7 +406,7 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
   const double cubed = units_.length * units_.length * units_.length;
   const double volume = cubed * constant(element, 0) * density_factors_[element];
   density_factors_[element] *= factor;
-  // The lanes beyond the last element repeat it.
+  // Lanes beyond the last element repeat it.
   const bool is_last = element + 1 == n_elements_;
   for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
     const auto divide = [&](const std::size_t k) { set_constant(e, k, constant(e, k) / factor); };
@@ -524,7 +524,7 @@ void ExplicitStorage<Number>::set_hourglass(const std::size_t element, const dou
   const Tensor<2, 3> inverse = invert(jacobian), inverse_reference = invert(reference_jacobian);
   for (unsigned int m = 0; m < 4; ++m) {
     Tensor<1, 3> strain = inverse * current.modes[3 + m];
-    if (is_single) // of its own from the reference on, or none
+    if (is_single) // strain relative to the reference, or zero
       strain = is_forgotten ? Tensor<1, 3>() : strain - inverse_reference * reference.modes[3 + m];
     for (unsigned int i = 0; i < 3; ++i)
       set_history(element, last::n + std::size_t{3} * m + i, strain[i]);

@@ -12,7 +12,7 @@ namespace {
 
 using NodalGradients = std::array<std::array<double, 3>, n_element_nodes>;
 
-/// ∂N_a/∂ξ_i on the bi-unit cube at the eight points (±1/√3, ±1/√3, ±1/√3).
+/// Returns ∂N_a/∂ξ_i on the bi-unit cube at the eight points (±1/√3, ±1/√3, ±1/√3).
 std::array<NodalGradients, n_element_points> make_shape_gradients() {
   std::array<NodalGradients, n_element_points> gradients{};
   const double g = 1. / std::sqrt(3.);
@@ -33,7 +33,7 @@ std::array<NodalGradients, n_element_points> make_shape_gradients() {
 
 const std::array<NodalGradients, n_element_points> shape_gradients = make_shape_gradients();
 
-/// ∂N_a/∂y from ∂N_a/∂ξ, where `jacobian` = ∂y/∂ξ.
+/// Computes ∂N_a/∂y from ∂N_a/∂ξ; the Jacobian is ∂y/∂ξ.
 void transform_gradients(const NodalGradients &from, const Tensor<2, 3> &inverse_jacobian,
                          NodalGradients &to) {
   for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -116,7 +116,7 @@ void add_internal_force(const ReferenceElement &element, const MeanDilatationKin
 
 namespace {
 
-/// Where it is symmetric only the upper triangle is computed, then mirrored.
+/// Computes the tangent. If it is symmetric, only the upper triangle is computed, then mirrored.
 template <bool is_symmetric>
 void compute_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
                      const std::array<SymmetricTensor<2, 3>, n_element_points> &tau,

@@ -22,7 +22,7 @@ double contract(const OnePointElement::HourglassVector &a, const OnePointElement
   return sum;
 }
 
-/// J̄⁻¹ (b_1, b_2, b_3, c).
+/// Returns J̄⁻¹ (b_1, b_2, b_3, c).
 OnePointElement::HourglassVector pull_modes(const Tensor<2, 3> &inverse, const ModalGeometry &geometry) {
   OnePointElement::HourglassVector strain;
   for (unsigned int m = 0; m < 4; ++m) {
@@ -33,7 +33,7 @@ OnePointElement::HourglassVector pull_modes(const Tensor<2, 3> &inverse, const M
   return strain;
 }
 
-/// See hourglass::respond().
+/// Computes stresses and energy, see hourglass::respond().
 double respond(const hourglass::Moduli<double> &moduli, const hourglass::Metric<double> &metric,
                const OnePointElement::HourglassVector &strain, OnePointElement::HourglassVector &stress) {
   double h[4][3], s[4][3];
@@ -47,8 +47,8 @@ double respond(const hourglass::Moduli<double> &moduli, const hourglass::Metric<
   return energy;
 }
 
-/// Rows of modes to rows of nodes, x_m = Σ_a mode_values[m][a] x_a/8: each node's is the sum of the modes'
-/// with their signs, made by sums and differences over the three directions.
+/// Transforms rows of modes to rows of nodes, x_m = Σ_a mode_values[m][a] x_a/8. The row of a node is the
+/// signed sum of the modes' rows, computed by sums and differences over the three directions.
 template <std::size_t width>
 std::array<double, n_element_dofs * width>
 scatter_rows(const std::array<double, n_modal_dofs * width> &modal) {
@@ -70,7 +70,7 @@ scatter_rows(const std::array<double, n_modal_dofs * width> &modal) {
   return rows;
 }
 
-/// The stiffness of modes to that of nodes.
+/// Transforms the stiffness from modes to nodes.
 void scatter(const ModalMatrix &modal, ElementMatrix &matrix) {
   const auto half = scatter_rows<n_modal_dofs>(modal);
   std::array<double, n_modal_dofs * n_element_dofs> transposed;
@@ -114,7 +114,7 @@ OnePointElement::History OnePointElement::restore(const double *numbers) {
 }
 
 bool OnePointElement::initialize(const ElementVectors &positions, Reference &reference) {
-  ReferenceElement points; // a mesh that eight points refuse is refused with one, too
+  ReferenceElement points; // a brick that is invalid with eight points is rejected with one, too
   if (!compute_reference_element(positions, points))
     return false;
   const ModalGeometry geometry(positions);
@@ -137,7 +137,7 @@ bool OnePointElement::initialize(const ElementVectors &positions, Reference &ref
 
 bool OnePointElement::compute(const Reference &reference, const ElementVectors &displacements,
                               Kinematics &kinematics) {
-  // Modes are linear in the positions: here are only those of the displacements.
+  // Modes are linear in the positions; only those of the displacements are needed here.
   const auto moved = compute_modes(displacements);
   Tensor<2, 3> H; // F̄ − 1
   for (unsigned int k = 0; k < 3; ++k)
@@ -211,7 +211,7 @@ void OnePointElement::add_force(const Reference &reference, const Kinematics &ki
   ModalForces modal{};
   const auto tau_g = multiply_gradients(tau, kinematics.gradients);
   const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
-  std::array<std::array<double, 3>, 3> mean_forces{}; // of the columns of J̄
+  std::array<std::array<double, 3>, 3> mean_forces{}; // forces of the columns of J̄
   for (unsigned int m = 0; m < 4; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
       const double t = stabilisation.yield.share *
@@ -242,7 +242,7 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
 
   const SharedYield &yield = stabilisation.yield;
   const auto flow = multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share),
-                                       kinematics.gradients); // of δτ, by the trial's δ(energy)
+                                       kinematics.gradients); // change of δτ by the trial's δ(energy)
 
   const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
   const HourglassVector &c = kinematics.strain, &s = stabilisation.stress;
@@ -253,7 +253,8 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
   const double factor = yield.share * reference.volume;
   for (unsigned int m = 0; m < n_element_modes; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
-      // A unit of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z (δb − δJ̄ c).
+      // Unit variation of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z (δb − δJ̄
+      // c).
       const std::array<double, 3> beta =
           m < n_linear_modes ? reference.beta[m] : std::array<double, 3>{0., 0., 0.};
       const std::array<double, 3> gradient =

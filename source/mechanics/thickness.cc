@@ -12,7 +12,7 @@ namespace billet {
 
 namespace {
 
-/// The order of deal.II's points is increasing.
+/// Returns the rule; deal.II's points are in increasing order.
 GaussRule make_rule(const unsigned int n_through) {
   GaussRule rule;
   const dealii::QGauss<1> gauss(n_through);
@@ -20,7 +20,7 @@ GaussRule make_rule(const unsigned int n_through) {
     rule.points.push_back(2. * gauss.point(l)[0] - 1.);
     rule.weights.push_back(gauss.weight(l));
   }
-  // The two halves mirror each other to the last bit.
+  // The two halves are symmetric to the last bit.
   for (unsigned int l = 0; 2 * l < n_through; ++l) {
     const unsigned int other = n_through - 1 - l;
     rule.points[l] = l == other ? 0. : -rule.points[other];
@@ -31,7 +31,7 @@ GaussRule make_rule(const unsigned int n_through) {
   return rule;
 }
 
-/// Means of a column of layers over the parts of the thickness of other layers, in place.
+/// Replaces a column of layers with means over the parts of the thickness of other layers.
 void transfer_column(std::vector<PointStress> &column, const unsigned int n_through) {
   if (column.size() == n_through)
     return;
@@ -91,7 +91,7 @@ std::optional<ThicknessAxis> find_thickness_axis(const ElementVectors &positions
 }
 
 std::array<unsigned int, n_element_nodes> turn_corners(const ThicknessAxis &axis) {
-  // (j, k, i) is a turn of (i, j, k), and so is (k, j, −i).
+  // (j, k, i) is a rotation of (i, j, k), and so is (k, j, −i).
   const unsigned int next = (axis.axis + 1) % 3, last = (axis.axis + 2) % 3;
   const std::array<unsigned int, 3> bits = {axis.is_reversed ? last : next, axis.is_reversed ? next : last,
                                             axis.axis};

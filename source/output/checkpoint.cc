@@ -29,14 +29,14 @@ namespace billet {
 
 namespace {
 
-constexpr std::size_t header_size = 512; // what HDF5 calls a user block
+constexpr std::size_t header_size = 512; // the user block of HDF5
 constexpr std::size_t n_at_once = std::size_t{1} << 20U;
 const std::string magic = "billet checkpoint";
 
 // HDF5's identifiers are 64 bits wide, as a long is here.
 static_assert(sizeof(hid_t) <= sizeof(long), "identifiers are kept as long");
 
-/// Closes what HDF5 has opened.
+/// Owner of an HDF5 identifier; closes it.
 class Handle {
 public:
   using Close = herr_t (*)(hid_t);
@@ -56,10 +56,10 @@ private:
   Close close_;
 };
 
-/// No messages of HDF5's own: ours say what is wrong.
+/// Disables HDF5's own error messages: those of this file name the problem.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-/// Of all bytes behind the header.
+/// Returns the checksum of all bytes after the header.
 std::string checksum(std::ifstream &in) {
   boost::crc_32_type crc;
   std::vector<char> buffer(n_at_once);
@@ -80,7 +80,7 @@ std::uintmax_t size_of(const std::string &file) {
 
 std::string last_error() { return std::strerror(errno); }
 
-/// Waits until a file, or a folder's list of files, is on disk.
+/// Flushes a file, or the file list of a folder, to disk. Returns whether that succeeded.
 bool synchronise(const std::string &name, const int flags) {
   const int descriptor = open(name.c_str(), flags);
   if (descriptor < 0)
@@ -100,7 +100,7 @@ std::string folder_of(const std::string &file) {
 
 namespace {
 
-// What HDF5 may need beside the data, at any time until the file is closed.
+// Space that HDF5 may need in addition to the data, at any time until the file is closed.
 constexpr std::size_t reserve_of_hdf5 = std::size_t{1} << 18U;
 
 } // namespace
@@ -116,7 +116,7 @@ CheckpointWriter::CheckpointWriter(MPI_Comm communicator, std::string file_name)
       H5Pset_userblock(creation.id(), header_size);
       file_ = H5Fcreate((name_ + ".tmp").c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT);
       if (check(file_ >= 0, "cannot be made"))
-        reserve(0); // again: it was emptied
+        reserve(0); // again, since the file was truncated
     }
   }
   write("ranks", {static_cast<double>(dealii::Utilities::MPI::n_mpi_processes(communicator))});
@@ -137,7 +137,7 @@ void CheckpointWriter::close() {
 }
 
 bool CheckpointWriter::reserve(const std::size_t n_bytes) {
-  // HDF5 cannot get out of a write that fails: at the program's end, if not before, it crashes.
+  // HDF5 cannot recover from a failed write: it crashes, at the end of the program at the latest.
   hsize_t size = 0;
   if (file_ >= 0)
     H5Fget_filesize(file_, &size);
@@ -203,7 +203,7 @@ void CheckpointWriter::write_rows(const std::string &name, const std::size_t wid
     write_array("keys", H5T_NATIVE_UINT64, n_rows, 1, nullptr);
     write_array("rows", H5T_NATIVE_DOUBLE, n_rows, width, nullptr);
   }
-  // The first rank takes the rows of all, a part at a time, in the order of the ranks.
+  // The first rank collects the rows of all ranks in blocks, in the order of the ranks.
   const std::size_t n_part = std::max<std::size_t>(1, n_at_once / width);
   const auto put = [&](const std::string &what, const long type, const std::uint64_t begin,
                        const std::size_t n, const std::size_t columns, const void *data) {
@@ -281,7 +281,7 @@ std::string CheckpointWriter::finish() {
 
 namespace {
 
-/// Why the file cannot be gone on with; empty if it can.
+/// Returns why a run cannot resume from the file; empty if it can.
 std::string find_fault(const std::string &name) {
   std::error_code error;
   if (std::filesystem::is_directory(name, error))
@@ -362,7 +362,7 @@ bool CheckpointReader::has(const std::string &name) const {
 
 namespace {
 
-/// All of an array.
+/// Returns all values of an array.
 template <class T>
 std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t type,
                         std::array<hsize_t, 2> &size) {
@@ -409,7 +409,7 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
     for (std::size_t i = 0; i < keys.size(); ++i)
       wanted.emplace_back(keys[i], i);
     std::sort(wanted.begin(), wanted.end());
-    // A part of the file at a time, if anything in it is wanted.
+    // Read the file in blocks, and only those with wanted rows.
     const std::size_t n_part = std::max<std::size_t>(1, n_at_once / std::max<std::size_t>(1, width) / 4);
     std::vector<std::pair<std::size_t, std::size_t>> matches; // row, place
     std::vector<double> part;
@@ -449,7 +449,7 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
 
 namespace {
 
-/// Of the interval, by which round-off may misplace its end.
+/// Tolerance for round-off at the end of an interval, relative to the interval.
 constexpr double slack = 1e-9;
 
 } // namespace
@@ -469,7 +469,7 @@ std::string Checkpoints::write(const double time, const std::function<void(State
   std::ostringstream name;
   name << parameters_.folder.value << "/checkpoint_" << std::setw(5) << std::setfill('0') << n_written_
        << ".h5";
-  // What the file says of itself is how it will be once it is there.
+  // The saved state describes the schedule after this checkpoint.
   ++n_written_;
   if (parameters_.checkpoint.interval > 0.)
     n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
@@ -517,7 +517,7 @@ void Checkpoints::load(const StateReader &reader, const double time, const bool 
 namespace {
 
 constexpr std::array<int, 4> heeded{SIGTERM, SIGINT, SIGUSR1, SIGUSR2};
-// Written by the handler.
+// Set by the signal handler.
 volatile std::sig_atomic_t end_signal = 0, checkpoint_signal = 0;
 
 extern "C" void note_signal(const int signal) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr unsigned int n_stresses = 6;
 
-/// One scalar of each element.
+/// Returns one scalar for each element.
 template <class Get>
 ElementValues values_of(const std::vector<std::vector<ElementSummary>> &summaries, const Get &get) {
   ElementValues values;
@@ -33,7 +33,7 @@ std::vector<std::vector<ElementSummary>> summarize(const Solution &solution,
   return summaries;
 }
 
-/// ∫ of the squares over all ranks. Collective.
+/// Returns the integral of the squares over all ranks. Collective.
 double integrate_squares(const Discretization &discretization, const ElementValues &values) {
   double sum = 0.;
   for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
@@ -54,7 +54,7 @@ ElementValues difference(ElementValues values, const ElementValues &others) {
 } // namespace
 
 ElementValues smooth(const Discretization &discretization, const ElementValues &values) {
-  // A node's first dof takes values times volumes, its second one volumes.
+  // A node's first dof holds the sum of values times volumes, its second dof the sum of volumes.
   Vector sums = discretization.make_additive_vector();
   for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
     const auto &elements = discretization.elements(body);
@@ -87,7 +87,7 @@ double stress_jumps(const Solution &solution, const Discretization &discretizati
   const auto summaries = summarize(solution, discretization);
   double jumps = 0., stresses = 0.;
   for (unsigned int c = 0; c < n_stresses; ++c) {
-    const double weight = c < 3 ? 1. : 2.; // shear stands twice in a tensor
+    const double weight = c < 3 ? 1. : 2.; // shear components appear twice
     const ElementValues stress = values_of(
         summaries, [c](const ElementSummary &summary) { return summary.cauchy_stress.access_raw_entry(c); });
     jumps += weight * integrate_squares(discretization, difference(stress, smooth(discretization, stress)));

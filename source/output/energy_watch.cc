@@ -41,7 +41,8 @@ std::string EnergyWatch::advise(const Cause cause) {
 
 DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energies,
                                   const std::function<Cause()> &find_cause) {
-  // What is there counts half only, as in explicit dynamics: energy from nowhere must not hide itself.
+  // The current total counts only half, as in explicit dynamics, so that created energy does not hide the
+  // imbalance.
   largest_ =
       std::max({largest_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
   DiagnosticList messages;

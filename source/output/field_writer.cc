@@ -24,7 +24,7 @@ using Format = parameters::Output::Format;
 
 namespace {
 
-/// Fields that are constant in an element: name and value of each.
+/// Fields that are constant in an element, with their names and values.
 struct CellFields {
   std::vector<std::string> names;
   std::vector<dealii::Vector<double>> values;
@@ -75,7 +75,7 @@ CellFields collect_cell_fields(const Scene &scene, const Discretization &discret
       add(summaries[e], written);
       if (!has_layers)
         continue;
-      if (layers.empty()) // two points: a layer has what the element has
+      if (layers.empty()) // two points: all layers have the element's values
         for (std::size_t layer = 0; layer < layer_names.size(); ++layer)
           add(summaries[e], layered);
       else
@@ -117,7 +117,7 @@ void FieldWriter::write(const Solution &solution) {
   const SolutionState &state = solution.state();
   const Discretization &discretization = solution.discretization();
 
-  // The pictures show the deformed bodies.
+  // The snapshots show the deformed bodies.
   const dealii::MappingQEulerian<3, Vector> mapping(1, discretization.dof_handler(), state.displacements);
   dealii::DataOut<3> data_out;
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
@@ -146,14 +146,14 @@ void FieldWriter::write(const Solution &solution) {
     if (format == Format::vtu)
       data_out.write_vtu_with_pvtu_record(folder_ + "/", "fields", n_written_, communicator_, 5, 1);
     else {
-      // Vertices are not merged: cell data would be smeared over body interfaces.
+      // Vertices are not merged: cell data would be averaged across body interfaces.
       dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
       data_out.write_filtered_data(filter);
       data_out.write_hdf5_parallel(filter, folder_ + "/" + snapshot.fields, communicator_);
       xdmf_entries_.push_back(data_out.create_xdmf_entry(filter, snapshot.fields, state.time, communicator_));
       data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator_);
     }
-  } catch (const std::exception &) { // of deal.II's many kinds
+  } catch (const std::exception &) { // deal.II throws various types
     failure = folder_ + "/" + snapshot.fields + " cannot be written: is the disk full?";
   }
   fail_together(communicator_, [&failure] {

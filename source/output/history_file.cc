@@ -19,7 +19,7 @@ std::vector<HistoryQuantity> quantities_of(const Scene &scene) {
   return quantities;
 }
 
-/// Returns the first line.
+/// Returns the first line of the file.
 std::string columns_of(const Scene &scene, const std::vector<HistoryQuantity> &quantities) {
   std::string columns;
   for (const HistoryQuantity &quantity : quantities)

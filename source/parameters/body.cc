@@ -130,7 +130,7 @@ void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
   if (reader.text("Law") == "elastic") {
-    // What the law does not use may not be set: a forgotten switch is the usual reason.
+    // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the law is elastic");

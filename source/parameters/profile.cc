@@ -20,27 +20,28 @@ namespace {
 
 using Path = SceneFile::Path;
 
-/// Schemes for which a row counts; statics with materials that depend on the path, with elastic ones and
-/// friction or that fold onto themselves, and where nothing depends on steps.
+/// Schemes to which a row applies. Statics is divided by materials: path-dependent, elastic with friction,
+/// elastic with self-contact, and independent of steps.
 constexpr unsigned int statics_with_path = 1, statics_with_slip = 8, statics_with_folds = 32,
                        statics_without_path = 16, implicit_dynamics = 2, explicit_dynamics = 4,
                        statics_elastic = statics_with_slip | statics_with_folds | statics_without_path,
                        statics = statics_with_path | statics_elastic, implicit = statics | implicit_dynamics;
 
-/// What the profiles, and the target error, make of a parameter. Empty: its default stays. "0.2 T": that part
-/// of the end time; "0.5 E": of the target error; "0.3 E 1e-3": of it, at most this; "0.03 / E": over it.
+/// Values of a parameter for the profiles and the target error; empty: the default. T is the end time, E the
+/// target error. "0.2 T" and "0.5 E" are products, "0.3 E 1e-3" is a product with a maximum, and "0.03 / E"
+/// is a quotient.
 struct Row {
   unsigned int schemes;
-  const char *section; ///< a subsection; of "Contact pairs", "Bodies" and "Materials" every one
+  const char *section; ///< subsection; each one for "Contact pairs", "Bodies", "Materials"
   const char *key;
   const char *fast, *accurate, *target;
 };
 
-// The table. 'balanced' is the default of every parameter. What each profile costs, and how far it is off:
-// scripts/benchmarks profiles; the target error: doc/results/target-error.md.
+// Table of presets. 'balanced' is the default of every parameter. Costs and errors of each profile:
+// scripts/benchmarks profiles; of the target error: doc/results/target-error.md.
 constexpr std::array<Row, 34> rows = {{
-    // Steps: fast ones follow the iterations alone and may be long, but not so long that Newton's method
-    // takes more for one than for two of half the length; accurate ones follow their error.
+    // Steps. Iterations alone control the steps of `fast`; their maximum is such that a step does not need
+    // more iterations than two of half the length. Error estimates control the steps of `accurate`.
     {statics_with_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.04 T"},
     {statics_with_slip, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.1 T"},
     {statics_with_folds, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.02 T"},
@@ -68,36 +69,36 @@ constexpr std::array<Row, 34> rows = {{
     {implicit_dynamics, "Solver", "Energy tolerance", "", "1e-12", "3e-3 E 3e-5"},
     {implicit, "Solver", "Displacement tolerance", "", "1e-4", "1 E 1e-2"},
     {implicit, "Solver", "Linear tolerance", "1e-4", "", "0.03 E 1e-3"},
-    // Contact: augmented where accuracy counts, but in dynamics, where nodes that have come in would have to
-    // stop within a step; in explicit scenes stiffer, and better resolved in time.
+    // Contact. `accurate` and the target error augment in statics. They do not in dynamics, since penetrating
+    // nodes would have to stop within a step. In explicit scenes they raise the penalty or the resolution in
+    // time.
     {statics, "Contact pairs", "Penetration tolerance", "0", "automatic", "1e-5"},
-    // Of bodies that fold onto themselves, in few places and late.
+    // Only for self-contact, which occurs in few places and late.
     {statics, "Contact pairs", "Facets", "planed", "", ""},
     {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.09 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "0.4", "0.9"},
     {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},
-    // Elements and laws. A target error leaves the elements to the scene, as it does the mesh; the law with
-    // the final instantaneous rotation differs from the multiplicative one by less than a thousandth where
-    // elastic strains are small.
+    // Elements and laws. A target error changes neither elements nor the mesh. The law with the final
+    // instantaneous rotation differs from the multiplicative law by less than a thousandth for small elastic
+    // strains.
     {explicit_dynamics, "Bodies", "Element", "one point", "", ""},
     {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "hypoelastic"},
 }};
 
 constexpr const char *profile_key = "Profile", *target_key = "Target error";
-constexpr double least_target =
-    1e-6; // Newton's method and rounding leave more than the hundredth part of less
+constexpr double least_target = 1e-6; // smaller targets are below the errors of Newton's method and round-off
 
 double number_in(const std::string &text, const double otherwise) {
   try {
     return parse_number(text);
-  } catch (const std::invalid_argument &) { // whoever reads the parameter complains
+  } catch (const std::invalid_argument &) { // refused when the parameter is read
     return otherwise;
   }
 }
 
-/// Whether stresses depend on how they came about. Tractions of friction do, too, but slip soon forgets the
-/// steps that led to it: they ask for no shorter ones.
+/// Whether stresses depend on the path. Friction does, too, but slip soon loses the influence of earlier
+/// steps, so that it needs no shorter ones.
 bool depends_on_path(const SceneFile &file) {
   const std::vector<std::string> bodies = file.names_below({"Bodies"});
   return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
@@ -110,13 +111,13 @@ bool depends_on_path(const SceneFile &file) {
 bool has_friction(const SceneFile &file) {
   const std::vector<std::string> pairs = file.names_below({"Contact pairs"});
   return std::any_of(pairs.begin(), pairs.end(), [&file](const std::string &name) {
-    const Path path = {"Contact pairs", name}; // of all laws, Coulomb's alone may be none
+    const Path path = {"Contact pairs", name}; // only Coulomb's law can be frictionless
     return file.value(path, "Friction law", "Coulomb") != "Coulomb" ||
            number_in(file.value(path, "Friction coefficient", "0"), 1.) != 0.;
   });
 }
 
-/// Surfaces that come upon each other may pass through each other in long steps.
+/// Whether there is self-contact, in which surfaces may pass through each other in long steps.
 bool folds_onto_itself(const SceneFile &file) {
   const std::vector<std::string> pairs = file.names_below({"Contact pairs"});
   return std::any_of(pairs.begin(), pairs.end(), [&file](const std::string &name) {
@@ -149,13 +150,13 @@ std::vector<Path> paths_of(const std::string &section, const SceneFile &file) {
   return paths;
 }
 
-// What single precision leaves of the forces, and some more.
+// Minimum target in single precision: its error of the forces, with a margin.
 constexpr double least_target_of_float = 1e-5;
 
-// Targets from here on let rates of stress take the place of Hencky's law: doc/results/profiles.md.
+// Minimum target for which the hypoelastic law may replace Hencky's: doc/results/profiles.md.
 constexpr double least_target_of_rates = 1e-3;
 
-/// Whether the material yields at an elastic strain of a hundredth or less.
+/// Whether the elastic strain at the yield stress is at most 1 %.
 bool has_small_elastic_strains(const Path &material, const SceneFile &file) {
   constexpr double small = 0.01;
   const double yield =
@@ -163,7 +164,7 @@ bool has_small_elastic_strains(const Path &material, const SceneFile &file) {
   return yield <= small * number_in(file.value(material, "Young modulus", ""), 0.);
 }
 
-/// Whether the scene has a use for the row there, beside what it sets itself.
+/// Whether the row is useful with the other settings of the scene.
 bool fits(const Row &row, const Path &path, const SceneFile &file, const double target) {
   const std::string key = row.key;
   if (path == Path{"Time stepping"} && key != "Initial step")
@@ -174,7 +175,7 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
     return file.value(path, "Penalty unit", "factor") == "factor";
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
-  if (key == "Elasticity") // rates of stress keep no elastic energy
+  if (key == "Elasticity") // hypoelastic laws do not conserve elastic energy
     return file.value(path, "Law", "elastoplastic") != "elastic" &&
            (target == 0. || (target >= least_target_of_rates && has_small_elastic_strains(path, file)));
   return true;
@@ -192,7 +193,7 @@ public:
   Evaluation(const SceneFile &file, const double target)
       : end_time_(number_in(file.value({"Time stepping"}, "End time", "1"), 1.)), target_(target) {}
 
-  /// A row's value in words that a scene file would have.
+  /// Returns a row's value as a scene file would have it.
   std::string operator()(const std::string &text) const {
     std::istringstream words(text);
     std::string unit, over;
@@ -213,7 +214,7 @@ private:
   double end_time_, target_;
 };
 
-/// Steps of the table between those that the scene sets.
+/// Returns a step of the table, limited by the steps that the scene sets.
 std::string between(const std::string &key, const std::string &value, const SceneFile &file) {
   const auto set = [&file](const std::string &key, const double otherwise) {
     return number_in(file.value({"Time stepping"}, key, ""), otherwise);
@@ -254,8 +255,8 @@ void check_contradictions(const SceneFile &file, const double target) {
   }
 }
 
-/// Penetrations are controlled in all pairs at once, or not at all; and what a scene changes in its physics
-/// no estimate knows.
+/// Refuses settings that the error estimates do not cover: 'Penetration tolerance' in some pairs only, and,
+/// in explicit scenes, settings that change the physics.
 void check_what_is_estimated(const SceneFile &file, const double target) {
   const std::vector<Path> pairs = paths_of("Contact pairs", file);
   const std::string tolerance = "Penetration tolerance";

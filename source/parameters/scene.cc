@@ -33,15 +33,15 @@ void declare_named(ParameterHandler &prm, const std::string &list, const std::ve
   prm.leave_subsection();
 }
 
-/// What has to be known of a scene before its parameters can be declared.
+/// Names and shapes that are needed before the parameters can be declared.
 struct Outline {
-  /// The names in a list of subsections.
+  /// Returns the names in a list of subsections.
   std::function<std::vector<std::string>(const SceneFile::Path &)> names_below;
-  /// The shape of the surface in this subsection.
+  /// Returns the shape of the surface in this subsection.
   std::function<std::string(const SceneFile::Path &)> shape;
 };
 
-/// Declares the whole tree.
+/// Declares all parameters.
 void declare_all(ParameterHandler &prm, const Outline &outline) {
   const auto &names_below = outline.names_below;
   prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
@@ -119,12 +119,12 @@ void check_amplitude_name(const std::string &name, const std::string &file_name)
                      "first a letter, and not x, y, z, t, pi");
 }
 
-/// Faces of a body that a contact pair names.
+/// One side of a contact pair: faces of a body.
 struct Side {
   const std::string &body;
   const std::vector<unsigned int> &ids;
 
-  /// An id that the other has, too; none: the largest number.
+  /// Returns an id that both sides have; no_id if there is none.
   unsigned int common_id(const Side &other) const {
     if (body == other.body)
       for (const unsigned int id : ids)
@@ -135,7 +135,7 @@ struct Side {
   static constexpr unsigned int no_id = static_cast<unsigned int>(-1);
 };
 
-/// Both sides of a pair of bodies: the same one twice where faces touch among themselves.
+/// Returns both sides of a pair of bodies, which are equal for self-contact.
 std::array<Side, 2> sides_of(const ContactPair &pair) {
   const Side first{pair.body.value, pair.boundary_ids.value};
   return {first, pair.second_boundary_ids.value.empty()
@@ -143,7 +143,8 @@ std::array<Side, 2> sides_of(const ContactPair &pair) {
                      : Side{pair.second_body.value, pair.second_boundary_ids.value}};
 }
 
-/// An id of the second pair's faces that meet what they meet in the first pair already.
+/// Returns a boundary id of faces that both pairs bring into contact with the same faces or tool; no_id if
+/// there is none.
 unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
   if (first.is_between_bodies() != second.is_between_bodies())
     return Side::no_id;
@@ -159,7 +160,7 @@ unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
   return Side::no_id;
 }
 
-/// A face that met a tool, or another face, in two pairs would be pushed back twice.
+/// Refuses pairs that would apply contact forces twice between the same faces, or a face and a tool.
 void check_twice(const std::vector<ContactPair> &pairs) {
   for (auto second = pairs.begin(); second != pairs.end(); ++second)
     for (auto first = pairs.begin(); first != second; ++first) {
@@ -171,8 +172,7 @@ void check_twice(const std::vector<ContactPair> &pairs) {
     }
 }
 
-/// What only one of the schemes knows is refused in scenes of the other: a forgotten switch is the usual
-/// reason.
+/// Refuses parameters of one scheme in scenes of another: a forgotten switch is the usual reason.
 class SchemeCheck {
 public:
   SchemeCheck(const Scene &scene, const SceneFile &file) : scene_(scene), file_(file) {}
@@ -185,7 +185,7 @@ public:
       refuse({"Output"}, "History interval");
     if (scene_.is_dynamic())
       refuse({"Restart"}, "Release time");
-    constexpr double most_times = 1e7; // of output; more are a mistake that fills a disk
+    constexpr double most_times = 1e7; // maximum number of outputs; more would fill a disk
     for (const std::string key : {"Interval", "History interval"}) {
       const double interval = key == "Interval" ? scene_.output.interval : scene_.output.history_interval;
       if (interval > 0. && interval * most_times < scene_.time_stepping.end_time)

@@ -23,7 +23,8 @@ std::string folder_of(const std::string &file_name) {
   return slash == std::string::npos ? "" : file_name.substr(0, slash + 1);
 }
 
-/// If `line` starts with the keyword followed by a blank (or nothing), cuts it off.
+/// Removes the keyword from the start of `line`. Returns false if `line` does not start with it, followed by
+/// a blank or nothing.
 bool take_keyword(std::string &line, const std::string &keyword) {
   if (line.compare(0, keyword.size(), keyword) != 0 ||
       (line.size() > keyword.size() && line[keyword.size()] != ' ' && line[keyword.size()] != '\t'))
@@ -51,9 +52,10 @@ std::string single_spaced(const std::string &text) {
   return result;
 }
 
-/// What a pattern of ParameterHandler's stands for, in plain words.
+/// Returns a description of a ParameterHandler pattern in plain words.
 std::string describe_pattern(const std::string &message) {
-  // "... does not match the given pattern <[Double ...]>.", which deal.II breaks into lines at any blank.
+  // The message is "... does not match the given pattern <[Double ...]>."; deal.II breaks it into lines at
+  // any blank.
   std::istringstream words(message);
   std::string text, word;
   while (words >> word)
@@ -215,7 +217,7 @@ std::string SceneFile::folder() const { return folder_of(file_name_); }
 
 void SceneFile::set_all(dealii::ParameterHandler &prm) const {
   using dealii::ParameterHandler;
-  // What may stand below a path, taken from ParameterHandler's own print-out.
+  // Returns what is allowed below a path, from ParameterHandler's own print-out.
   const auto known = [&prm](const Path &path) {
     std::ostringstream printed;
     prm.print_parameters(printed, ParameterHandler::ShortPRM);

@@ -13,7 +13,7 @@ namespace {
 
 using Entry = SceneFile::Entry;
 
-/// "'Key'", or "'Key = value'" where the value has another name, too.
+/// Returns "'Key'", or "'Key = value'" if the value was renamed, too.
 std::string quote(const Entry &entry, const std::string &key, const std::string &value) {
   return "'" + key + (entry.value != entry.written_value ? " = " + value : "") + "'";
 }
@@ -22,16 +22,16 @@ std::string old_name(const Entry &entry) { return quote(entry, entry.written_key
 
 std::string new_name(const Entry &entry) { return quote(entry, entry.key, entry.value); }
 
-constexpr const char *blanks = " \t\r\n\\"; // between the words of a statement, which may continue in a line
+constexpr const char *blanks = " \t\r\n\\"; // between words; a statement may continue on the next line
 
-/// Where the statement that begins at `begin` has its key, its equals sign and its value.
+/// Positions of key, equals sign and value of the statement that begins at `begin`.
 struct Places {
   Places(const std::string &text, const std::size_t begin) {
     key = text.find_first_not_of(blanks, text.find_first_not_of(blanks, begin) + std::string("set").size());
     equals = text.find('=', key);
     key_end = text.find_last_not_of(blanks, equals - 1) + 1;
     value = std::min(text.find_first_not_of(blanks, equals + 1), text.size());
-    // To the end of the line that no backslash continues, or to the comment.
+    // The value ends at a comment or at a line end without backslash.
     std::size_t end = value;
     while (end < text.size() && text[end] != '#' &&
            !(text[end] == '\n' && text[text.find_last_not_of(" \t\r", end - 1)] != '\\'))
@@ -46,7 +46,7 @@ std::string line_at(const std::string &text, const std::size_t begin) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// Whether the equals sign stands in a column with that of the line before or after.
+/// Whether the equals sign is in the same column as that of the line before or after.
 bool is_in_column(const std::string &text, const std::size_t begin, const std::size_t equals) {
   const auto has_equals_there = [&](const std::size_t line) {
     return line_at(text, line).find('=') == equals - begin;
@@ -92,7 +92,7 @@ SceneUpdate update_scene(const std::string &file_name) {
   for (std::size_t i = 0; i < update.text.size(); ++i)
     if (update.text[i] == '\n')
       lines.push_back(i + 1);
-  // From the end, so that what is replaced moves no line that is still to come.
+  // Backwards, so that replacements do not move the lines still to be processed.
   for (auto entry = file.entries().rbegin(); entry != file.entries().rend(); ++entry) {
     if (!entry->has_old_name())
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A JSON Schema of scenes, from the same declarations as everything else that is said of parameters.
+// JSON Schema of scenes, from the same declarations as the descriptions of parameters.
 #include "billet/parameters/declaration.h"
 #include "billet/parameters/scene.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds what a pattern of ParameterHandler's, such as "[Double 0...MAX_DOUBLE (inclusive)]", allows.
+/// Adds the type and range of a ParameterHandler pattern, such as "[Double 0...MAX_DOUBLE (inclusive)]".
 void add_type(const std::string &pattern, Json &schema) {
   std::smatch match;
   static const std::regex selection(R"(^\[Selection (.*) \]$)"),
@@ -39,7 +39,7 @@ void add_type(const std::string &pattern, Json &schema) {
     schema["type"] = "string";
 }
 
-/// The default as what the type says it is.
+/// Returns the default as a JSON value of the schema's type.
 Json typed(const std::string &value, const Json &schema) {
   const std::string type = schema["type"];
   if (type == "boolean")
@@ -51,7 +51,7 @@ Json typed(const std::string &value, const Json &schema) {
     const double number = std::stod(value, &end);
     if (end == value.size())
       return type == "integer" ? Json(static_cast<long long>(number)) : Json(number);
-  } catch (const std::exception &) { // an infinite one, or none
+  } catch (const std::exception &) { // infinite, or not a number
   }
   return value;
 }
@@ -71,7 +71,7 @@ Json schema_of(const Json &declared) {
   for (const auto &[name, entry] : declared.items()) {
     if (name.rfind(name_of_surface, 0) == 0)
       of_shapes.push_back(schema_of(entry));
-    else if (name.rfind("(name of ", 0) == 0) // any name the user likes
+    else if (name.rfind("(name of ", 0) == 0) // a name of the user's choice
       schema["additionalProperties"] = schema_of(entry);
     else
       schema["properties"][name] = schema_of(entry);

@@ -23,7 +23,7 @@ DiagnosticList check_meshes(const Scene &scene, const Discretization &discretiza
 
 namespace {
 
-/// Sets up what a run would set up. Returns what it would warn of before its first step. Collective.
+/// Sets up the solution as a run would. Returns the warnings of a run before its first step. Collective.
 DiagnosticList check_start(const Scene &scene, MPI_Comm communicator) {
   const Discretization discretization(scene, communicator);
   DiagnosticList messages =
@@ -38,7 +38,7 @@ DiagnosticList check_start(const Scene &scene, MPI_Comm communicator) {
   return messages;
 }
 
-/// Checks the outline of the meshes only, which fits anywhere. Collective.
+/// Checks only the outlines of the meshes, which fit into any memory. Collective.
 DiagnosticList check_outline(const Scene &scene, MPI_Comm communicator) {
   DiagnosticList messages;
   fail_together(communicator, [&] {
@@ -60,7 +60,7 @@ void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator
   if (parameters.restart.is_wanted())
     const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
   const Scene scene(parameters);
-  constexpr std::size_t max_elements = 500000; // a minute and some GB on one rank
+  constexpr std::size_t max_elements = 500000; // takes a minute and some GB on one rank
   DiagnosticList messages = parameters.warnings;
   append(messages, scene.count_elements() <= max_elements ? check_start(scene, communicator)
                                                           : check_outline(scene, communicator));

@@ -26,7 +26,7 @@ Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
       .value("added mass", problem.added_mass());
 }
 
-/// At the end: added mass that changes the motion.
+/// Returns a warning at the end of a run if the added mass changes the motion.
 DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunReview &review) {
   constexpr double much = 0.1, slow = 0.05;
   const double added = problem.added_mass() / problem.mass(), kinetic = review.kinetic_part();
@@ -60,7 +60,7 @@ void ExplicitRun::load(Resumption &resumption) {
   if (!resumption.report.is_exact || !reader.has("rows"))
     return;
   reader.in("rows", [&] {
-    // Of another interval the next row is due at once.
+    // If the interval has changed, the next row is due at once.
     if (reader.number("interval") == history_times_.interval())
       history_times_.begin_after(reader.number("last"));
     balanced_step_ = static_cast<unsigned int>(reader.number("balanced step"));
@@ -93,7 +93,7 @@ void ExplicitRun::begin(RunOutput &output, const Resumption *resumption) {
 template <class Part> void ExplicitRun::attempt(RunOutput &output, const Part &part) {
   try {
     stopwatch_.measure(part);
-  } catch (const SolutionFailure &failure) { // nothing already computed is lost
+  } catch (const SolutionFailure &failure) { // keep the results so far
     problem_.update_state();
     output.snapshots().write(problem_);
     if (std::isfinite(problem_.relative_drift()))
@@ -131,7 +131,7 @@ void ExplicitRun::after_step(RunOutput &output) {
     control_errors();
   }
   write_fields(output);
-  // A checkpoint is of the next step's beginning.
+  // A checkpoint stores the state at the start of the next step.
   if (!is_finished_ || output.checkpoints().is_regular()) {
     attempt(output, [&] { problem_.finish_step(); });
     is_between_steps_ = true;
@@ -170,7 +170,7 @@ void ExplicitRun::write_fields(RunOutput &output) {
 }
 
 void ExplicitRun::check_stability(RunOutput &output) {
-  constexpr double n_looks = 100.; // in a run: each takes as long as a step or a few
+  constexpr double n_looks = 100.; // in a run: each costs one to a few steps
   if (problem_.time() < next_look_ || !std::isfinite(problem_.relative_drift()))
     return;
   problem_.update_state();
@@ -187,8 +187,8 @@ std::string ExplicitRun::advise_on_law(RunOutput &output) {
   return "";
 }
 
-// The first touch makes all the energy there is, and up to a quarter of it is the error of the step in
-// which a node enters; it is a small part soon. Energy without limit grows on.
+// At first contact, up to a quarter of the total energy may be the error of the step in which a node
+// penetrates. This fraction soon becomes small, whereas an instability keeps growing.
 void ExplicitRun::check_drift(RunOutput &output) {
   const bool is_finite = std::isfinite(problem_.relative_drift());
   if (std::abs(problem_.relative_drift()) <= parameters_.explicit_dynamics.largest_drift)

@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-/// Shear and bulk modulus as far apart as here leave Newton's method few digits.
+/// Returns a hint if the ratio of bulk to shear modulus leaves Newton's method few significant digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
   const double nearly = 0.49995;
   const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const auto &b) {
@@ -26,7 +26,7 @@ std::string describe_incompressibility(const parameters::Scene &parameters) {
   return text.str();
 }
 
-/// Returns the reminder that nothing already computed is lost.
+/// Returns a statement of where the results so far are stored.
 std::string describe_saved_results(const parameters::Scene &parameters) {
   return "What was computed until then is in '" + parameters.output.folder.value + "'.";
 }

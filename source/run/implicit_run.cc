@@ -98,7 +98,7 @@ bool ImplicitRun::step(RunOutput &output) {
   report_.length = to - from;
   try {
     report_.newton = problem_.step(to, continued_);
-  } catch (const SolutionFailure &) { // nothing already computed is lost
+  } catch (const SolutionFailure &) { // keep the results so far
     output.snapshots().write(problem_);
     throw;
   }
@@ -117,7 +117,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   output.progress().reject(report_, from, to);
   if (watch_)
     watch_->after_failure();
-  // Smaller loads would make a loss in round-off worse.
+  // If round-off limits the residual, smaller load steps make it worse.
   bool may_go_on = control_.reject() && !newton.is_lost_in_round_off;
   report_.total_cuts = control_.n_cuts();
   if (!may_go_on && !newton.is_lost_in_round_off && !newton.is_explained) {

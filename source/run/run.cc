@@ -32,8 +32,9 @@ std::unique_ptr<Run> make_run(const Scene &scene, const MPI_Comm communicator, R
 
 namespace {
 
-/// Writes a checkpoint after a step where one is due, or a signal asks for it. Returns whether a signal
-/// demands the end before the end time; then `has_checkpoint` says whether there is one of now.
+/// Writes a checkpoint after a step if one is due or a signal requests it. Returns whether a signal requests
+/// the end before the end time; then `has_checkpoint` says whether there is a checkpoint of the current
+/// state.
 bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
   const Checkpoints &checkpoints = output.checkpoints();
   const bool is_finished = run.is_finished();

@@ -13,8 +13,8 @@ namespace billet {
 
 namespace {
 
-/// Whether somebody may be watching. Open MPI's mpirun hands its ranks a terminal of its own, whatever its
-/// output goes to.
+/// Whether the console is a terminal. Open MPI's mpirun gives its ranks a terminal of its own, wherever its
+/// output goes.
 bool console_is_terminal() {
   if (isatty(STDOUT_FILENO) == 0)
     return false;
@@ -26,7 +26,7 @@ bool console_is_terminal() {
   return target.rfind("/dev/pts/", 0) == 0 || target.rfind("/dev/tty", 0) == 0;
 }
 
-/// How often a run looks for signals [s]; steps of implicit runs are long beside that.
+/// Returns the interval between checks for signals [s]; 0 for implicit runs, whose steps are long.
 double seconds_between_looks(const parameters::Scene &parameters) {
   return parameters.is_explicit() ? 0.1 : 0.;
 }

@@ -8,7 +8,7 @@
 namespace billet {
 
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
-  // Everything that can be wrong with the scene shows here, before anything is written.
+  // All errors of the scene appear here, before anything is written.
   fail_together(communicator, [&] { check_output_folder(parameters); });
   const std::unique_ptr<Resumption> resumption = Resumption::open(parameters, communicator);
   const Scene scene(parameters);

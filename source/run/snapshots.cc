@@ -4,7 +4,7 @@
 namespace billet {
 
 namespace {
-constexpr double rounding = 1e-8; // of times, as a part of them
+constexpr double rounding = 1e-8; // relative tolerance of times
 }
 
 unsigned int Snapshots::count_intervals(const double time) const {

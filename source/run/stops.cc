@@ -9,7 +9,7 @@ namespace billet {
 Stops::Stops(const Scene &scene) : end_(scene.parameters().time_stepping.end_time), stops_(scene.stops()) {
   const auto &more = scene.parameters().time_stepping.stops;
   stops_.insert(stops_.end(), more.begin(), more.end());
-  // One that is at the end but for round-off is the end.
+  // A stop that differs from the end only by round-off is the end.
   constexpr double rounding = 1e-9;
   stops_.erase(std::remove_if(stops_.begin(), stops_.end(),
                               [this](const double stop) { return stop > end_ * (1. - rounding); }),
@@ -27,7 +27,7 @@ HistoryTimes::HistoryTimes(const parameters::Scene &parameters)
       interval_(parameters.output.history_interval > 0. ? parameters.output.history_interval : end_ / 200.) {}
 
 bool HistoryTimes::is_due(const double time) {
-  constexpr double rounding = 1e-9; // of an interval
+  constexpr double rounding = 1e-9; // relative to the interval
   const double n = std::floor(time / interval_ + rounding);
   const bool is_due = n > last_ || time >= end_;
   last_ = std::max(n, last_);

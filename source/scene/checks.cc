@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What can only be checked once there is a mesh.
+// Checks of the scene that need a mesh.
 #include "billet/errors.h"
 #include "billet/geometry/curve.h"
 #include "billet/scene/rigid_motions.h"
@@ -56,7 +56,7 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
   for_each_boundary_face(
       mesh, [&](const std::size_t body, const auto &face) { present[body].insert(face->boundary_id()); });
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    // An outline may not show every face that a condition on the full mesh will catch.
+    // An outline may lack faces that a condition selects on the full mesh.
     if (detail == MeshDetail::outline)
       for (const auto &renamed : parameters_.bodies[i].mesh.boundary_ids.value)
         present[i].insert(renamed.first);
@@ -87,7 +87,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const dealii::Point<3> centre = box.center();
     const double size = (box.get_boundary_points().second - box.get_boundary_points().first).norm();
 
-    std::vector<Resistance> holding, touching; // by supports, by tools
+    std::vector<Resistance> holding, touching; // resistances of supports, of tools
     std::vector<bool> used(bodies_[b].holds.size(), false);
     for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
       if (body != b)
@@ -130,9 +130,9 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
                        bodies_[b].name +
                        "' has no contact pair with a tool or another body that could support it");
     if (may_touch_bodies)
-      continue; // another body may hold it, which shows when both are meshed
+      continue; // another body may support it: unknown without both meshes
     touching.insert(touching.end(), holding.begin(), holding.end());
-    // What tools touch at a restart is not known here.
+    // Contact with tools at a restart is not known here.
     const bool may_touch =
         parameters_.restart.is_wanted() &&
         std::any_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; });
@@ -143,7 +143,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
                        "nor tools that it touches hold its rigid motion with " +
                        print(*free_motion) + ". Allowed in a static scene: none that is free");
 
-    double last_removal = 0.; // of the tools that it may touch; infinite if one of them stays
+    double last_removal = 0.; // of the tools in its pairs; infinite if one is never removed
     for (const auto &pair : pairs_)
       if (pair.body == b)
         last_removal = std::max(last_removal, tools_[pair.tool].removal_time());

@@ -30,7 +30,7 @@ double evaluate_amplitude(const parameters::Amplitude &amplitude, const double t
 
 std::vector<double> corners(const parameters::Amplitude &amplitude) {
   const std::vector<double> &t = amplitude.times, &values = amplitude.values;
-  // Of the greater of two rates; of the range of values.
+  // Relative to the greater of two rates, and to the range of values.
   constexpr double notable = 0.5, rounding = 1e-9;
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const double range = *greatest - *least;
@@ -48,7 +48,8 @@ std::vector<double> corners(const parameters::Amplitude &amplitude) {
 
 namespace {
 
-/// "0,1" would be two values to muParser, of which it takes the last; its author meant 0.1.
+/// Whether the text has a comma outside parentheses. muParser would read "0,1" as two values and return the
+/// last; its author meant 0.1.
 bool has_free_comma(const std::string &text) {
   int depth = 0;
   return std::any_of(text.begin(), text.end(), [&depth](const char c) {
@@ -57,7 +58,7 @@ bool has_free_comma(const std::string &text) {
   });
 }
 
-/// Whether the text has one of the names x, y, z.
+/// Whether the text contains one of the names x, y, z.
 bool has_position(const std::string &text) {
   const auto is_of_name = [](const char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -80,19 +81,19 @@ bool has_position(const std::string &text) {
 Expression::Expression(const std::string &text, const Variables variables,
                        std::vector<parameters::Amplitude> amplitudes, const std::string &origin)
     : text_(text), origin_(origin),
-      // The parser wants three coordinates; names that no amplitude can have hide them where they make no
-      // sense.
+      // The parser needs three coordinates. Where they are not allowed, they have names that users cannot
+      // choose.
       variables_(variables == Variables::time ? "_no_x,_no_y,_no_z,t" : "x,y,z,t"),
       amplitudes_(std::move(amplitudes)), is_uniform_(!has_position(text)) {
-  // deal.II tells muParser's complaints to the console, too.
+  // deal.II also prints muParser's errors to the console.
   std::ostringstream complaints;
   std::streambuf *console = std::cerr.rdbuf(complaints.rdbuf());
   bool makes_sense = !has_free_comma(text);
   try {
-    const WithoutTraps quiet; // what a scene's text makes of its numbers is the scene's, and is told
+    const WithoutTraps quiet; // value() reports results that are not finite
     parse(0.);
     parser_->value(dealii::Point<3>());
-  } catch (...) { // muParser's own are no std::exception
+  } catch (...) { // muParser's exceptions are no std::exception
     makes_sense = false;
   }
   std::cerr.rdbuf(console);
@@ -109,7 +110,7 @@ void Expression::parse(const double t) const {
   uses_amplitudes_ = false;
   for (const auto &amplitude : amplitudes_) {
     constants[amplitude.name] = evaluate_amplitude(amplitude, t);
-    // More names than the text has may match, as parts of others: then it is parsed once too often.
+    // A name may match as part of another one; then the text is parsed more often than necessary.
     uses_amplitudes_ |= text_.find(amplitude.name) != std::string::npos;
   }
   parser_ = std::make_unique<dealii::FunctionParser<3>>(1);

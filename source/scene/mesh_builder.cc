@@ -19,7 +19,7 @@ using dealii::Triangulation;
 
 namespace {
 
-/// First line of an exception's message that says what is wrong; deal.II frames its own in rulers.
+/// Returns the line of an exception's message that names the problem; deal.II surrounds its own with rulers.
 std::string essence(const std::exception &error) {
   std::istringstream lines(error.what());
   std::string line, result;
@@ -44,9 +44,9 @@ template <int dim> std::string describe_refusal(const parameters::Mesh &paramete
          "-dimensional function of deal.II's GridGenerator with all its arguments without default. ";
 }
 
-/// Numbers of elements among the arguments of deal.II's primitives: which argument (from 0), and how many
-/// numbers. deal.II checks them in its Debug build alone: zero, a negative number or a fraction ends the
-/// program there, or never ends.
+/// Numbers of elements among the arguments of deal.II's primitives: index of the argument, and how many
+/// numbers it has. deal.II checks them in Debug builds only. Without a check, zero, a negative number or a
+/// fraction ends the program, or never terminates.
 struct Counts {
   const char *primitive;
   unsigned int argument, n;
@@ -64,7 +64,7 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
       continue;
     const auto arguments = dealii::Utilities::split_string_list(parameters.arguments, ':');
     if (arguments.size() <= counts.argument)
-      return; // deal.II says what is missing
+      return; // deal.II reports missing arguments
     const std::string &argument = arguments[counts.argument];
     if (argument.find(';') != std::string::npos)
       return; // lists of the elements' sizes
@@ -82,8 +82,8 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
   }
 }
 
-/// With its assertions on, deal.II ends the program where arguments of a mesh are not what it needs; here
-/// they are the user's.
+/// Lets deal.II's assertions throw instead of aborting, during its lifetime: the user provides the arguments
+/// of meshes.
 class AssertionsThrow {
 public:
   AssertionsThrow() { dealii::deal_II_exceptions::disable_abort_on_exception(); }
@@ -136,7 +136,7 @@ void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
                      "' with other cells than hexahedra, allowed are hexahedra alone");
 }
 
-/// Replaces `mesh` by a copy of its active cells alone, without manifolds.
+/// Replaces `mesh` by a copy of its active cells, without manifolds.
 void flatten(Triangulation<3> &mesh) {
   if (mesh.n_levels() > 1) {
     Triangulation<3> copy;
@@ -235,7 +235,7 @@ void merge_bodies(const std::vector<const Triangulation<3> *> &meshes, Triangula
     }
   }
   merged.create_triangulation(vertices, cells, dealii::SubCellData());
-  // Cells and their faces keep the order in which they were handed over.
+  // Cells and their faces keep the order of their creation.
   std::size_t next = 0;
   for (const auto &cell : merged.active_cell_iterators())
     for (const unsigned int f : cell->face_indices()) {

@@ -20,7 +20,7 @@ using dealii::Triangulation;
 
 namespace {
 
-/// The box around points, which may be of several ranks.
+/// Bounding box of points, which may belong to several ranks.
 class Box {
 public:
   void add(const Tensor<1, 3> &x) {
@@ -30,7 +30,7 @@ public:
     }
   }
   void gather(const MPI_Comm communicator) { dealii::Utilities::MPI::max(ends_, communicator, ends_); }
-  /// Of the largest of its faces.
+  /// Returns the area of its largest face.
   double section() const {
     std::array<double, 3> extents{ends_[0] + ends_[3], ends_[1] + ends_[4], ends_[2] + ends_[5]};
     std::sort(extents.begin(), extents.end());
@@ -44,12 +44,12 @@ private:
   std::vector<double> ends_ = std::vector<double>(6, -std::numeric_limits<double>::infinity());
 };
 
-/// What the mesh tells of the scene at its start.
+/// Dimensions, speeds and penetrations of the scene at its start.
 struct Start {
   std::vector<double> sizes, speeds, sections; ///< by body
-  std::vector<double> steps;  ///< by body: shortest time in which a wave crosses an element, up to a factor
-  double size = 0.;           ///< of all together
-  std::vector<double> depths; ///< by pair with a tool [facet sizes]
+  std::vector<double> steps;  ///< by body: minimum time in which a wave crosses an element, up to a factor
+  double size = 0.;           ///< of all bodies together
+  std::vector<double> depths; ///< penetration by pair with a tool [facet sizes]
 };
 
 Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator) {
@@ -83,7 +83,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
     }
     for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
       const ContactPair &pair = scene.pairs()[p];
-      if (pair.body != b || !pair.overlap.is_allowed) // else it is refused
+      if (pair.body != b || !pair.overlap.is_allowed) // otherwise it is refused
         continue;
       const Placement placement = scene.tools()[pair.tool].placement(0.);
       for (const unsigned int f : cell->face_indices()) {
@@ -114,7 +114,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
   return start;
 }
 
-/// Of the prescribed motion of a tool over the run.
+/// Maxima of the prescribed motion of a tool over the run.
 struct Course {
   double travel = 0., speed = 0., turn = 0.;
 };
@@ -128,8 +128,7 @@ Course follow(const Tool &tool, const double end) {
     Placement now;
     try {
       now = tool.placement(end * i / n_samples);
-    } catch (
-        const SolutionFailure &) { // the motion is not defined there: the run will say so when it gets there
+    } catch (const SolutionFailure &) { // the motion is not defined there; the run will report it
       break;
     }
     course.travel = std::max(course.travel, (now.translation - start.translation).norm());
@@ -169,7 +168,7 @@ void check_friction(const parameters::ContactPair &pair, DiagnosticList &diagnos
             .measure("friction coefficient", coefficient));
 }
 
-/// With the order of the stable step; the run knows it better.
+/// Checks the number of steps by an estimate of the stable step.
 void check_number_of_steps(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
   const double step = std::max(*std::min_element(start.steps.begin(), start.steps.end()),
                                scene.parameters().explicit_dynamics.scaled_step);
@@ -197,7 +196,7 @@ void check_motion(const Scene &scene, const Tool &tool, const double size, Diagn
             .value("turns", course.turn / (2. * pi)));
 }
 
-/// Forces that are given; those of motions are known at the end of a run.
+/// Checks prescribed forces; reaction forces are known only at the end of a run.
 void check_force(const Scene &scene, const std::size_t t, const Start &start, DiagnosticList &diagnostics) {
   constexpr unsigned int n_samples = 200;
   const Tool &tool = scene.tools()[t];
@@ -207,7 +206,7 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
   for (unsigned int i = 0; i <= n_samples; ++i)
     try {
       force = std::max(force, tool.load(scene.parameters().time_stepping.end_time * i / n_samples));
-    } catch (const SolutionFailure &) { // the run will say so when it gets there
+    } catch (const SolutionFailure &) { // the run will report it
       break;
     }
   for (const ContactPair &pair : scene.pairs())
@@ -223,7 +222,8 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
 }
 
 void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
-  // A bar on a wall bounces with 16 % less momentum in steps of 0.6, with 7 % less in ones of 0.3.
+  // A bar that rebounds from a wall loses 16 % of its momentum in steps of 0.6 wave crossing times. In steps
+  // of 0.3 it loses 7 %.
   constexpr double fast = 0.3, coarse = 0.35;
   const parameters::TimeStepping &steps = scene.parameters().time_stepping;
   double fastest_wave = 0.;
@@ -307,7 +307,7 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold>
     box.add(vertex);
   ThinPart result;
   double whole_area = 0., thickness_sum = 0.;
-  // A face that is held flat cannot bend, nor what is below it.
+  // A face that is constrained to a plane cannot bend, nor can the part below it.
   const auto is_held = [&](const Triangulation<3>::active_face_iterator &face) {
     const Tensor<1, 3> area =
         dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));

@@ -21,8 +21,8 @@ using Sense = Resistance::Sense;
 
 namespace {
 
-/// Sum of r rᵀ over constraint rows r = (n, (x − c) × n / L) on the six rigid motions (translation, rotation
-/// · L).
+/// Sum of r rᵀ over constraint rows r = (n, (x − c) × n / L) on the six rigid-body motions (translation,
+/// rotation · L).
 struct RigidMotionGram {
   std::array<std::array<double, 6>, 6> values{};
   void add(const std::array<double, 6> &row) {
@@ -30,7 +30,7 @@ struct RigidMotionGram {
       for (unsigned int j = 0; j < 6; ++j)
         values[i][j] += row[i] * row[j];
   }
-  /// Rigid motions that no row resists.
+  /// Returns the rigid-body modes that no row resists.
   std::vector<std::array<double, 6>> free_motions() const {
     dealii::LAPACKFullMatrix<double> matrix(6, 6);
     double trace = 0.;
@@ -54,10 +54,10 @@ struct RigidMotionGram {
   }
 };
 
-/// Rows that resist a motion one way only: contact pushes, but does not pull.
+/// Rows that resist a motion in one direction only: contact carries no tension.
 class OneSidedRows {
 public:
-  /// `free`: the motions that are not held both ways.
+  /// `free`: the modes that are not resisted in both directions.
   explicit OneSidedRows(std::vector<std::array<double, 6>> free) : free_(std::move(free)) {}
 
   void add(const std::array<double, 6> &row) {
@@ -68,9 +68,9 @@ public:
     rows_.push_back(part);
   }
 
-  /// A motion that no row resists, if there is one. All motions are held if the rows r_i span the space with
-  /// factors λ_i >= 0, that is, if minus their sum is among Σ λ_i r_i; else what is left over is such a
-  /// motion (Farkas). Found by coordinate descent.
+  /// Returns a motion that no row resists, if there is one. All motions are resisted if the rows r_i span the
+  /// space with factors λ_i >= 0. This holds if minus their sum can be written as Σ λ_i r_i; otherwise the
+  /// remainder is such a motion (Farkas). Coordinate descent finds the factors.
   std::vector<std::array<double, 6>> free_motions() const {
     const std::size_t n = free_.size();
     if (n == 0)
@@ -82,7 +82,7 @@ public:
         rest[k] += row[k];
         size += row[k] * row[k];
       }
-    // Motions across all rows are free whatever their signs.
+    // Motions orthogonal to all rows are free in both directions.
     for (std::size_t k = 0; k < n; ++k) {
       double held = 0.;
       for (const auto &row : rows_)
@@ -144,7 +144,7 @@ std::optional<RigidMotion> find_free_motion(const std::vector<Resistance> &resis
     const Tensor<1, 3> m = dealii::cross_product_3d((resistance.position - centre) / size, n);
     return std::array<double, 6>{n[0], n[1], n[2], m[0], m[1], m[2]};
   };
-  RigidMotionGram supported, firmly; // firmly: by all but tools that press with a force
+  RigidMotionGram supported, firmly; // firmly: without force-controlled tools
   for (const auto &resistance : resistances) {
     if (resistance.sense == Sense::both_ways)
       supported.add(row_of(resistance));

@@ -38,7 +38,7 @@ std::string describe_solver(const parameters::Solver::LinearSolver solver, const
   return "";
 }
 
-/// A plain number that is 0; an expression that vanishes only looks like one when it is evaluated.
+/// Whether the expression is the plain number 0; other expressions that vanish are known only when evaluated.
 bool is_zero(const std::string &expression) {
   try {
     return parse_number(expression) == 0.;
@@ -124,7 +124,7 @@ std::string describe_friction(const FrictionPointer &friction) {
   return friction != nullptr ? friction->description() : "mu = 0";
 }
 
-/// Element, unless it is the usual one, elasticity and law.
+/// Returns element, unless it is the default one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
   const BrickElement element = body.element.value;
   return (element != BrickElement::assumed_strain ? std::string(element.name()) + ", " : "") +
@@ -177,7 +177,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   const bool wants_symmetry =
       solver == LinearSolver::mumps_symmetric || solver == LinearSolver::conjugate_gradients;
   contact_tangent_ = parameters.solver.contact_tangent;
-  // Where bodies fold onto each other Newton's method does not converge with areas and normals held.
+  // If bodies fold onto each other, Newton's method does not converge with frozen areas and normals.
   if (contact_tangent_ == Tangent::automatic)
     contact_tangent_ = capabilities_.friction || (capabilities_.body_contact && !wants_symmetry)
                            ? Tangent::exact
@@ -244,7 +244,7 @@ void Scene::make_pairs() {
     return parameters_.is_dynamic() ? pair.penetration_tolerance.value_or(0.) : pair.penetration_tolerance;
   };
   const auto is_raised = [&](const parameters::ContactPair &pair) {
-    // Implicit raises allow penetrations as overlaps are allowed: with fading ones they would fade.
+    // A raise in implicit dynamics treats existing penetration as allowed overlap; with a ramp it would fade.
     const bool may_grow = parameters_.is_explicit() || !(pair.ramp_time > 0.);
     return parameters_.is_dynamic() && !pair.penetration_tolerance && may_grow;
   };
@@ -330,7 +330,7 @@ std::vector<double> Scene::stops() const {
 
 namespace {
 
-/// Whether an expression of time that drives something has the amplitude.
+/// Whether an expression for a motion or load contains the amplitude.
 bool drives_something(const std::string &amplitude, const parameters::Scene &scene) {
   const auto has_it = [&amplitude](const std::string &text) {
     return text.find(amplitude) != std::string::npos;
@@ -361,7 +361,7 @@ bool drives_something(const std::string &amplitude, const parameters::Scene &sce
 void Scene::add_corners(std::vector<double> &times) const {
   const parameters::TimeStepping &stepping = parameters_.time_stepping;
   const bool is_fixed = stepping.control == parameters::TimeStepping::Control::fixed;
-  // As good as the same: no step is worth the while.
+  // Times closer than this need no step of their own.
   constexpr double little = 1e-3;
   const double apart = little * (is_fixed ? stepping.initial_step : stepping.largest_step);
   std::vector<double> known = times;
@@ -459,7 +459,7 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
 
 namespace {
 
-/// Number of elements of the body's mesh, from its outline.
+/// Returns the number of elements of the body's mesh, from its outline.
 std::size_t count_elements_of(const parameters::Body &body) {
   dealii::Triangulation<3> outline;
   build_body_mesh(body, MeshDetail::outline, outline);

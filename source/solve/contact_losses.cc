@@ -13,7 +13,7 @@ namespace {
 
 constexpr double much = 0.05; // of the largest energy
 
-/// What a cause is called in messages, and how a user avoids it.
+/// Name of a cause in messages, and advice to the user.
 struct Description {
   const char *name, *advice;
 };
@@ -51,7 +51,7 @@ DiagnosticList ContactLosses::watch(const double largest_energy, const double ti
   std::ostringstream what;
   what.precision(2);
   what << "Contact has removed " << 100. * part << " % of the largest energy so far";
-  constexpr double small = 0.05; // of the total: not worth a word
+  constexpr double small = 0.05; // of the total; not reported
   for (const std::size_t cause : order)
     if (cause == order[0] || energies_[cause] > small * total())
       what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / largest_energy << " % by "

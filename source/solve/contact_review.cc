@@ -17,10 +17,10 @@ namespace billet {
 
 namespace {
 
-/// Part of the deformation that penetration may take without a word.
+/// Part of the deformation that penetration may take without a warning.
 constexpr double notable_softness = 0.04;
 
-/// In per cent.
+/// Returns a part in per cent.
 std::string print_part(const double part) {
   std::ostringstream text;
   text.precision(3);
@@ -97,7 +97,7 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
   for (const std::size_t body : pair.bodies)
     young_modulus = std::min(young_modulus, scene_.bodies()[body].young_modulus);
 
-  // Nodes at the border of a rank have parts of their areas on several.
+  // Nodes at the boundary between ranks have parts of their areas on several ranks.
   Vector additive = discretization_.make_additive_vector();
   for (const auto &node : reports) {
     additive(node.dofs[0]) += node.pressure * node.area;
@@ -139,7 +139,7 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
 }
 
 void ContactReview::add(const Solution &solution) {
-  constexpr double grown = 1.02; // of the force: the nodes are looked at again
+  constexpr double grown = 1.02; // of the force: then the nodes are evaluated again
   if (pairs_.empty())
     return;
   const SolutionState &state = solution.state();
@@ -151,11 +151,11 @@ void ContactReview::add(const Solution &solution) {
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
     const double force = sticking[p].pressure;
-    if (!pair.is_augmented) { // which makes the springs stiffer; where both are soft, contact is told to be
+    if (!pair.is_augmented) { // augmentation stiffens the springs; judge_paths() reports softness of both
       pair.largest_friction.friction = std::max(pair.largest_friction.friction, sticking[p].friction);
       pair.largest_friction.lost = std::max(pair.largest_friction.lost, sticking[p].lost);
     }
-    // Edges that cross press, too, and are no slave nodes.
+    // Crossing edges bear forces, too, without slave nodes.
     const std::size_t n_with_tools = scene_.pairs().size();
     const double of_all = p < n_with_tools ? 0. : state.body_pair_loads[p - n_with_tools].force.norm();
     pair.has_touched = pair.has_touched || force > 0. || of_all > 0.;
@@ -236,7 +236,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
       diagnostics.push_back(message.tool(tool.name()));
     }
   }
-  std::vector<bool> is_told(pairs_.size(), false); // to be too soft: friction with it
+  std::vector<bool> is_told(pairs_.size(), false); // reported as too soft, including friction
   for (std::size_t i = 0; i < paths_.size(); ++i)
     for (const std::size_t pair : paths_[i].pairs)
       is_told[pair] = softness_[i].part() > notable_softness && !pairs_[pair].is_softer_tangentially;
@@ -339,7 +339,7 @@ void ContactReview::load(const StateReader &reader) {
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
       tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
-    return; // of other pairs
+    return; // saved for other pairs
   const double *next = numbers.data();
   for (double &force : tool_forces_)
     force = *next++;

@@ -109,7 +109,7 @@ std::vector<double> ContactStabilisation::save() const {
 }
 
 void ContactStabilisation::load(const std::vector<double> &values) {
-  if (values.size() != 3 * bodies_.size()) // of another scene: begins anew
+  if (values.size() != 3 * bodies_.size()) // saved by another scene: start from zero
     return;
   for (std::size_t body = 0; body < bodies_.size(); ++body)
     if (bodies_[body].scale > 0.) {

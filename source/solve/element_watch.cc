@@ -18,7 +18,7 @@ bool is_of_taper(const ElementEnergies &energies) {
   return energies.tapered > much * (energies.used + energies.tapered - energies.accurate);
 }
 
-/// What helps a body whose elements are too stiff: never an element that is as stiff.
+/// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
   return is_of_taper(energies) || formulation.element != Brick::mean_dilatation
              ? "Use bricks whose opposite edges are parallel, also in plan, or shorter ones beside their "
@@ -106,7 +106,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     const ElementFormulation &formulation = scene_.bodies()[b].formulation;
     if (!is_doubtful(b))
       continue;
-    // Where hinges yield or inertia counts less of it is left.
+    // Plastic hinges and inertia reduce the effect of this factor.
     const bool has_yield = scene_.bodies()[b].law->has_plasticity();
     std::ostringstream text;
     text.precision(3);
@@ -118,7 +118,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
                : is_of_taper(energies_[b]) ? "about"
                                            : "at least")
            << " this factor";
-    else // no bound, and no direction: in skewed bricks they are too stiff all the same
+    else // no bound and no direction: skewed bricks may still be too stiff
       text << "store " << 1. / factor
            << " times less energy in this deformation than they should: forces or displacements may be off "
               "by this factor";
@@ -179,7 +179,7 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   const EnergyLedger &ledger = state.energies;
   const double energy = ledger.of_elements();
   const bool is_static = !scene_.parameters().is_dynamic(), is_first = compared_energy_ == 0.;
-  // Where a body springs back the largest load counts; steps of motion are many, and short.
+  // In springback the largest load counts; dynamic steps are many and short.
   const double growth = is_static ? 1.1 : 2.;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||
@@ -216,7 +216,7 @@ void ElementWatch::save(StateWriter &writer) const {
 
 void ElementWatch::load(const StateReader &reader) {
   std::vector<double> values = reader.read("element energies");
-  if (values.size() != 3 + n_energies * energies_.size()) // of other bodies
+  if (values.size() != 3 + n_energies * energies_.size()) // saved for other bodies
     return;
   compared_energy_ = values[0];
   compared_time_ = values[1];

@@ -10,20 +10,20 @@ namespace billet {
 void EnergyErrors::add(const double time, const EnergyLedger &energies, const double carried) {
   Usage::count(Capability::error_control, 1);
   const double whole = std::max(energies.total(), std::abs(energies.initial)), at_stake = whole - carried;
-  constexpr double rounding = 1e-9; // what is no more than that of the whole is nothing
+  constexpr double rounding = 1e-9; // smaller parts of the whole count as zero
   const bool is_something = at_stake > rounding * whole;
   const double drift = is_something ? std::abs(energies.drift()) + std::abs(energies.numerical) : 0.,
                contact = is_something ? std::abs(energies.contact) : 0., total = is_something ? at_stake : 0.;
   if (has_begun_) {
-    // Waves carry on what came late when its springs have let go: on tubes and bars as much again, as
-    // measured.
+    // Waves carry the delay on after the springs have unloaded: measurements on tubes and bars show the same
+    // amount again.
     constexpr double late_and_stored = 3., carried_on = 2.;
     const double half = 0.5 * (time - time_);
     drift_ += half * (last_drift_ + drift);
     penetration_ += half * carried_on * late_and_stored * (last_contact_ + contact);
     total_ += half * (last_total_ + total);
   }
-  // What the first touch makes stays as it is; what steps make grows.
+  // Drift by first contact stays constant; drift by steps grows.
   constexpr double part = 0.2, growth = 1.1, shorter = 0.8, least = 0.5;
   if (has_begun_ && total > 0. && drift > part * tolerance_ * total && drift > growth * last_drift_)
     step_factor_ = std::max(least, shorter * step_factor_);

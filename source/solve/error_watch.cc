@@ -14,15 +14,15 @@ namespace billet {
 
 namespace {
 
-// Of the target error, what penetrations may make; 0.4 of it is for the steps, the rest for what is estimated
-// badly.
+// Part of the target error for penetration; 0.4 of it is for the steps, the rest is a margin for poor
+// estimates.
 constexpr double part_of_penetration = 0.3;
 
-// Where steps make no error.
+// The same part if steps cause no error.
 constexpr double part_of_penetration_alone = 0.5;
 
-// Residuals of steps that are compared with one another: the difference, which falls with the square of the
-// target, has to stand out.
+// Returns the residual of steps that are compared. Their difference, which falls with the square of the
+// target, must exceed it.
 double residual_of_measurements(const double target) {
   constexpr double most = 0.1, slope = 10.;
   return std::min(most, slope * target) * target;
@@ -37,7 +37,8 @@ bool may_choose_penetration(const parameters::Scene &parameters) {
                                                 })) == parameters.pairs.size();
 }
 
-/// Stresses that return to a yield surface, rates of stress that are integrated: what they were off stays.
+/// Whether stresses depend on the step length, by return mapping or by integration of stress rates: their
+/// errors persist.
 bool stresses_depend_on_steps(const Scene &scene) {
   const std::vector<parameters::Body> &bodies = scene.parameters().bodies;
   return scene.capabilities().plasticity ||
@@ -45,8 +46,8 @@ bool stresses_depend_on_steps(const Scene &scene) {
                      [](const parameters::Body &body) { return body.material.law->is_rate_form(); });
 }
 
-/// Whether a step's length is part of its answer: that of stresses, or of tractions that return to a friction
-/// cone. These forget how they came there.
+/// Whether the solution depends on the step length: by stresses, or by tractions on a friction cone. Errors
+/// of tractions fade.
 bool depends_on_steps(const Scene &scene) {
   return scene.capabilities().friction || stresses_depend_on_steps(scene);
 }
@@ -145,7 +146,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   Usage::count(Capability::error_control, 1);
   const bool is_second = probe_length_ > 0.;
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
-  // Of steps that are compared not the first: all have to go equally deep.
+  // Not in the first of the steps that are compared: they need the same penetration.
   if (measures_penetration_ && wants_penetration() && (is_second || probe_length_ == 0.))
     problem_.measure_penetration(least(&ErrorControl::allowed_at_first));
   return n_iterations;
@@ -157,8 +158,8 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
   constexpr double alike = 0.01;
-  if (control.ends_at_stop() ||                       // over which the longer step would cut a corner
-      !(std::abs(second - first) <= alike * first)) { // a stop is near; after it, then
+  if (control.ends_at_stop() ||                       // the longer step would cross the stop
+      !(std::abs(second - first) <= alike * first)) { // a stop is near: measure after it
     miss_measurement(first, false);
     return 0;
   }
@@ -252,7 +253,7 @@ void ErrorWatch::save(StateWriter &writer) const {
     writer.in(group("results", i), [&] {
       writer.write_text("name", names[i]);
       controls_[i].save(writer);
-      // Between two steps that are compared with one: that one, too.
+      // Between two compared steps the probe's results are saved, too.
       billet::save(writer, "probed", probe_length_ > 0. ? probe_.results[i] : ResultGroup());
     });
   writer.write("iterations of measurements", {static_cast<double>(n_iterations_)});
@@ -264,7 +265,7 @@ void ErrorWatch::load(StateReader &reader) {
   probe_.results.assign(names.size(), {});
   bool is_whole = true;
   for (std::size_t i = 0; i < controls_.size(); ++i) {
-    const auto found = find_group(reader, "results", names[i]); // none of a tool that is new
+    const auto found = find_group(reader, "results", names[i]); // none for a new tool
     is_whole = is_whole && found.has_value();
     if (found)
       reader.in(group("results", *found), [&] {
@@ -272,7 +273,7 @@ void ErrorWatch::load(StateReader &reader) {
         probe_.results[i] = load_result_group(reader, "probed");
       });
   }
-  if (!reader.has("comparison")) // a run that kept no account
+  if (!reader.has("comparison")) // an earlier run without error control
     return;
   allow_penetration();
   n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));

@@ -11,7 +11,7 @@ void ForceCourse::accept(const double h, const double force) {
 }
 
 double ForceCourse::scale() const {
-  constexpr double max_growth = 10.; // until the end that counts
+  constexpr double max_growth = 10.; // limit of the growth until the end
   return std::max({force_, time_ > start_ ? work_ / (time_ - start_) : 0.,
                    force_ + std::min(0.5 * force_rate_ * left(), max_growth * force_)});
 }

@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-/// Twice the kinetic energy.
+/// Returns twice the kinetic energy.
 double square(const ElementMass &mass, const ElementVectors &v) {
   double sum = 0.;
   for (std::size_t a = 0; a < n_element_nodes; ++a)
@@ -95,7 +95,7 @@ void InertiaWatch::load(const StateReader &reader) {
     return;
   const std::vector<double> values = reader.read("kinetic energies");
   const std::size_t n = lumped_.size();
-  if (values.size() != 2 + 2 * n) // of other bodies
+  if (values.size() != 2 + 2 * n) // saved for other bodies
     return;
   time_ = values[0];
   duration_ = values[1];

@@ -62,7 +62,7 @@ bool is_inside(const Corners &corners, const Tensor<1, 3> &x, const double margi
   return false;
 }
 
-/// How many elements of this rank hold each point; `margin` as in is_inside().
+/// Returns the number of elements of this rank that contain each point; `margin` as in is_inside().
 std::vector<unsigned int> count_elements(const std::vector<Corners> &elements,
                                          const std::vector<Tensor<1, 3>> &points, const double margin) {
   std::vector<BoundingBox> boxes;
@@ -82,7 +82,7 @@ std::vector<unsigned int> count_elements(const std::vector<Corners> &elements,
   return counts;
 }
 
-/// The smaller one of two lengths that a node may be below this facet before it counts as inside.
+/// Returns the depth below this facet from which on a node counts as inside, the smaller of two lengths.
 double allowed_depth(const BoundaryFacet &facet) {
   return std::min(0.1 * std::sqrt(facet.area_vector().norm()), 0.2 * facet.thickness);
 }
@@ -304,7 +304,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
     }
   }
   const BoxTree surface(face_boxes);
-  // Distance, what is allowed there, and whether a pair names the face, of this rank.
+  // Distance, allowed depth, and whether a pair names the face, on this rank.
   std::vector<std::array<double, 3>> nearest;
   for (const auto &x : inside) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -351,7 +351,7 @@ std::optional<MissingPairs::Deepest> MissingPairs::find_overlap(const Couple &co
 std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple,
                                                             const Vector *displacements) const {
   const MPI_Comm communicator = discretization_.communicator();
-  std::vector<Probe> own; // the middle of facets: where one element is as deep as the body no node is within
+  std::vector<Probe> own; // centres of facets: in a body one element thick no node is within an element
   for (const BoundaryFacet &facet : facets_[couple.body]) {
     Tensor<1, 3> x;
     for (unsigned int v = 0; v < 4; ++v)
@@ -378,10 +378,10 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   const std::vector<Node> &nodes = nodes_[couple.body];
   const bool is_first = couple.is_in_front.empty();
   const std::vector<bool> &is_named = couple.named[0].nodes;
-  // Of nodes that were in front at the check before, or where a run resumes may have been.
+  // Depths of nodes that were in front at the last check, or may have been before a restart.
   std::vector<double> depths(nodes.size());
   std::vector<bool> is_in_front(nodes.size());
-  double followed = 0.; // how deep contact lets nodes in
+  double followed = 0.; // penetration of nodes in pairs
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto projection = surface.project(placement.to_tool(Point<3>(positions[couple.body][n])));
     if (!projection.exists)
@@ -397,7 +397,7 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const double allowed = followed + part * nodes[n].facet_size;
     const bool is_inside = !is_first && !is_named[n] && depths[n] >= allowed;
-    // What comes in little by little stays in front until it is in.
+    // A node that enters slowly counts as in front until it is inside.
     is_in_front[n] = is_in_front[n] || (depths[n] > 0. && !is_inside);
     const Tensor<1, 3> &x = positions[couple.body][n];
     if (is_inside)

@@ -14,7 +14,7 @@ using Point = std::array<double, 3>;
 
 double distance(const Point &a, const Point &b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-/// Times in an interval that no period fits: by the golden ratio.
+/// Returns times in an interval that match no period, by the golden ratio.
 std::vector<double> times_between(const double from, const double to, const unsigned int n) {
   constexpr double golden = 0.61803398874989485;
   std::vector<double> times{from};
@@ -58,7 +58,7 @@ std::vector<MotionWatch::Point> MotionWatch::places(const Track &track, const st
     try {
       found.push_back(track.at(t));
     } catch (const SolutionFailure &) {
-      // It is nowhere at that time. A step that ends there says so.
+      // It has no position at that time. A step that ends there reports it.
     }
   return found;
 }

@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-/// The four criteria (Q1), and the limit on iterations; keeps the record of the iterations.
+/// Convergence test by the four criteria (Q1) and the limit on iterations, with a record of the iterations.
 class Convergence {
 public:
   Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const Vector &x_n,
@@ -25,11 +25,11 @@ public:
     const double residual_work = measure(now, last);
     const ConvergenceMeasures &measures = report_.measures;
 
-    // But for what contact's round-off leaves.
+    // Convergence is judged except for round-off of contact.
     const bool stagnates = n > 0 && norm > slow_ * last_norm_;
     last_norm_ = norm;
     const auto is_small = [&](const double contact_round_off) {
-      // All that round-off may leave only where iterations no longer help.
+      // The full round-off estimate applies only if the iterations stagnate.
       const double round_off = (stagnates ? 1. : certain_) * problem_.round_off_force() + contact_round_off;
       const bool is_exact = norm <= exact_residual * scale + round_off;
       const bool has_settled = measures.has_correction &&
@@ -75,15 +75,15 @@ public:
       report_.failure = "after " + std::to_string(n) +
                         " iterations they go to and fro between the same states, of which none is in balance";
     }
-    // Residuals that are larger than estimated, but not by much, are round-off's, too.
+    // Residuals slightly above the estimate are also due to round-off.
     constexpr double by_much = 10.;
-    largest_round_off_ = std::max(largest_round_off_, contact); // nodes may just have let go
+    largest_round_off_ = std::max(largest_round_off_, contact); // nodes may just have opened
     if (verdict == NewtonVerdict::failed)
       report_.is_lost_in_round_off =
           !report_.is_stalled && largest_round_off_ > cap && norm <= by_much * largest_round_off_;
     return verdict;
   }
-  /// Whether an iteration has come as near as round-off lets it, and that is not near enough.
+  /// Whether an iteration has reached the round-off limit, above the permitted part of the forces.
   bool has_met_round_off() const { return n_in_round_off_ > 0; }
 
 private:
@@ -106,7 +106,8 @@ private:
     report_.iterations.push_back({before.scale > 0. ? before.norm / before.scale : 0.,
                                   std::abs(before.residual * last->full),
                                   full_length > 0. ? length / full_length : 1.});
-    // Of a correction that was shortened, all counts: its length says nothing about how far there is to go.
+    // The full correction counts, even if it was shortened: the shortened length does not measure the
+    // remaining distance.
     const double largest_correction = last->full.linfty_norm();
     const double largest_increment =
         std::max(increment.linfty_norm(), least_increment_ * now.x.linfty_norm());
@@ -124,7 +125,7 @@ private:
     return (n >= 2 * window_ && is_stagnant(report_.iterations, report_.force, window_)) ||
            (is_last && n >= window_ && is_stagnant(report_.iterations, report_.force, window_ / 2));
   }
-  /// Whether the residual has stalled, and comes near enough to balance now and then.
+  /// Whether the residual has stalled, but is close to balance in some iterations.
   bool may_still_settle(const unsigned int n) const {
     if (n >= 3 * window_ || !has_stalled(n))
       return false;
@@ -133,8 +134,8 @@ private:
         return true;
     return false;
   }
-  /// Whether, at the mean pace of the last iterations, the residual would miss its tolerance in those that
-  /// are left.
+  /// Whether, at the mean rate of the last iterations, the residual would miss its tolerance in the remaining
+  /// ones.
   bool is_hopeless(const unsigned int n) const {
     constexpr unsigned int window = window_;
     if (n < 2 * window)
@@ -150,10 +151,11 @@ private:
   const Vector &x_n_;
   const bool accepts_stalled_;
   NewtonReport &report_;
-  static constexpr unsigned int window_ = 10; // of iterations, to see whether they get nearer
-  // Of the largest displacement: smaller increments, as of a scene at rest, are no measure of corrections.
+  static constexpr unsigned int window_ = 10; // number of iterations to judge convergence by
+  // Part of the largest displacement: smaller increments, as in a scene at rest, cannot normalise
+  // corrections.
   static constexpr double least_increment_ = 1e-3;
-  static constexpr unsigned int most_in_round_off_ = 3; // tries to come out of it
+  static constexpr unsigned int most_in_round_off_ = 3; // iterations to recover from it
   static constexpr double slow_ = 0.1;                  // of the last residual
   static constexpr double certain_ = 0.01;              // of the estimate of round-off: its last bit
   double last_norm_ = 0., increment_ = 0.;              // |Δu|

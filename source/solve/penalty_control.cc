@@ -14,9 +14,10 @@ namespace billet {
 
 namespace {
 
-/// (L8): the part that penetration may take, the part to which raises lead, and what is no matter.
+/// Limits of (L8): the allowed part of penetration, the target of raises, and the irrelevant part.
 constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
-/// The same of sticking, (L9): of friction, and of the normal force. What is lost by then stays lost.
+/// The same for sticking, (L9): as parts of friction, and of the normal force. Friction lost before a raise
+/// stays lost.
 constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
 constexpr double most_at_once = 4.;   ///< softness is measured anew after that
 constexpr double slow = 0.01;         ///< largest kinetic energy so far beside what deformation takes now

@@ -11,7 +11,7 @@ namespace billet {
 
 DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, const Penetration &deepest,
                                    const double displacement, const double part_of_work) {
-  constexpr double deep = 0.1;       // of a facet: what is deeper is seen in pictures and counts in areas
+  constexpr double deep = 0.1;       // of a facet: deeper nodes are visible in field output and affect areas
   constexpr double much_taken = 0.2; // of the motion: a fifth of what bodies would bear
   const bool is_slow = motion_ == Motion::slow;
   // Depth that may matter for the second sign [facet sizes].
@@ -21,7 +21,7 @@ DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, c
   const bool is_deep = deepest.of_facet > deep;
   const bool takes_motion = deepest.of_facet > least && deepest.length > much_taken * largest;
   const bool takes_work = is_slow && deepest.of_facet > least && part_of_work > much_taken;
-  // A node that an impact pushes in for a moment, with next to no energy, changes nothing.
+  // A short penetration in an impact, with next to no energy, is irrelevant.
   constexpr double counts = 0.01;
   const bool was_deep = are_deep_[pair];
   are_deep_[pair] = is_deep;

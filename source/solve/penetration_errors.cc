@@ -25,7 +25,7 @@ void PenetrationErrors::measure(const ForceCourse &course, const double penetrat
   is_measured_ = true;
   const double last_slope = slope_;
   slope_ = error / (force * penetration);
-  // Steps since the last measurement have something in between.
+  // Steps since the last measurement use the geometric mean of both slopes.
   integral_ += ((is_first ? slope_ : std::sqrt(last_slope * slope_)) - last_slope) * unmeasured_;
   unmeasured_ = 0.;
   if (error <= MeasurementInterval::little * tolerance_ * force)
@@ -36,7 +36,7 @@ void PenetrationErrors::measure(const ForceCourse &course, const double penetrat
     interval_.start(MeasurementInterval::min);
   if (tolerance_ == 0. || !(error > 0.))
     return;
-  // In proportion; tighter than what is the tightest is not to be had.
+  // The error is proportional to penetration; the smallest tolerance is the lower limit.
   const double allowed = most_over_mean * tolerance_ * std::max(course.scale(), force);
   allowed_ = std::max(1., penetration * allowed / error);
 }

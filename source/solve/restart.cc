@@ -13,8 +13,8 @@ namespace billet {
 
 namespace {
 
-/// Number of elements, volume, and Σ w centre with a weight in [0, 1) that belongs to the element's key, so
-/// that another numbering shows.
+/// Returns the number of elements, the volume, and Σ w centre. The weight in [0, 1) belongs to the element's
+/// key, so that a different numbering is detected.
 std::vector<double> measure(const Discretization &discretization, const std::size_t body) {
   std::array<double, 5> own{};
   for (const auto &element : discretization.elements(body)) {
@@ -36,7 +36,7 @@ template <class Formulation> struct StoredFormulation {
   SharedLaw law;
 };
 
-/// Elasticities that a history may have: that of the body, and those with the same constants.
+/// Returns the laws that a history may have: that of the body, and those with the same constants.
 std::vector<SharedLaw> laws_like(const SharedLaw &law) {
   std::vector<SharedLaw> laws{law};
   for (const ElasticityType &type : elasticity_types())
@@ -108,7 +108,7 @@ void check_scene(StateReader &reader, const Scene &scene, const Discretization &
       if (then.at(0) != now[0])
         throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +
                          " elements, here it has " + std::to_string(std::lround(now[0])));
-      // Round-off of another machine may be in them.
+      // They may contain round-off of another machine.
       constexpr double tolerance = 1e-9;
       const double radius = discretization.radius() + discretization.centre().norm();
       bool is_same = std::abs(then.at(1) - now[1]) <= tolerance * now[1];

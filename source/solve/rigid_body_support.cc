@@ -21,10 +21,10 @@ double dot(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
-/// A combination of the orthonormal `basis` that none of the rows resists, r z >= 0 for all; none if there is
-/// no such one but 0. By Farkas' lemma: all motions are resisted if minus the sum of the rows is among Σ λ_i
-/// r_i with λ_i >= 0, and the rows span the basis; else what is left over is such a motion. By coordinate
-/// descent.
+/// Returns a combination of the orthonormal `basis` that none of the rows resists, r z >= 0 for all; none if
+/// only 0 satisfies that. Farkas' lemma: all motions are resisted if the rows span the basis and minus their
+/// sum is a combination Σ λ_i r_i with λ_i >= 0. Else the remainder is such a motion. The method is
+/// coordinate descent.
 std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows &all_rows) {
   const std::size_t n = basis.size();
   if (n == 0)
@@ -36,7 +36,7 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
         motion[i] += factors[k] * basis[k][i];
     return motion;
   };
-  constexpr double none = 1e-6; // of a row, that are unit vectors or less
+  constexpr double none = 1e-6; // of a row; rows are unit vectors or shorter
   Rows rows;
   for (const auto &row : all_rows) {
     std::vector<double> part;
@@ -45,7 +45,7 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
     if (dot(part, part) > none * none)
       rows.push_back(std::move(part));
   }
-  // What no row touches is free whatever the signs.
+  // A motion orthogonal to all rows is free in both directions.
   dealii::LAPACKFullMatrix<double> gram(n, n);
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t l = 0; l < n; ++l) {
@@ -93,9 +93,9 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   return combine(factors);
 }
 
-/// The point of the cone r z >= 0 for all rows that is nearest to `aim`, whose length is 1 or less; none if
-/// that is 0. By Moreau's decomposition it is what non-negative multiples of the rows leave of the aim. By
-/// coordinate descent.
+/// Returns the point of the cone r z >= 0 for all rows that is nearest to `aim`, whose length is at most 1;
+/// none if that is 0. By Moreau's decomposition it is the aim plus non-negative multiples of the rows. The
+/// method is coordinate descent.
 std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector<double> aim) {
   constexpr double none = 1e-6, small = 1e-2, settled = 1e-6;
   constexpr unsigned int n_sweeps = 1000;
@@ -121,7 +121,8 @@ std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector
   return aim;
 }
 
-/// Takes `motion`'s direction out of the orthonormal `basis`, which holds it, and makes the rest orthonormal.
+/// Removes the direction of `motion` from the orthonormal `basis`, whose span contains it, and makes the rest
+/// orthonormal.
 void deflate(const std::vector<double> &motion, Rows &basis) {
   Rows left;
   std::vector<std::vector<double>> known{motion};
@@ -254,7 +255,7 @@ RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
       mode.body = body;
     }
   }
-  double most = 0.; // of its components, whose sign is +
+  double most = 0.; // largest component, which is made positive
   for (unsigned int i = 0; i < 6; ++i)
     if (std::abs(motion[6 * mode.body + i]) > (1. + 1e-6) * std::abs(most))
       most = motion[6 * mode.body + i];

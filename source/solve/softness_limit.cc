@@ -11,7 +11,7 @@ namespace {
 
 constexpr double allowed = 2e-3; // of the forces
 
-// Forces of a pair count beside those of the pair that has most; friction, beside pressures.
+// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the pressure.
 constexpr double least_of_largest = 0.01, least_friction = 0.02;
 
 double largest_force(const std::vector<ContactSprings> &springs) {
@@ -24,16 +24,15 @@ double largest_force(const std::vector<ContactSprings> &springs) {
 } // namespace
 
 double SoftnessLimit::Direction::missing(const ContactSprings::Direction &springs, const double force) const {
-  // What counts of springs is to be known for states like this one. All augmentations that would follow make
-  // a geometric series.
+  // `counts` is known only for similar states. All further augmentations form a geometric series.
   constexpr double unlike = 0.5, most = 0.8;
   const double in_all = counts / (1. - std::min(counts, most));
   return std::min(changed, springs.held > unlike * force ? springs.held : in_all * springs.held);
 }
 
 void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change) {
-  // Less than this of a force tells nothing; nor does what the first augmentation has not closed: facets that
-  // do not fit keep gaps.
+  // Smaller parts of a force are not significant. Only the first augmentation counts: facets that do not fit
+  // keep gaps.
   constexpr double least_held = 1e-4;
   const bool is_first = std::isinf(changed);
   changed = change.in_all;
@@ -57,7 +56,7 @@ bool SoftnessLimit::is_used() const {
 }
 
 std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs) const {
-  // Slip stays: what one step lets in, the next ones have no more.
+  // Slip persists: the allowance that one step uses is lost for the next ones.
   constexpr double least_left = 0.1;
   const double least = least_of_largest * largest_force(springs);
   std::vector<double> result(pairs_.size());
@@ -118,7 +117,7 @@ std::vector<double> SoftnessLimit::save() const {
 void SoftnessLimit::load(const std::vector<double> &numbers) {
   constexpr std::size_t of_pair = 5;
   if (numbers.size() != of_pair * pairs_.size())
-    return; // of other pairs
+    return; // saved for other pairs
   const double *next = numbers.data();
   for (Pair &pair : pairs_) {
     pair.normal.counts = next[0];

@@ -13,7 +13,7 @@ namespace billet {
 
 namespace {
 
-/// ∂x/∂ξ in the middle of a brick, in deal.II's order of its nodes.
+/// Returns ∂x/∂ξ at the centre of a brick, with nodes in deal.II's order.
 dealii::Tensor<2, 3> middle_jacobian(const ElementVectors &x) {
   dealii::Tensor<2, 3> result;
   for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -67,7 +67,7 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
 
 StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
                                                      const Vector &displacements) const {
-  // Where every law is stable, whatever Poisson's ratio.
+  // Stretches in which every law is stable, for any Poisson's ratio.
   constexpr double surely_above = 0.75, surely_below = 1.3;
   Weakest weakest = {1., {1., 1., 1.}};
   for (const Element &element : discretization_.elements(watched.body)) {

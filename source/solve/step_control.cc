@@ -13,7 +13,8 @@ namespace {
 struct Rules {
   /// Part of a step by which round-off may misplace its end.
   static constexpr double slack = 1e-8;
-  /// Steps to go below which two halves are taken, rather than a full step and a sliver.
+  /// Number of remaining steps below which two equal steps are taken, rather than a full step and a short
+  /// rest.
   static constexpr double halves = 1.5;
   /// Part of the step that an error of its time integration allows; the error falls with its third power.
   static constexpr double safety = 0.8;
@@ -38,7 +39,7 @@ double StepControl::target() const {
   if (interval_ == 0.)
     return target;
   const double output = (std::floor(time_ / interval_ * (1. + Rules::slack) + Rules::slack) + 1.) * interval_;
-  // 100 times 0.29 is less than 29: no step of that length.
+  // Round-off, as of 100 times 0.29 < 29, must not cause a tiny step.
   return output < target - Rules::slack * interval_ ? output : target;
 }
 

@@ -18,36 +18,36 @@ double product(const ResultGroup &a, const ResultGroup &b) {
 
 /// Constants of error control; factors unless they say otherwise.
 struct Factors {
-  /// Steps until the next measurement where one was not possible: the next step may be the occasion.
+  /// Steps until the next measurement after an impossible one.
   static constexpr unsigned int soon = 1;
-  /// Errors neither grow nor fade, on the whole: in upsetting they grow with the force, in stretching they
-  /// fade. This is what the first makes of them.
+  /// Growth of errors: they grow with the force in upsetting, and fade in stretching. This is the value for
+  /// upsetting.
   static constexpr double growth_of_errors = 1.4;
   /// Sum of 1, 1/2, 1/4, ...: of errors that fade by half in each pair of steps.
   static constexpr double sum_of_halves = 2.;
-  /// Least part of the span that is left for errors to grow in.
+  /// Minimum part of the span that is left for errors to grow in.
   static constexpr double min_left = 1e-3;
-  /// Of an even rate of errors. Forces may be others by the end: nothing is saved at any price, nor spent at
-  /// once. What is spent late adds little, which is true of what is saved, too.
+  /// Limits of the error rate, as factors of an even rate. Forces may change until the end, so the allowance
+  /// is neither saved at any cost nor spent at once. Errors late in the run add little to the integral.
   static constexpr double min_rate = 0.2, max_rate = 6.;
-  /// By which steps may become shorter or longer at once.
+  /// Minimum and maximum factor of a change of the step.
   static constexpr double min_stretch = 0.5, max_stretch = 4.;
-  /// Of the slope of errors from one measurement to the next: what is above happens once.
+  /// Maximum growth of the slope between measurements; a larger one is a single event.
   static constexpr double max_sudden = 3.;
-  /// Part of the target from which on steps matter at all: then they are not longer than `max_span` times the
-  /// root of the tolerance in spans of the run, so that slopes do not change beyond recognition between two
-  /// measurements; nor made shorter than `min_span` times the tolerance, so that what happens once in a
-  /// while, whatever the step, does not decide.
+  /// Part of the target from which on steps matter. Then they are at most `max_span` times the root of the
+  /// tolerance in spans of the run, so that slopes stay comparable between measurements. They are not cut
+  /// below `min_span` times the tolerance, so that rare events, which do not depend on the step, do not
+  /// decide.
   static constexpr double matters = 0.05, max_span = 0.65, min_span = 3.;
-  /// Steps that are `shorter` than the last ones, and err `as_much` in the same time, are of no use: where
-  /// nodes touch, or begin to slip, one by one.
+  /// Steps that are `shorter` than the last ones, but cause `as_much` error in the same time, are useless.
+  /// Then nodes touch, or begin to slip, one by one.
   static constexpr double shorter = 0.75, as_much = 0.8;
-  /// Of a step after which comparisons fail twice in a row.
+  /// Factor of a step at which comparisons fail twice in a row.
   static constexpr double cut = 0.5;
 };
 
-/// Returns what is left of the forces by steps of length h of which each pair makes 2 c h², in parts of c,
-/// and forgets half of what was: the sum of 1, ½, ¼, ...
+/// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h² and
+/// halves the earlier error: the sum of 1, ½, ¼, ...
 double left_where_errors_fade(const double h) { return Factors::sum_of_halves * 2. * h * h; }
 
 } // namespace
@@ -60,7 +60,7 @@ void StepErrors::add_step(const double h) {
 }
 
 void StepErrors::accept(const double h, const std::size_t n_forces) {
-  if (n_measurements_ == 0 && !has_given_up() && rules_.tolerance > 0.) // what steps make is not known yet
+  if (n_measurements_ == 0 && !has_given_up() && rules_.tolerance > 0.) // the error of steps is not known yet
     longest_step_ = std::min(longest_step_, h);
   if (slopes_.size() == n_forces)
     add_step(h);
@@ -112,12 +112,12 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
                                        const ResultGroup &of_one_step, const double difference,
                                        const double noise) const {
   const bool is_first = slopes_.size() != forces.size();
-  // Between what the difference is with and without the noise: as it was last time, if that is in between.
+  // The slope lies between the differences with and without noise: keep the last value if it is between them.
   const double least_slope = std::max(0., difference - noise) / (2. * h * h),
                most_slope = (difference + noise) / (2. * h * h);
   const double value = is_first ? least_slope : std::max(least_slope, std::min(last_slope_, most_slope)),
                last = is_first ? value : last_slope_;
-  // Of differences within the noise not even the direction is known.
+  // If the difference is within the noise, not even its direction is known.
   ResultGroup now = difference > noise || is_first ? forces : slopes_;
   if (difference > noise || is_first)
     for (std::size_t i = 0; i < forces.size(); ++i)
@@ -130,9 +130,9 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
 
 void StepErrors::take(const Slope &slope, const double h) {
   const ResultGroup &now = slope.now;
-  // So far steps since the last measurement count with c from there. Those that were measured now are known,
-  // and those between have something in between: the geometric mean, so that what happens once, such as a
-  // node that begins to slip, does not count for all.
+  // Steps since the last measurement have counted with its c so far. The measured steps are known now; those
+  // before use the geometric mean. Thus a single event, such as a node that begins to slip, does not count
+  // for all.
   const double between = !(slope.value > 0.)                        ? 0.
                          : rules_.stays && slope.last < slope.value ? 1.
                                                                     : std::sqrt(slope.last / slope.value);
@@ -147,8 +147,8 @@ void StepErrors::take(const Slope &slope, const double h) {
   const double error = size_of(errors_);
   integral_ += 0.5 * (error - last_error_) * unmeasured_span_;
   last_error_ = error;
-  // From here on this, unless it is much more than last time, for the same reason. Errors that turn around do
-  // not add up.
+  // From here on the new slope counts, limited if it is much larger than the last one, for the same reason.
+  // Errors that change direction do not add up.
   const double sudden = slope.value > Factors::max_sudden * slope.last && !rules_.stays
                             ? Factors::max_sudden * slope.last / slope.value
                             : 1.;
@@ -171,7 +171,7 @@ void StepErrors::schedule(const ForceCourse &course, const Slope &slope, const d
 
 void StepErrors::measure(const ForceCourse &course, const double h, const ResultGroup &forces,
                          const ResultGroup &of_one_step, const double residuals) {
-  const double force = size_of(forces); // 0 of a tool that has not moved yet, while others have
+  const double force = size_of(forces); // 0 for a tool that has not moved yet, while others have
   const double difference = distance_of(of_one_step, forces);
   const Slope slope = slope_of(h, forces, of_one_step, difference, residuals * force);
   take(slope, h);
@@ -203,14 +203,14 @@ void StepErrors::choose_longest_step(const ForceCourse &course, const double h, 
 }
 
 void StepErrors::miss(const double h, const bool failed) {
-  if (failed && is_little_ && !rules_.stays) { // nothing is gained by shorter ones
+  if (failed && is_little_ && !rules_.stays) { // shorter steps bring no gain
     interval_.repeat();
     return;
   }
   n_failed_ = failed ? n_failed_ + 1 : 0;
   interval_.wait(Factors::soon);
-  // Something may just have happened there; twice in a row it is the length; and where shorter ones fail like
-  // longer ones it is neither.
+  // A first failure may be a single event, a second one is due to the length. If shorter steps fail as well,
+  // it is neither.
   if (has_given_up()) {
     interval_.wait(MeasurementInterval::max);
     longest_step_ = std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ std::vector<double> body_thicknesses(const Discretization &discretization) {
       const dealii::Tensor<1, 3> centre = element.cell->center() - discretization.centre();
       dealii::SymmetricTensor<2, 3> second =
           volume * dealii::symmetrize(dealii::outer_product(centre, centre));
-      // Of a parallelepiped about its centre: a third of the mean over its corners.
+      // The moment of a parallelepiped about its centre is a third of the mean over its corners.
       for (const unsigned int v : element.cell->vertex_indices()) {
         const dealii::Tensor<1, 3> arm = element.cell->vertex(v) - element.cell->center();
         constexpr double n_corners = 8.;

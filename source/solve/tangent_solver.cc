@@ -19,8 +19,9 @@ namespace {
 
 using Kind = parameters::Solver::LinearSolver;
 
-/// Of a direct solver, on one rank, more on many, as MUMPS took it for two blocks of 50 000 to 500 000 dofs
-/// [bytes]: doc/results/linear-solvers.md. Solids fill as n^(4/3).
+/// Returns the memory of a direct solver on one rank [bytes]; many ranks need more. It was measured with
+/// MUMPS for two blocks of 50 000 to 500 000 dofs: doc/results/linear-solvers.md. The fill of solids grows as
+/// n^(4/3).
 double direct_memory(const double n_dofs, const bool symmetric) {
   return (symmetric ? 220. : 410.) * std::pow(n_dofs, 4. / 3.);
 }
@@ -107,7 +108,7 @@ bool TangentSolver::factorize_directly() {
 }
 
 void TangentSolver::note_memory() {
-  // Of factors only their sum over all ranks is known.
+  // For factors only the sum over all ranks is known.
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator_);
   const auto share = [n_ranks](const double bytes) { return static_cast<std::size_t>(bytes / n_ranks); };
   const std::size_t factors = direct_ ? share(direct_->memory()) : 0;
@@ -134,7 +135,7 @@ bool TangentSolver::factorize() {
     --pause_;
     return factorize_directly();
   }
-  direct_.reset(); // the two together would take too much
+  direct_.reset(); // both together would need too much memory
   is_direct_now_ = false;
   if (!iterative_->factorize())
     return fall_back();
@@ -152,7 +153,7 @@ bool TangentSolver::factorize() {
 
 bool TangentSolver::fall_back() {
   iterative_->release();
-  // It is tried again, but more and more seldom where that does not help.
+  // It is tried again, but less and less often if that fails.
   ++n_failures_;
   pause_ = (1u << std::min(n_failures_ - 1, 5u)) - 1;
   diagnostics_.emplace_back(diagnostic::direct_solver,
@@ -180,11 +181,11 @@ bool TangentSolver::solve(const Vector &b, Vector &x, const double relative_tole
 void TangentSolver::estimate_condition() {
   if (is_ill_conditioned_)
     return;
-  // Inverse iteration: the second solution is nearly along what A^-1 stretches most.
+  // Inverse iteration: the second solution is nearly along the direction that A^-1 amplifies most.
   constexpr unsigned int n_solutions = 2;
   const dealii::IndexSet owned = matrix_->locally_owned_range_indices();
   Vector b(owned, communicator_), x(b);
-  for (std::size_t i = 0; i < owned.n_elements(); ++i) { // rough, and the same however many ranks there are
+  for (std::size_t i = 0; i < owned.n_elements(); ++i) { // oscillating, whatever the number of ranks
     const auto row = static_cast<std::uint64_t>(owned.nth_index_in_set(i)) + 1;
     b.begin()[i] = ((row * 0x9e3779b97f4a7c15ULL) >> 63) == 0 ? 1. : -1.;
   }

@@ -16,8 +16,8 @@ enum class DirectMethod {
   klu              ///< LU on the first rank
 };
 
-/// Makes a distributed sparse direct solver. The pattern is analysed once; a new factorisation reuses that.
-/// `matrix` must outlive the solver. Throws InputError if Trilinos was built without it.
+/// Makes a distributed sparse direct solver. The pattern is analysed once; later factorisations reuse the
+/// analysis. `matrix` must outlive the solver. Throws InputError if Trilinos was built without the method.
 std::unique_ptr<LinearSolver> make_direct_solver(DirectMethod method, const Matrix &matrix,
                                                  MPI_Comm communicator);
 

@@ -10,29 +10,29 @@
 
 namespace billet {
 
-/// What an iterative solver has to know beside the matrix. The dofs of a node are numbered in succession.
+/// Input of an iterative solver beside the matrix. The dofs of a node are numbered in succession.
 struct NodalGeometry {
-  /// Of the node of each owned dof, its own component [length].
+  /// For each owned dof, the position of its node along the dof's direction [length].
   std::vector<double> positions;
-  /// Owned dofs, by their local number, whose row is empty but for its diagonal.
+  /// Whether the row of each owned dof, by local number, is empty but for its diagonal.
   std::vector<bool> constrained;
 };
 
-/// Conjugate gradients, or GMRES preconditioned from the right, with smoothed aggregation by ML: the six
-/// rigid motions of the nodes as they stand are its null space, so that each aggregate has its own. Vaněk,
-/// Mandel & Brezina, Computing 56 (1996) 179–196.
+/// Conjugate gradients, or GMRES with right preconditioning, with smoothed aggregation by ML. The null space
+/// consists of the six rigid-body modes of the nodes in their present positions. Vaněk, Mandel & Brezina,
+/// Computing 56 (1996) 179–196.
 ///
-/// Stiff contact between bodies makes aggregation slow, the more the stiffer. Therefore the contact dofs, Γ,
-/// are solved for directly after each cycle,
+/// Stiff contact between bodies slows aggregation down. Therefore the contact dofs, Γ, are solved for
+/// directly after each cycle,
 ///   z = B r,   z ← z + R_Γᵀ A_ΓΓ⁻¹ R_Γ (r − A z),                                                      (1)
-/// where B is a multigrid cycle not of A = K + C but of K + θ C, in which the contact stiffness C is as soft
-/// as the bodies. With a first residual that vanishes on Γ all later ones do, (1) is symmetric on them, and
-/// what has to be small is the condition of the Schur complements on the other dofs of both matrices against
-/// each other: it is bounded whatever the penalty.
+/// where B is a multigrid cycle for K + θ C instead of A = K + C. The factor θ makes the contact stiffness C
+/// as soft as the bodies. If the first residual vanishes on Γ, all later ones do, and (1) is symmetric on
+/// them. The convergence then depends on the Schur complements of both matrices on the other dofs: their
+/// relative condition number is bounded for any penalty.
 ///
-/// The hierarchy of an earlier matrix is kept as long as residuals fall with it, for each iteration, by
-/// `least_pace` of the logarithm that they fell by when it was new; A_ΓΓ and the finest level's residuals are
-/// always of the matrix itself. A solve that fails with an old hierarchy is repeated with a new one.
+/// A hierarchy is kept for later matrices while it converges well: per iteration the logarithm of the
+/// residual falls by at least `least_pace` of the initial rate. A_ΓΓ and the residuals on the finest level
+/// always belong to the present matrix. A solve that fails with an old hierarchy is repeated with a new one.
 class IterativeSolver final : public LinearSolver {
 public:
   enum class Method { conjugate_gradients, gmres };
@@ -40,26 +40,27 @@ public:
   struct Settings {
     Method method = Method::gmres;
     unsigned int most_iterations = 200;
-    // What doc/results/linear-solvers.md compares.
-    bool solve_contact = true;     ///< (1); else a cycle alone
-    double contact_stiffness = 3.; ///< of θ C, on average, over that of K at the same dofs; 0: θ = 1
-    double least_pace = 0.6;       ///< of a kept hierarchy, part of a fresh one's; > 1: none is kept
+    // Options that doc/results/linear-solvers.md compares.
+    bool solve_contact = true;     ///< apply (1); else a cycle alone
+    double contact_stiffness = 3.; ///< mean diagonal of θ C over that of K at the same dofs; 0: θ = 1
+    double least_pace = 0.6; ///< convergence of a kept hierarchy over that of a fresh one; > 1: none is kept
   };
 
   IterativeSolver(const Settings &settings, const Matrix &matrix, MPI_Comm communicator);
   ~IterativeSolver() override;
 
-  /// Forgets all that belongs to a matrix. To be called before the matrix goes, or gets another pattern;
-  /// after that, the next one.
+  /// Releases all data of the present matrix. Call it before the matrix is destroyed or gets another pattern,
+  /// then set_matrix() with the next one.
   void release();
   void set_matrix(const Matrix &matrix) { matrix_ = &matrix; }
 
-  /// To be called before factorize() whenever nodes have moved much.
+  /// Sets the geometry. Call it before factorize() whenever nodes have moved much.
   void set_geometry(NodalGeometry geometry);
 
-  /// To be called whenever the matrix holds all but the stiffness of contacts between bodies, before that is
-  /// added: the owned dofs, by local number, of all nodes that touch. Their rows are kept until factorize(),
-  /// to tell C from K. Collective, like all members. Without it the next matrix has no contact.
+  /// Starts the contact stiffness C of the next matrix: stores the rows of `dofs`, the owned dofs, by local
+  /// number, of all nodes in contact. Call it when the matrix holds everything except the stiffness of
+  /// contacts between bodies. The rows are kept until factorize(). Without this call the next matrix has no
+  /// contact. Collective, like all members.
   void start_contact(const std::vector<int> &dofs);
 
   bool factorize() override;
@@ -67,16 +68,16 @@ public:
   std::string name() const override;
   unsigned int take_iterations() override;
   double memory() const override;
-  /// |b − A x| / |b| of the last solve, computed anew.
+  /// Returns |b − A x| / |b| of the last solve, computed anew.
   double relative_residual() const { return relative_residual_; }
-  /// Hierarchies set up so far.
+  /// Returns the number of hierarchies set up so far.
   unsigned int n_hierarchies() const { return n_hierarchies_; }
 
 private:
   class Multigrid;
   class ContactBlock;
 
-  /// A new hierarchy, of the matrix as it is.
+  /// Sets up a new hierarchy for the present matrix.
   bool renew();
   bool iterate(const Vector &rhs, Vector &solution, double relative_tolerance, unsigned int most_iterations);
 
@@ -88,7 +89,7 @@ private:
   std::unique_ptr<ContactBlock> started_; ///< of the next matrix
   std::unique_ptr<ContactBlock> contact_;
   bool is_lagging_ = false;                 ///< the hierarchy is that of an earlier matrix
-  double fresh_pace_ = 0., last_pace_ = 0.; ///< −ln of what an iteration leaves; 0: not known
+  double fresh_pace_ = 0., last_pace_ = 0.; ///< −ln of the residual reduction per iteration; 0: unknown
   unsigned int iterations_ = 0, n_hierarchies_ = 0;
   double relative_residual_ = 0.;
 };

@@ -9,11 +9,11 @@
 
 namespace billet {
 
-/// Sparse matrix whose rows are distributed as the entries of a vector, and its pattern.
+/// Sparse matrix whose rows are distributed like the entries of a vector, and its pattern.
 using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 using SparsityPattern = dealii::TrilinosWrappers::SparsityPattern;
 
-/// Number of entries in the rows of this rank.
+/// Returns the number of entries in the rows of this rank.
 std::size_t count_owned_entries(const Matrix &matrix);
 
 } // namespace billet

@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// R(x) = 0 with its tangent K = ∂R/∂x. All members are called, and answer, alike on all ranks; false means
-/// that the state is not admissible. Residuals and corrections are written in place: they have the layout of
-/// x, and keep it.
+/// Nonlinear system R(x) = 0 with its tangent K = ∂R/∂x. All members are collective and return the same on
+/// all ranks; false means that the state is not admissible. Residuals and corrections are written in place:
+/// they have the layout of x, and keep it.
 class NonlinearSystem {
 public:
   virtual ~NonlinearSystem() = default;
@@ -21,18 +21,18 @@ public:
   virtual bool solve_tangent(const Vector &residual, Vector &dx, double relative_tolerance) = 0;
   /// Returns the largest part of a correction that may be taken from x; 0 if it must not be taken at all.
   virtual double max_step_length(const Vector & /*x*/, const Vector & /*direction*/) { return 1.; }
-  /// Returns what a residual is small against, at the last x.
+  /// Returns the reference value of the residual at the last x.
   virtual double residual_scale() const = 0;
 };
 
-/// A state of Newton's method, and the residual there.
+/// State of Newton's method, and the residual there.
 struct NewtonState {
   const Vector &x, &residual;
   double norm;  ///< |R|
-  double scale; ///< that R is small against
+  double scale; ///< reference value of R
 };
 
-/// The last correction of Newton's method.
+/// Last correction of Newton's method.
 struct NewtonCorrection {
   NewtonState from;
   const Vector &full; ///< −K⁻¹ R, of which the line search may have taken a part
@@ -40,17 +40,17 @@ struct NewtonCorrection {
 
 enum class NewtonVerdict { unconverged, converged, failed };
 
-/// Judges the iterations by the number of corrections so far, the state they have led to, and the last of
-/// them, which is null at the start. Collective.
+/// Judges the iterations by the number of corrections so far, the present state, and the last correction,
+/// which is null at the start. Collective.
 using NewtonJudge =
     std::function<NewtonVerdict(unsigned int n, const NewtonState &now, const NewtonCorrection *last)>;
 
 struct NewtonOptions {
-  double residual_tolerance; ///< part of the scale: no linear solution is asked for half of that or less
-  double linear_tolerance;   ///< of linear solutions; with `adapts_tolerance` the smallest that is asked for
+  double residual_tolerance; ///< part of the scale; no linear solution is more accurate than half of that
+  double linear_tolerance;   ///< of linear solutions; with `adapts_tolerance` the smallest one
   double max_linear_tolerance = 1e-2; ///< the loosest, with `adapts_tolerance`
-  bool adapts_tolerance = false;      ///< to the pace of the iterations, after Eisenstat and Walker
-  bool searches_lines = false;        ///< shortens corrections whose residual does more work at their end
+  bool adapts_tolerance = false;      ///< to the convergence of the iterations, after Eisenstat and Walker
+  bool searches_lines = false; ///< line search: shortens corrections at whose end the residual does more work
 };
 
 enum class NewtonEnd {
@@ -59,8 +59,8 @@ enum class NewtonEnd {
   not_admissible_at_start
 };
 
-/// Solves by Newton's method, from x, and overwrites x by the last state; x stays if no correction was found.
-/// Collective.
+/// Solves by Newton's method, from x, and overwrites x by the last state; x is unchanged if no correction was
+/// found. Collective.
 NewtonEnd solve_by_newton(NonlinearSystem &system, const NewtonOptions &options, const NewtonJudge &judge,
                           Vector &x);
 

@@ -12,7 +12,8 @@ namespace billet {
 /// from, or entries of other ranks to add to.
 using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-/// Entries that this rank owns, by ascending index; of a vector without ghosts. Local to this rank.
+/// Returns the entries that this rank owns, by ascending index, of a vector without ghosts. Local to this
+/// rank.
 inline dealii::ArrayView<double> owned_values(Vector &vector) {
   return {vector.begin(), static_cast<std::size_t>(vector.locally_owned_size())};
 }

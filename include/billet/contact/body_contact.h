@@ -13,7 +13,7 @@ class ContactBlocks;
 class FacetContact;
 class FacetPaths;
 
-/// Contact of a scene's two bodies, or of one with itself: FacetContact on the boundary facets and nodes of
+/// Contact pair of two bodies, or of one body with itself: FacetContact on the boundary facets and nodes of
 /// this rank.
 class BodyContact final : public ContactInterface {
 public:
@@ -29,7 +29,8 @@ public:
   void set_tangent(const ContactTangent tangent) override { tangent_ = tangent; }
   void add_tangent(const TangentSystem &system) const override;
   StepWorks compute_step_works(double weight) const override;
-  /// Of motions in which a node of either body goes through the other's facets, see FacetPaths.
+  /// Returns the part of a motion before a node of either body goes through the other's facets, see
+  /// FacetPaths.
   double find_free_part(const ContactPath &path) const override;
 
   bool has_new_couplings() const override;
@@ -40,7 +41,7 @@ public:
   bool load_couplings(const StateReader &reader) override;
 
   void update(const NodalVectors &displacements) override;
-  /// Bounds are such that impacts keep their energy.
+  /// Adds bounds with which impacts conserve energy.
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) override;
   void add_crossings(Crossings &crossings) const override;
 
@@ -57,10 +58,10 @@ public:
   Penetration penetration() const override;
   double excessive_penetration() const override;
   double closing_of_new_contacts() const override;
-  /// On the first body, by the second.
+  /// Returns the load on the first body by the second.
   ContactLoad compute_load() const override;
   std::vector<SlaveForce> slave_forces() const override;
-  /// Of nodes that are slaves.
+  /// Reports the slave nodes.
   std::vector<ContactNodeReport> report() const override;
   std::size_t history_size() const override;
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const override;
@@ -69,24 +70,24 @@ public:
   std::string describe_restless() const override;
   std::string describe_obstacle() const override;
 
-  /// If the scene allows the undeformed bodies to be in each other, takes note of how deep they are, after
-  /// update(); and closes gaps, if the scene asks for that. Collective.
+  /// Records the initial penetration if the scene allows it, after update(). Closes initial gaps if the scene
+  /// requests it. Collective.
   void allow_overlap();
 
   void save(StateWriter &writer, const NodeKeys &keys) const override;
   void load(const StateReader &reader, const NodeKeys &keys) override;
-  /// Allows the overlap that there is, too.
+  /// Also allows the existing overlap.
   void begin(const ContactStep &step, const Vector &displacements) override;
   void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  /// Computes where surface nodes are.
+  /// Computes the positions of the surface nodes.
   void place(const NodalVectors &displacements, FacetSearch::Positions &positions) const;
   void place(const Vector &displacements, FacetSearch::Positions &positions) const;
-  /// Computes contact at positions_ in a step that lasts so long. Collective.
+  /// Computes contact at positions_ in a step of this duration [time]. Collective.
   void evaluate(double duration);
   double augmentation_gap() const override;
-  /// What decides on the couplings, besides where the nodes are.
+  /// Returns the numbers on which the couplings depend, apart from the positions of the nodes.
   std::vector<double> describe_couplings() const;
 
   const BodyPair &pair_;

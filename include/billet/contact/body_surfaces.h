@@ -13,11 +13,11 @@
 
 namespace billet {
 
-/// The faces of a pair of bodies, or of one body with itself, that may touch: those of this rank, undeformed.
+/// The undeformed faces of this rank that may touch, of a pair of bodies or of one body with itself.
 struct BodySurfaces {
   BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const NodeKeys &keys);
 
-  // Of each surface node.
+  // For each surface node.
 
   std::vector<std::uint64_t> keys;
   std::vector<unsigned int> local_nodes;
@@ -25,26 +25,26 @@ struct BodySurfaces {
   std::vector<double> sizes;            ///< of the facets around it [length]
   std::vector<double> penalty_lengths;  ///< penalty_length() there [length]
 
-  // Of each facet.
+  // For each facet.
 
   std::vector<SurfaceFacet> facets;
   std::vector<double> areas;  ///< [length²]
-  std::vector<double> depths; ///< that nodes must not exceed on their ways [length]
+  std::vector<double> depths; ///< maximum penetration of nodes along their paths [length]
 
   /// Returns the size of the smallest facet of all ranks [length]. Collective.
   double find_smallest_size(MPI_Comm communicator) const;
 };
 
-/// The penalties that a pair of bodies asks for.
+/// Penalties of a pair of bodies.
 struct PairPenalties {
   std::vector<ContactStiffness> of_nodes;
-  /// The factors after which the first of this rank's penalties is 10 E/h; the second one is infinite without
-  /// friction.
+  /// The factors at which the first of this rank's penalties reaches 10 E/h; the second one is infinite
+  /// without friction.
   double max_stiffening = std::numeric_limits<double>::infinity(),
          max_tangential_stiffening = std::numeric_limits<double>::infinity();
 };
 
-/// Collective.
+/// Computes the penalties of a pair of bodies. Collective.
 PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const BodySurfaces &surfaces,
                                 MPI_Comm communicator);
 

@@ -11,27 +11,27 @@
 
 namespace billet {
 
-/// What a contact pair does to the scene.
+/// Load, energies and area of a contact pair.
 struct ContactLoad {
   dealii::Tensor<1, 3> force; ///< on the body, by the tool or the second body [force]
   dealii::Tensor<1, 3>
-      moment;       ///< about the tool's moved centre; of two bodies, about the origin [force length]
+      moment;       ///< about the tool's moved centre; for two bodies, about the origin [force length]
   double area = 0.; ///< current area in contact [length²]
   double stored_energy = 0.; ///< in the penalty springs [energy]
   double dissipation = 0.;   ///< by friction in this step [energy]
-  double damping = 0.;       ///< of its springs in this step, by FrictionAccount [energy]
-  double deepest = 0.;       ///< largest penetration [length]
+  double damping = 0.;       ///< by the tangential springs in this step, see FrictionAccount [energy]
+  double deepest = 0.;       ///< maximum penetration [length]
 
   ContactLoad &operator+=(const ContactLoad &other);
 };
 
-/// Sums, and for the penetration the maximum, over all ranks.
+/// Returns the sum over all ranks, and the maximum penetration.
 ContactLoad sum_over_ranks(const ContactLoad &local, MPI_Comm communicator);
 
-/// How deep the deepest of some nodes that press is.
+/// Maximum penetration of nodes that press.
 struct Penetration {
-  double of_facet = 0.; ///< in sizes of the facets around the deepest by that measure
-  double length = 0.;   ///< of the deepest by this one [length]
+  double of_facet = 0.; ///< relative to the size of the facets around the node
+  double length = 0.;   ///< absolute [length]
 
   void add(const double depth, const double facet_size) {
     of_facet = std::max(of_facet, depth / facet_size);
@@ -39,8 +39,8 @@ struct Penetration {
   }
 };
 
-/// Forces of a contact, summed over its nodes whatever their directions, and what its springs hold of them:
-/// that augmentation has not taken over, for which they are stretched.
+/// Magnitudes of the nodal forces of a contact, summed, and the part that its springs carry: the part that
+/// augmentation has not transferred to multipliers.
 struct ContactSprings {
   struct Direction {
     double force = 0., held = 0.;               ///< [force]
@@ -63,13 +63,13 @@ struct ContactSprings {
   }
 };
 
-/// Of nodes that come through a surface, into contact or out of it, in the step that has been or in the next
-/// two: with d_i the way along the normal in a step, the energy in such a step is off by up to ⅛ Σ k A d_i².
+/// Nodes that cross a surface, into contact or out of it, in the last step or in the next two. With d_i the
+/// displacement along the normal in a step, the energy error in such a step is at most ⅛ Σ k A d_i².
 struct Crossings {
   double springs = 0.; ///< Σ k A d_i² [energy]
-  double way = 0.;     ///< largest d_i [length]
+  double way = 0.;     ///< maximum d_i [length]
 
-  /// Adds a node if it does; what it adds to the springs and how far it has moved out of the surface.
+  /// Adds a node if it crosses: `spring` is its k A, `moved` its displacement out of the surface.
   void add(const double spring, const double gap, const double moved) {
     const double ahead = 2. * std::abs(moved);
     if (gap >= ahead || -gap >= ahead || (gap >= 0. && moved >= 0.))
@@ -86,10 +86,10 @@ struct ContactNodeReport {
   double pressure, gap, slip;
   double area; ///< this rank's share
   dealii::Tensor<1, 3> traction;
-  double penetration = 0.; ///< where it presses: into the surface itself, whatever augmentation has done
-  double facet_size = 0.;  ///< of the facets around it
+  double penetration = 0.;          ///< where it presses: into the surface itself, regardless of augmentation
+  double facet_size = 0.;           ///< of the facets around it
   double tangential_stiffness = 0.; ///< of the spring that it sticks to; 0 without friction [force/length³]
-  double curvature = 0.;            ///< turn of the tool along a facet there, over that size [1/length]
+  double curvature = 0.; ///< change of the tool's normal along a facet there, over its size [1/length]
 };
 
 } // namespace billet

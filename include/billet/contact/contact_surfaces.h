@@ -13,24 +13,24 @@
 
 namespace billet {
 
-/// The surfaces that touch each other, at the start of the step and now: own facets and those of other ranks
-/// that are near, and the search for what is near slave nodes.
+/// The surfaces of a contact pair at the start of the step and now. They consist of own facets and nearby
+/// facets of other ranks, with the search for facets near slave nodes.
 class ContactSurfaces {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// `node_keys` and `facets` as SurfaceExchange wants them; `margin` > 0 is that of the search [length].
+  /// `node_keys` and `facets` are as for SurfaceExchange; `margin` > 0 is that of the search [length].
   ContactSurfaces(MPI_Comm communicator, FacetSearch::Partners partners, double margin,
                   std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets);
   ContactSurfaces(const ContactSurfaces &) = delete;
   ContactSurfaces &operator=(const ContactSurfaces &) = delete;
 
-  /// Moves this rank's nodes, and ghosts. Returns whether rebuild() has to follow. Collective.
+  /// Moves this rank's nodes, and ghosts. Returns whether rebuild() must follow. Collective.
   bool update(const Positions &positions_n, const Positions &positions);
-  /// Lists anew what is near: indices of ghosts change. With `depth`, in reaches of facets, whole facets that
-  /// are so near count, not only nodes within the reach. Collective.
+  /// Rebuilds the lists of nearby facets; indices of ghosts change. With `depth` [facet reaches], whole
+  /// facets at that distance count, not only nodes within the reach. Collective.
   void rebuild(const std::vector<SlaveNode> &slaves, const std::optional<double> &depth);
-  /// Whether the last update() asked for a rebuild().
+  /// Whether the last update() required a rebuild().
   bool is_rebuilt() const { return is_rebuilt_; }
 
   MPI_Comm communicator() const { return communicator_; }
@@ -41,7 +41,7 @@ public:
   const SurfaceFacet &facet(const unsigned int f) const { return search_.facets()[f]; }
   /// Whether the facet is this rank's.
   bool owns(const unsigned int f) const { return f < exchange_.n_own_facets(); }
-  /// With ghosts.
+  /// Returns the positions with ghosts at the start of the step; positions() returns the current ones.
   const Positions &positions_n() const { return positions_n_; }
   const Positions &positions() const { return positions_; }
 

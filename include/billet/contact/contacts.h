@@ -14,12 +14,13 @@
 
 namespace billet {
 
-/// All contact pairs of a scene: those with tools first, then those of bodies, each in the scene's order.
+/// All contact pairs of a scene: first those with tools, then those between bodies, each in the scene's
+/// order.
 class Contacts {
 public:
-  /// For schemes with a matrix.
+  /// Constructs the pairs for schemes with a matrix.
   Contacts(const Scene &scene, const Discretization &discretization, ContactTangent tangent);
-  /// For schemes without, whose nodes have to outlive this.
+  /// Constructs the pairs for schemes without a matrix. `nodes` must outlive this object.
   Contacts(const Scene &scene, const LocalNodes &nodes);
   Contacts(const Contacts &) = delete;
   Contacts &operator=(const Contacts &) = delete;
@@ -33,14 +34,14 @@ public:
   auto begin() const { return ConstIterator(all_.begin()); }
   auto end() const { return ConstIterator(all_.end()); }
 
-  /// The first ones.
+  /// Returns the pairs with tools.
   std::deque<RigidContact> &of_tools() { return of_tools_; }
   const std::deque<RigidContact> &of_tools() const { return of_tools_; }
-  /// Those of bodies with bodies, or with themselves.
+  /// Returns the pairs of two bodies and the self-contacts.
   std::deque<BodyContact> &of_bodies() { return of_bodies_; }
   const std::deque<BodyContact> &of_bodies() const { return of_bodies_; }
 
-  /// Returns get(contact) of each.
+  /// Returns get(contact) for each pair.
   template <class Get> auto collect(const Get &get) const {
     std::vector<std::decay_t<decltype(get(std::declval<const ContactInterface &>()))>> values;
     values.reserve(size());
@@ -49,22 +50,22 @@ public:
     return values;
   }
 
-  /// Loads by tool, and by pair of bodies.
+  /// Loads for each tool and for each pair of bodies.
   struct Loads {
     std::vector<ContactLoad> of_tools, of_body_pairs;
   };
-  /// Collective.
+  /// Computes the loads of all pairs. Collective.
   Loads compute_loads() const;
-  /// Doubles of history on this rank.
+  /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
   std::vector<std::vector<ContactNodeReport>> report() const;
-  /// What a user should know before the first step. Collective.
+  /// Returns the diagnostics before the first step. Collective.
   DiagnosticList check_start() const;
 
 private:
   using ConstIterator =
       boost::indirect_iterator<std::vector<ContactInterface *>::const_iterator, const ContactInterface>;
-  /// Collects all once they stand where they stay.
+  /// Collects pointers to all pairs, once their addresses are final.
   void list_all();
 
   std::size_t n_tools_;

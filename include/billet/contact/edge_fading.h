@@ -9,20 +9,20 @@
 
 namespace billet {
 
-/// The contact of a node beyond the edge of a tool's surface, where the pressure fades, (T3), (T4) of
-/// doc/theory.md: the energy per area is s(d) e(−g), with s = (1 − d²/w²)² and e that of the spring. It holds
-/// what that adds to a pressure p = −s ∂e/∂g along the normal.
+/// Contact of a node beyond the edge of a tool's surface, where the pressure fades, (T3), (T4) of
+/// doc/theory.md. The energy per area is s(d) e(−g), with s = (1 − d²/w²)² and e that of the spring. The
+/// members are the terms in addition to a pressure p = −s ∂e/∂g along the normal.
 struct EdgeFading {
   double share;                        ///< s, of the normal penalty
   dealii::Tensor<1, 3> push;           ///< [stress]
   dealii::Tensor<1, 3> pressure_slope; ///< ∂p/∂x at a fixed gap [stress/length]
   /// −∂(push + p n)/∂x, without ∂p/∂x at a fixed s [stress/length].
   dealii::Tensor<2, 3> tangent;
-  double stiffness; ///< bound of the norm of what `tangent` adds [stress/length]
+  double stiffness; ///< bound of the norm of `tangent` [stress/length]
 };
 
-/// Returns the fading at the place of `border`, at a gap of the node to the surface and a width w of the zone
-/// in which the pressure fades [length]. Requires border.beyond < width.
+/// Returns the fading at the position `border`, for a `gap` to the surface and a `width` w of the zone in
+/// which the pressure fades [length]. Requires border.beyond < width.
 EdgeFading compute_edge_fading(const RigidSurface::Border &border, double width,
                                const HardeningSpring &penalty, double gap);
 

@@ -15,28 +15,28 @@
 
 namespace billet {
 
-/// Penalty springs between the edges that cross, without friction.
+/// Penalty springs between crossing edges, without friction.
 class EdgeSprings {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// `stiffness` are the full penalties of this rank's nodes, of which each spring takes the mean of its
-  /// four, as `penalties`, which have to outlive this, are stiffened.
+  /// Constructs the springs. `stiffness` are the full penalties of this rank's nodes; each spring takes the
+  /// mean of its four nodes, times the stiffening factor of `penalties`. The latter must outlive this object.
   EdgeSprings(const FacetContactSettings &settings, const std::vector<ContactStiffness> &stiffness,
               const SlavePenalties &penalties);
 
-  /// Lists the pairs that may come to cross. Collective.
+  /// Lists the pairs that may cross. Collective.
   void rebuild(const ContactSurfaces &surfaces);
-  /// Finds those that cross, with offsets once a step has ended.
+  /// Finds the pairs that cross, with offsets once a step has ended.
   void update(const ContactSurfaces &surfaces, bool has_started);
   void commit() { edges_.commit(); }
 
-  /// Adds forces on nodes with ghosts.
+  /// Adds the forces on nodes, including ghosts.
   void add_forces(Positions &forces) const;
-  /// Adds to nodes with ghosts the sums Σ_j |K_ij| of FacetBounds [force/length].
+  /// Adds the sums Σ_j |K_ij| of FacetBounds to nodes, including ghosts [force/length].
   void add_row_sums(std::vector<double> &sums) const;
   void add_load(const Positions &positions, FacetContactLoad &load) const;
-  /// As FacetMeasures::visit_supporting().
+  /// Visits as FacetMeasures::visit_supporting() does.
   template <class Visit> void visit_supporting(const Positions &positions, const Visit &visit) const {
     for (const auto &crossing : crossings_)
       if (crossing.counted_gap() < 0.) {
@@ -52,7 +52,7 @@ public:
   void load(const StateReader &reader);
 
 private:
-  /// k of a crossing [pressure/length].
+  /// Returns k of a crossing [pressure/length].
   double stiffness_of(const EdgeContact::Crossing &crossing) const;
 
   EdgeContact edges_;

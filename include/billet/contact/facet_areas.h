@@ -6,14 +6,14 @@
 
 namespace billet {
 
-/// A slave node's share of one of its own facets, ∫ N_a <−ν·n> dξdη: the facet's area seen along the normal n
-/// of what the node touches, weighted by the shape function of its corner a; ν = x,ξ × x,η, by 2 × 2 Gauss
-/// points. A facet that does not face what the node touches has no share.
+/// A slave node's share of one of its own facets, ∫ N_a <−ν·n> dξdη, with ν = x,ξ × x,η, by 2 × 2 Gauss
+/// points. It is the facet's area projected along the normal n of the touched surface, weighted by the shape
+/// function of corner a. A facet that does not face the touched surface has no share.
 template <class Number> class FacetAreasOf {
 public:
   explicit FacetAreasOf(const facet::ExpansionOf<Number> &surface);
 
-  /// [length²]; `normal` is a unit vector.
+  /// Returns the share of a corner [length²]; `normal` is a unit vector.
   Number share(unsigned int corner, const dealii::Tensor<1, 3, Number> &normal) const;
 
 private:

@@ -17,9 +17,9 @@
 
 namespace billet {
 
-/// The state of contact between surfaces, which FacetContact steps, and what evaluates and measures it reads.
+/// State of contact between surfaces, which FacetContact advances and its evaluations and measures read.
 struct FacetContactParts {
-  /// As FacetContact's.
+  /// Constructs the parts from the arguments of FacetContact.
   FacetContactParts(MPI_Comm communicator, const FacetContactSettings &settings,
                     std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
                     const std::vector<ContactStiffness> &stiffness, const std::vector<double> &sizes);
@@ -34,9 +34,9 @@ struct FacetContactParts {
   SlaveStart start;
   RestlessNodes restless;
   TouchingSlaves touching;
-  std::optional<SlaveOverlaps> overlaps; ///< of FacetMethod::overlap
+  std::optional<SlaveOverlaps> overlaps; ///< only with FacetMethod::overlap
   std::optional<SlaveFriction> friction; ///< none without friction
-  std::optional<EdgeSprings> edges;      ///< none unless the settings ask for them
+  std::optional<EdgeSprings> edges;      ///< none unless the settings enable them
 };
 
 } // namespace billet

@@ -8,18 +8,18 @@
 
 namespace billet {
 
-/// How a facet is seen by the nodes that touch it.
+/// Representation of a facet for the nodes that touch it.
 enum class FacetMethod {
   planed,   ///< PlanedFacet: no iteration
   mean_gap, ///< MeanGapFacet
   bilinear, ///< BilinearFacet: without friction, forces at a fixed area have a potential
-  overlap   ///< FacetOverlapOf: no nodes, but facets touch, on their common polygon
+  overlap   ///< FacetOverlapOf: facets, not nodes, touch on their common polygon
 };
 
-/// The facets of FacetMethod::overlap, of which no node is projected.
+/// Tag for the facets of FacetMethod::overlap, onto which no node is projected.
 struct OverlapFacet {};
 
-/// Calls f(type), type::type being what a facet is to this method.
+/// Calls f(type), where type::type is the facet class of this method.
 template <class Type> struct FacetType { using type = Type; };
 template <class Function> void visit_method(const FacetMethod method, const Function &f) {
   switch (method) {
@@ -38,27 +38,27 @@ template <class Function> void visit_method(const FacetMethod method, const Func
   }
 }
 
-/// What contact between surfaces is made of.
+/// Settings of contact between surfaces.
 struct FacetContactSettings {
   FacetMethod method = FacetMethod::planed;
   FrictionPointer friction; ///< null: none
   FacetSearch::Partners partners = FacetSearch::Partners::other_surfaces;
-  /// Nodes of all surfaces are slaves, at half their penalty each, so that a pair of surfaces is as stiff as
-  /// in one pass; else nodes of surface 0 only.
+  /// Whether nodes of all surfaces are slaves, with half the penalty each, so that a pair of surfaces is as
+  /// stiff as in one pass. Otherwise only nodes of surface 0 are slaves.
   bool two_pass = true;
   ContactLimits limits;
   double search_margin; ///< of FacetSearch, > 0 [length]
-  /// Edges that are not flat are held apart where they cross, without friction, at the mean full penalty of
-  /// the ends of both. Not asked for, this costs nothing.
+  /// Whether edge-to-edge contact keeps crossing edges apart, except flat ones. It has no friction; its
+  /// penalty is the mean full penalty of the ends of both edges. It costs nothing if disabled.
   bool edges = false;
-  double flat_edge = 0.99; ///< EdgeContact's largest alignment of normals
-  double edge_depth = 5.;  ///< and its depth, relative to the facets' reach
-  /// A node that is before a facet by no more than this part of its facets' size, now and at the start of the
-  /// step, counts as touching it, without pressure: its stiffness may be all that holds a body at rest. < 0:
-  /// none does.
+  double flat_edge = 0.99; ///< maximum alignment of normals for EdgeContact
+  double edge_depth = 5.;  ///< its maximum penetration, relative to the facets' reach
+  /// Maximum gap [facet sizes], now and at the start of the step, at which a node counts as touching a facet
+  /// without pressure. The stiffness of such nodes may be the only constraint of a body at rest. If < 0, no
+  /// node does.
   double touching_gap = -1.;
-  /// How often a node may change facet or status in one step's iterations; one that did so more often stays
-  /// with its facet as long as it touches that. 0: as often as it likes, and nobody counts.
+  /// Maximum number of changes of facet or status of a node in one step's iterations. A node that exceeds it
+  /// stays with its facet as long as it touches that. 0: no limit, and no counting.
   unsigned int most_changes = 0;
 
   bool has_friction() const { return friction != nullptr; }

@@ -10,23 +10,23 @@
 
 namespace billet {
 
-/// The facets to which the matrix couples slave nodes.
+/// Facets to which the matrix couples slave nodes.
 class FacetCouplings {
 public:
-  /// The parts have to outlive this.
+  /// The parts must outlive this object.
   explicit FacetCouplings(const FacetContactParts &parts) : parts_(parts) {}
 
   /// Calls add(nodes) with the nodes of each block that SlaveTangents may add until coupling facets change,
-  /// and takes note of it.
+  /// and records the blocks.
   void find(ContactTangent kind, const std::function<void(const std::vector<unsigned int> &)> &add);
-  /// Whether SlaveTangents has blocks of this rank that the last find() did not name.
+  /// Whether SlaveTangents has blocks of this rank that the last find() did not include.
   bool has_new() const;
-  /// What the last find() took note of, in numbers, and back.
+  /// Returns the record of the last find() as numbers; set() restores it.
   std::vector<double> numbers() const;
   void set(const std::vector<double> &numbers);
 
 private:
-  /// Those of a slave, now and where it may slide next.
+  /// Returns the facets of a slave, now and where it may slide next.
   std::vector<unsigned int> facets_of(std::size_t s) const;
 
   const FacetContactParts &parts_;

@@ -8,27 +8,28 @@
 
 namespace billet {
 
-/// Finds into how many parts facets have to be divided so that a tool cannot enter between the corners of
-/// the parts of (T10) unseen.
+/// Finds the number of parts into which facets must be divided so that a tool cannot enter undetected between
+/// the corners of the parts of (T10).
 ///
 /// Each sample of the tool's surface, a point x with a normal n, meets a square of side s in its tangent
-/// plane, with x in the middle. Along the tool's axes of the sample and turned by 45 degrees, at least one
-/// corner of the square has to be inside the tool after it has moved by L/8 along −n, L the facet's length,
-/// or by a half, a quarter or an eighth of that, where the tool's normal is within 60 degrees of n.
-/// So a sphere of radius R needs about s² ≤ R L/2, a cylinder s² ≤ R L, an edge of 90 degrees s ≤ L/4, a fin
-/// as wide as t about s ≤ t. A plane, or a sphere of R ≥ 2.1 L, has enough of the corners of the facet.
+/// plane, with x in the middle. The square is tested along the tool's axes of the sample and turned by 45
+/// degrees. The square moves by L/8 along −n, L the facet's length, or by a half, a quarter or an eighth of
+/// that. At least one of its corners must then be inside the tool, where the tool's normal is within 60
+/// degrees of n. Thus a sphere of radius R needs about s² ≤ R L/2, a cylinder s² ≤ R L, an edge of 90 degrees
+/// s ≤ L/4, and a fin of width t about s ≤ t. For a plane, or a sphere of R ≥ 2.1 L, the corners of the facet
+/// suffice.
 ///
-/// At convex edges normals between those of both sides are samples, too.
+/// At convex edges, normals between those of both sides are samples, too.
 class FacetDivision {
 public:
-  /// Most parts along a side.
+  /// Maximum number of parts along a side.
   static constexpr unsigned int max_parts = 16;
 
-  /// Samples what the surface's picture of a region shows.
+  /// Samples the surface's triangulation of a region.
   FacetDivision(const RigidSurface &surface, const PictureRegion &region);
 
   /// Returns the number of parts along a side of this length: 1, 4, 8 or 16. `is_enough` is false where even
-  /// the most parts are too few.
+  /// the maximum number is too small.
   struct Parts {
     unsigned int n;
     bool is_enough;

@@ -14,24 +14,23 @@ namespace billet {
 /// Measures and reports of contact between surfaces at the last evaluation, of this rank.
 class FacetMeasures {
 public:
-  /// The parts have to outlive this.
+  /// The parts must outlive this object.
   explicit FacetMeasures(const FacetContactParts &parts) : parts_(parts) {}
 
-  /// The largest penalty times the facets' size squared [force/length].
+  /// Returns the maximum of penalty times facet size squared [force/length].
   double largest_spring() const;
-  /// How deep nodes are.
+  /// Returns the maximum penetration of nodes.
   Penetration penetration() const;
-  /// The same, as part of the reach of the facets that they touch.
+  /// Returns the maximum penetration relative to the reach of the touched facets.
   double excessive_penetration() const;
-  /// The most by which a node closes in the step that presses at its end and did not at its start, as part of
-  /// the size of its facets.
+  /// Returns the maximum closing in the step of a node that presses at its end but not at its start [facet
+  /// sizes].
   double closing_of_new_contacts() const;
-  /// The largest gap of a node that presses, and elastic slip of one that sticks, relative to the size of its
-  /// facets.
+  /// Returns the maximum gap of a node that presses, and elastic slip of one that sticks [facet sizes].
   double augmentation_error() const;
-  /// Of this rank's areas.
+  /// Computes the spring forces with this rank's areas.
   ContactSprings compute_springs() const;
-  /// Returns the status of each slave and its traction times its area.
+  /// Returns the status of each slave, and its traction times its area.
   std::vector<SlaveForce> slave_forces() const;
 
   /// State of a slave node, for output.
@@ -40,13 +39,13 @@ public:
     double pressure = 0., gap = 0., slip = 0.;
     double area = 0.; ///< of all facets around it
     dealii::Tensor<1, 3> traction;
-    double penetration = 0.;          ///< where it presses, as penetration() has it
+    double penetration = 0.;          ///< where it presses, as in penetration()
     double tangential_stiffness = 0.; ///< 0 without friction [force/length³]
   };
-  /// Of each of this rank's nodes.
+  /// Reports each of this rank's nodes.
   std::vector<NodeReport> report() const;
 
-  /// A node that has changed facet or status more often than it may since restart().
+  /// Chattering node: it has exceeded the maximum number of changes of facet or status since restart().
   struct Restless {
     dealii::Tensor<1, 3> position;
     unsigned int n_changes;
@@ -60,8 +59,7 @@ public:
         visit(parts_.surfaces.positions()[parts_.slaves.node(s)], state.contact.normal,
               parts_.slaves.surface(s), parts_.surfaces.facet(state.touched.facet).surface);
   }
-  /// The same of slaves and crossing edges as visit(SupportingPoint, surface of the point, surface of what it
-  /// touches).
+  /// Calls visit(SupportingPoint, surface of the point, touched surface) for slaves and crossing edges.
   template <class Visit> void visit_supporting(const Visit &visit) const {
     for (std::size_t s = 0; s < parts_.touching.size(); ++s)
       if (const SlaveState &state = parts_.touching[s]; state.presses())

@@ -8,24 +8,25 @@
 
 namespace billet {
 
-/// Finds out whether nodes of surfaces go through facets in a motion, whichever of them are slaves: the
-/// conservative advancement of crossing.h, with the facets as two triangles each, and all of them, as one
-/// surface, in straight lines.
+/// Checks whether nodes of surfaces go through facets in a motion, slaves or not. It uses the conservative
+/// advancement of crossing.h. Each facet is two triangles, all facets form one surface, and all paths are
+/// straight.
 ///
-/// A node in front of the nearest facets, or less deep behind them than `depth`, may move as it likes until
-/// it is deeper than that. Facets that it is straight behind, and deeper, at the start, as those on the other
-/// side of its own wall, do not count.
+/// A node in front of the nearest facets, or behind them by less than `depth`, may move freely until it
+/// exceeds that depth. Facets that the node is directly behind, and deeper than that, at the start do not
+/// count. Those on the other side of its own wall are an example.
 class FacetPaths {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// As FacetContact; of each of this rank's facets the depth that nodes must not exceed: contact has to find
-  /// them there, and what is below has to be more than twice as thick [length].
+  /// Most arguments are as for FacetContact. `depths` are the maximum penetrations of nodes for each of this
+  /// rank's facets [length]. Contact must find the nodes there, and the wall below must be more than twice as
+  /// thick.
   FacetPaths(MPI_Comm communicator, FacetSearch::Partners partners, std::vector<std::uint64_t> node_keys,
              std::vector<SurfaceFacet> facets, std::vector<double> depths);
 
-  /// The part of the motion of this rank's nodes that takes none of any rank through a facet. Motions that
-  /// are small against `depth` are let pass, unless `is_thorough`. Collective.
+  /// Returns the part of the motion of this rank's nodes during which no node of any rank goes through a
+  /// facet. Motions that are small compared with `depth` are not checked, unless `is_thorough`. Collective.
   double find_free_part(const Positions &from, const Positions &to, bool is_thorough);
 
 private:

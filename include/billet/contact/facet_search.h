@@ -14,24 +14,25 @@ namespace billet {
 /// A four-node facet of a deformable body's surface.
 struct SurfaceFacet {
   std::array<unsigned int, 4> nodes; ///< in the order of FacetCorners
-  unsigned int surface;              ///< to which body it belongs
+  unsigned int surface;              ///< index of its body
   std::uint64_t key;                 ///< the same on any number of ranks
-  /// A node that has not touched the facet and is farther behind it than this belongs elsewhere [length]: a
-  /// fraction of the facet's size, and less than the wall below it is thick.
+  /// Maximum penetration of a node that has not touched the facet before [length]. It is a fraction of the
+  /// facet's size, and less than the thickness of the wall below.
   double reach;
-  FacetBulge bulge{}; ///< of the smooth surface that the facet stands for; 0 if it stands for itself
-  /// Undeformed thickness of the element below it, where it is known [length].
+  FacetBulge bulge{}; ///< of the smooth surface that the facet represents; 0 if there is none
+  /// Undeformed thickness of the element below, where known [length].
   double wall = std::numeric_limits<double>::infinity();
 };
 
-/// The projection onto the smooth surface that a facet stands for, from that onto the facet.
+/// Returns the projection onto the smooth surface that a facet represents, from the projection onto the
+/// facet.
 template <class Projection> Projection raised(Projection projection, const SurfaceFacet &facet) {
   if (projection.exists && facet::has_height(facet.bulge))
     projection.gap -= facet::height(facet.bulge, projection.parameters);
   return projection;
 }
 
-/// Which corner of the facet this one of its nodes is.
+/// Returns the index of the corner at which the facet has this node.
 inline unsigned int corner_of(const SurfaceFacet &facet, const unsigned int node) {
   unsigned int corner = 0;
   while (facet.nodes[corner] != node)
@@ -45,21 +46,21 @@ struct SlaveNode {
   unsigned int surface;
 };
 
-/// Finds the facets that are near slave nodes, while all of them move.
+/// Finds the facets near slave nodes while all of them move.
 ///
-/// Each slave has a list of candidates: every facet that is within its reach of the node now, or was on the
-/// way of both, in straight lines, from the start of the step. A list holds facets within reach + margin, so
-/// that it stays right until nodes have moved by more than the margin relative to each other: only then are
-/// lists made anew. The displacements since then lie in a box, whose diagonal no relative displacement
-/// exceeds, and which no motion in common makes larger.
+/// Each slave has a list of candidates. It contains every facet within its reach of the node, now or on the
+/// straight paths of both since the start of the step. A list contains facets within reach + margin, so that
+/// it remains valid until nodes have moved by more than the margin relative to each other. Only then are the
+/// lists rebuilt. The displacements since then lie in a box. No relative displacement exceeds its diagonal,
+/// and no common motion enlarges it.
 ///
-/// A node is never a candidate's slave if the candidate belongs to it, or shares a node with a facet that
-/// does. Building lists takes O(n log n), with a tree of the facets' boxes; looking them up, nothing.
+/// A facet is never a candidate of its own nodes, nor of the nodes of facets that share a node with it.
+/// Building the lists takes O(n log n), with a tree of the facets' boxes; a look-up costs nothing.
 class FacetSearch {
 public:
   enum class Partners {
     other_surfaces,          ///< facets of the node's own surface are no candidates
-    other_surfaces_and_self, ///< they are, but for those around the node
+    other_surfaces_and_self, ///< they are, except those around the node
   };
 
   using Positions = std::vector<dealii::Tensor<1, 3>>;
@@ -67,23 +68,23 @@ public:
   /// `margin` > 0 [length]
   FacetSearch(Partners partners, double margin);
 
-  /// Another surface than before: lists have to be made before they are looked up.
+  /// Sets a new surface: rebuild() must follow before the lists are used.
   void set_surface(std::vector<SurfaceFacet> facets, std::vector<SlaveNode> slaves);
 
-  /// Whether there are no lists, or they are no longer right at these positions. `join` makes the box of this
-  /// rank's displacements that of all ranks'; it is not called where there are no lists.
+  /// Whether there are no lists, or they are no longer valid at these positions. `join` extends the box of
+  /// this rank's displacements to all ranks; it is not called if there are no lists.
   template <class Join> bool is_outdated(const Positions &positions, const Join &join) const {
     return !has_lists_ || exceeds_margin(join(compute_motion(positions)));
   }
 
-  /// Makes lists. `positions_n` are those at the start of the step, of every node that facets and slaves
-  /// name.
+  /// Builds the lists. `positions_n` are those at the start of the step, of every node of facets and slaves.
   void rebuild(const Positions &positions_n, const Positions &positions);
 
   const std::vector<SurfaceFacet> &facets() const { return facets_; }
   const std::vector<SlaveNode> &slaves() const { return slaves_; }
 
-  /// Calls visit(facet) for each candidate of a slave, by rising keys. Both are indices of the lists above.
+  /// Calls visit(facet) for each candidate of a slave, by ascending keys. Both are indices of the lists
+  /// above.
   template <class Visit> void visit_candidates(const std::size_t slave, const Visit &visit) const {
     for (std::size_t i = first_candidate_[slave]; i < first_candidate_[slave + 1]; ++i)
       visit(candidates_[i]);
@@ -93,13 +94,13 @@ public:
     return first_candidate_[slave] < first_candidate_[slave + 1];
   }
 
-  /// Calls visit(facet) for each facet that has this node, by rising keys.
+  /// Calls visit(facet) for each facet that has this node, by ascending keys.
   template <class Visit> void visit_around(const unsigned int node, const Visit &visit) const {
     for (std::size_t i = first_around_[node]; i < first_around_[node + 1]; ++i)
       visit(around_[i]);
   }
 
-  /// The node at the corner that is nearest to these parameters of a facet.
+  /// Returns the node at the corner nearest to these parameters of a facet.
   unsigned int nearest_corner(const unsigned int facet, const std::array<double, 2> &parameters) const {
     return facets_[facet].nodes[(parameters[0] < 0. ? 0U : 1U) + (parameters[1] < 0. ? 0U : 2U)];
   }
@@ -125,7 +126,7 @@ private:
     return facet.nodes[0] == node || facet.nodes[1] == node || facet.nodes[2] == node ||
            facet.nodes[3] == node;
   }
-  /// The box of all displacements since lists were made, of the nodes at these positions.
+  /// Returns the box of all displacements of nodes since the lists were built.
   BoundingBox compute_motion(const Positions &positions) const;
   bool exceeds_margin(const BoundingBox &motion) const;
   bool is_excluded(const SlaveNode &slave, const SurfaceFacet &facet) const;

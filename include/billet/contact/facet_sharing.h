@@ -14,8 +14,8 @@ template <class Number> struct FacetShareOf {
   unsigned int facet;
   Number share; ///< >= 0; their sum is 1
   FacetProjectionOf<Number> projection;
-  /// Where facets touch as a whole: the slave's, and the weights of its corners in what is projected. Else
-  /// the slave node itself is.
+  /// With overlaps: the slave's facet, and the weights of its corners at the projected point. Otherwise the
+  /// slave node itself is projected.
   unsigned int slave_facet = none;
   std::array<Number, 4> slave_weights{};
   double depth = 0.; ///< of the overlap
@@ -23,19 +23,19 @@ template <class Number> struct FacetShareOf {
 };
 using FacetShare = FacetShareOf<double>;
 
-/// Normal and gap of a node with all facets that share it.
+/// Normal and gap of a node with respect to all facets that share it.
 template <class Number> struct SharedGapOf {
   dealii::Tensor<1, 3, Number> normal; ///< unit
   Number gap;                          ///< [length]
 };
 using SharedGap = SharedGapOf<double>;
 
-/// Whether facets with these unit normals share a node on their border: at less than 60 degrees.
+/// Whether facets with these unit normals share a node on their common edge: at less than 60 degrees.
 bool meet_smoothly(const dealii::Tensor<1, 3> &normal, const dealii::Tensor<1, 3> &other);
 
-/// The part of an overlap that belongs to a corner of the slave facet, with the volume ∫ φ_a |g| dA, which a
-/// penalty makes the force of, as its `share`: what begins to touch begins without, however large it is.
-/// Where nothing is deeper than `rounding`, areas count.
+/// Returns the part of an overlap that belongs to a corner of the slave facet. Its `share` is the volume ∫
+/// φ_a |g| dA, to which the penalty force is proportional: new contact starts at 0, regardless of its area.
+/// Where no penetration exceeds `rounding`, areas count.
 template <class Number>
 FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, const unsigned int corner,
                                       const unsigned int slave_facet, const unsigned int target,
@@ -61,8 +61,8 @@ FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, con
   return result;
 }
 
-/// The area A = 1/Σ (s_f²/A_f) with which a node that touches by overlaps counts, from index `first` on,
-/// their shares having the sum 1: A g is then Σ A_f g_f, and a facet that begins to touch does not change A.
+/// Returns the effective area A = 1/Σ (s_f²/A_f) of a node with overlaps, from index `first` on, with shares
+/// that sum to 1. Then A g = Σ A_f g_f, and a facet that begins to touch does not change A.
 template <class Number>
 Number effective_area(const std::vector<FacetShareOf<Number>> &shares, const std::size_t first) {
   Number sum = 0.;
@@ -71,9 +71,10 @@ Number effective_area(const std::vector<FacetShareOf<Number>> &shares, const std
   return 1. / sum;
 }
 
-/// With the parts s_f of facets, those of `shares` from index `first` on, which are made to have the sum 1,
+/// Combines normals and gaps of facets by their parts s_f, those of `shares` from index `first` on, which it
+/// scales to the sum 1:
 ///   n = Σ s_f n_f/|Σ s_f n_f|,   g = Σ s_f g_f/|Σ s_f n_f|
-/// which has the gradient n for fixed parts: the gap to the mean of the planes.
+/// For fixed parts, g is the gap to the mean of the planes and has the gradient n.
 template <class Number>
 SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std::size_t first) {
   Number sum = 0.;
@@ -91,14 +92,14 @@ SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std
   return result;
 }
 
-/// Appends to `shares` the facets that share a node at x which touches `touched`: that one, and, within the
-/// zone of its border, those around its nearest corner which meet it smoothly and within whose zones the node
-/// is. Their parts in combine() are FacetProjection::share. The result does not jump
-/// where the node slides from one facet to the next, nor depend on which of them was chosen, as long as
-/// neighbours differ less than twofold in size; its gap may be >= 0, though that of `touched` is not. A node
-/// well inside a facet costs nothing.
+/// Appends to `shares` the facets that share a node at x which touches `touched`. These are that facet and,
+/// if the node is within the zone of its edges, others around its nearest corner. The others meet it
+/// smoothly, and their zones contain the node. Their parts in combine() are FacetProjection::share. The
+/// result does not jump where the node slides from one facet to the next. It does not depend on the choice
+/// among them, as long as neighbours differ less than twofold in size. Its gap may be >= 0, though that of
+/// `touched` is not. A node well inside a facet costs nothing.
 ///
-/// Corners and sharp edges are not shared: there the choice decides.
+/// Facets do not share nodes at corners and sharp edges: there the choice decides.
 template <class Facet>
 SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, const dealii::Tensor<1, 3> &x,
                        const ContactLimits &limits, std::vector<FacetShare> &shares);

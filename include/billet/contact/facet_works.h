@@ -11,19 +11,18 @@ namespace billet {
 /// Forces, energies and works of contact between surfaces in the step, after its last evaluation.
 class FacetWorks {
 public:
-  /// The parts have to outlive this.
+  /// The parts must outlive this object.
   explicit FacetWorks(const FacetContactParts &parts) : parts_(parts) {}
 
   /// Collective.
   FacetContactLoad compute_load() const;
-  /// By friction in this step, of this rank [energy].
+  /// Returns the dissipation by friction in this step, on this rank [energy].
   double local_dissipation() const;
-  /// As ContactInterface's. Collective.
+  /// Computes the works as ContactInterface::compute_step_works() does. Collective.
   StepWorks compute_step_works(double weight) const;
 
 private:
-  /// Whether load goes over from slaves that leave to slaves that enter, as FrictionAccount has it.
-  /// Collective.
+  /// Whether slaves that leave transfer their load to slaves that enter, see FrictionAccount. Collective.
   bool hands_over() const;
   void add_slave(std::size_t s, bool hands_over, FacetContactLoad &load) const;
   void add_forces(std::size_t s, FacetContactLoad &load) const;

@@ -10,43 +10,43 @@
 
 namespace billet {
 
-/// The multiplier offsets a = λ/k of slave nodes in the augmented Lagrangian, by Uzawa's method: the pressure
-/// is p = k <a − g>, and each augmentation takes up what the spring holds [length].
+/// Multiplier offsets a = λ/k of slave nodes in the augmented Lagrangian, by Uzawa's method [length]. The
+/// pressure is p = k <a − g>, and each augmentation transfers the spring's elongation to a.
 class MultiplierOffsets {
 public:
-  /// Whether a slave of this rank has one, now and at the start of the step.
+  /// Whether no slave of this rank has an offset now; was_empty(): at the start of the step.
   bool is_empty() const { return offsets_.empty(); }
   bool was_empty() const { return offsets_n_.empty(); }
-  /// Whether augment() has been called, alike on all ranks.
+  /// Whether augment() has been called; the same on all ranks.
   bool is_used() const { return is_used_; }
   double operator[](const std::size_t s) const { return offsets_.empty() ? 0. : offsets_[s]; }
   double at_start(const std::size_t s) const { return offsets_n_.empty() ? 0. : offsets_n_[s]; }
 
-  /// Takes up the gaps of `n` slaves: `gap_of(s)` is what is left of the distance less the offset, nothing
-  /// where the slave does not press. The pace is that of the secant, at most fourfold, where the last
-  /// augmentation has closed a part of the gap: where little area touches, the same offset closes less.
+  /// Updates the offsets of `n` slaves by their gaps. `gap_of(s)` is the distance less the offset, or nothing
+  /// where the slave does not press. Where the last augmentation has closed a part of the gap, the update is
+  /// that of the secant method, at most fourfold. Where little area touches, the same offset closes less.
   template <class GapOf> void augment(const std::size_t n, const GapOf &gap_of) {
     start_augmentation(n);
     for (std::size_t s = 0; s < n; ++s)
       augment_one(s, gap_of(s));
   }
-  /// Back to the start of the step.
+  /// Returns to the start of the step.
   void restart();
-  /// Ends the step; slaves for which `presses(s)` does not hold lose theirs.
+  /// Ends the step; slaves for which `presses(s)` is false lose their offsets.
   template <class Presses> void commit(const Presses &presses) {
     for (std::size_t s = 0; s < offsets_.size(); ++s)
       if (!presses(s))
         offsets_[s] = 0.;
     offsets_n_ = offsets_;
   }
-  /// Keeps the multipliers where penalties become so many times as stiff.
+  /// Keeps the multipliers where normal penalties are multiplied by this factor.
   void scale(double normal);
-  /// Sets those at the start of the step; none if nothing was augmented.
+  /// Sets the offsets at the start of the step; none if nothing was augmented.
   void set(std::optional<std::vector<double>> offsets);
 
 private:
   struct Augmentation {
-    double offset = 0., gap = 0.; ///< that it came from, and the gap that this left [length]
+    double offset = 0., gap = 0.; ///< offset before it, and the gap at that time [length]
   };
 
   void start_augmentation(std::size_t n);
@@ -59,17 +59,17 @@ private:
   HeldMemory memory_{Capability::augmentation};
 };
 
-/// The depths of slave nodes that count as none, and gaps that count as closed (negative depths), for good or
-/// until a ramp ends [length].
+/// Allowed initial penetrations of slave nodes, and gaps that count as closed (negative values), permanently
+/// or until a ramp ends [length].
 class InitialDepths {
 public:
   bool is_empty() const { return depths_.empty(); }
-  /// Whether some are allowed, alike on all ranks.
+  /// Whether any are allowed; the same on all ranks.
   bool is_used() const { return is_used_; }
-  /// What of it counts as none, now and at the start of the step.
+  /// Returns the allowed penetration now; at_start(): at the start of the step.
   double now(const std::size_t s) const { return depths_.empty() ? 0. : counted(depths_[s], part_); }
   double at_start(const std::size_t s) const { return depths_.empty() ? 0. : counted(depths_[s], part_n_); }
-  /// By how much less the ramp allows at the end of the step.
+  /// Returns the reduction of the allowed penetration by the ramp in the step.
   double ramp(const std::size_t s) const { return depths_.empty() ? 0. : (part_n_ - part_) * depths_[s]; }
   double operator[](const std::size_t s) const { return depths_.empty() ? 0. : depths_[s]; }
 
@@ -81,11 +81,11 @@ public:
   double allowed_part() const { return part_; }
   /// Allows `depth` for all of `n` slaves.
   void assign(std::size_t n, double depth);
-  /// Allows 0 for slaves of `n` that have none yet.
+  /// Allows 0 for `n` slaves unless values exist already.
   void start(std::size_t n);
   void set(const std::size_t s, const double depth) { depths_[s] = depth; }
   void add(const std::size_t s, const double depth) { depths_[s] += depth; }
-  /// Sets all; none if nothing was allowed.
+  /// Sets all values; none if nothing was allowed.
   void set(std::optional<std::vector<double>> depths);
 
 private:
@@ -96,12 +96,12 @@ private:
   bool is_used_ = false;
 };
 
-/// By how much facets count as raised for each slave node.
+/// Gap offsets of slave nodes, by which facets count as raised.
 struct GapOffsets {
   MultiplierOffsets augmentation;
   InitialDepths depths;
 
-  /// Whether there are some, alike on all ranks.
+  /// Whether there are any; the same on all ranks.
   bool are_used() const { return augmentation.is_used() || depths.is_used(); }
   FacetLift of(const std::size_t s) const {
     FacetLift lift{augmentation[s], augmentation.at_start(s)};

@@ -6,19 +6,19 @@
 
 namespace billet {
 
-/// A penalty spring per area that becomes stiffer with its depth d, (T11):
+/// Penalty spring per area that becomes stiffer with its penetration d, (T11):
 ///
 ///   p = k d (1 + d²/d_0²),   e = ½ k d² (1 + ½ d²/d_0²),   dp/dd = k (1 + 3 d²/d_0²).
 ///
-/// It has a potential, and no history. An infinite d_0 makes it linear, to the last bit.
+/// It has a potential and no history. An infinite d_0 makes it exactly linear.
 struct HardeningSpring {
   double stiffness;                                       ///< k [stress/length]
-  double depth = std::numeric_limits<double>::infinity(); ///< d_0, at which it is twice as stiff [length]
+  double depth = std::numeric_limits<double>::infinity(); ///< d_0, at which its secant doubles [length]
 
   double secant(const double d) const { return stiffness * (1. + square(d / depth)); }
   double slope(const double d) const { return stiffness * (1. + 3. * square(d / depth)); }
   double pressure(const double d) const { return secant(d) * d; }
-  /// Per area [energy/length²].
+  /// Returns the energy per area [energy/length²].
   double energy(const double d) const { return 0.5 * stiffness * d * d * (1. + 0.5 * square(d / depth)); }
 
 private:

@@ -14,32 +14,32 @@
 
 namespace billet {
 
-/// Corners of a facet.
+/// Returns the corners of a facet.
 inline FacetCorners corners_of(const SurfaceFacet &facet, const FacetSearch::Positions &positions) {
   return {positions[facet.nodes[0]], positions[facet.nodes[1]], positions[facet.nodes[2]],
           positions[facet.nodes[3]]};
 }
 
-/// A facet's corners' part of numbers of all nodes; none are zeros.
+/// Returns the values at a facet's corners of `numbers` of all nodes; zeros if these are empty.
 inline std::array<double, 4> corners_of(const SurfaceFacet &facet, const std::vector<double> &numbers) {
   if (numbers.empty())
     return {};
   return {numbers[facet.nodes[0]], numbers[facet.nodes[1]], numbers[facet.nodes[2]], numbers[facet.nodes[3]]};
 }
 
-/// The facets of a search where their nodes are now. What contact needs of one is made when it is first asked
-/// for, and kept: several nodes ask for the same facet, and of a large surface few facets are asked for.
+/// Facets of a search at the current positions of their nodes. The data of a facet is computed on first use
+/// and cached. Several nodes use the same facet, and few facets of a large surface are used.
 class MovedFacets {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// Both have to outlive this, at the same address.
+  /// Both must outlive this object, at the same address.
   MovedFacets(const FacetSearch &search, const Positions &positions)
       : search_(search), positions_(positions) {
     reset();
   }
 
-  /// To be called when nodes have moved or facets have changed.
+  /// Clears the cache; must be called when nodes have moved or facets have changed.
   void reset() {
     index_.assign(search_.facets().size(), none);
     n_kept_ = 0;
@@ -53,7 +53,7 @@ public:
 
   const PlanedFacet &plane(const unsigned int facet) const { return get(facet).plane; }
   const FacetAreas &areas(const unsigned int facet) const { return get(facet).areas; }
-  /// Asked for only where a facet is pressed, which few are.
+  /// Returns the reaction, which is computed only for the few facets under pressure.
   const FacetReaction &reaction(const unsigned int facet) const {
     const Kept &kept = get(facet);
     if (!kept.reaction)
@@ -61,7 +61,7 @@ public:
     return *kept.reaction;
   }
 
-  /// The projection of x onto a facet as a Facet sees it: PlanedFacet, MeanGapFacet or BilinearFacet.
+  /// Returns the projection of x onto a facet of type Facet: PlanedFacet, MeanGapFacet or BilinearFacet.
   template <class Facet>
   FacetProjection project(const unsigned int facet, const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> &start = {}) const {
@@ -103,7 +103,7 @@ private:
   const Positions &positions_;
   mutable std::vector<unsigned int> index_; ///< in kept_, by facet
   mutable std::deque<std::optional<Kept>>
-      kept_; ///< references last while it grows; memory is kept from step to step
+      kept_; ///< references stay valid while it grows; memory is kept from step to step
   mutable unsigned int n_kept_ = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace billet {
 
-/// Returns where a node stands in a short list; the list's size if it does not.
+/// Returns the index of a node in a short list; the list's size if it is not in it.
 inline std::size_t index_of(const std::vector<unsigned int> &nodes, const unsigned int node) {
   return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
 }

@@ -20,17 +20,17 @@ inline bool any_touches(const CornerStates &states) {
                      [](const ToolContactState *state) { return state->status != ContactStatus::open; });
 }
 
-/// The shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet, ν its outward area vector and
-/// n_a the normal of the tool at corner a: 0 for a corner that does not touch.
+/// Area shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet, ν its outward area vector
+/// and n_a the normal of the tool at corner a. The share of a corner without contact is 0.
 struct ProjectedAreas {
   std::array<double, 4> areas; ///< [length²]
-  /// ∂A_a/∂x_b, normals held
+  /// ∂A_a/∂x_b at fixed normals
   std::array<std::array<dealii::Tensor<1, 3>, 4>, 4> derivatives;
   /// ∂A_a/∂n_a
   std::array<dealii::Tensor<1, 3>, 4> normal_derivatives;
 };
 
-/// Integrates by 2 × 2 Gauss points. Derivatives are 0 where they are not asked for.
+/// Integrates by 2 × 2 Gauss points. Derivatives are 0 unless `with_derivatives`.
 ProjectedAreas compute_projected_areas(const CornerStates &states, bool with_derivatives);
 
 } // namespace billet

@@ -7,21 +7,22 @@
 
 namespace billet {
 
-/// Counts how often nodes change what they touch, or how, in the iterations of one step.
+/// Counts the changes of touched facet or status of nodes (chatter) in the iterations of one step.
 class RestlessNodes {
 public:
-  /// A node that changes more often than this is restless; 0: nothing is counted.
+  /// Constructs the counter. A node with more changes than `max_changes` is restless; 0 disables counting.
   explicit RestlessNodes(const unsigned int max_changes) : max_changes_(max_changes) {}
 
   bool is_counting() const { return max_changes_ > 0; }
-  /// Starts the step anew.
+  /// Restarts the step.
   void restart();
-  /// Compares each node's state with the one before, and keeps it. Any numbers stand for states.
+  /// Compares each node's state with the previous one, and stores it. The numbers that encode states are
+  /// arbitrary.
   void count(std::vector<std::uint64_t> states);
   bool is_restless(const std::size_t i) const {
     return i < n_changes_.size() && n_changes_[i] > max_changes_;
   }
-  /// Calls visit(node, number of changes) for each restless one.
+  /// Calls visit(node, number of changes) for each restless node.
   template <class Visit> void visit(const Visit &visit) const {
     for (std::size_t i = 0; i < n_changes_.size(); ++i)
       if (is_restless(i))

@@ -23,30 +23,31 @@
 
 namespace billet {
 
-/// Contact of boundary faces of a deformable body with a rigid tool: nodal quadrature on current areas, the
-/// pressure by penalty, friction by return map in the contact frame of each slave node.
+/// Contact of boundary faces of a deformable body with a rigid tool. It uses nodal quadrature on current
+/// areas, penalty pressure, and friction by return map in the contact frame of each slave node.
 ///
 /// Each facet's share of a node's area is ∫ N_a <−ν·n> dξdη over the current facet, ν its outward area vector
-/// and n the tool's normal: the facet's area seen along the tool's normal, weighted by the shape function. On
-/// a flat contact this is one quarter of a parallelogram, as in the paper; on a general quadrilateral it is
-/// what makes a uniform pressure a uniform stress, and a facet that does not face the tool (the side of a
-/// billet, before it folds onto the die) has no share.
+/// and n the tool's normal. It is the facet's area projected along the tool's normal, weighted by the shape
+/// function. On a flat contact this is one quarter of a parallelogram, as in the paper. On a general
+/// quadrilateral it turns a uniform pressure into a uniform stress. A facet that does not face the tool (the
+/// side of a billet, before it folds onto the die) has no share.
 ///
-/// Where the tool's surface ends its pressure fades, (T3), (T4): a node beyond its border by d keeps the
-/// part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it, and is pushed out by what
-/// that takes of the energy ½ k s g² per area, −½ k g² s′ e, e pointing away from the border.
+/// The pressure fades beyond the edge of the tool's surface, (T3), (T4). A node beyond the edge by d keeps
+/// the part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it. The gradient of the
+/// energy ½ k s g² per area pushes it outwards by −½ k g² s′ e, where e points away from the edge.
 ///
-/// Where bodies have inertia, a node that is beyond the border and deeper than w below the surface there has
-/// missed it: what it meets if it moves back in is the surface's back, which is none, until it comes out in
-/// front again. It would jump to its full depth there, in a step or two, with energy from nowhere. Not where
-/// another tool is near, nor of a part of the surface that it comes to from the front.
+/// Where bodies have inertia, a node that is beyond the edge and deeper than w below the surface has missed
+/// it. If it moves back in, it meets the back of the surface, which has no contact, until it comes out in
+/// front again. Otherwise it would jump to its full penetration in a step or two and create energy. The rule
+/// does not apply where another tool is near, nor to a part of the surface that the node approaches from the
+/// front.
 ///
-/// Facets between whose nodes the tool could enter unseen (FacetDivision) are divided, (T10): each into n × m
-/// facets that are bilinear as well, whose corners inside are points of contact like nodes. A point's
-/// position is Σ N_a x_a of the facet's nodes, which take its force and its stiffness by the same N_a. All of
-/// the above holds for the parts as it stands: what they are to their corners is what facets are to nodes.
+/// Facets between whose nodes the tool could enter undetected (FacetDivision) are divided, (T10): each into n
+/// × m bilinear facets, whose interior corners are contact points like nodes. A point's position is Σ N_a x_a
+/// of the facet's nodes, which take its force and its stiffness by the same N_a. All of the above applies to
+/// the parts and their corners as it does to facets and nodes.
 ///
-/// Node states are kept, and computed alike, on every rank that owns a facet at the node. Points inside
+/// Every rank that owns a facet at a node stores and computes the same state of the node. Points inside
 /// facets belong to one facet each, also those on its sides.
 class RigidContact final : public ContactInterface {
 public:
@@ -61,11 +62,11 @@ public:
     start_weight_ = start_weight;
     is_static_ = is_static;
   }
-  /// Changes where the tool moves to.
+  /// Sets the placement of the tool at the end of the step.
   void set_placement(const Placement &to) { placement_ = to; }
   void commit() override;
 
-  /// The tool is gone: from now on no node touches it.
+  /// Removes the tool: from now on no node touches it.
   void remove_tool();
 
   void update(const Vector &displacements) override;
@@ -73,44 +74,44 @@ public:
   void set_tangent(const ContactTangent tangent) override { tangent_ = tangent; }
   void add_tangent(const TangentSystem &system) const override;
   StepWorks compute_step_works(double weight) const override;
-  /// In contact/tool_paths.cc.
+  /// Implemented in contact/tool_paths.cc.
   double find_free_part(const ContactPath &path) const override;
-  /// Of tools thinner than two facets, the only ones that nodes go through.
+  /// Whether the tool is thinner than two facets: only then can nodes pass through it.
   bool may_let_nodes_through() const override { return thin_tool_.has_value(); }
-  /// After update() and before commit(); false in the first step after load().
+  /// Valid after update() and before commit(); false in the first step after load().
   bool lets_nodes_through() const override;
   std::string describe_passage() const override;
 
-  /// Adds the force by which the tool, once it moves on to `after`, would push the nodes that touch it now if
-  /// they stayed behind, to first order. After update().
+  /// Adds the force of the tool on touching nodes that do not follow its motion to `after`, to first order.
+  /// After update().
   void add_tool_push(const Placement &after, Vector &forces) const;
 
   /// A rigid motion of the tool: x moves by translation + rotation × (x − moved centre).
   struct ToolRate {
     dealii::Tensor<1, 3> translation, rotation;
   };
-  /// What a rate of the tool does to the residual, and to the power that the tool exerts by that rate, P = Σ
-  /// F·v: ∂R/∂s into `column`, ∂P/∂u into `row` (additive vectors), ∂P/∂s returned, of this rank. By the
-  /// invariance of F_c under rigid motions of node and tool together, from K = −∂F_c/∂u: with v_b the rate at
-  /// node b and ω its rotation,
+  /// Adds derivatives of the residual R and of the power of the tool, P = Σ F·v, for a rate of the tool. Adds
+  /// ∂R/∂s to `column` and ∂P/∂u to `row` (additive vectors), and returns this rank's ∂P/∂s. They follow from
+  /// K = −∂F_c/∂u and the invariance of F_c under rigid motions of node and tool together: with v_b the rate
+  /// at node b and ω its rotation,
   ///   ∂F_a/∂s = ω × F_a + Σ_b K_ab v_b,   ∂P/∂u_b = −Σ_a v_a·K_ab + ω × F_b·,   ∂P/∂s = Σ_a v_a·∂F_a/∂s.
   double add_tool_derivatives(const ToolRate &rate, Vector &column, Vector &row) const;
 
-  /// How friction holds the body on the tool, at the last update() and a rate of the tool: Σ A p |v_t| of the
-  /// nodes that touch, and of those that slip, v_t the rate along the tool's surface, and the power of the
-  /// pressure on the body, Σ A p v_n. On this rank.
+  /// Measures of full sliding on this rank, at the last update() and a rate of the tool. `touching` and
+  /// `slipping` are Σ A p |v_t| of the nodes that touch, or slip, v_t the rate along the tool's surface.
+  /// `power_of_pressure` is the power of the pressure on the body, Σ A p v_n.
   struct Grip {
     double touching = 0., slipping = 0., power_of_pressure = 0.;
   };
   Grip grip(const ToolRate &rate) const;
 
-  /// How far the tool has to go along `direction` (unit) until it touches a node, at the last update();
-  /// infinite if it cannot. On this rank.
+  /// Returns the distance [length] that the tool must move along `direction` (unit) to touch a node of this
+  /// rank, at the last update(). It is infinite if the tool cannot touch any.
   double distance_to_touch(const dealii::Tensor<1, 3> &direction) const;
-  /// All of a scene, which stay where they are: pressure does not fade where another tool goes on.
+  /// Links each tool contact of a scene to the others of its body: pressure does not fade where another tool
+  /// continues. The addresses must stay valid.
   static void introduce(std::deque<RigidContact> &contacts);
-  /// Whether a node that is there now has the border of the tool's surface within a tenth of a facet. Of this
-  /// rank.
+  /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at `position`.
   bool has_node_on_border(const dealii::Tensor<1, 3> &position) const;
   /// Whether a node of this rank touches the tool, at the last update().
   bool has_touching_nodes() const;
@@ -127,31 +128,32 @@ public:
   double surface_reach() const override { return tool_reach_; }
 
   Penetration penetration() const override;
-  /// A fifth of a facet, and 0.4 of the element behind the node, are little enough.
+  /// Returns the penetration relative to the acceptable one: a fifth of a facet, and 0.4 of the element
+  /// behind the node.
   double excessive_penetration() const override;
   double closing_of_new_contacts() const override;
   ContactLoad compute_load() const override;
   std::vector<SlaveForce> slave_forces() const override;
-  /// Of every node at a facet of this rank; `area` is this rank's share. At divided facets pressure, traction
-  /// and status are those of all points that push the node, as means over its share of their areas.
+  /// Reports every node at a facet of this rank; `area` is this rank's share. At divided facets, pressure,
+  /// traction and status are means over all points that push the node, weighted by its share of their areas.
   std::vector<ContactNodeReport> report() const override;
   std::size_t history_size() const override;
-  /// None if the tool is removed.
+  /// Adds the resistances; none if the tool is removed.
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const override;
   void visit_supporting(const VisitSupporting &visit) const override;
 
-  /// A message on a tool that fits between the points of contact.
+  /// Returns a message if the tool fits between the contact points.
   DiagnosticList check_start() const override;
-  /// A message if nodes have been found behind the tool.
+  /// Returns a message if nodes have been found behind the tool.
   DiagnosticList check_step() const override;
   std::string describe_obstacle() const override;
 
   // Schemes without a matrix, after bind():
 
-  /// Finds its nodes among those of the rank.
+  /// Finds the nodes of the pair among those of the rank.
   void bind(const LocalNodes &nodes);
   void update(const NodalVectors &displacements) override;
-  /// Without friction F_c = −∂Π/∂u, Π the stored energy: forces on areas that change are among them.
+  /// Without friction F_c = −∂Π/∂u, Π the stored energy, including the forces due to changes of area.
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) override;
   void add_crossings(Crossings &crossings) const override;
   void add_start_crossings(Crossings &crossings, const NodalVectors &velocities, double step) const override;
@@ -163,9 +165,9 @@ public:
   void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  /// Of a node that sticks, in this step, or since its traction was augmented [length].
+  /// Returns the elastic slip of a sticking node in this step, or since its last augmentation [length].
   double elastic_slip(std::size_t i) const;
-  /// Only with friction.
+  /// History of a node, only with friction.
   struct FrictionHistory {
     bool is_active = false;
     Frame frame;
@@ -174,19 +176,21 @@ private:
     double slip = 0.;                   ///< length of the path slipped
     double slip_rate = 0.;
   };
-  /// What is about to touch: nodes nearer than this part of their facets' size, or this many steps away.
+  /// Limits of nodes that are about to touch: nearer than this part of their facets' size, or this many steps
+  /// away.
   static constexpr double near_gap = 0.25, near_steps = 20.;
-  /// By how much the tool's surface counts as raised for a node.
+  /// Returns the gap offset of a node, by which the tool's surface counts as raised [length].
   double lift_of(const ContactPoint &node) const {
     return node.lift - InitialOverlap::counted(node.initial_depth, allowed_part_);
   }
-  /// As stiff as the normal spring of a node may be at the end of the next step, if that is as long as this.
+  /// Returns the maximum stiffness of a node's normal spring at the end of the next step, if that has the
+  /// same duration.
   double stiffness_ahead(std::size_t i) const;
-  /// Sets points inside a divided facet free that is farther from the tool than they can matter; else false.
+  /// Whether a divided facet is too far from the tool for its interior points to touch. If so, releases them.
   bool is_far(DividedFacet &divided);
   void average_over_points(std::vector<ContactNodeReport> &reports) const;
   void save_nodes(StateWriter &writer, const SlaveSurface::Range &range) const;
-  /// Areas of a facet's corners that checkpoints keep, and under which name.
+  /// Areas of a facet's corners in checkpoints, and their names.
   using CornerAreas = std::array<double, 4> ContactFacet::*;
   using KeptAreas = std::pair<std::string, CornerAreas>;
   std::vector<KeptAreas> kept_areas() const;
@@ -195,16 +199,16 @@ private:
   void load_nodes(const StateReader &reader, const SlaveSurface::Range &range);
   void load_areas(const StateReader &reader, const std::string &name, CornerAreas areas,
                   const SlaveSurface::Range &range);
-  /// Of nodes that might go through it, for the next step.
+  /// Stores the positions of nodes that might pass through a thin tool, for the next step.
   void remember_positions();
-  /// Notes the pressures of the last update() for the works of the next step.
+  /// Stores the pressures of the last update() for the works of the next step.
   void remember_pressures();
-  /// The area that the facets of this rank give to each node, as seen along these normals.
+  /// Returns the area of each node from the facets of this rank, projected along these normals.
   template <class NormalOf> std::vector<double> areas_along(const NormalOf &normal_of) const;
-  /// Whether a node there has missed the tool's surface.
+  /// Whether a node at this position has missed the tool's surface.
   bool misses(const ContactPoint &node, const dealii::Tensor<1, 3> &position,
               const dealii::Tensor<1, 3> &on_tool, const RigidSurface::Projection &projection) const;
-  /// The state of node i at `position`; with friction, the history that goes with it.
+  /// Computes the state of node i at `position` and, with friction, its history.
   template <class Law>
   ToolContactState evaluate(const Law &law, std::size_t i, const dealii::Tensor<1, 3> &position,
                             FrictionHistory *history) const;
@@ -219,38 +223,39 @@ private:
   double augmentation_gap() const override;
   /// Calls add(index of the slave node, its area at one facet).
   template <class Add> void for_each_area(const Add &add) const;
-  /// The same with the area on which the force stands: times pressures it is the force.
+  /// Calls add() with the area that multiplies pressures to give the force.
   template <class Add> void for_each_counted_area(const Add &add) const;
   /// Calls visit(facet, corner, its area) for each corner whose node touches.
   template <class Visit> void for_each_touching(const Visit &visit) const;
-  /// Calls add(index of the slave node, area) for owned nodes that do not touch, but soon may.
+  /// Calls add(index of the slave node, area) for owned nodes that do not touch, but may soon do so.
   template <class Add> void for_each_near(const Add &add) const;
-  /// Of a corner whose node touches, with its area at the facet; the force on the body.
+  /// Adds the contribution of a corner whose node touches, with its area at the facet. Returns the force on
+  /// the body.
   dealii::Tensor<1, 3> add_to_load(ContactLoad &load, const ContactFacet &facet, unsigned int corner,
                                    double area) const;
-  /// Whether another tool has a surface there, nearer than `near`; one that is `facing` like this (in space),
-  /// if that is given: one that presses the other side of a sheet does not.
+  /// Whether another tool has a surface nearer than `near` at this position. If given, `facing` is the
+  /// direction (in space) that it must face: a tool that presses the other side of a sheet does not count.
   bool is_near_another(const dealii::Tensor<1, 3> &position, double near,
                        const std::optional<dealii::Tensor<1, 3>> &facing = {}) const;
-  /// In the penalty springs of a node that touches [energy/length²].
+  /// Returns the energy in the penalty springs of a node that touches [energy/length²].
   double stored_energy(std::size_t i) const;
   SpringEnergy springs_of(std::size_t i, double energy) const;
   SpringEnergy springs_of(const std::size_t i) const { return springs_of(i, stored_energy(i)); }
-  /// Of a facet, with the forces by which springs resist a change of the areas that they stand on, F_b =
-  /// −Σ_a ê_a ∂A_a/∂x_b (T7), ê what areas as they are weigh of the stored energy e: with these, normal
-  /// forces at any depth have the potential Σ A_a ê_a + A_a0 (e_a − ê_a). And what they add to bounds.
+  /// Adds the forces of a facet and their bounds. They include the resistance of springs to changes of their
+  /// areas, F_b = −Σ_a ê_a ∂A_a/∂x_b (T7), with ê the part of the stored energy e that acts on current areas.
+  /// Normal forces at any penetration then have the potential Σ A_a ê_a + A_a0 (e_a − ê_a).
   void add_forces(ContactFacet &facet, NodalVectors &forces, NodalVectors &bounds, ContactLoad &load);
-  /// Adds what friction has dissipated. In explicit scenes, only that of nodes that have lifted off.
+  /// Adds the dissipation by friction. In explicit scenes, adds only that of nodes that have lifted off.
   void add_friction(ContactLoad &load, bool hands_over) const;
   /// Calls visit(account, area_n, area) for the corners of all facets.
   template <class Visit> void visit_friction(bool hands_over, const Visit &visit) const;
-  /// What the facets of this rank contribute to compute_load().
+  /// Returns the contribution of this rank's facets to compute_load().
   ContactLoad local_load(bool hands_over) const;
   /// Whether any node presses at the start of the step, and any at the last update(). Collective.
   bool presses_at_both_ends() const;
   void add_released(ContactLoad &load) const;
   CornerStates states_of(const ContactFacet &facet) const;
-  /// −∂F_c/∂u of a facet's nodes, 12 × 12; false if none of them touches.
+  /// Computes −∂F_c/∂u of a facet's nodes, 12 × 12. Returns false if none of them touches.
   bool compute_facet_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
   void add_divided_tangent(const DividedFacet &divided, const TangentSystem &system) const;
   void add_closed_tangent(const ContactFacet &facet, dealii::FullMatrix<double> &matrix) const;
@@ -265,20 +270,20 @@ private:
   SlaveSurface slaves_;
   std::vector<ToolContactState> states_; ///< at the last update()
   std::vector<FrictionHistory> friction_n_, friction_;
-  /// Of nodes at the start of the step, in the tool's coordinates, for compute_step_works().
+  /// State of a node at the start of the step, in the tool's coordinates, for compute_step_works().
   struct PressureHistory {
     double pressure = 0.; ///< [stress]
     double depth = 0.;    ///< [length]
     dealii::Tensor<1, 3> normal, position;
   };
   std::vector<PressureHistory> pressed_n_;
-  bool knows_pressures_ = false; ///< all ranks alike: pressed_n_ is that of the start of the step
+  bool knows_pressures_ = false; ///< same on all ranks: pressed_n_ is that of the start of the step
   double allowed_part_n_ = 1.;   ///< at the start of the step
   std::vector<std::array<double, 2>>
-      base_; ///< what this step's friction starts from: that of friction_n_, or augmented
+      base_; ///< initial friction of this step: that of friction_n_, or augmented
   std::vector<const RigidContact *> others_; ///< of the same body
   std::vector<unsigned int> local_nodes_;    ///< of each node of the mesh, after bind()
-  std::vector<bool> is_owned_;               ///< as LocalNodes has it
+  std::vector<bool> is_owned_;               ///< as in LocalNodes
   Placement placement_n_, placement_;
   double duration_ = 0.; ///< of the step [time]
   double allowed_part_ = 1.;
@@ -286,7 +291,7 @@ private:
   bool is_static_ = false;
   double tool_reach_ = 0.;
   std::optional<ThinToolWatch> thin_tool_;              ///< none unless the tool is thin on any rank
-  double stiffening_ = 1., tangential_stiffening_ = 1.; ///< of the penalties as given
+  double stiffening_ = 1., tangential_stiffening_ = 1.; ///< of the given penalties
   bool is_removed_ = false;
   bool has_nodes_behind_ = false;
   HeldMemory memory_{Capability::contact}, friction_memory_{Capability::friction},

@@ -8,23 +8,23 @@
 
 namespace billet {
 
-/// The loop that finds what slave nodes touch and computes tractions and forces. Made once for the
-/// method, with friction or without, which no node asks for.
+/// Loop over slave nodes that finds the touched facets and computes tractions and forces. Method and friction
+/// are fixed at construction, so that no node tests for them.
 class SlaveEvaluation {
 public:
   virtual ~SlaveEvaluation() = default;
   SlaveEvaluation(const SlaveEvaluation &) = delete;
   SlaveEvaluation &operator=(const SlaveEvaluation &) = delete;
 
-  /// Sets the states of all slaves at the end of a step that lasts so long, and adds forces to those of nodes
-  /// with ghosts.
+  /// Sets the states of all slaves at the end of a step of this duration [time], and adds the forces on
+  /// nodes, including ghosts.
   virtual void run(double duration, FacetSearch::Positions &forces) = 0;
 
 protected:
   SlaveEvaluation() = default;
 };
 
-/// The parts have to outlive the evaluation.
+/// Makes the evaluation. The parts must outlive it.
 std::unique_ptr<SlaveEvaluation> make_slave_evaluation(FacetContactParts &parts);
 
 } // namespace billet

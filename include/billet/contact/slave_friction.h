@@ -13,17 +13,17 @@ namespace billet {
 /// Works of friction at one slave in the step, this rank's part [energy].
 struct FrictionWorks {
   double dissipation = 0., damping = 0., taken_beyond = 0., missed = 0.;
-  double dissipation_handed_over = 0.; ///< the first one by FrictionAccount::handed_over()
+  double dissipation_handed_over = 0.; ///< `dissipation` by FrictionAccount::handed_over()
 };
 
-/// What friction keeps of slave nodes, and what it takes from their motion. Made where there is friction.
+/// Friction history and works of slave nodes. Exists only with friction.
 class SlaveFriction {
 public:
-  /// All have to outlive this.
+  /// All arguments must outlive this object.
   SlaveFriction(const FrictionLaw &law, const TouchingSlaves &slaves, const SlavePenalties &penalties,
                 const GapOffsets &offsets, const SlaveStart &start);
 
-  /// Sets how FrictionRule accounts for friction: ½ and false unless they are set.
+  /// Sets how FrictionRule accounts for friction: ½ and false by default.
   void set_account(const double start_weight, const bool is_static) {
     start_weight_ = start_weight;
     is_static_ = is_static;
@@ -41,33 +41,33 @@ public:
     account_for(s, traction, motion);
     return traction;
   }
-  /// Lets go of a slave that does not press.
+  /// Releases a slave that does not press.
   void release(std::size_t s);
 
   const FrictionWorks &works(const std::size_t s) const { return works_[s]; }
-  /// Length of the path slipped [length].
+  /// Returns the length of the slip path [length].
   double slip(const std::size_t s) const { return history_[s].slip; }
-  /// What the traction of this step starts from: that at its start, or augmented.
+  /// Returns the initial state of this step's traction: that at its start, or augmented.
   const SlaveHistory &base(const std::size_t s) const { return base_[s]; }
-  /// Of a slave that sticks, in this step, or since its traction was augmented [length].
+  /// Returns the elastic slip of a sticking slave in this step, or since its last augmentation [length].
   double elastic_slip(std::size_t s) const;
 
-  /// What the tractions of slaves that press start from becomes what they are.
+  /// Makes the current tractions of slaves that press the initial ones.
   void augment();
-  /// Takes back the augmentations of this step.
+  /// Undoes the augmentations of this step.
   void restart() { base_ = history_n_; }
   void commit() { base_ = history_n_ = history_; }
 
-  /// The state at the start of the step, under the keys of the slaves.
+  /// Saves the state at the start of the step, under the keys of the slaves.
   void save(StateWriter &writer, const std::vector<std::uint64_t> &keys) const;
   void load(const StateReader &reader, const std::vector<std::uint64_t> &keys);
 
 private:
-  /// Takes note of what friction has dissipated. Of a node that several ranks have, each takes the part of
-  /// its facets.
+  /// Records the works of friction. For a node that several ranks have, each rank takes the part of its
+  /// facets.
   void account_for(std::size_t s, const SlaveTraction &traction, const SlaveMotion &motion);
-  /// Whether what a slave touches was there at the start of the step: one that came in within the step does
-  /// not go back to where it was before.
+  /// Whether the slave touched at the start of the step. If it came in within the step, its friction is not
+  /// augmented.
   bool was_touching(std::size_t s) const;
   void augment_one(std::size_t s);
 

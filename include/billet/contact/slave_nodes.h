@@ -9,22 +9,23 @@
 
 namespace billet {
 
-/// The nodes of this rank that may touch facets, and the sizes of the undeformed facets around them.
+/// Nodes of this rank that may touch facets, and the sizes of the undeformed facets around them.
 class SlaveNodes {
 public:
-  /// Lists the nodes of all `facets`, which are this rank's, in their order; with one pass, those of surface
-  /// 0 only. `sizes` [length] is of each of the rank's nodes.
+  /// Lists the nodes of all `facets` of this rank, in their order; with one pass, only those of surface 0.
+  /// `sizes` [length] has an entry for each of the rank's nodes.
   SlaveNodes(const std::vector<SurfaceFacet> &facets, bool two_pass, const std::vector<double> &sizes);
 
   std::size_t size() const { return list_.size(); }
   const std::vector<SlaveNode> &list() const { return list_; }
   unsigned int node(const std::size_t s) const { return list_[s].node; }
   unsigned int surface(const std::size_t s) const { return list_[s].surface; }
-  /// [length]
+  /// Returns the size of the facets around a slave [length].
   double facet_size(const std::size_t s) const { return sizes_[s]; }
-  /// The largest gap of facets that fit each other [length].
+  /// Returns the maximum gap at which facets count as flush [length].
   double flush_gap(const std::size_t s) const { return 1e-9 * sizes_[s]; }
-  /// Depths that count as none: small against those that stiff penalties leave [length].
+  /// Returns the maximum penetration that counts as none: small compared with those at stiff penalties
+  /// [length].
   double depth_rounding(const std::size_t s) const { return 1e-12 * sizes_[s]; }
 
 private:
@@ -32,10 +33,11 @@ private:
   std::vector<double> sizes_;
 };
 
-/// The penalties of slave nodes, in one of the passes, and how many times as stiff they are as given.
+/// Penalties of slave nodes in one of the passes, and their factors on the given ones.
 class SlavePenalties {
 public:
-  /// `stiffness`, of each of the rank's nodes, is that of a node in one pass; two share it.
+  /// Constructs the penalties. `stiffness` of each of the rank's nodes applies to one pass; two passes share
+  /// it.
   SlavePenalties(const SlaveNodes &slaves, const std::vector<ContactStiffness> &stiffness, bool two_pass);
 
   const ContactStiffness &operator[](const std::size_t s) const { return stiffness_[s]; }

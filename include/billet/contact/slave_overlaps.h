@@ -11,16 +11,17 @@
 
 namespace billet {
 
-/// The overlaps of facets where these are raised by the gap offsets of their corners.
+/// Overlaps of facets raised by the gap offsets of their corners.
 class SlaveOverlaps {
 public:
-  /// Lists the pairs of facets that may come to overlap.
+  /// Lists the pairs of facets that may overlap.
   void rebuild(const ContactSurfaces &surfaces, bool with_self, bool two_pass);
   /// Computes the overlaps. Collective.
   void update(const ContactSurfaces &surfaces, const SlaveNodes &slaves, const GapOffsets &offsets);
 
   const FacetOverlaps &pairs() const { return overlaps_; }
-  /// Offsets of nodes with ghosts: what depths allow, and those of augmentation; empty if there are none.
+  /// Returns the allowed penetrations of nodes, including ghosts; augmentation() returns their multiplier
+  /// offsets. Both are empty if there are none.
   const std::vector<double> &depth_offsets() const { return depth_offsets_; }
   const std::vector<double> &augmentation() const { return augmentation_; }
 

@@ -10,7 +10,7 @@
 
 namespace billet {
 
-/// What slave nodes touched at the start of the step, and how they pressed.
+/// Touched facets and pressures of slave nodes at the start of the step.
 class SlaveStart {
 public:
   struct Pressure {
@@ -33,20 +33,20 @@ public:
   void commit() { has_started_ = true; }
   void set(std::size_t s, const TouchedFacet &touched, const std::vector<SurfaceFacet> &facets,
            const Pressure &pressed);
-  /// Finds again the facets that are touched, by their keys, after their indices have changed. A facet that
-  /// is no longer near is not touched.
+  /// Finds the touched facets by their keys after their indices have changed. A facet that is no longer near
+  /// is not touched.
   void find_facets(const std::vector<SurfaceFacet> &facets);
-  /// Where a penalty has become so many times as stiff at the same pressure.
+  /// Divides the depth of a slave whose penalty was multiplied by `factor` at the same pressure.
   void divide_depth(const std::size_t s, const double factor) { pressed_[s].depth /= factor; }
 
-  /// Under the keys of the slaves.
+  /// Saves the state under the keys of the slaves.
   void save(StateWriter &writer, const std::vector<std::uint64_t> &keys) const;
-  /// Facets have indices after find_facets().
+  /// Loads the state; facets have indices after find_facets().
   void load(const StateReader &reader, const std::vector<std::uint64_t> &keys, bool has_started);
 
 private:
   std::vector<TouchedFacet> touched_;
-  std::vector<std::uint64_t> facet_keys_; ///< of what is touched
+  std::vector<std::uint64_t> facet_keys_; ///< of the touched facets
   std::vector<Pressure> pressed_;
   bool has_started_ = false;
 };

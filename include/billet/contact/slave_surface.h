@@ -22,17 +22,17 @@ struct ContactPoint {
   dealii::Point<3> reference;
   ContactStiffness stiffness, given; ///< now, and at the start
   double size;                       ///< of the facets around it
-  double reach;            ///< how deep it may be, as part of these facets and of the elements below them
-  double spacing;          ///< of the parts of facets around it; the same where none is divided
-  bool is_divided = false; ///< a facet around it is
-  bool is_fixed = false;   ///< supports prescribe all its motion: it cannot come out of the tool
+  double reach; ///< acceptable penetration, from the size of these facets and of the elements below [length]
+  double spacing;          ///< size of the parts of facets around it; equal to `size` where none is divided
+  bool is_divided = false; ///< whether a facet around it is divided
+  bool is_fixed = false;   ///< supports prescribe all its motion: it cannot leave the tool
   double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
   HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
-  double touching_gap;    ///< of nodes that start on the tool; small against what presses a stiff penalty
+  double touching_gap;    ///< of nodes that start on the tool; far below stiff-penalty penetrations
   double gap_n = 0.;      ///< at the start of the step
   unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
-  double lift = 0., lift_n = 0.;  ///< of the tool's surface, by augmentation
-  double initial_depth = 0.;      ///< in the tool, if that is allowed; < 0: a gap that counts as closed
+  double lift = 0., lift_n = 0.;  ///< multiplier offsets of augmentation, now and at the start of the step
+  double initial_depth = 0.;      ///< allowed initial penetration; < 0: a gap that counts as closed
   bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
   dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
 };
@@ -42,30 +42,30 @@ struct ContactFacet {
   std::array<unsigned int, 4> nodes;
   std::uint64_t key;
   std::array<double, 4> friction_areas; ///< of corners that touch, at the start of the step
-  /// Of explicit scenes: each corner's area in the last step in which its node was not deep, or in its
-  /// first one; SpringEnergy::no_area where it does not touch.
+  /// Only in explicit scenes: each corner's area in the last step in which its node was not deep, or in its
+  /// first one. It is SpringEnergy::no_area where the corner does not touch.
   std::array<double, 4> shallow_areas;
 };
 
-/// A point inside a facet: node n_mesh_nodes + its index of the SlaveSurface.
+/// A point inside a facet. Its node index in the SlaveSurface is n_mesh_nodes + its own index.
 struct InteriorPoint {
   std::array<unsigned int, 4> corners; ///< of the facet
   std::array<double, 4> weights;       ///< N_a
-  std::uint64_t key;                   ///< that no other has, the same on any number of ranks
+  std::uint64_t key;                   ///< unique, and the same on any number of ranks
 };
 
-/// A facet of the mesh that is divided.
+/// Divided facet of the mesh.
 struct DividedFacet {
   std::array<unsigned int, 4> corners;
   unsigned int first_point, n_points; ///< inside, in `nodes`
   unsigned int first_part, n_parts;   ///< in `facets`
-  bool may_touch;                     ///< a point inside touched at the last update(), or is not known
+  bool may_touch; ///< whether a point inside touched at the last update(), or its status is unknown
 };
 
-/// The boundary faces of a body that may touch a tool: their nodes with sizes and penalties, and the points
-/// inside facets between whose nodes the tool could enter (T10).
+/// Boundary faces of a body that may touch a tool. Contains their nodes with sizes and penalties, and the
+/// points inside facets between whose nodes the tool could enter (T10).
 struct SlaveSurface {
-  /// `touching_gap`: of nodes that start on the tool [facet sizes]. Collective.
+  /// Collects the surface. `touching_gap` is that of nodes that start on the tool [facet sizes]. Collective.
   SlaveSurface(const ContactPair &pair, const Tool &tool, const Discretization &discretization,
                double young_modulus, double touching_gap);
 
@@ -73,17 +73,17 @@ struct SlaveSurface {
   std::size_t n_mesh_nodes = 0;
   std::vector<InteriorPoint> points;
   std::vector<DividedFacet> divided;
-  bool has_divided_facets = false;  ///< any rank
+  bool has_divided_facets = false;  ///< on any rank
   std::vector<ContactFacet> facets; ///< those that are not divided, then parts
   std::size_t n_whole_facets = 0;
-  double unresolved_length = 0.; ///< of the longest facet that has too few parts, on any rank [length]
-  /// By how much the program may raise penalties.
+  double unresolved_length = 0.; ///< of the longest facet with too few parts, on any rank [length]
+  /// Maximum factors by which the program may raise penalties.
   double max_stiffening = std::numeric_limits<double>::infinity(),
          max_tangential_stiffening = std::numeric_limits<double>::infinity();
 
-  /// Lets springs at divided facets become stiffer with their depth (T11), for a tool this thick.
+  /// Makes springs at divided facets harden with penetration (T11), for a tool of this thickness [length].
   void harden_springs(double tool_thickness);
-  /// Calls add(node of the mesh, weight) for what a node or point hangs on.
+  /// Calls add(node of the mesh, weight) for the parents of a node or point.
   template <class Add> void for_each_parent(const std::size_t i, const Add &add) const {
     if (i < n_mesh_nodes) {
       add(static_cast<unsigned int>(i), 1.);
@@ -94,7 +94,7 @@ struct SlaveSurface {
       if (point.weights[a] > 0.)
         add(point.corners[a], point.weights[a]);
   }
-  /// Σ w value(node of the mesh).
+  /// Returns Σ w value(node of the mesh).
   template <class Value> dealii::Tensor<1, 3> at(const std::size_t i, const Value &value) const {
     if (i < n_mesh_nodes)
       return value(i);
@@ -103,9 +103,9 @@ struct SlaveSurface {
                     [&](const unsigned int parent, const double weight) { sum += weight * value(parent); });
     return sum;
   }
-  /// Adds a value of a node or point to the dofs of what it hangs on.
+  /// Adds a value of a node or point to the dofs of its parents.
   void add_to_dofs(std::size_t i, const dealii::Tensor<1, 3> &value, Vector &vector) const;
-  /// Nodes or facets whose state goes into a checkpoint under names of this prefix.
+  /// Nodes or facets whose state is in a checkpoint under names with this prefix.
   struct Range {
     std::string prefix;
     std::size_t begin, end;
@@ -118,7 +118,7 @@ struct SlaveSurface {
 private:
   void collect_facets(const ContactPair &pair, const Discretization &discretization, double young_modulus,
                       double touching_gap);
-  /// Divides facets where the tool needs it. Collective.
+  /// Divides facets where the tool requires it. Collective.
   void divide_facets(const Tool &tool, const Discretization &discretization);
   void divide(const std::array<unsigned int, 4> &corners, const std::array<unsigned int, 2> &n_parts,
               std::uint64_t key);

@@ -12,27 +12,27 @@
 
 namespace billet {
 
-/// The tangents of slave nodes. Made once for the method, with friction or without, which no node
-/// asks for.
+/// Tangents of slave nodes. Method and friction are fixed at construction, so that no node tests for them.
 class SlaveTangents {
 public:
-  /// Called with nodes i, j, ... of this rank and ghosts, and the matrix −∂F_c,i/∂x_j, three rows and columns
-  /// a node [force/length].
+  /// Function that receives nodes i, j, ... of this rank and ghosts, and the matrix −∂F_c,i/∂x_j, with three
+  /// rows and columns per node [force/length].
   using Add = std::function<void(const std::vector<unsigned int> &, const dealii::FullMatrix<double> &)>;
 
   virtual ~SlaveTangents() = default;
   SlaveTangents(const SlaveTangents &) = delete;
   SlaveTangents &operator=(const SlaveTangents &) = delete;
 
-  /// Adds the tangent of the last evaluation: of each slave that touches, the part of this rank's area. Kinds
-  /// as of compute_traction(); all but the exact and the numerical ones hold normals, areas and weights.
+  /// Adds the tangent of the last evaluation: for each slave that touches, the part of this rank's area.
+  /// Kinds are those of compute_traction(); all except the exact and the numerical ones fix normals, areas
+  /// and weights.
   virtual void visit(ContactTangent kind, const Add &add) const = 0;
 
 protected:
   SlaveTangents() = default;
 };
 
-/// The parts have to outlive the tangents.
+/// Makes the tangents. The parts must outlive them.
 std::unique_ptr<SlaveTangents> make_slave_tangents(const FacetContactParts &parts);
 
 /// Whether tangents of this kind depend on the nodes of the slave's own facets.

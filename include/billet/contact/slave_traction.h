@@ -13,48 +13,48 @@
 
 namespace billet {
 
-/// What friction keeps of a slave node from step to step. It belongs to the node: sliding from one facet to
-/// the next does not touch it. A node out of contact has a fresh one.
+/// Friction history of a slave node. It belongs to the node: sliding from one facet to the next does not
+/// change it. A node out of contact has a new one.
 struct SlaveHistory {
-  bool is_active = false; ///< the rest has been set
+  bool is_active = false; ///< whether the other members are set
   Frame frame;
   std::array<double, 2> tangential{}; ///< traction on the frame's q and r [stress]
   double slip = 0.;                   ///< length of the path slipped [length]
   double slip_rate = 0.;              ///< [length/time]
-  double area = 0.;                   ///< that the traction acts on [length²]
+  double area = 0.;                   ///< of the traction [length²]
 };
 
-/// How a slave node and the facet that it touches moved over a step.
+/// Motion of a slave node and of the facet that it touches over a step.
 template <class Number> struct SlaveMotionOf {
-  /// Of the node, relative to the facet's material point that now is below it, as an observer sees it who
-  /// turns with the facet: (x − x̂) − R (x_n − x̂_n), x̂ = Σ w_I x_I. 0 if both move as one rigid body.
+  /// Displacement of the node relative to the facet's material point that is now below it, for an observer
+  /// who rotates with the facet: (x − x̂) − R (x_n − x̂_n), x̂ = Σ w_I x_I. 0 if both move as one rigid body.
   dealii::Tensor<1, 3, Number> displacement;
-  dealii::Tensor<2, 3, Number> rotation; ///< R, of the facet
-  double duration;                       ///< [time]; 0 in a step that takes no time
-  double lift = 0.;                      ///< of augmentation: the gap is the distance less this [length]
-  double flush = 0.; ///< a node no farther than this from its facet counts as touching it [length]
+  dealii::Tensor<2, 3, Number> rotation; ///< R, rotation of the facet
+  double duration;                       ///< [time]; 0 in a step without duration
+  double lift = 0.;                      ///< multiplier offset: the gap is the distance less this [length]
+  double flush = 0.; ///< maximum distance from the facet at which a node counts as touching [length]
 };
 using SlaveMotion = SlaveMotionOf<double>;
 
-/// `_n` marks the start of the step; the weights are those of the projection at its end.
+/// Computes the motion. `_n` marks the start of the step; the weights are those of the projection at its end.
 template <class Number>
 SlaveMotionOf<Number>
 compute_slave_motion(const FacetCorners &corners_n, const FacetCornersOf<Number> &corners,
                      const std::array<Number, 4> &weights, const dealii::Tensor<1, 3, Number> &x_n,
                      const dealii::Tensor<1, 3, Number> &x, double duration);
 
-/// What a facet does to a slave node, per area.
+/// Traction of a facet on a slave node, and its energies per area.
 template <class Number> struct SlaveTractionOf {
   ContactStatus status = ContactStatus::open;
   double pressure = 0.;                  ///< [stress]
   dealii::Tensor<1, 3, Number> traction; ///< on the slave node [stress]
   double slip = 0.;                      ///< in this step [length]
-  double dissipation = 0.;               ///< of the return map in this step, −t·γ [energy/length²]
+  double dissipation = 0.;               ///< by the return map in this step, −t·γ [energy/length²]
   double stored_energy = 0.;             ///< in the penalty springs [energy/length²]
 };
 using SlaveTraction = SlaveTractionOf<double>;
 
-/// Without friction; `gap` < 0.
+/// Computes the traction without friction; `gap` < 0.
 template <class Number>
 SlaveTractionOf<Number> compute_slave_traction(const Frictionless & /*law*/, const double normal_stiffness,
                                                const dealii::Tensor<1, 3, Number> &normal,
@@ -68,7 +68,7 @@ SlaveTractionOf<Number> compute_slave_traction(const Frictionless & /*law*/, con
   return result;
 }
 
-/// −∂t/∂x of the traction t on a node by its motion, normal and facet held, from the tangent in its frame
+/// Returns −∂t/∂x of the traction t on a node at fixed normal and facet, from the tangent in its frame
 /// [stress/length].
 template <class Number>
 dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction &traction) {
@@ -80,8 +80,8 @@ dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction 
   return tangent;
 }
 
-/// The part φ = g/(g − g_n) of the step for which a node has been behind the facet that has come through it
-/// within the step, at the distance g now; 1 if it touched it at the start.
+/// Returns the part φ = g/(g − g_n) of the step in which a node was behind a facet that it came through
+/// within the step. g is the distance now. Returns 1 if the node touched the facet at the start.
 template <class Number>
 Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number> &normal,
                        const SlaveMotionOf<Number> &motion) {
@@ -91,15 +91,14 @@ Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number
   return distance < 0. ? Number(distance / (distance - distance_n)) : Number(0.);
 }
 
-/// Friction in the contact frame, eqs. (4), (5), (32)-(40) of Bittencourt & Creus (1998) as in
-/// contact/traction.h. The frame of the last step's end goes along with the facet's rotation and is turned
-/// onto the new normal, so that a pair that sticks and rotates keeps its traction components and creates
-/// none. A node that has come through the facet within the step slides for its part_in_contact() only.
-/// `gap` < 0; `history` becomes the state at the end of the step, and may be what `history_n` is.
+/// Computes friction in the contact frame, eqs. (4), (5), (32)-(40) of Bittencourt & Creus (1998) as in
+/// contact/traction.h. The frame at the end of the last step follows the facet's rotation and is then rotated
+/// onto the new normal. A pair that sticks and rotates thus keeps its traction components and creates none. A
+/// node that has come through the facet within the step slides only for its part_in_contact(). `gap` < 0;
+/// `history` becomes the state at the end of the step, and may alias `history_n`.
 ///
-/// With Derivative as Number the traction has its exact derivatives; the rest, and `history`, is of the
-/// values. `tangent`, where it is asked for, becomes −∂t/∂x of the kind of tangent that is named, as
-/// to_space().
+/// With Derivative as Number, the traction has its exact derivatives; the other results, and `history`, have
+/// values only. `tangent`, unless null, becomes −∂t/∂x of this kind of tangent, as in to_space().
 template <class Number>
 SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
                                                const dealii::Tensor<1, 3, Number> &normal, const Number &gap,
@@ -122,7 +121,7 @@ SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const Con
   SlaveTractionOf<Number> result;
   result.status = t.status;
   result.pressure = t.pressure;
-  // The value, and by the derivatives of the return map those of what goes into it: the differences are 0.
+  // The differences are 0 in value; they carry the derivatives of the arguments through the return map.
   const std::array<Number, 3> change{slid[0] - increment.value[0], slid[1] - increment.value[1],
                                      gap - value_of(gap)};
   std::array<Number, 3> components{t.tangential[0], t.tangential[1], t.pressure};
@@ -144,8 +143,8 @@ SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const Con
   return result;
 }
 
-/// Between the states of a slave node at both ends of a step; a node that is out of contact has no traction.
-/// The last two are those of FrictionStep.
+/// Computes the account between the states of a slave node at both ends of a step; a node out of contact has
+/// no traction. The last two arguments are those of FrictionStep.
 FrictionAccount compute_friction_account(const SlaveHistory &history_n, const SlaveHistory &history,
                                          const SlaveMotion &motion, const FrictionRule &rule,
                                          double part_in_contact = 1., double limit_n = 0.);

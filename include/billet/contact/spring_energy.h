@@ -7,18 +7,18 @@
 
 namespace billet {
 
-/// The energy per area in the penalty springs of a node [energy/length²], and the areas on which it stands:
-/// what exceeds a limit stands on the area of the last step in which the node was not so deep, so that forces
-/// at any depth have the potential on_areas(), (T7) of doc/theory.md.
+/// Energy per area in the penalty springs of a node [energy/length²], and the areas on which it acts. The
+/// excess over a limit acts on the area of the last step in which the node was below that limit. Forces at
+/// any penetration then have the potential on_areas(), (T7) of doc/theory.md.
 struct SpringEnergy {
-  /// Stands for the area before the node was deep, where there is none.
+  /// Marks a missing area from before the node was deep.
   static constexpr double no_area = -1.;
 
   double total;
-  double on_current_area; ///< its part on the area as it is; the rest stands on that before
+  double on_current_area; ///< its part on the current area; the rest acts on the earlier area
   double share;           ///< ∂(on_current_area)/∂(total)
 
-  /// All of it on the area as it is.
+  /// Returns an energy that acts entirely on the current area.
   static SpringEnergy on_one_area(const double energy) { return {energy, energy, 1.}; }
   static SpringEnergy split(const double energy, const double limit) {
     if (energy <= limit)
@@ -28,16 +28,16 @@ struct SpringEnergy {
   }
 
   bool is_split() const { return share < 1.; }
-  /// Returns the area on which the node's traction stands, ∂(on_areas)/∂(total) [length²].
+  /// Returns the area on which the node's traction acts, ∂(on_areas)/∂(total) [length²].
   double counted_area(const double area, const double area_before) const {
     return share == 1. || area_before == no_area ? area : share * area + (1. - share) * area_before;
   }
-  /// Returns what the springs hold on these areas [energy].
+  /// Returns the energy of the springs on these areas [energy].
   double on_areas(const double area, const double area_before) const {
     const double before = area_before == no_area ? area : area_before;
     return area * on_current_area + before * (total - on_current_area);
   }
-  /// Returns the largest area that counts [length²].
+  /// Returns the maximum area that counts [length²].
   double max_area(const double area, const double area_before) const {
     return is_split() ? std::max(area, area_before) : area;
   }

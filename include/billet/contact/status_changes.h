@@ -16,13 +16,13 @@ struct SlaveForce {
   dealii::Tensor<1, 3> force; ///< [force]
 };
 
-/// Changes of contact status between two states, and what they mean for the forces.
+/// Changes of contact status between two states, and the related changes of forces.
 struct StatusChanges {
-  double n = 0.;             ///< slave nodes whose status changed; one that several ranks have counts on each
+  double n = 0.;             ///< slave nodes whose status changed; a shared node counts on each of its ranks
   double force = 0.;         ///< Σ |Δf| of these nodes [force]
   double contact_force = 0.; ///< Σ |f| of all slave nodes at the second state [force]
 
-  /// Adds the nodes of one contact on this rank, in the same order in both states.
+  /// Adds the nodes of one contact pair on this rank, in the same order in both states.
   void add(const std::vector<SlaveForce> &before, const std::vector<SlaveForce> &after);
 
   /// Returns the part of the contact force that the changes carry, at most 1; 0 without changes.

@@ -6,13 +6,12 @@
 
 namespace billet {
 
-/// Works of a contact pair in a step beyond forces times motions.
+/// Works of a contact pair in a step in addition to forces times motions.
 struct StepWorks {
-  /// Of pressure and friction on nodes that enter or leave within the step: what the trapezoidal rule counts
-  /// falsely, (A1) [energy].
+  /// Work of pressure and friction on nodes that enter or leave within the step, which the trapezoidal rule
+  /// miscounts, (A1) [energy].
   double touching = 0.;
-  /// Of the ramp by which an initial penetration begins to count, (A2): it loads springs without a motion
-  /// [energy].
+  /// Work of the ramp of an initial penetration, (A2): it loads springs without a motion [energy].
   double ramp = 0.;
 
   StepWorks &operator+=(const StepWorks &other) {
@@ -21,14 +20,14 @@ struct StepWorks {
     return *this;
   }
 
-  /// Adds those of a node of which the pressure has the forces `force_n` and `force` at the ends of the step,
-  /// and the depths `depth_n` and `depth`, both 0 where it does not press. `closing` is how far it has come
-  /// closer to the surface along the normal in the step, `ramp_depth` the part of that which is the ramp's.
-  /// `weight` is that of the force at the end in the mean force.
+  /// Adds the works of a node. Its pressure forces are `force_n` and `force` at the ends of the step, its
+  /// penetrations `depth_n` and `depth`, both 0 where it does not press. `closing` is its approach to the
+  /// surface along the normal in the step, `ramp_depth` the part of that due to the ramp. `weight` is that of
+  /// the force at the end in the mean force.
   void add(const double force_n, const double force, const double depth_n, const double depth,
            const double closing, const double ramp_depth, const double weight) {
     ramp += (weight * force + (1. - weight) * force_n) * ramp_depth;
-    // A gap is at most what the node has moved: one that comes from elsewhere has not closed it.
+    // A gap is at most the motion of the node: a node that arrives from elsewhere has not closed it.
     if (force_n == 0. && force > 0.)
       touching -= 0.5 * force * std::max(0., closing - depth);
     else if (force_n > 0. && force == 0.)

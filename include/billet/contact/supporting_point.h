@@ -11,29 +11,29 @@
 
 namespace billet {
 
-/// A point of a body where contact has a stiffness.
+/// Point of a body where contact has a stiffness.
 struct SupportingPoint {
-  /// What friction does there.
+  /// State of friction at the point.
   enum class Friction {
     none,
     sticks, ///< resists every motion along the surface
-    slips   ///< resists a motion across the slip, and one back, but none onwards
+    slips   ///< resists a motion across the slip or against it, but not along it
   };
   dealii::Tensor<1, 3> position; ///< [length]
-  dealii::Tensor<1, 3> normal;   ///< unit, out of what is touched
+  dealii::Tensor<1, 3> normal;   ///< unit, out of the touched surface
   Friction friction = Friction::none;
-  dealii::Tensor<1, 3> slip; ///< unit: how the body slides on what it touches there, or would
-  double use = 0.;           ///< the part of friction's limit that a point which sticks bears
+  dealii::Tensor<1, 3> slip; ///< unit: actual or potential direction of slip on the touched surface
+  double use = 0.;           ///< the ratio of traction to friction limit at a point that sticks
 
-  /// Whether friction bears there all that it can, or nearly.
+  /// Whether friction is at its limit, or nearly so.
   bool is_near_limit() const {
     constexpr double nearly = 0.9;
     return friction == Friction::slips || (friction == Friction::sticks && use >= nearly);
   }
 };
 
-/// The point at `position` with this traction on the body; `friction` may be null. Without tangential
-/// traction no slip has a direction: such a point counts as frictionless.
+/// Makes the point at `position` with this traction on the body; `friction` may be null. Without tangential
+/// traction the slip has no direction: such a point counts as frictionless.
 inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &position,
                                              const dealii::Tensor<1, 3> &normal, const FrictionLaw *friction,
                                              const ContactStatus status,

@@ -11,19 +11,19 @@
 
 namespace billet {
 
-/// Watches nodes that may go through a tool thinner than two facets, from one end of a step to the other. All
+/// Detects nodes that pass through a tool thinner than two facets, from the start of a step to its end. All
 /// positions are in the tool's coordinates.
 class ThinToolWatch {
 public:
-  /// Returns a watch if the surface is thin beside facets up to this size [length]. Keeps a reference to the
-  /// surface.
+  /// Returns a watch if the surface is thin compared with facets up to this size [length]. Keeps a reference
+  /// to the surface.
   static std::optional<ThinToolWatch> make(const RigidSurface &surface, double max_facet_size);
 
-  /// The smallest extent of the tool [length].
+  /// Returns the smallest extent of the tool [length].
   double thickness() const { return thickness_; }
-  /// Sets where nodes are at the start of the step.
+  /// Sets the positions of nodes at the start of the step.
   void remember(std::vector<dealii::Tensor<1, 3>> positions) { positions_n_ = std::move(positions); }
-  /// Drops these positions: none is found to pass until the next ones are known.
+  /// Clears these positions: no passage is found until new ones are set.
   void forget() { positions_n_.clear(); }
   bool knows_positions() const { return !positions_n_.empty(); }
 
@@ -34,7 +34,7 @@ public:
     double distance;         ///< to the surface; < 0 behind it [length]
     double penetration = 0.; ///< of a node that touches [length]
   };
-  /// Whether node i has gone through the tool, or is about as near to its other side. Requires
+  /// Whether node i has passed through the tool, or is about as near to its other side. Requires
   /// knows_positions().
   bool passes(std::size_t i, const Node &node) const;
 

@@ -9,12 +9,12 @@
 
 namespace billet {
 
-/// What follows from the position of a node that may touch a tool.
+/// State that follows from the position of a node that may touch a tool.
 struct ToolContactState {
   dealii::Tensor<1, 3> position;
   dealii::Tensor<1, 3> normal;
   dealii::Tensor<2, 3> turning; ///< ∂n/∂x
-  double gap = 0.;              ///< to the surface raised by the lift
+  double gap = 0.;              ///< to the surface raised by the gap offset
   unsigned int patch = 0;
   ContactStatus status = ContactStatus::open;
   double pressure = 0.;
@@ -24,9 +24,9 @@ struct ToolContactState {
   FrictionAccount friction;      ///< of this step
   double tangential_energy = 0.; ///< per area
   double share = 1.;             ///< s, of the normal penalty
-  double fading_stiffness = 0.;  ///< beside that of the penalties [stress/length]
+  double fading_stiffness = 0.;  ///< in addition to that of the penalties [stress/length]
   bool is_behind = false;        ///< has missed the tool's surface, ...
-  bool is_passed = false;        ///< ... and the surface is before it now
+  bool is_passed = false;        ///< ... and is in front of the surface now
 };
 
 } // namespace billet

@@ -15,33 +15,34 @@
 
 namespace billet {
 
-/// What a slave node touches, or is near, and the traction on it.
+/// Facets that a slave node touches or is near, and the traction on it.
 struct SlaveState {
   TouchedFacet touched;
   bool is_near = false; ///< touches nothing yet, but may soon
-  /// Of what is touched or near: normal and gap, less the offset, and the facets, by index into the shares.
+  /// Normal and gap, less the offset, of the touched or near facets, and these facets, by index into the
+  /// shares.
   SharedGap contact{dealii::Tensor<1, 3>(), 0.};
   std::size_t first_share = 0, end_of_shares = 0;
   SlaveTraction traction;
   double own_area = 0.; ///< of this rank's facets [length²]
-  double area = 0.;     ///< of all [length²]
+  double area = 0.;     ///< of all ranks' facets [length²]
   bool rests = false;   ///< touches without pressing
 
-  /// Whether it is held: it touches, and may bear pressure or friction.
+  /// Whether the node is in contact: it touches, and may bear pressure or friction.
   bool presses() const { return touched.exists() && (contact.gap < 0. || rests); }
   bool has_pressure() const { return presses() && traction.pressure > 0.; }
 };
 
-/// The states of all slave nodes at the last evaluation, and what follows from them alone: areas, motions,
+/// States of all slave nodes at the last evaluation, and results that follow from them alone: areas, motions,
 /// forces on nodes and facets.
 class TouchingSlaves {
 public:
-  /// All have to outlive this.
+  /// All arguments must outlive this object.
   TouchingSlaves(const ContactSurfaces &surfaces, const SlaveNodes &slaves, const GapOffsets &offsets,
                  const SlaveStart &start);
 
-  /// Begins an evaluation at the end of a step that lasts so long. SlaveFinder then sets one state after the
-  /// other.
+  /// Begins an evaluation at the end of a step of this duration [time]. SlaveFinder then sets the states in
+  /// order.
   void start_evaluation(const double duration) {
     duration_ = duration;
     shares_.clear();
@@ -50,11 +51,11 @@ public:
   std::size_t size() const { return states_.size(); }
   SlaveState &operator[](const std::size_t s) { return states_[s]; }
   const SlaveState &operator[](const std::size_t s) const { return states_[s]; }
-  /// Of all slaves, one after the other.
+  /// Returns the shares of all slaves, in their order.
   std::vector<FacetShare> &shares() { return shares_; }
   const std::vector<FacetShare> &shares() const { return shares_; }
 
-  /// What a slave holds against a share's facet: itself, or a point of its own facet.
+  /// Returns the point of a slave that touches a share's facet: the node itself, or a point of its own facet.
   dealii::Tensor<1, 3> point_of(const std::size_t s, const FacetShare &share,
                                 const ContactSurfaces::Positions &positions) const {
     return share.slave_facet == FacetShare::none
@@ -62,27 +63,28 @@ public:
                : facet::interpolate(share.slave_weights,
                                     corners_of(surfaces_.facet(share.slave_facet), positions));
   }
-  /// This rank's part of the area with which a share counts [length²].
+  /// Returns this rank's part of the area of a share [length²].
   double area_of(const SlaveState &state, const FacetShare &share) const {
     if (share.slave_facet == FacetShare::none)
       return share.share * state.own_area;
     return surfaces_.owns(share.slave_facet) ? share.share * state.area : 0.;
   }
-  /// What a share's force grows with for each depth, or more [length²].
+  /// Returns an upper bound of the area by which a share's force grows with penetration [length²].
   double spring_area_of(const SlaveState &state, const FacetShare &share) const {
     const double area = area_of(state, share);
     return area > 0. ? std::max(area, share.area) : 0.;
   }
-  /// The part of the facets around a slave that this rank owns, by their number.
+  /// Returns the fraction of the facets around a slave that this rank owns, by number.
   double own_part(std::size_t s) const;
-  /// The distance of a slave that presses to the surface itself, whatever augmentation has done [length].
+  /// Returns the distance of a slave that presses to the surface itself, regardless of augmentation [length].
   double penetration_of(const std::size_t s) const {
     return std::abs(states_[s].contact.gap + offsets_.augmentation[s]);
   }
 
-  /// How a slave that presses has moved over the step on what it touches now.
+  /// Computes the motion, over the step, of a slave that presses relative to the surface that it touches now.
   SlaveMotion motion_of(std::size_t s) const;
-  /// How a slave that does not press has moved on the facet that it touched at the start of the step.
+  /// Computes the motion of a slave that does not press relative to the facet that it touched at the start of
+  /// the step.
   SlaveMotion motion_after_contact(std::size_t s) const;
 
   /// Calls visit(share, force on the slave, reaction on the corners) for each facet that a slave touches.

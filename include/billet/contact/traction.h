@@ -14,13 +14,14 @@ using parameters::ContactTangent;
 
 enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 
-/// Stiffer than this, relative to E/h, augmentation does not make penalties: each one leaves little then.
+/// Maximum penalty, relative to E/h, to which augmentation raises penalties: each augmentation then leaves
+/// little penetration.
 constexpr double enough_penalty = 10.;
-/// By which those of the program may be raised beyond that.
+/// Maximum factor by which the program may raise penalties beyond that.
 constexpr double most_raise = 100.;
 
-/// The largest power of 2 not above a factor of penalties: products of those are exact in any order, so that
-/// a run that goes on from a checkpoint has the same penalties to the last bit.
+/// Returns the largest power of 2 not above a factor of penalties. Products of such powers are exact in any
+/// order, so that a restarted run has bitwise identical penalties.
 inline double whole_octaves(const double factor) { return std::exp2(std::floor(std::log2(factor))); }
 
 /// Penalties of a node [force/length³].
@@ -44,21 +45,22 @@ struct FrameTraction {
 /// The relative tangential motion of a node over a step, on the current q and r.
 struct TangentialIncrement {
   std::array<double, 2> value; ///< Δg [length]
-  /// ∂Δg/∂(u_q, u_r, u_n). (1 0 0; 0 1 0) on a plane; the turning of the frame and, where a node enters
-  /// contact within the step, its entry add to it. Only the exact tangent asks for it.
+  /// ∂Δg/∂(u_q, u_r, u_n): (1 0 0; 0 1 0) on a plane. The rotation of the frame and, where a node enters
+  /// contact within the step, its entry contribute. Only the exact tangent uses it.
   std::array<std::array<double, 3>, 2> gradient{{{1., 0., 0.}, {0., 1., 0.}}};
-  /// Slip rate = slip × this [1/time], 0 in a step without duration: then `rate` is the slip rate.
+  /// The slip rate is slip × this [1/time]. In a step without duration this is 0, and `rate` is the slip
+  /// rate.
   double per_time = 0.;
   double rate = 0.;
 };
 
-/// Friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the slave's normal
-/// points against n. With L(p, γ/Δt) the friction law's limit, μ p for Coulomb's law:
+/// Computes friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the
+/// slave's normal points against n. With L(p, γ/Δt) the friction law's limit, μ p for Coulomb's law:
 /// - trial: t* = t_n − k_t Δg;
 /// - stick, if |t*| ≤ L(p, 0): t = t*;
 /// - slip otherwise: |t*| − k_t γ = L(p, γ/Δt), t = L t*/|t*|.
 ///
-/// Where `gap` >= 0 the node only just touches: it has no traction, and sticks once it is pressed.
+/// If `gap` >= 0, the node touches without traction, and sticks once it is pressed.
 ///
 /// `tangential_n` is the traction at the start of the step. Tangents per area, with β = L/|t*|,
 /// t̂ = t*/|t*|, ρ = L_v/(k_t Δt + L_v), and L_p and L_v the limit's slopes:
@@ -73,7 +75,7 @@ FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &s
                                ContactTangent tangent, double gap, const std::array<double, 2> &tangential_n,
                                const TangentialIncrement &increment);
 
-/// The same without friction: only pressure and k_n n⊗n.
+/// Computes the traction without friction: only pressure and k_n n⊗n.
 FrameTraction compute_frictionless_traction(double normal_stiffness, double gap);
 
 } // namespace billet

@@ -12,34 +12,35 @@
 
 namespace billet {
 
-/// A boundary face of an owned element. Corners in lexicographic order, (−1,−1), (1,−1), (−1,1), (1,1),
-/// turned so that ∂x/∂ξ × ∂x/∂η points out of the body.
+/// Boundary face of an owned element. Its corners are in lexicographic order, (−1,−1), (1,−1), (−1,1), (1,1),
+/// oriented so that ∂x/∂ξ × ∂x/∂η points out of the body.
 struct BoundaryFacet {
   std::array<std::array<DofIndex, 3>, 4> dofs;
   std::array<dealii::Point<3>, 4> corners; ///< undeformed
-  double thickness;                        ///< of the element below it: its volume over the facet's area
-  std::uint64_t key;                       ///< that no other has, the same on any number of ranks
+  double thickness;                        ///< of its element: volume over the facet's area
+  std::uint64_t key;                       ///< unique, the same on any number of ranks
 
-  /// Of the undeformed facet, half the cross product of its diagonals [length²].
+  /// Returns the area vector of the undeformed facet, half the cross product of its diagonals [length²].
   dealii::Tensor<1, 3> area_vector() const {
     return 0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]);
   }
 };
 
-/// Facets of a body whose boundary id is among `boundary_ids`, on this rank.
+/// Returns the facets of a body on this rank whose boundary id is among `boundary_ids`.
 std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body,
                                                    const std::vector<unsigned int> &boundary_ids);
 
-/// All facets of a body on this rank, whatever their boundary ids.
+/// Returns all facets of a body on this rank, whatever their boundary ids.
 std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization, std::size_t body);
 
-/// What the undeformed facets around a node are like [length].
+/// Dimensions of the undeformed facets around a node [length].
 struct FacetSize {
-  double size = 0.;      ///< h, the root of their mean area
-  double thickness = 0.; ///< of the elements below them: the volumes over the areas
+  double size = 0.;      ///< h, square root of their mean area
+  double thickness = 0.; ///< of their elements: sum of volumes over sum of areas
 };
 
-/// At each node of these facets, by its first dof, with those of other ranks. Collective.
+/// Returns the facet size at each node of these facets, by its first dof, including facets of other ranks.
+/// Collective.
 std::map<DofIndex, FacetSize> compute_facet_sizes(const Discretization &discretization,
                                                   const std::vector<BoundaryFacet> &facets);
 

@@ -13,7 +13,7 @@ namespace billet {
 
 using Constraints = dealii::AffineConstraints<double>;
 
-/// A linear constraint u_dof = Σ factor u_other + value, but for its value.
+/// Linear constraint u_dof = Σ factor u_other + value, without its value.
 struct ConstraintLine {
   DofIndex dof;
   std::vector<std::pair<DofIndex, double>> others;
@@ -22,25 +22,25 @@ struct ConstraintLine {
 /// Constraints of one origin, such as supports or hanging nodes.
 struct ConstraintSource {
   const std::vector<ConstraintLine> &lines;
-  std::vector<double> values{}; ///< of the lines; none: all are 0 [length]
+  std::vector<double> values{}; ///< of the lines; empty: all are 0 [length]
 };
 
-/// Returns the closed constraints of all sources. Where several sources constrain one dof the first one
-/// counts. A line may depend on dofs that other lines constrain.
+/// Returns the closed constraints of all sources. If several sources constrain a dof, the first one applies.
+/// A line may depend on dofs that other lines constrain.
 Constraints build_constraints(const dealii::IndexSet &owned, const dealii::IndexSet &relevant,
                               const std::vector<ConstraintSource> &sources);
 
-/// Returns the constraints that keep displacements continuous where a face has a refined neighbour, of all
-/// relevant dofs; none on a mesh without hanging nodes.
+/// Returns the constraints of all relevant dofs that keep displacements continuous at faces with a refined
+/// neighbour; none on a mesh without hanging nodes.
 std::vector<ConstraintLine> collect_hanging_nodes(const dealii::DoFHandler<3> &dof_handler,
                                                   const dealii::IndexSet &relevant);
 
 /// Returns whether constraints of any rank name dofs that another rank owns. Collective.
 bool couple_ranks(const Constraints &constraints, const dealii::IndexSet &owned, MPI_Comm communicator);
 
-/// Folds forces on constrained dofs into those that they depend on, and empties them: the transpose of
-/// Constraints::distribute() without values. `forces` has owned entries. Collective if the constraints couple
-/// ranks.
+/// Transfers forces on constrained dofs to the dofs on which these depend, and sets them to 0: the transpose
+/// of Constraints::distribute() without values. `forces` has owned entries. Collective if the constraints
+/// couple ranks.
 void condense(const Constraints &constraints, bool couples_ranks, Vector &forces);
 
 } // namespace billet

@@ -18,17 +18,17 @@ namespace billet {
 using DofIndex = dealii::types::global_dof_index;
 using CellIterator = dealii::DoFHandler<3>::active_cell_iterator;
 
-/// One owned hexahedron.
+/// Owned hexahedral element.
 struct Element {
   CellIterator cell;
   std::array<DofIndex, n_element_dofs> dofs; ///< node by node
 };
 
-/// The mesh of all bodies, partitioned by METIS so that each rank holds its own cells and one layer around
-/// them, and the displacement's degrees of freedom on it. Cell material ids are body indices.
+/// Mesh of all bodies, partitioned by METIS, and the displacement's degrees of freedom on it. Each rank holds
+/// its own cells and one layer around them. Cell material ids are body indices.
 class Discretization {
 public:
-  /// Builds the mesh on the first rank and sends it out. Throws InputError.
+  /// Builds the mesh on the first rank and distributes it. Throws InputError.
   Discretization(const Scene &scene, MPI_Comm communicator);
 
   MPI_Comm communicator() const { return communicator_; }
@@ -36,17 +36,17 @@ public:
   const dealii::IndexSet &owned_dofs() const { return owned_; }
   const dealii::IndexSet &relevant_dofs() const { return relevant_; }
   std::size_t n_bodies() const { return elements_.size(); }
-  /// Owned elements of a body.
+  /// Returns the owned elements of a body.
   const std::vector<Element> &elements(const std::size_t body) const { return elements_[body]; }
 
   std::size_t n_global_elements() const { return tria_.n_global_active_cells(); }
 
-  /// Of the undeformed bodies: the middle and half the diagonal of the box around them [length].
+  /// Middle, and half the diagonal, of the bounding box of the undeformed bodies [length].
   const dealii::Tensor<1, 3> &centre() const { return centre_; }
   double radius() const { return radius_; }
 
-  /// A vector of owned entries; one of relevant entries to read from; one to add to from any rank that shares
-  /// a dof.
+  /// Vector of owned entries; of relevant entries to read from; of entries to which every rank that shares a
+  /// dof can add.
   Vector make_owned_vector() const { return Vector(owned_, communicator_); }
   Vector make_ghosted_vector() const { return Vector(owned_, relevant_, communicator_); }
   Vector make_additive_vector() const {
@@ -66,7 +66,7 @@ private:
   double radius_ = 0.;
 };
 
-/// Entries of a ghosted vector at the dofs of an element.
+/// Returns the entries of a ghosted vector at the dofs of an element.
 inline ElementVectors gather(const Vector &vector, const std::array<DofIndex, n_element_dofs> &dofs) {
   ElementVectors values{};
   for (unsigned int i = 0; i < n_element_dofs; ++i)
@@ -74,7 +74,7 @@ inline ElementVectors gather(const Vector &vector, const std::array<DofIndex, n_
   return values;
 }
 
-/// Reference positions of an element's nodes.
+/// Returns the reference positions of an element's nodes.
 ElementVectors nodal_positions(const CellIterator &cell);
 
 } // namespace billet

@@ -8,23 +8,23 @@
 
 namespace billet {
 
-/// A number of an element that no other element has, refined or not, the same on any number of ranks. It is
-/// that of the coarse cell, plus 2^32 times the element's place in the octree of that cell: 0 for the cell
-/// itself, 1 to 8 for its children, 9 to 72 for theirs, and so on. So a mesh that is not refined has the
-/// numbers of its cells.
+/// Unique number of an element, refined or not, the same on any number of ranks. It is the number of the
+/// coarse cell plus 2^32 times the element's place in the octree of that cell. The place is 0 for the cell
+/// itself, 1 to 8 for its children, 9 to 72 for theirs, and so on. In a mesh without refinement, keys equal
+/// cell numbers.
 using ElementKey = std::uint64_t;
 
-/// Refinements of one coarse cell that keys can tell apart. What multiplies keys (nodes, facets, points
-/// inside facets) needs 14 bits of the 64 for itself.
+/// Maximum refinement level that keys can represent. Keys of nodes, facets and points inside facets multiply
+/// element keys, for which 14 of the 64 bits are reserved.
 constexpr unsigned int max_refinement_level = 5;
 
 /// Returns the key of a cell of at most max_refinement_level refinements.
 ElementKey element_key(const dealii::CellId &id);
 
-/// Returns how often the coarse cell is refined down to the element.
+/// Returns the number of refinements from the coarse cell to the element.
 unsigned int refinement_level(ElementKey key);
 
-/// Returns the key of the element that was refined, of one that has a level above 0.
+/// Returns the key of the parent of an element above level 0.
 ElementKey parent_key(ElementKey key);
 
 /// Returns the key of a child, 0 to 7 in deal.II's order, of an element below max_refinement_level.

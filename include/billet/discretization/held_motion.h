@@ -10,20 +10,20 @@
 
 namespace billet {
 
-/// Supports, prescribed displacements and symmetry planes for schemes without a matrix: at a held node the
-/// velocity's components along the planes' normals are what the planes prescribe, the rest stays free.
+/// Constraints by supports, prescribed displacements and symmetry planes for schemes without a matrix. At a
+/// constrained node they prescribe the velocity's components along their normals; the others stay free.
 class HeldMotion {
 public:
   HeldMotion(const Scene &scene, const LocalNodes &nodes);
 
-  /// That are held.
+  /// Returns the constrained nodes.
   const std::vector<unsigned int> &nodes() const { return held_; }
 
-  /// Puts the nodes to where the planes have them at time t.
+  /// Sets the constrained displacements to their values at time t.
   void set_displacements(double t, NodalVectors &displacements) const;
 
-  /// Makes `velocities` those that bring `displacements` of time t to where the planes are at t + dt. Adds to
-  /// `impulses` what the planes give the nodes for it, masses being one entry a node [force time].
+  /// Sets the constrained `velocities` so that `displacements` at time t reach their prescribed values at t +
+  /// dt. Adds the impulses of the constraints to `impulses` [force time]. `masses`: one entry for each node.
   void constrain(double t, double dt, const NodalVectors &displacements, const std::vector<double> &masses,
                  NodalVectors &velocities, NodalVectors &impulses) const;
 
@@ -32,7 +32,7 @@ private:
     const Hold *hold;
     double weight;
   };
-  /// One of up to three orthonormal directions e at a node: e · u = Σ weight value(t).
+  /// One of up to three orthonormal constrained directions e at a node: e · u = Σ weight value(t).
   struct Direction {
     dealii::Tensor<1, 3> e;
     std::vector<Term> terms;

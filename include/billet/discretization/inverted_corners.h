@@ -7,12 +7,13 @@
 
 namespace billet {
 
-/// A warning for each body with undeformed elements that are inside out at a corner: there the edges span a
-/// negative volume, though it may be positive at all Gauss points. A corner whose edges lie in a plane, as of
-/// a wedge, is none. Collective.
+/// Returns a warning for each body with undeformed elements that are inverted at a corner. There the edges
+/// span a negative volume, though the Jacobian may be positive at all Gauss points. A corner with edges in
+/// one plane, as in a wedge, is not inverted. Collective.
 DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization);
-/// The same of bodies with more than a twentieth of such elements after these displacements, which have
-/// values at ghost nodes: no formulation sees a corner, and hourglass modes turn it around first. Collective.
+/// Returns a warning for each body in which more than a twentieth of the elements is inverted at a corner
+/// after these displacements. No formulation evaluates corners, and hourglass modes invert them first. The
+/// displacements have values at ghost nodes. Collective.
 DiagnosticList find_inverted_corners(const Scene &scene, const Discretization &discretization,
                                      const Vector &displacements);
 

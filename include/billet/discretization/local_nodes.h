@@ -12,34 +12,34 @@
 
 namespace billet {
 
-/// A vector at each local node, `nodal_stride` numbers apart.
+/// Vectors at the local nodes, `nodal_stride` numbers apart.
 using NodalVectors = dealii::AlignedVector<double>;
 
-/// The nodes of the elements that a rank owns, numbered from 0 as its elements name them, for schemes without
-/// a matrix. A node at elements of several ranks is on each of them; what they add to it is summed up by
-/// sum_shared(), on all of them in the same order, so that all have the same bits.
+/// Nodes of the elements that a rank owns, for schemes without a matrix, numbered from 0 in the order of the
+/// elements. Each rank has its own copy of a shared node. All ranks sum the contributions to it in the same
+/// order, in sum_shared(), so that results are bitwise equal.
 class LocalNodes {
 public:
   explicit LocalNodes(const Discretization &discretization);
 
   const Discretization &discretization() const { return discretization_; }
   unsigned int size() const { return static_cast<unsigned int>(dofs_.size()); }
-  /// Nodes of a body's elements, in the order of Discretization::elements().
+  /// Returns the nodes of a body's elements, in the order of Discretization::elements().
   const std::vector<std::array<unsigned int, n_element_nodes>> &elements(const std::size_t body) const {
     return elements_[body];
   }
-  /// Undeformed.
+  /// Returns the undeformed positions.
   const NodalVectors &positions() const { return positions_; }
   const std::array<DofIndex, 3> &dofs(const unsigned int node) const { return dofs_[node]; }
-  /// Of the node whose first dof this is; numbers::invalid_unsigned_int if it is not here.
+  /// Returns the node with this first dof; numbers::invalid_unsigned_int if it is not on this rank.
   unsigned int find(DofIndex first_dof) const;
-  /// Whether this rank is the one that speaks for the node in sums over all ranks.
+  /// Whether this rank counts the node in sums over all ranks.
   bool is_owned(const unsigned int node) const { return is_owned_[node]; }
 
   NodalVectors make_vectors() const { return NodalVectors(std::size_t{nodal_stride} * size(), 0.); }
   /// Replaces the entries of shared nodes by their sums over the ranks. Collective.
   void sum_shared(NodalVectors &values) const;
-  /// Copies into a ghosted vector. Collective.
+  /// Copies values into a ghosted vector. Collective.
   void copy(const NodalVectors &from, Vector &to) const;
 
 private:
@@ -54,11 +54,11 @@ private:
 
   struct Neighbour {
     unsigned int rank;
-    std::vector<unsigned int> nodes;    ///< shared with it, in the order of their dofs
-    std::vector<double> sent, received; ///< kept, so that a sum allocates nothing
+    std::vector<unsigned int> nodes;    ///< shared nodes, in the order of their dofs
+    std::vector<double> sent, received; ///< buffers, so that a sum allocates nothing
   };
-  /// Where the parts of a shared node's sum stand, in the order of the ranks: which neighbour, and at which
-  /// of its entries; this rank itself is own_part.
+  /// Contributions to the sum of a shared node, in the order of the ranks: the neighbour and the entry in its
+  /// buffer. This rank itself is own_part.
   struct SharedNode {
     unsigned int node;
     std::vector<std::pair<unsigned int, unsigned int>> parts;

@@ -12,13 +12,13 @@ namespace billet {
 
 inline ElementKey element_key(const CellIterator &cell) { return element_key(cell->id()); }
 
-/// Numbers of nodes that are the same on any number of ranks: 8 times that of the first element of the whole
-/// mesh that has the node, plus the node's place in it. They ascend as dofs do on one rank.
+/// Keys of nodes, the same on any number of ranks: 8 times the key of the first element of the whole mesh
+/// that has the node, plus the node's place in it. On one rank they ascend as dofs do.
 class NodeKeys {
 public:
   explicit NodeKeys(const Discretization &discretization);
 
-  /// Of a node at an element that this rank owns, by its first dof.
+  /// Returns the key of a node of an owned element, by its first dof.
   std::uint64_t operator()(const DofIndex first_dof) const { return keys_.at(first_dof); }
 
 private:

@@ -10,11 +10,11 @@
 
 namespace billet {
 
-/// Loads of all bodies on the elements and faces of a rank: first those on bodies, then those on deformed
-/// faces, then those on nodes.
+/// Loads of all bodies on the elements, faces and nodes of a rank, in the order: body loads, loads on
+/// deformed faces, nodal loads.
 class ExternalLoads {
 public:
-  /// `masses` of the nodes, this rank's share, as loads on bodies act on them.
+  /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads act.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
 
   /// Adds the forces [force] at time t.
@@ -25,12 +25,12 @@ public:
   void add_tangent(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                    double damping_factor, const TangentSystem &system) const;
 
-  /// Adds to bounds at the nodes: on the stiffness [force/length], component 0, and on the damping [force
-  /// time/length], component 1.
+  /// Adds to the bounds at the nodes: component 0 bounds the stiffness [force/length], component 1 the
+  /// damping [force time/length].
   void add_bounds(NodalVectors &bounds) const;
 
 private:
-  /// Sites on this rank of one load.
+  /// One load and its sites on this rank.
   template <class Action, class Site> struct Placed {
     const AppliedLoad *load;
     const Action *action;

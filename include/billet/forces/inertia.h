@@ -10,19 +10,20 @@
 
 namespace billet {
 
-/// The mass matrix of all bodies, element by element: it knows no constraints.
+/// Mass matrix of all bodies, element by element, without constraints.
 class Inertia {
 public:
-  /// `is_lumped`: row sums in place of the consistent matrix. Elements must not be inverted.
+  /// Computes the element masses. If `is_lumped`, row sums replace the consistent matrix. Elements must not
+  /// be inverted.
   Inertia(const Scene &scene, const Discretization &discretization, bool is_lumped);
 
-  /// M x of a ghosted vector, as an owned one. Collective.
+  /// Returns M x of a ghosted vector x, as an owned vector. Collective.
   Vector times(const Vector &ghosted) const;
   /// Adds `factor` M.
   void add_tangent(double factor, const TangentSystem &system) const;
-  /// Row sums at the nodes, this rank's share [mass].
+  /// Returns this rank's share of the row sums at the nodes [mass].
   std::vector<double> nodal_masses(const LocalNodes &nodes) const;
-  /// Of all bodies, on all ranks the same.
+  /// Returns the mass of all bodies, the same on all ranks [mass].
   double total() const { return total_; }
 
 private:

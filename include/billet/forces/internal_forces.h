@@ -16,17 +16,18 @@ public:
   /// Throws InputError, on all ranks, if an element is inverted in the undeformed mesh.
   InternalForces(const Scene &scene, const Discretization &discretization);
 
-  /// Begins a step of this length [time]; of zero where the state at the start is to be evaluated.
+  /// Begins a step of this length [time]; zero evaluates the state at the start.
   void start_step(const double dt) { step_.dt = dt; }
 
-  /// Adds the forces [force] to `forces` (additive vector). False if an element on this rank is not
+  /// Adds the forces [force] to `forces` (additive vector). Returns false if an element on this rank is not
   /// admissible.
   bool assemble_forces(const Vector &displacements, Vector &forces);
 
-  /// Adds the tangent [force/length]. False as above. `yield_slack`: see PointStep.
+  /// Adds the tangent [force/length]. Returns false as assemble_forces() does. For `yield_slack`, see
+  /// PointStep.
   bool assemble_tangent(const Vector &displacements, const TangentSystem &system, double yield_slack = 0.);
 
-  /// The state of the last assembly becomes the start of the next step.
+  /// Makes the state of the last assembly the start of the next step.
   void commit();
 
   struct Energies {
@@ -35,20 +36,20 @@ public:
     double hourglass = 0.; ///< stored by the stabilisation
     double total() const { return elastic + plastic + hourglass; }
   };
-  /// At a history and the displacements that belong to it; on all ranks the same.
+  /// Computes the energies at a history and its displacements; the same on all ranks.
   Energies compute_energies(const Vector &displacements, Beat beat = Beat::committed) const;
 
-  /// One entry for each owned element of the body, in the order of Discretization::elements().
+  /// Returns one entry for each owned element of the body, in the order of Discretization::elements().
   std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements,
                                         Beat beat = Beat::committed) const;
 
-  /// The same of the layers; empty if the body has two points through the thickness.
+  /// Returns the summaries of the layers; empty if the body has two points through the thickness.
   std::vector<LayerSummaries> summarize_layers(std::size_t body, const Vector &displacements) const;
 
-  /// Doubles of history on this rank.
+  /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 
-  /// For checkpoints.
+  /// Returns the element block of a body, for checkpoints.
   ElementBlock &block(const std::size_t body) { return *blocks_[body]; }
   const ElementBlock &block(const std::size_t body) const { return *blocks_[body]; }
 

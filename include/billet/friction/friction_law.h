@@ -15,19 +15,19 @@ class FrictionLaw {
 public:
   virtual ~FrictionLaw() = default;
 
-  /// Words such as "mu = 0.1 up to 50".
+  /// Describes the law, for example "mu = 0.1 up to 50".
   virtual std::string description() const = 0;
-  /// Returns a typical ratio of limit and pressure at rest, by which plausibility and the softness of
-  /// tangential springs are judged.
+  /// Returns a typical ratio of limit to pressure at rest, for checks of plausibility and of the stiffness of
+  /// tangential springs.
   virtual double coefficient() const = 0;
   /// Returns the limit at a pressure >= 0 [stress] and a slip rate >= 0 [length/time].
   virtual FrictionLimit limit(double pressure, double slip_rate) const = 0;
 };
 
-/// Null where there is no friction: then no history is kept.
+/// Null without friction; then there is no history.
 using FrictionPointer = std::shared_ptr<const FrictionLaw>;
 
-/// Friction laws that a scene file can name. A new one is a file in source/friction/ with a function that
+/// Friction laws that a scene file can name. To add one, add a file in source/friction/ with a function that
 /// returns its type, and its name in the table of friction_law.cc.
 using FrictionLawType = RegisteredType<FrictionPointer>;
 TypeTable<FrictionPointer> &friction_law_types();
@@ -37,7 +37,7 @@ extern const TypeParameter friction_coefficient_parameter;
 /// Returns the friction coefficient, which must not be 0.
 double read_friction_coefficient(const TypeInput &input);
 
-/// Stands for a law where there is none, so that loops over nodes choose once.
+/// Placeholder for a law without friction, so that loops over nodes choose once.
 struct Frictionless {};
 
 /// Calls evaluate(law), or evaluate(Frictionless()) for a null pointer.

@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// A coefficient that falls with pressure, as lubricated sheets show (Filzek & Groche 2000):
+/// Friction coefficient that decreases with pressure, as for lubricated sheets (Filzek & Groche 2000):
 ///   μ = μ_0 (p/p_0)^(e − 1),   so that the limit μ p grows as p^e.
 class PressureDependent final : public FrictionLaw {
 public:
@@ -19,7 +19,7 @@ public:
   std::string description() const override;
   double coefficient() const override { return coefficient_; }
   FrictionLimit limit(const double pressure, double) const override {
-    if (!(pressure > 0.)) // where the slope has no limit
+    if (!(pressure > 0.)) // where the slope is unbounded
       return {0., 0., 0.};
     const double mu = coefficient_ * std::pow(pressure / reference_pressure_, exponent_ - 1.);
     return {mu * pressure, exponent_ * mu, 0.};

@@ -9,14 +9,14 @@
 
 namespace billet {
 
-/// Boxes in a binary tree, halved along their longest extent, to find those that are near a point.
+/// Binary tree of boxes, split along their longest extent, for searches near a point.
 class BoxTree {
 public:
-  /// Boxes with infinite sides stand beside the tree.
+  /// Boxes with infinite sides are kept outside the tree.
   explicit BoxTree(const std::vector<BoundingBox> &boxes);
 
-  /// Calls visit(index) for the boxes that are no farther from x than the root of `largest_square`, which
-  /// visit() may lower, near ones before far ones.
+  /// Calls visit(index) for the boxes whose squared distance from x is at most `largest_square`, near ones
+  /// first. visit() may lower `largest_square`.
   template <class Visit>
   void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const {
     for (const Entry &entry : unbounded_)
@@ -26,7 +26,7 @@ public:
       unsigned int node;
       double square;
     };
-    std::array<Candidate, 64> stack; // one a level
+    std::array<Candidate, 64> stack; // one entry per level
     unsigned int n = 0;
     if (!nodes_.empty())
       stack[n++] = {0, nodes_[0].box.distance_square(x)};
@@ -56,11 +56,11 @@ private:
     BoundingBox box;
     unsigned int index;
   };
-  /// Its first child follows it.
+  /// Node of the tree; its first child follows it.
   struct Node {
     BoundingBox box;
-    unsigned int second;     ///< child; 0 for a leaf
-    unsigned int begin, end; ///< of a leaf's boxes
+    unsigned int second;     ///< second child; 0 for a leaf
+    unsigned int begin, end; ///< range of a leaf's boxes
   };
   void add_node(unsigned int begin, unsigned int end);
 

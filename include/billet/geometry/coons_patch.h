@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// The surface that four curves span, bilinearly blended (Coons, MIT report MAC-TR-41, 1967): with c_0, c_1
-/// at v = 0, 1 and d_0, d_1 at u = 0, 1, which meet in the corners P_ij at u = i, v = j,
+/// Bilinearly blended surface spanned by four curves (Coons, MIT report MAC-TR-41, 1967): with c_0, c_1 at v
+/// = 0, 1 and d_0, d_1 at u = 0, 1, which meet in the corners P_ij at u = i, v = j,
 ///   X(u, v) = (1 − v) c_0(u) + v c_1(u) + (1 − u) d_0(v) + u d_1(v)
 ///             − (1 − u)(1 − v) P_00 − u (1 − v) P_10 − (1 − u) v P_01 − u v P_11.
 /// It contains the curves; its normal is along X_u × X_v.
@@ -18,10 +18,10 @@ class CoonsPatch final : public SurfacePatch {
 public:
   using Point = dealii::Tensor<1, 3>;
 
-  /// The curves run round the patch, each from where the one before ends: c_0, d_1, c_1 backwards, d_0
-  /// backwards. That is counter-clockwise for one who looks against the normal. Sides may have shrunk to a
-  /// point, but not two neighbours. Throws std::invalid_argument, with the reason, where the curves do not
-  /// meet or the patch folds over, crosses itself or has no area.
+  /// Makes a patch from curves that run around it, each starting at the end of the previous one: c_0, d_1,
+  /// reversed c_1, reversed d_0. The order is counter-clockwise when seen against the normal. A side may
+  /// degenerate to a point, but not two adjacent ones. Throws std::invalid_argument, with the reason, if the
+  /// curves do not meet or the patch folds over, intersects itself or has no area.
   explicit CoonsPatch(const std::array<CurveSketch, 4> &round);
 
   ClosestPoint closest_point(const Point &x) const override;
@@ -34,8 +34,8 @@ public:
   };
   Jet at(double u, double v) const;
 
-  /// Unit normal where `jet` was taken at u, v. Where X_u × X_v vanishes, as on a side that has shrunk to a
-  /// point, its limit from the middle of the patch; 0 if there is none.
+  /// Returns the unit normal at u, v, where `jet` was evaluated. Where X_u × X_v vanishes, as on a side that
+  /// is a point, it is the limit from the middle of the patch; 0 if there is none.
   Point normal(const Jet &jet, double u, double v) const;
 
 private:
@@ -44,15 +44,15 @@ private:
   struct Range {
     double low_u, high_u, low_v, high_v;
   };
-  /// Part of the patch that is looked at as a whole in the search for closest points.
+  /// Part of the patch that the search for closest points accepts or rejects as a whole.
   struct Cell {
     Range range;
     Jet middle;
     std::array<Point, 4> arms; ///< from the middle to the corners
-    Point slack; ///< by component, how far the cell is at most from its corners' bilinear surface
-    /// Not less than |X_uu| + |X_uv| and |X_vv| + |X_uv|, in lengths instead of u and v. [1/length]
+    Point slack; ///< maximum deviation of the cell from its corners' bilinear surface, by component
+    /// Upper bounds of |X_uu| + |X_uv| and |X_vv| + |X_uv|, in lengths instead of u and v. [1/length]
     double bend_u, bend_v;
-    /// Not less than the third derivatives |X_uuu|, |X_uuv|, |X_uvv|, |X_vvv|, likewise. [1/length²]
+    /// Upper bounds of the third derivatives |X_uuu|, |X_uuv|, |X_uvv|, |X_vvv|, likewise. [1/length²]
     double uuu, uuv, uvv, vvv;
   };
   struct Ball {
@@ -62,7 +62,7 @@ private:
   struct Foot {
     double u, v;
     Jet jet;
-    double square; ///< of the distance
+    double square; ///< square of the distance
   };
   struct Step {
     double u, v;    ///< in lengths
@@ -73,8 +73,8 @@ private:
   void measure();
   void make_cells();
   Cell make_cell(unsigned int i, unsigned int j) const;
-  void refuse_folds() const;     ///< where normals turn back
-  void refuse_crossings() const; ///< where facets of its picture's size go through each other
+  void refuse_folds() const;     ///< throws where normals reverse
+  void refuse_crossings() const; ///< throws where facets of the drawn size intersect
 
   Foot foot(const Point &x) const;
   bool may_be_nearer(std::size_t cell, const Point &arm, double square, double distance) const;
@@ -86,13 +86,13 @@ private:
   dealii::Tensor<2, 3> turning(const Foot &foot, const Point &normal, double gap) const;
 
   std::vector<Curve> curves_;            ///< c_0, d_1, c_1, d_0
-  std::array<bool, 4> is_pole_;          ///< whether the curve has shrunk to a point
+  std::array<bool, 4> is_pole_;          ///< whether the curve is a point
   std::array<Point, 4> corners_;         ///< P_00, P_10, P_11, P_01
-  double size_ = 0.;                     ///< greatest distance of the curves' points from the first
+  double size_ = 0.;                     ///< maximum distance of the curves' points from the first
   double length_u_ = 0., length_v_ = 0.; ///< means of |X_u|, |X_v|
-  unsigned int n_u_ = 0, n_v_ = 0;       ///< cells
+  unsigned int n_u_ = 0, n_v_ = 0;       ///< number of cells
   std::vector<Cell> cells_;
-  std::vector<Ball> balls_; ///< that hold the cells
+  std::vector<Ball> balls_; ///< balls that contain the cells
   BoundingBox box_;
 };
 

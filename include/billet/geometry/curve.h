@@ -9,48 +9,48 @@
 
 namespace billet {
 
-/// A curve in space as a user draws it.
+/// Curve in space as the user defines it.
 struct CurveSketch {
   enum class Kind { point, line, arc, spline };
 
   Kind kind;
-  /// Of a point one, of a line two (start, end), of an arc three (start, on the way, end), of a spline at
-  /// least three. [length]
+  /// Points that define the curve [length]: point 1; line 2 (start, end); arc 3 (start, on the arc, end);
+  /// spline at least 3.
   std::vector<dealii::Tensor<1, 3>> points;
 
   CurveSketch reversed() const;
 };
 
 /// Reads 'point: x, y, z', 'line: x, y, z to x, y, z', 'arc: x, y, z via x, y, z to x, y, z' or 'spline: x,
-/// y, z via x, y, z via ... to x, y, z'. Throws std::invalid_argument with what is allowed.
+/// y, z via x, y, z via ... to x, y, z'. Throws std::invalid_argument with the allowed forms.
 CurveSketch read_curve(const std::string &text);
 
-/// "(x, y, z)", for messages.
+/// Returns "(x, y, z)", for messages.
 std::string print(const dealii::Tensor<1, 3> &point);
 
-/// A curve over t in [0, 1]: a line or an arc at constant speed; a spline, the cubic one with two continuous
-/// derivatives and natural ends (no second derivative there), whose knots are apart as its points are; or a
-/// point, over all t.
+/// Curve over t in [0, 1]. Lines and arcs have constant speed. A spline is cubic, with two continuous
+/// derivatives, natural ends (zero second derivative) and knots spaced as its points. A point is constant
+/// over t.
 class Curve {
 public:
   using Point = dealii::Tensor<1, 3>;
 
-  /// Throws std::invalid_argument, with the reason, where two neighbouring points coincide or those of an arc
-  /// are in line.
+  /// Throws std::invalid_argument, with the reason, if two neighbouring points coincide or the points of an
+  /// arc are collinear.
   explicit Curve(const CurveSketch &sketch);
 
   struct Jet {
-    Point position, first, second; ///< derivatives with respect to t
+    Point position, first, second; ///< position, and its derivatives with respect to t
   };
   Jet at(double t) const;
 
-  /// Not less than any component of the second derivative, by size, between t = `from` and `to`.
+  /// Returns upper bounds of the absolute components of the second derivative between t = `from` and `to`.
   Point largest_second(double from, double to) const;
-  /// Not less than the third derivative, by size, between t = `from` and `to`.
+  /// Returns an upper bound of the norm of the third derivative between t = `from` and `to`.
   double largest_third(double from, double to) const;
 
 private:
-  /// c_0 + c_1 s + c_2 s² + c_3 s³ with s = t − start.
+  /// Polynomial c_0 + c_1 s + c_2 s² + c_3 s³ with s = t − start.
   struct Span {
     double start;
     Point c0, c1, c2, c3;
@@ -59,8 +59,8 @@ private:
   void make_arc(const std::vector<Point> &points);
   void make_spline(const std::vector<Point> &points);
 
-  std::vector<Span> spans_; ///< none: an arc
-  /// Of the arc: x(t) = start + sin φ across − (1 − cos φ) arm with φ = sweep t.
+  std::vector<Span> spans_; ///< empty for an arc
+  /// Data of the arc: x(t) = start + sin φ across − (1 − cos φ) arm with φ = sweep t.
   Point start_, arm_, across_;
   double sweep_ = 0.;
 };

@@ -8,74 +8,74 @@
 
 namespace billet {
 
-/// A triangle over three corners P_i whose edges are parabolas: the quadratic patch of Nagata (2005), and a
-/// part that turns its normals at the edges without moving them. On u, v, w = 1 − u − v ≥ 0
+/// Triangle over three corners P_i whose edges are parabolas: the quadratic patch of Nagata (2005), plus a
+/// term that rotates the normals along the edges without moving the edges. On u, v, w = 1 − u − v ≥ 0
 ///   p = w P_0 + u P_1 + v P_2 − w u c_01 − u v c_12 − v w c_20 + F a,
 ///   F = w u v (w u l_01 + u v l_12 + v w l_20)/(w u + u v + v w),   a = (P_1 − P_0) × (P_2 − P_0),
-/// where c_ij is the bend of the edge between P_i and P_j, half of its second derivative, and l_ij is linear,
-/// α + β (λ_j − λ_i) with the weights λ of the corners. F is 0 on the edges; its derivative across an edge,
-/// towards the opposite corner, is λ_i λ_j l_ij there and does not depend on the other two.
+/// where c_ij, the bend of the edge between P_i and P_j, is half of its second derivative, and l_ij = α + β
+/// (λ_j − λ_i) is linear, with the weights λ of the corners. F is 0 on the edges; its derivative across an
+/// edge, towards the opposite corner, is λ_i λ_j l_ij there and does not depend on the other two.
 class CurvedTriangle {
 public:
   using Point = dealii::Tensor<1, 3>;
 
-  /// α and β of an edge [1/length].
+  /// Coefficients α and β of an edge [1/length].
   struct Seam {
     float alpha = 0.F, beta = 0.F;
   };
-  /// What the search for closest points needs to know of a triangle.
+  /// Bounds for a triangle that the search for closest points needs.
   struct Shape {
-    /// The part of the metric at the centroid that is left of p,i·p,j − (x − p)·p,ij anywhere in the triangle
-    /// for an x at the centroid: how far the squared distance is from having several minima. 1 if flat.
+    /// Minimum of p,i·p,j − (x − p)·p,ij over the triangle for an x at the centroid, relative to the metric
+    /// there. It measures how far the squared distance is from having several minima. 1 if flat.
     float convexity = 0.F;
-    /// Largest second derivative of F over this metric.
+    /// Maximum second derivative of F, relative to this metric.
     float roughness = 0.F;
   };
 
-  /// bends[i], seams[i]: of the edge from corner i to the next one. [length, 1/length]
+  /// `bends`[i] and `seams`[i] belong to the edge from corner i to the next one. [length, 1/length]
   CurvedTriangle(const std::array<Point, 3> &corners, const std::array<Point, 3> &bends,
                  const std::array<Seam, 3> &seams);
 
   Point position(double u, double v) const { return point_at(u, v).p; }
-  /// p,u × p,v, as long as twice the area [length²].
+  /// Returns p,u × p,v; its norm is twice the area [length²].
   Point area_normal(double u, double v) const;
-  /// The point with its derivatives.
+  /// Returns the point with its derivatives.
   SurfacePoint point_at(double u, double v) const;
 
   Shape shape() const;
 
-  /// The true closest point; where `shape`, what shape() said, does not promise a single minimum of
-  /// the distance, the nearest of those that are found from a grid of starting points.
+  /// Returns the closest point. `shape` is the result of shape(). If it does not guarantee a single minimum
+  /// of the distance, the result is the nearest minimum found from a grid of starting points.
   ClosestPoint closest_point(const Point &x, const Shape &shape) const;
 
-  /// Whether the control points, and so the triangle, are farther from x than the root of `square` even along
-  /// the direction to the centroid.
+  /// Whether the control points, and so the triangle, are farther from x than the root of `square`, measured
+  /// along the direction to the centroid.
   bool is_farther(const Point &x, double square) const;
 
-  /// Holds the control points, and so the triangle.
+  /// Returns a box around the control points, and so around the triangle.
   BoundingBox bounding_box() const;
 
 private:
-  /// A symmetric 2 × 2 matrix.
+  /// Symmetric 2 × 2 matrix.
   struct Matrix {
     double uu, uv, vv;
     double along(const double u, const double v) const { return u * u * uu + 2. * u * v * uv + v * v * vv; }
   };
   static double determinant(const Matrix &m) { return m.uu * m.vv - m.uv * m.uv; }
-  /// A point of the triangle. at[i]: it lies on the edge opposite to corner i.
+  /// Point of the triangle. at[i]: it lies on the edge opposite to corner i.
   struct Iterate {
     double u, v;
     std::array<bool, 3> at;
     SurfacePoint point;
     Point arm;     ///< x − p
-    double square; ///< of the arm
+    double square; ///< square of its length
   };
   struct Step {
     double u = 0., v = 0.;
-    double slope = 0.;       ///< of half the squared distance, negative
-    unsigned int along = 3;  ///< the edge opposite to this corner, or 3: not along an edge
-    bool is_newton = true;   ///< else the curvature was left out
-    bool is_possible = true; ///< else the iterate is a corner that is a minimum
+    double slope = 0.;       ///< slope of half the squared distance, negative
+    unsigned int along = 3;  ///< the step is along the edge opposite to this corner; 3: not along an edge
+    bool is_newton = true;   ///< otherwise the curvature is neglected
+    bool is_possible = true; ///< otherwise the iterate is a corner that is a minimum
   };
 
   SurfacePoint quadratic_point_at(double u, double v) const;

@@ -9,26 +9,26 @@
 
 namespace billet {
 
-/// A surface of triangles that follow normals at their corners. The triangles share points and edges, so that
-/// the surface has no gaps whatever the normals are; where it is smooth they have common normals too.
+/// Surface of curved triangles that interpolate normals at their corners. The triangles share points and
+/// edges, so the surface has no gaps for any normals; where it is smooth they share normals, too.
 ///
 /// *Edges* are Nagata's (2005) parabolas, orthogonal to the normals at their ends. In the plane of the chord
 /// d and the mean normal ν = (n_0 + n_1)/2, with m_0 = n_0·d and m_1 = −n_1·d,
 ///   c = 2 m_0 m_1/((m_0 + m_1) ν·ν) ν + (m_0 − m_1)/(m_0 + m_1) d,
-/// which, other than the solution of least norm, stays finite as the normals become parallel. It is 0 where
-/// m_0 and m_1 differ in sign, since no parabola turns both ways; the part along d is at most d/2. At a sharp
-/// edge the tangents at the ends are where the normals of both sides allow them, n_a × n_b.
+/// which, unlike the minimum-norm solution, stays finite as the normals become parallel. It is 0 if m_0 and
+/// m_1 differ in sign, since a parabola has no inflection; the part along d is at most d/2. At a sharp edge
+/// the tangents at the ends are orthogonal to the normals of both sides: n_a × n_b.
 ///
-/// *Seams.* Along a smooth edge both triangles are turned, by their parts F, until they are orthogonal to
-/// n(t) − (n·x')x'/x'², n(t) linear between n_0 and n_1 and x' the edge's tangent. F is fitted at two points
-/// of the edge: between them the normals differ by O(h⁵), which would be O(h³) without.
+/// *Seams.* Along a smooth edge the terms F rotate both triangles until they are orthogonal to n(t) −
+/// (n·x')x'/x'², n(t) linear between n_0 and n_1 and x' the edge's tangent. F is fitted at two points of the
+/// edge. Between them the normals differ by O(h⁵); without F, by O(h³).
 class CurvedTriangles {
 public:
-  /// Facets whose normals differ by more than `sharp_angle` [radians] meet in a sharp edge; `is_smoothed`:
-  /// else all triangles are flat. `mesh` is welded, and has facets with an area.
+  /// Makes the triangles. Facets whose normals differ by more than `sharp_angle` [radians] meet in a sharp
+  /// edge. Without `is_smoothed` all triangles are flat. `mesh` must be welded and have facets with an area.
   CurvedTriangles(const TriangleMesh &mesh, const TriangleEdges &edges, double sharp_angle, bool is_smoothed);
 
-  /// A patch for each facet that has an area.
+  /// Returns a patch for each facet that has an area.
   static SurfacePatches patches(const std::shared_ptr<const CurvedTriangles> &triangles);
 
   CurvedTriangle triangle(const unsigned int facet) const {
@@ -38,7 +38,7 @@ public:
             {bends_[edges[0]], bends_[edges[1]], bends_[edges[2]]},
             seams_[facet]};
   }
-  /// How far the triangles on both sides of slivers, which are left out, may be apart [length].
+  /// Returns the maximum distance between the triangles on both sides of slivers, which are omitted [length].
   double border_accuracy() const { return facets_.sliver_height; }
   const CurvedTriangle::Shape &shape(const unsigned int facet) const { return shapes_[facet]; }
 
@@ -52,9 +52,9 @@ private:
   TriangleMesh mesh_;
   std::vector<std::array<unsigned int, 3>> edges_of_facet_;
   FacetNormals facets_;
-  std::vector<dealii::Tensor<1, 3>> bends_;                ///< of the edges
-  std::vector<std::array<CurvedTriangle::Seam, 3>> seams_; ///< of the triangles
-  std::vector<CurvedTriangle::Shape> shapes_;              ///< likewise
+  std::vector<dealii::Tensor<1, 3>> bends_;                ///< one per edge
+  std::vector<std::array<CurvedTriangle::Seam, 3>> seams_; ///< one per triangle and edge
+  std::vector<CurvedTriangle::Shape> shapes_;              ///< one per triangle
 };
 
 } // namespace billet

@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// A number that carries its derivatives by so many variables along (forward differentiation, Sacado). What a
-/// template computes with it has derivatives that are exact to round-off, of the same branches that doubles
-/// take.
+/// Number with its derivatives by at most this many variables (forward automatic differentiation, Sacado).
+/// Results of a template have derivatives that are exact to round-off; the code takes the same branches as
+/// with doubles.
 constexpr int most_variables = 192;
 using Derivative = Sacado::Fad::Exp::SLFad<double, most_variables>;
 
@@ -19,7 +19,7 @@ inline double value_of(const Derivative &x) { return x.val(); }
 
 } // namespace billet
 
-// So that deal.II's tensors take it.
+// Required by deal.II's tensors.
 template <> struct dealii::EnableIfScalar<billet::Derivative> { using type = billet::Derivative; };
 template <> struct dealii::internal::ProductTypeImpl<billet::Derivative, billet::Derivative> {
   using type = billet::Derivative;

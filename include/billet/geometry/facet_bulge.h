@@ -12,8 +12,8 @@ using FacetBulge = std::array<double, 4>;
 
 namespace facet {
 
-/// The height of that surface above the point (ξ, η) of the facet: the eight-node function, which is exact
-/// for heights that are quadratic in ξ and η, but for ξ²η²,
+/// Returns the height of that surface above the point (ξ, η) of the facet. The eight-node function is exact
+/// for heights quadratic in ξ and η, except ξ²η²,
 ///   b(ξ, η) = ½ (1 − ξ²) [(1 − η) b_0 + (1 + η) b_2] + ½ (1 − η²) [(1 + ξ) b_1 + (1 − ξ) b_3]        (C8)
 template <class Number> Number height(const FacetBulge &bulge, const std::array<Number, 2> &parameters) {
   const Number &xi = parameters[0], &eta = parameters[1];
@@ -21,7 +21,7 @@ template <class Number> Number height(const FacetBulge &bulge, const std::array<
          0.5 * (1. - eta * eta) * ((1. + xi) * bulge[1] + (1. - xi) * bulge[3]);
 }
 
-/// Its derivatives by ξ and η.
+/// Returns the derivatives of height() by ξ and η.
 template <class Number>
 std::array<Number, 2> height_gradient(const FacetBulge &bulge, const std::array<Number, 2> &parameters) {
   const Number &xi = parameters[0], &eta = parameters[1];
@@ -30,18 +30,18 @@ std::array<Number, 2> height_gradient(const FacetBulge &bulge, const std::array<
       -eta * ((1. + xi) * bulge[1] + (1. - xi) * bulge[3]) + 0.5 * (1. - xi * xi) * (bulge[2] - bulge[0])};
 }
 
-/// Whether the surface is another one than the facet.
+/// Whether the surface differs from the facet.
 inline bool has_height(const FacetBulge &bulge) {
   return bulge[0] != 0. || bulge[1] != 0. || bulge[2] != 0. || bulge[3] != 0.;
 }
 
-/// No less than the height anywhere.
+/// Returns an upper bound of the height.
 inline double largest_height(const FacetBulge &bulge) {
   return std::max({bulge[0], bulge[2], 0.}) + std::max({bulge[1], bulge[3], 0.});
 }
 
-/// From the unit normals of the smooth surface at the corners: a curve from x_a to x_b that is normal to n_a
-/// and n_b at its ends rises, to second order in its angle, to
+/// Computes the heights from the unit normals of the smooth surface at the corners. To second order in its
+/// angle, a curve from x_a to x_b that is normal to n_a and n_b at its ends rises to
 ///   b = (n_b − n_a)·(x_b − x_a)/8                                                                   (C9)
 /// above the middle of its chord: L²/(8 R) for a circle.
 inline FacetBulge bulge_from_normals(const FacetCorners &corners, const FacetCorners &normals) {

@@ -8,12 +8,12 @@
 
 namespace billet {
 
-/// Shape functions and their derivatives at one of the four Gauss points (±1/√3, ±1/√3), weights 1, of a
-/// facet.
+/// Shape functions and their derivatives at one of the four Gauss points of a facet, (±1/√3, ±1/√3) with
+/// weights 1.
 struct FacetPoint {
   std::array<double, 4> N, N_xi, N_eta;
 
-  /// ∂x/∂ξ and ∂x/∂η; position(a) is that of corner a.
+  /// Returns ∂x/∂ξ and ∂x/∂η; position(a) is the position of corner a.
   template <class Position> std::array<dealii::Tensor<1, 3>, 2> tangents(const Position &position) const {
     std::array<dealii::Tensor<1, 3>, 2> g;
     for (unsigned int a = 0; a < 4; ++a) {
@@ -22,7 +22,7 @@ struct FacetPoint {
     }
     return g;
   }
-  /// Their cross product.
+  /// Returns the cross product of the tangents.
   template <class Position> dealii::Tensor<1, 3> area_vector(const Position &position) const {
     const auto g = tangents(position);
     return dealii::cross_product_3d(g[0], g[1]);

@@ -17,13 +17,13 @@ using FacetCorners = FacetCornersOf<double>;
 
 namespace facet {
 
-/// The signs of ξ and η at the corners.
+/// Signs of ξ and η at the corners.
 inline constexpr std::array<std::array<double, 2>, 4> signs{{{-1., -1.}, {1., -1.}, {-1., 1.}, {1., 1.}}};
 
-/// The corners in the order in which they follow each other around the facet.
+/// Corners in cyclic order around the facet.
 inline constexpr std::array<unsigned int, 4> around{0, 1, 3, 2};
 
-/// Bilinear shape functions; their sum is 1 anywhere, and they are >= 0 inside.
+/// Returns the bilinear shape functions; their sum is 1 everywhere, and they are >= 0 inside.
 template <class Number> std::array<Number, 4> weights(const std::array<Number, 2> &parameters) {
   std::array<Number, 4> w{};
   for (unsigned int a = 0; a < 4; ++a)
@@ -35,24 +35,24 @@ inline std::array<double, 4> weights(const std::array<double, 2> &parameters) {
   return weights<double>(parameters);
 }
 
-/// Σ w_I x_I
+/// Returns Σ w_I x_I.
 template <class Number>
 dealii::Tensor<1, 3, Number> interpolate(const std::array<Number, 4> &weights,
                                          const FacetCornersOf<Number> &values) {
   return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2] + weights[3] * values[3];
 }
 
-/// The bilinear surface through the corners, X(ξ, η) = e_0 + ξ e_1 + η e_2 + ξη e_3.
+/// Bilinear surface through the corners, X(ξ, η) = e_0 + ξ e_1 + η e_2 + ξη e_3.
 template <class Number> struct ExpansionOf {
   ExpansionOf(const FacetCornersOf<Number> &x) // NOLINT(google-explicit-constructor): the same surface
       : e_0(0.25 * (x[0] + x[1] + x[2] + x[3])), e_1(0.25 * ((x[3] - x[0]) - (x[2] - x[1]))),
         e_2(0.25 * ((x[3] - x[0]) + (x[2] - x[1]))), e_3(0.25 * ((x[0] - x[1]) + (x[3] - x[2]))) {}
 
-  /// The mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the diagonals.
+  /// Returns the mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the diagonals.
   dealii::Tensor<1, 3, Number> mean_area_vector() const { return dealii::cross_product_3d(e_1, e_2); }
-  /// Else the facet has no normal.
+  /// Whether the facet has an area; otherwise it has no normal.
   bool has_area() const {
-    // What rounding of the corners' coordinates may leave of a facet that is a line.
+    // Relative area that round-off of the coordinates may leave for a facet degenerated to a line.
     constexpr double least = 1e-12;
     const Number size = 2. * mean_area_vector().norm();
     return size > least * (e_1 + e_2).norm_square() && size > least * (e_1 - e_2).norm_square();
@@ -62,39 +62,41 @@ template <class Number> struct ExpansionOf {
 };
 using Expansion = ExpansionOf<double>;
 
-/// One edge's factor of FacetProjection::share; `distance` from it is positive inside.
+/// Returns one edge's factor of FacetProjection::share; `distance` from the edge is positive inside.
 template <class Number> Number share_at(const Number &distance, const double zone) {
   const Number share = 0.5 * (distance / zone + 1.), positive = share > 0. ? share : Number(0.);
   return positive < 1. ? positive
-                       : Number(1.); // so written there is no jump, which nodes on a seam would mislead
+                       : Number(1.); // so written it is continuous; a jump would disturb nodes on a seam
 }
 
 } // namespace facet
 
-/// How far from a facet a node may be and still belong to it.
+/// Limits of the distance from a facet within which a node belongs to it.
 struct FacetLimits {
-  /// How far beyond an edge its projection may lie, relative to the facet's extent across that edge: so that
-  /// no node is lost in the seam of two facets whose planes, or normals, do not fit together.
+  /// Maximum distance of the projection beyond an edge, relative to the facet's extent across that edge. It
+  /// prevents the loss of nodes in the seam of two facets whose planes, or normals, do not match.
   double tolerance = 0.02;
-  /// How far from an edge, to both sides and relative to the same, facets share a node; > 0.
+  /// Distance from an edge, on both sides and relative to the same extent, within which facets share a node;
+  /// > 0.
   double zone = 0.1;
 };
 
-/// A node x before a facet or behind it.
+/// Projection of a node x in front of a facet or behind it.
 template <class Number> struct FacetProjectionOf {
-  /// The node is straight above or below the facet, within its limits. Else there may be no weights, and, if
-  /// the facet has no area, nothing at all.
+  /// Whether the node is directly above or below the facet, within its limits. Otherwise the weights may be
+  /// unset; if the facet has no area, everything is unset.
   bool exists = false;
-  dealii::Tensor<1, 3, Number> normal; ///< unit, out of the body
+  dealii::Tensor<1, 3, Number> normal; ///< unit vector, out of the body
   Number gap = 0.;                     ///< along the normal, negative where the node has penetrated [length]
-  /// Of the facet's corners. Their sum is 1, and, where `exists`, x − Σ w_I x_I is parallel to the normal: a
-  /// force along it at x and −w_I times that force at the corners balance, and so do their moments.
+  /// Weights of the facet's corners; their sum is 1. If `exists`, x − Σ w_I x_I is parallel to the normal. A
+  /// normal force at x and −w_I times that force at the corners then balance, and so do their moments.
   std::array<Number, 4> weights{};
   std::array<Number, 2> parameters{}; ///< (ξ, η), where a search for the next projection starts
-  /// How far the projection lies beyond the border, as FacetLimits::tolerance; 0 inside.
+  /// Distance of the projection beyond the edges, in the measure of FacetLimits::tolerance; 0 inside.
   double excess = std::numeric_limits<double>::infinity();
-  /// The facet's part, not normalised, of a node that it shares with those around it: the product over its
-  /// edges of (distance + zone)/(2 zone), cut off at 0 and 1. 1 well inside; the sum over a regular grid.
+  /// Share of the facet, not normalised, in a node that adjacent facets share: the product over its edges of
+  /// (distance + zone)/(2 zone), clipped to [0, 1]. It is 1 well inside; on a regular grid the shares sum to
+  /// 1.
   Number share = 0.;
 };
 using FacetProjection = FacetProjectionOf<double>;

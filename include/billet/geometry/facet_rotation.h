@@ -6,9 +6,9 @@
 
 namespace billet {
 
-/// The rotation that a facet's corners made from `from` to `to`: it takes the mean normal (18) onto the mean
-/// normal and, about it, turns the corners as near as possible (least squares) to where they are. Exact for
-/// a rigid motion by any angle. The identity if either of the two has no area.
+/// Returns the rotation of a facet whose corners moved from `from` to `to`. It maps the old mean normal (18)
+/// onto the new one; about the normal it fits the corners by least squares. It is exact for rigid motions by
+/// any angle, and the identity if either of the two has no area.
 ///
 /// Number: double, or Derivative.
 template <class Number>

@@ -7,19 +7,19 @@
 
 namespace billet {
 
-/// Flat triangles, of which the nearest is asked for.
+/// Search tree of flat triangles for nearest-point queries.
 class FacetTree {
 public:
   explicit FacetTree(TriangleMesh mesh);
 
   struct Foot {
     unsigned int facet = 0;
-    std::array<double, 3> weights{};                         ///< of the facet's corners
-    double square = std::numeric_limits<double>::infinity(); ///< of the distance
+    std::array<double, 3> weights{};                         ///< weights of the facet's corners
+    double square = std::numeric_limits<double>::infinity(); ///< square of the distance
   };
   Foot nearest(const dealii::Tensor<1, 3> &x) const;
-  /// Calls visit(foot) with the nearest points of facets that are no farther from x than the root of
-  /// `largest_square`, which visit() may lower, and of some others.
+  /// Calls visit(foot) with the nearest point of each facet whose squared distance from x is at most
+  /// `largest_square`, and of some others. visit() may lower `largest_square`.
   template <class Visit>
   void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const {
     tree_.visit_near(x, largest_square, [&](const unsigned int facet) { visit(nearest_on(facet, x)); });

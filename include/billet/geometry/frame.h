@@ -7,7 +7,7 @@
 
 namespace billet {
 
-/// P = I − n⊗n, which takes away the part along the unit vector `n`.
+/// Returns P = I − n⊗n, which removes the component along the unit vector `n`.
 inline dealii::Tensor<2, 3> projector_across(const dealii::Tensor<1, 3> &n) {
   return dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) - dealii::outer_product(n, n);
 }
@@ -19,11 +19,11 @@ template <class Number> struct FrameOf {
   using Vector = dealii::Tensor<1, 3, Number>;
 
   Vector q, r, n;
-  /// How the frame spins about n when n turns by δn:
+  /// Spin of the frame about n when n rotates by δn:
   ///   δq = −(q·δn) n + (spin·δn) r,  δr = −(r·δn) n − (spin·δn) q.
   Vector spin;
 
-  /// Any frame about the unit vector `n`; the same for the same n.
+  /// Returns an arbitrary frame about the unit vector `n`, always the same for the same n.
   static FrameOf from_normal(const Vector &n) {
     using std::abs;
     unsigned int least = 0;
@@ -40,11 +40,11 @@ template <class Number> struct FrameOf {
     return frame;
   }
 
-  /// This frame, carried along by the rotation of the tool and then turned onto the new normal `n`
-  /// (Bittencourt & Creus 1998, eqs. (4), (5) with the sign of (5) mended and the spin of the tool added):
+  /// Returns this frame, rotated with the tool and then onto the new normal `n_new` (Bittencourt & Creus
+  /// 1998, eqs. (4), (5), with the sign of (5) corrected and the spin of the tool added):
   ///   q* = R q,  r = n × q* / |n × q*|,  q = r × n.
-  /// Where the normal has turned onto q* the frame follows r instead. With δr across r in the plane of
-  /// δn × q*,
+  /// If the normal has rotated onto q*, the frame follows r instead. With δr across r in the plane of δn ×
+  /// q*,
   ///   spin = −(q*·n)/(q*·q) r,  or, following r* = R r,  (r*·n)/(r*·r) q.
   template <class Result>
   FrameOf<Result> transported(const dealii::Tensor<2, 3, Result> &rotation,
@@ -58,7 +58,7 @@ template <class Number> struct FrameOf {
       frame.r /= length;
       frame.q = dealii::cross_product_3d(frame.r, n_new);
       frame.spin = Result(-(q_carried * n_new) / (q_carried * frame.q)) * frame.r;
-    } else { // |n × q*|² + |n × r*|² ≥ 1: one of the two is always usable
+    } else { // |n × q*|² + |n × r*|² ≥ 1, so one of the two is always usable
       const dealii::Tensor<1, 3, Result> r_carried = rotation * r;
       frame.q = dealii::cross_product_3d(r_carried, n_new);
       frame.q /= frame.q.norm();

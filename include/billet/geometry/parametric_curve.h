@@ -9,21 +9,22 @@
 
 namespace billet {
 
-/// A point p(t) of a curve with derivatives.
+/// Point p(t) of a curve, with derivatives.
 struct CurvePoint {
   dealii::Tensor<1, 3> p, p_t, p_tt;
 };
 
-/// A curve that is known by its values, and a polyline on it.
+/// Curve given by its values, and a polyline on it.
 class SampledCurve {
 public:
   using Curve = std::function<CurvePoint(double)>;
 
-  /// From the first to the last one of the ascending parameters, between which it turns little.
+  /// Makes the curve from the first to the last of the ascending parameters, between which its direction
+  /// changes little.
   SampledCurve(Curve curve, std::vector<double> parameters);
 
-  /// Parameter of the point nearest to x: Newton's method from each part of the polyline that is nearer than
-  /// its neighbours.
+  /// Returns the parameter of the point nearest to x, by Newton's method from each part of the polyline that
+  /// is nearer than its neighbours.
   double nearest(const dealii::Tensor<1, 3> &x) const;
 
 private:

@@ -10,50 +10,50 @@
 
 namespace billet {
 
-/// A point p(u, v) of a surface with derivatives.
+/// Point p(u, v) of a surface, with derivatives.
 struct SurfacePoint {
   dealii::Tensor<1, 3> p, p_u, p_v, p_uu, p_uv, p_vv;
 };
 
-/// The contact data of x whose foot is `foot`; `side` 1 or −1: the normal is side p,u × p,v. With the
-/// fundamental forms g and b, b positive where the surface is convex, and J = (p,u p,v)
+/// Returns the contact data of x whose foot is `foot`. The normal is along side p,u × p,v, with `side` 1 or
+/// −1. With the fundamental forms g and b, b positive where the surface is convex, and J = (p,u p,v)
 ///   ∂n/∂x = J (g + gap b)⁻¹ b g⁻¹ Jᵀ,
-/// zero in a centre of curvature. Whether x is beyond the border is left to the caller.
+/// which is set to zero at a centre of curvature. The caller decides whether x is beyond the edge.
 ClosestPoint at_foot(const SurfacePoint &foot, const dealii::Tensor<1, 3> &x, double side);
 
-/// Parameters of a surface.
+/// Range of a parameter of a surface.
 struct ParameterRange {
   double low, high;
-  bool is_periodic; ///< it goes on beyond: low and high are no bounds
-  bool is_closed;   ///< both ends are the same line of the surface
+  bool is_periodic; ///< the surface continues beyond; low and high are no bounds
+  bool is_closed;   ///< both ends are the same line on the surface
 };
 
-/// A local minimum of the distance of x from a surface.
+/// Local minimum of the distance of x from a surface.
 struct SurfaceFoot {
   double u, v;
   SurfacePoint point;
   bool is_at_bound; ///< x is beyond an end of the range
 };
 
-/// Newton's method with line search from (u, v), along the bounds where it meets them; past a bound of a
-/// closed surface it goes on at the other one.
+/// Finds a local minimum by Newton's method with line search from (u, v). The iterate follows bounds where it
+/// meets them; past a bound of a closed surface it continues at the other one.
 SurfaceFoot descend_to_foot(const std::function<SurfacePoint(double, double)> &surface,
                             const std::array<ParameterRange, 2> &ranges, const dealii::Tensor<1, 3> &x,
                             double u, double v);
 
-/// A surface that is known by its values, and a triangulation of a part of it.
+/// Surface given by its values, and a triangulation of a part of it.
 class SampledSurface {
 public:
   using Surface = std::function<SurfacePoint(double, double)>;
 
-  /// `parameters`: of the mesh's points, which lie on the surface.
+  /// `parameters` are those of the mesh's points, which lie on the surface.
   SampledSurface(Surface surface, const std::array<ParameterRange, 2> &ranges, TriangleMesh mesh,
                  std::vector<std::array<double, 2>> parameters);
 
-  /// The nearest foot of x that `accept` likes and that is nearer than a border, whose distance is asked for
-  /// only if the foot below the nearest facet is not accepted; none if there is no such foot. Newton's method
-  /// starts at the nearest facet, and at others that may be as near, but are far from where it has started
-  /// before.
+  /// Returns the nearest foot of x that `accept` admits and that is nearer than the edge; none if there is no
+  /// such foot. `border_distance` is called only if the foot on the nearest facet is not accepted. Newton's
+  /// method starts at the nearest facet, and at others that may be as near but are far from earlier starting
+  /// points.
   std::optional<SurfacePoint> nearest(const dealii::Tensor<1, 3> &x,
                                       const std::function<bool(const SurfaceFoot &)> &accept,
                                       const std::function<double()> &border_distance) const;
@@ -70,8 +70,8 @@ private:
   std::array<ParameterRange, 2> ranges_;
   FacetTree facets_;
   std::vector<std::array<double, 2>> parameters_;
-  std::vector<unsigned char> poles_; ///< of the points: 1 or 2 where p,u or p,v is zero, else 0
-  double deviation_ = 0.;            ///< of the surface from its facets [length]
+  std::vector<unsigned char> poles_; ///< per point: 1 or 2 where p,u or p,v is zero, otherwise 0
+  double deviation_ = 0.;            ///< maximum distance of the surface from its facets [length]
   double facet_size_ = 0.;
 };
 

@@ -7,8 +7,8 @@
 
 namespace billet {
 
-/// Where a rigid body is: it was turned by `rotation` about `centre`, then moved by `translation`,
-/// x = c + d + R (X − c).
+/// Placement of a rigid body: rotation by `rotation` about `centre`, then translation by `translation`, x = c
+/// + d + R (X − c).
 struct Placement {
   dealii::Tensor<2, 3> rotation = dealii::unit_symmetric_tensor<3>();
   dealii::Tensor<1, 3> translation;
@@ -21,7 +21,7 @@ struct Placement {
   dealii::Tensor<1, 3> to_tool(const dealii::Tensor<1, 3> &x) const {
     return centre + dealii::transpose(rotation) * (x - centre - translation);
   }
-  /// Where the centre has moved.
+  /// Returns the current position of the centre.
   dealii::Tensor<1, 3> moved_centre() const { return centre + translation; }
 };
 

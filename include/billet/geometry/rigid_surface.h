@@ -8,44 +8,44 @@
 
 namespace billet {
 
-/// A node that is no farther from a tool than this part of the facets around it touches it.
+/// Maximum gap at which a node touches a tool, relative to the size of the facets around it.
 constexpr double touching_gap = 1e-9;
 
-/// The surface of a rigid tool in the tool's own coordinates: patches, of which the nearest counts. Where
-/// patches meet the surface goes on: on a smooth seam nothing shows; in a concave edge the gap is the
-/// distance to the edge; beyond a border that no other patch shares there is no surface.
+/// Surface of a rigid tool in the tool's own coordinates: a set of patches, of which the nearest determines
+/// contact. The surface continues where patches meet. Smooth seams have no effect. In a concave edge the gap
+/// is the distance to the edge. Beyond a free edge, which no other patch shares, there is no surface.
 class RigidSurface {
 public:
   explicit RigidSurface(SurfacePatches patches);
 
   struct Projection {
-    bool exists;                 ///< whether the surface lies before the point; else only the gap is set
-    dealii::Tensor<1, 3> normal; ///< unit, out of the tool, at the contact point
+    bool exists; ///< whether the point projects onto the surface; otherwise only the gap is set
+    dealii::Tensor<1, 3> normal; ///< unit vector, out of the tool, at the contact point
     double gap; ///< (x − x_P)·n, positive outside; without contact point, the distance [length]
     dealii::Tensor<2, 3> turning; ///< ∂n/∂x [1/length]
-    unsigned int patch;           ///< the nearest, to start from the next time
-    /// Where the surface does not lie before the point: how far, along its tangent plane at the border, the
-    /// point is beyond that [length].
+    unsigned int patch;           ///< nearest patch, the first guess for the next search
+    /// If the projection does not exist: distance of the point beyond the edge, along the tangent plane there
+    /// [length].
     double beyond = 0.;
-    bool is_behind = false; ///< and on the inner side of that plane
+    bool is_behind = false; ///< likewise: whether the point is on the inner side of that plane
   };
 
-  /// The contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). The answer does not depend on
-  /// `first_patch`, a guess of the nearest one; the cost does.
+  /// Returns the contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). `first_patch`, a guess of
+  /// the nearest patch, affects the cost but not the result.
   Projection project(const dealii::Tensor<1, 3> &x, unsigned int first_patch = 0) const;
 
-  /// How the surface ends beside a point beyond its border: the nearest point x_b of the border, and the
+  /// Geometry of the surface's edge near a point beyond it: the nearest point x_b of the edge, and the
   /// surface's normal n there.
   struct Border {
     dealii::Tensor<1, 3> normal;    ///< n
     double gap;                     ///< g = (x − x_b)·n [length]
-    dealii::Tensor<2, 3> turning;   ///< ∂n/∂x, along the border [1/length]
+    dealii::Tensor<2, 3> turning;   ///< ∂n/∂x, along the edge [1/length]
     double beyond;                  ///< d = |x − x_b − g n| > 0 [length]
     dealii::Tensor<1, 3> outward;   ///< e = ∂d/∂x
-    dealii::Tensor<2, 3> spreading; ///< ∂e/∂x: 0 at a straight border, of a corner's fan 1/d [1/length]
+    dealii::Tensor<2, 3> spreading; ///< ∂e/∂x: 0 at a straight edge, 1/d in the fan of a corner [1/length]
   };
-  /// Of a point whose projection does not exist; `patch` is that projection's, `width` how far beyond the
-  /// border it matters. Borders with torsion are taken as if they had none.
+  /// Returns the edge data of a point whose projection does not exist. `patch` is that of the projection,
+  /// `width` the maximum relevant distance beyond the edge [length]. The torsion of edges is neglected.
   Border border(const dealii::Tensor<1, 3> &x, unsigned int patch, double width) const;
 
   std::size_t n_patches() const { return patches_.size(); }
@@ -53,30 +53,30 @@ public:
   SurfacePicture picture(const PictureRegion &region) const;
 
 private:
-  /// The patches that meet in the nearest point, itself among them.
+  /// Patches that meet in the nearest point, including the nearest patch itself.
   struct Neighbours {
     std::vector<dealii::Tensor<1, 3>> normals;
-    dealii::Tensor<1, 3> mean;    ///< of the normals, unit
+    dealii::Tensor<1, 3> mean;    ///< mean of the normals, unit vector
     dealii::Tensor<2, 3> turning; ///< mean
-    double sharpness = 0.;        ///< largest sine of an angle with the nearest patch's normal
-    unsigned int sharpest = 0;    ///< the patch that it belongs to
+    double sharpness = 0.;        ///< maximum sine of an angle with the nearest patch's normal
+    unsigned int sharpest = 0;    ///< patch with that angle
     dealii::Tensor<1, 3> sharpest_normal;
     dealii::Tensor<1, 3> edge; ///< direction of the edge between the two
     bool is_straight_below = false;
-    Projection below{}; ///< on a patch that ends there, but not short of x
+    Projection below{}; ///< on a patch that ends there, but extends below x
   };
   Neighbours find_neighbours(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
                              unsigned int patch) const;
   Projection project_beyond_border(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
                                    unsigned int patch) const;
-  /// e·∂n/∂x·e beside the edge along e between two patches, less that of a point, 1/gap.
+  /// Returns e·∂n/∂x·e near the edge along e between two patches, minus the value 1/gap of a point.
   double turning_along_edge(const Projection &projection, const ClosestPoint &nearest, unsigned int patch,
                             const Neighbours &around) const;
 
   SurfacePatches patches_;
   BoxTree tree_;
   BoundingBox box_;
-  double tolerance_ = 0.; ///< patches that come nearer than this to each other meet [length]
+  double tolerance_ = 0.; ///< maximum distance between patches that meet [length]
 };
 
 } // namespace billet

@@ -7,12 +7,11 @@
 
 namespace billet {
 
-/// 'Start' and 'Sector', how far around its axis a surface of revolution goes, put at the end of
-/// `parameters`.
+/// Appends 'Start' and 'Sector' to `parameters`: the angular range of a surface of revolution.
 std::vector<TypeParameter> with_sector(std::vector<TypeParameter> parameters);
 
-/// The profile of points (radius, height) revolved about an `axis` (unit) through `origin` over the sector
-/// that `input` asks for. Refuses what is no sector.
+/// Revolves a profile of points (radius, height) about `axis` (unit vector) through `origin` over the sector
+/// in `input`. Rejects invalid sectors.
 SurfacePatches revolve(const TypeInput &input, const Profile &profile, const dealii::Tensor<1, 3> &origin,
                        const dealii::Tensor<1, 3> &axis);
 

@@ -8,21 +8,21 @@
 
 namespace billet {
 
-/// Two ends.
+/// End points of a segment.
 using Segment = std::array<dealii::Tensor<1, 3>, 2>;
 
-/// The closest points of two segments.
+/// Closest points of two segments.
 struct SegmentPair {
   std::array<double, 2> parameters; ///< in [0, 1], from the first end to the second
   dealii::Tensor<1, 3> difference;  ///< from the second segment's point to the first's
   double distance;                  ///< [length]
-  /// Both points are within the segments and not at their ends, and the segments are not parallel: the
-  /// difference stands on both.
+  /// Whether both points are inside the segments, not at their ends, and the segments are not parallel: the
+  /// difference is then orthogonal to both.
   bool is_crossing;
 };
 
-/// The true closest points, for segments of any length, also 0, and any direction. Where many pairs are as
-/// near (parallel segments side by side) one that has an end in it.
+/// Returns the closest points, for segments of any direction and any length, including 0. If many pairs are
+/// equally near (parallel segments side by side), the result contains an end.
 SegmentPair closest_points(const Segment &first, const Segment &second);
 
 } // namespace billet

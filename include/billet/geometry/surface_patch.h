@@ -12,11 +12,11 @@
 
 namespace billet {
 
-/// Axis-parallel box; sides may be infinite.
+/// Axis-aligned box; sides may be infinite.
 struct BoundingBox {
   dealii::Tensor<1, 3> low, high;
 
-  /// Empty: adding to it makes it what was added.
+  /// Returns an empty box, the neutral element of add().
   static BoundingBox empty() {
     BoundingBox box;
     for (unsigned int i = 0; i < 3; ++i) {
@@ -41,7 +41,7 @@ struct BoundingBox {
       high[i] += distance;
     }
   }
-  /// Square of the distance to the nearest point of the box.
+  /// Returns the squared distance to the nearest point of the box.
   double distance_square(const dealii::Tensor<1, 3> &point) const {
     double sum = 0.;
     for (unsigned int i = 0; i < 3; ++i) {
@@ -59,67 +59,67 @@ struct BoundingBox {
   }
 };
 
-/// Triangles and quadrilaterals that picture a surface, in the tool's own coordinates.
+/// Triangles and quadrilaterals that represent a surface in field output, in the tool's own coordinates.
 struct SurfacePicture {
   std::vector<dealii::Tensor<1, 3>> points;
   std::vector<std::vector<unsigned int>> facets;
 };
 
-/// Region that a picture has to cover: what is infinite is cut off there.
+/// Region that the output of a surface covers; infinite surfaces are cut off there.
 struct PictureRegion {
   dealii::Tensor<1, 3> centre;
   double radius;
 };
 
-/// κ/(1 + κ gap), how the normal turns with x along a principal direction of curvature κ [1/length]. Zero in
-/// the centre of curvature, such as the middle of a sphere: there all normals around are as good, and the one
-/// that was chosen stays.
+/// Returns κ/(1 + κ gap), the rotation of the normal with x along a principal direction of curvature κ
+/// [1/length]. It is zero at the centre of curvature, such as the middle of a sphere: there the normal is
+/// arbitrary and kept fixed.
 inline double turned(const double curvature, const double gap) {
   const double part = 1. + curvature * gap;
   return std::abs(part) > 1e-9 ? curvature / part : 0.;
 }
 
-/// The point of a surface that is nearest to a point x.
+/// Point of a surface that is nearest to a point x.
 struct ClosestPoint {
   dealii::Tensor<1, 3> position;
-  dealii::Tensor<1, 3> normal; ///< unit, out of the tool
+  dealii::Tensor<1, 3> normal; ///< unit vector, out of the tool
   double gap;                  ///< (x − position)·normal [length]
   /// ∂n/∂x, the second derivative of the gap: with the principal curvatures κ of the surface, positive where
-  /// it is convex, Σ κ/(1 + κ gap) e⊗e. On the surface itself it is the curvature tensor [1/length]. Always
-  /// finite; see turned().
+  /// it is convex, Σ κ/(1 + κ gap) e⊗e. On the surface itself it is the curvature tensor [1/length]. It is
+  /// always finite; see turned().
   dealii::Tensor<2, 3> turning;
-  /// x is not straight above the surface, but beyond its border; the gap is then no distance.
+  /// Whether x is not directly above the surface, but beyond its edge; the gap is then no distance.
   bool is_beyond_border = false;
 };
 
-/// One piece of a rigid surface in the tool's own coordinates, trimmed to its range. Pure: no mesh, no
+/// Piece of a rigid surface in the tool's own coordinates, trimmed to its range. It has no mesh and no
 /// motion.
 class SurfacePatch {
 public:
   virtual ~SurfacePatch() = default;
 
-  /// The true closest point, however far `x` is. Where several are as near (the centre of a sphere, the axis
-  /// of a torus), always the same one of them.
+  /// Returns the globally closest point, for any distance of `x`. If several are equally near (centre of a
+  /// sphere, axis of a torus), the result is always the same one.
   virtual ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const = 0;
 
-  /// Whether the whole patch is surely farther from x than the root of `square`: something quick to spare a
-  /// closest point; false if that takes long to tell.
+  /// Whether the whole patch is certainly farther from x than the root of `square`. This quick check saves a
+  /// closest-point search; it returns false if the answer is expensive.
   virtual bool is_farther(const dealii::Tensor<1, 3> & /*x*/, const double /*square*/) const { return false; }
 
-  /// Contains the surface.
+  /// Returns a box that contains the surface.
   virtual BoundingBox bounding_box() const = 0;
 
-  /// How far its border may be from that of a neighbour that it meets, by rounding or by what its file allows
-  /// itself [length].
+  /// Returns the maximum distance between its edge and that of an adjacent patch, due to round-off or the
+  /// tolerance of its file [length].
   virtual double border_accuracy() const { return 0.; }
 
-  /// Adds facets to the picture.
+  /// Adds facets to `picture`.
   virtual void draw(const PictureRegion &region, SurfacePicture &picture) const = 0;
 };
 
 using SurfacePatches = std::vector<std::unique_ptr<const SurfacePatch>>;
 
-/// A patch of type `Patch`, made of these arguments, and no other.
+/// Returns a single patch of type `Patch`, made from these arguments.
 template <class Patch, class... Arguments> SurfacePatches single_patch(Arguments &&...arguments) {
   SurfacePatches patches;
   patches.push_back(std::make_unique<Patch>(std::forward<Arguments>(arguments)...));

@@ -7,12 +7,12 @@
 
 namespace billet {
 
-/// A shape that a scene file can name.
+/// Shape that a scene file can name.
 using SurfaceType = RegisteredType<SurfacePatches>;
 
 TypeTable<SurfacePatches> &surface_types();
 
-/// Parameter that many surfaces share.
+/// Parameter common to many surfaces.
 extern const TypeParameter side_parameter; ///< Side = outside|inside
 double side_sign(const TypeInput &input);  ///< 1 or −1
 

@@ -11,10 +11,10 @@ namespace billet {
 struct Axes {
   dealii::Tensor<1, 3> origin, x, y, z;
 
-  /// z along `axis` (unit); x as near to `towards` as it can be, y = z × x.
+  /// Makes axes with z along `axis` (unit vector), x as close to `towards` as possible, and y = z × x.
   Axes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis,
        const dealii::Tensor<1, 3> &towards);
-  /// x anyhow across the axis.
+  /// Makes axes with z along `axis` and an arbitrary x orthogonal to it.
   Axes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis);
 
   dealii::Tensor<1, 3> from_origin(const double a, const double b, const double c) const {
@@ -22,12 +22,12 @@ struct Axes {
   }
 };
 
-/// A profile of points (radius, height) revolved about the z axis: with the plane's gap g(ρ, z),
+/// Profile of points (radius, height) revolved about the z axis. With the plane's gap g(ρ, z),
 ///   ∂²g/∂x² = ∂²g/∂(ρ, z)² + (1/ρ ∂g/∂ρ) e_φ⊗e_φ.
 class RevolvedProfile final : public SurfacePatch {
 public:
-  /// From angle `from` on the x axis over `sweep` > 0 [radians]; 2π or more is all around. No point of the
-  /// profile has a negative radius.
+  /// Revolves the profile from the angle `from`, measured from the x axis, over `sweep` > 0 [radians]; 2π or
+  /// more is a full revolution. No point of the profile may have a negative radius.
   RevolvedProfile(Profile profile, const Axes &axes, double from = 0., double sweep = 2. * M_PI);
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
@@ -41,10 +41,10 @@ private:
   bool is_full_;
 };
 
-/// A profile of points (x, y) extruded along z.
+/// Profile of points (x, y) extruded along z.
 class ExtrudedProfile final : public SurfacePatch {
 public:
-  /// From z = `low` to `high`, which may be infinite.
+  /// Extrudes the profile from z = `low` to `high`, which may be infinite.
   ExtrudedProfile(Profile profile, const Axes &axes, double low, double high);
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;

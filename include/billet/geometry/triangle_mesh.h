@@ -14,44 +14,45 @@ namespace billet {
 /// Flat triangles over points.
 struct TriangleMesh {
   std::vector<dealii::Tensor<1, 3>> points;
-  std::vector<std::array<unsigned int, 3>> facets; ///< counter-clockwise for one who stands outside
+  std::vector<std::array<unsigned int, 3>> facets; ///< counter-clockwise when seen from outside
 
-  /// Diagonal of the box around the points [length].
+  /// Returns the diagonal of the box around the points [length].
   double size() const;
-  /// Whether any facet has corners that are not in line.
+  /// Whether any facet has corners that are not collinear.
   bool has_area() const;
-  /// Six times the volume that a closed mesh encloses; negative if its facets look inwards [length³].
+  /// Returns six times the volume that a closed mesh encloses; negative if its facets point inwards
+  /// [length³].
   double six_volumes() const;
 };
 
-/// Reads an STL file, ASCII or binary; the facets of all its solids, each with three points of its own.
-/// Throws std::invalid_argument with the reason (in an ASCII file, with the line) where it is none, is cut
-/// short, holds no facet or a number that is not finite, or where the normals written in it are mostly
-/// against the order of the corners.
+/// Reads the facets of all solids of an STL file, ASCII or binary; each facet has three points of its own.
+/// Throws std::invalid_argument with the reason (in an ASCII file, with the line) if the file is no STL file,
+/// is truncated, has no facet or has a non-finite number. It also throws if most normals in the file
+/// contradict the order of the corners.
 TriangleMesh read_stl(const std::string &file_name);
 
-/// The mesh with points nearer than `tolerance` [length] to each other made one. Facets of which two corners
-/// become one are left out: their other two edges become one as well.
+/// Returns the mesh with points merged that are nearer than `tolerance` [length] to each other. Facets of
+/// which two corners are merged are removed: their other two edges merge as well.
 TriangleMesh weld(const TriangleMesh &mesh, double tolerance);
 
-/// The edges of a mesh.
+/// Edges of a mesh.
 struct TriangleEdges {
   static constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
   struct Edge {
-    std::array<unsigned int, 2> points;  ///< in the order in which the first facet walks them
-    std::array<unsigned int, 2> facets;  ///< the second is `none` at a border
-    std::array<unsigned int, 2> corners; ///< of the facets, where the edge begins as they walk it: 0, 1 or 2
+    std::array<unsigned int, 2> points;  ///< in the direction of the first facet
+    std::array<unsigned int, 2> facets;  ///< the second is `none` at a free edge
+    std::array<unsigned int, 2> corners; ///< per facet, corner where the edge begins for it: 0, 1 or 2
   };
   std::vector<Edge> edges;
-  std::vector<std::array<unsigned int, 3>> of_facet; ///< the edge from corner i to the next one
+  std::vector<std::array<unsigned int, 3>> of_facet; ///< edge from corner i to the next one
 
-  /// Throws std::invalid_argument with number and example where an edge has more than two facets, or two that
-  /// walk it in the same direction.
+  /// Finds the edges. Throws std::invalid_argument with number and example if an edge has more than two
+  /// facets, or two with the same direction along it.
   explicit TriangleEdges(const TriangleMesh &mesh);
 
-  /// "12 edges have a facet on one side only, such as that from (0, 0, 0) to (1, 0, 0)"; empty if there is no
-  /// such edge.
+  /// Returns a message such as "12 edges have a facet on one side only, such as that from (0, 0, 0) to (1, 0,
+  /// 0)"; empty if there is no free edge.
   std::string describe_border(const TriangleMesh &mesh) const;
 };
 

@@ -8,27 +8,27 @@
 
 namespace billet {
 
-/// The part of a parametric surface within loops of edges.
+/// Part of a parametric surface within loops of edges.
 class TrimmedSurface final : public SurfacePatch {
 public:
   using Parameters = std::array<double, 2>;
 
   struct Edge {
     TrimmingLoops::Curve on_surface; ///< in the plane of the parameters
-    std::vector<double> samples;     ///< ascending, from its beginning to its end; it turns little between
-    bool is_seam;                    ///< where a closed surface meets itself: no border
+    std::vector<double> samples;     ///< ascending, from end to end, with small changes of direction
+    bool is_seam;                    ///< where a closed surface meets itself: no free edge
     bool is_pole;                    ///< a point; the next two are empty
     std::function<double(const dealii::Tensor<1, 3> &)> nearest; ///< parameter of the nearest point
     std::function<dealii::Tensor<1, 3>(double)> position;
   };
   struct Description {
     SampledSurface surface;
-    /// Parameters of the nearest point of the untrimmed surface, where there is a closed form.
+    /// Returns the parameters of the nearest point of the untrimmed surface, if there is a closed form.
     std::function<Parameters(const dealii::Tensor<1, 3> &)> closed_form;
-    std::array<double, 2> periods;   ///< of the parameters, 0: none
+    std::array<double, 2> periods;   ///< periods of the parameters, 0: none
     std::array<double, 2> low, high; ///< bounds of the parameters
     std::vector<Edge> edges;
-    double side;            ///< the normal is side p,u × p,v
+    double side;            ///< 1 or −1; the normal is side p,u × p,v
     double border_accuracy; ///< [length]
     BoundingBox box;
   };
@@ -44,7 +44,7 @@ private:
   bool is_inside(Parameters parameters) const;
   SurfacePoint regular_point(const Parameters &parameters) const;
   ClosestPoint nearest_on_border(const dealii::Tensor<1, 3> &x) const;
-  /// The surface next to a pole that it goes around smoothly.
+  /// Surface near a pole that it surrounds smoothly.
   struct Cap {
     dealii::Tensor<1, 3> position, normal;
     dealii::Tensor<2, 3> curvature; ///< ∂n/∂x on the surface

@@ -15,19 +15,19 @@ public:
   using Point = std::array<double, 2>;
   using Curve = std::function<Point(double)>;
 
-  /// Points that are nearer than `tolerance` to each other are one where curves begin and end.
+  /// End points of curves that are nearer than `tolerance` to each other are merged.
   explicit TrimmingLoops(const double tolerance) : tolerance_(tolerance) {}
 
-  /// A part of a loop through the points at these ascending parameters, between which the curve turns little.
-  /// The parts may come in any order and direction.
+  /// Adds a part of a loop through the points at these ascending parameters, between which the curve's
+  /// direction changes little. The parts may have any order and direction.
   void add(const Curve &curve, const std::vector<double> &parameters);
 
   bool contains(const Point &point) const;
 
 private:
-  /// A part of a curve along which the second coordinate rises or falls throughout.
+  /// Part of a curve along which the second coordinate is monotonic.
   struct Piece {
-    double low, high;     ///< second coordinate of its ends
+    double low, high;     ///< range of the second coordinate
     double left, right;   ///< bounds of the first coordinate
     double t_low, t_high; ///< parameters of its ends
     unsigned int curve;

@@ -7,18 +7,21 @@
 
 namespace billet {
 
-/// A time integrator that a scene file can name.
+/// Time integrator that a scene file can name.
 using TimeIntegratorType = RegisteredType<TimeIntegrator>;
 
 TypeTable<TimeIntegrator> &time_integrator_types();
 
-/// Newmark (1959). β > 0; second order for γ = ½, unconditionally stable for 2β ≥ γ ≥ ½.
+/// Returns the method of Newmark (1959). β > 0; second order for γ = ½, unconditionally stable for 2β ≥ γ ≥
+/// ½.
 TimeIntegrator newmark(double beta, double gamma);
 
-/// Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α; α_f = −α here.
+/// Returns the method of Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α; α_f = −α
+/// here.
 TimeIntegrator hilber_hughes_taylor(double alpha);
 
-/// Chung & Hulbert (1993): 0 ≤ ρ ≤ 1, the spectral radius at infinite frequency.
+/// Returns the generalised-α method of Chung & Hulbert (1993): 0 ≤ ρ ≤ 1, the spectral radius at infinite
+/// frequency.
 TimeIntegrator generalised_alpha(double spectral_radius);
 
 } // namespace billet

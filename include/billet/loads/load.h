@@ -18,7 +18,7 @@ namespace billet {
 
 /// Expression of the time t and the names of amplitudes, by which a scene gives a load its size.
 struct LoadExpression {
-  std::string key; ///< of the parameter that holds it
+  std::string key; ///< key of the parameter that holds it
   std::string text;
   bool uses_position; ///< whether x, y, z are variables, too: the centre of the undeformed face
 };
@@ -49,7 +49,7 @@ struct LoadedFace {
   std::array<unsigned int, 4> nodes; ///< in the order of FacetPoint
   dealii::Point<3> centre;           ///< undeformed
 
-  /// Returns where the corners are now.
+  /// Returns the current positions of the corners.
   std::array<dealii::Tensor<1, 3>, 4> positions(const NodalMotion &motion) const {
     std::array<dealii::Tensor<1, 3>, 4> result;
     for (unsigned int a = 0; a < 4; ++a)
@@ -61,9 +61,9 @@ struct LoadedFace {
 /// Corner of a face under a load. A node has one for each of its faces.
 struct LoadedNode {
   unsigned int node;
-  double area;                 ///< part of the undeformed face, the integral of N_a [length²]
+  double area;                 ///< share of the undeformed face, the integral of N_a [length²]
   dealii::Tensor<1, 3> normal; ///< outward unit normal of the undeformed face
-  dealii::Point<3> centre;     ///< of the undeformed face
+  dealii::Point<3> centre;     ///< centre of the undeformed face
 };
 
 /// Derivatives of the forces by displacements and velocities.
@@ -87,8 +87,8 @@ public:
   virtual void add_forces(const std::vector<LoadedFace> &faces, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
   virtual LoadTangent tangent() const = 0;
-  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one face, 12 × 12, three rows for each corner [force/length].
-  /// Called unless tangent() is none.
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one face, 12 × 12, three rows for each corner [force/length]. It
+  /// is called unless tangent() is none.
   virtual void add_tangent(const LoadedFace & /*face*/, const double * /*values*/,
                            const NodalMotion & /*motion*/, double /*damping_factor*/,
                            dealii::FullMatrix<double> & /*matrix*/) const {}
@@ -103,12 +103,13 @@ public:
   virtual void add_forces(const std::vector<LoadedNode> &nodes, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
   virtual LoadTangent tangent() const = 0;
-  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one node, 3 × 3 [force/length]. Called unless tangent() is none.
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one node, 3 × 3 [force/length]. It is called unless tangent() is
+  /// none.
   virtual void add_tangent(const LoadedNode & /*node*/, const double * /*values*/,
                            const NodalMotion & /*motion*/, double /*damping_factor*/,
                            dealii::FullMatrix<double> & /*matrix*/) const {}
 
-  /// Upper bounds per undeformed area, which limit explicit steps.
+  /// Upper bounds per undeformed area; they limit the explicit time step.
   struct Bound {
     double stiffness = 0.; ///< [force/length³]
     double damping = 0.;   ///< [force time/length³]
@@ -116,9 +117,9 @@ public:
   virtual Bound bound() const { return {}; }
 };
 
-/// What acts on a body besides tools and other bodies.
+/// External load on a body, other than contact with tools and other bodies.
 struct Load {
-  /// Those whose values the forces take, in this order.
+  /// Expressions whose values the forces depend on, in this order.
   std::vector<LoadExpression> expressions;
   std::variant<std::shared_ptr<const BodyLoad>, std::shared_ptr<const FaceLoad>,
                std::shared_ptr<const NodalLoad>>
@@ -126,7 +127,7 @@ struct Load {
 
   bool acts_on_faces() const { return !std::holds_alternative<std::shared_ptr<const BodyLoad>>(action); }
   bool has_unsymmetric_tangent() const;
-  /// Whether it has a bound on explicit steps.
+  /// Whether the load limits the explicit time step.
   bool limits_steps() const;
 };
 
@@ -135,7 +136,7 @@ struct Load {
 using LoadType = RegisteredType<Load>;
 TypeTable<Load> &load_types();
 
-/// Parameter of every load on faces, which the scene reads: which faces.
+/// Returns the parameter that selects the faces; every load on faces has it, and the scene reads it.
 TypeParameter loaded_faces();
 
 } // namespace billet

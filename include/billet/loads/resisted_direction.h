@@ -19,7 +19,7 @@ public:
     const dealii::Tensor<1, 3> &d = along(node);
     return (f * d) * d;
   }
-  /// Adds c P.
+  /// Adds c P to `matrix`.
   void add(double c, const LoadedNode &node, dealii::FullMatrix<double> &matrix) const;
 
 private:
@@ -29,7 +29,7 @@ private:
   }
 
   Kind kind_;
-  dealii::Tensor<1, 3> vector_; ///< unit
+  dealii::Tensor<1, 3> vector_; ///< unit vector
 };
 
 } // namespace billet

@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// Stored energy per reference volume, ½ κ (tr ε)² + G dev ε : dev ε [stress].
+/// Returns the stored energy per reference volume, ½ κ (tr ε)² + G dev ε : dev ε [stress].
 inline double compute_elastic_energy(const ElasticModuli &elastic, const PrincipalElasticState &state) {
   double dev_squared = 0.;
   for (const double e : state.deviatoric_log_strains)
@@ -28,7 +28,8 @@ public:
 
   explicit HenckyElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
-  /// Stress (and, if `moduli` is given, tangent) at deformation gradient F; see HenckyPlasticity::update().
+  /// Computes the stress (and, if `moduli` is given, the tangent) at deformation gradient F; see
+  /// HenckyPlasticity::update().
   bool update(const dealii::Tensor<2, 3> &F, const History &, History &, dealii::SymmetricTensor<2, 3> &tau,
               SpatialModuli *moduli, const PointStep & = {}) const {
     PrincipalElasticState state;

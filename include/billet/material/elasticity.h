@@ -13,18 +13,18 @@ namespace billet {
 using SharedLaw = std::shared_ptr<const PointLaw>;
 using SharedFlow = std::shared_ptr<const FlowStress>;
 
-/// Elastic part of a material, with its constants: makes the law of a body with or without plasticity.
+/// Elastic part of a material, with its constants. It makes the law of a body with or without plasticity.
 class Elasticity {
 public:
   virtual ~Elasticity() = default;
 
   virtual const ElasticModuli &moduli() const = 0;
-  /// Young's modulus of the undeformed solid [stress].
+  /// Returns Young's modulus of the undeformed solid [stress].
   virtual double young_modulus() const {
     return 9. * moduli().bulk * moduli().shear / (3. * moduli().bulk + moduli().shear);
   }
   virtual SharedLaw make_elastic_law() const = 0;
-  /// Null if the elasticity knows no plasticity.
+  /// Returns null if this elasticity does not support plasticity.
   virtual SharedLaw make_plastic_law(SharedFlow flow) const = 0;
 };
 
@@ -33,19 +33,19 @@ public:
 using ElasticityType = RegisteredType<std::shared_ptr<const Elasticity>>;
 TypeTable<std::shared_ptr<const Elasticity>> &elasticity_types();
 
-// The laws that two moduli determine: Hencky, neo-Hookean, hypoelastic. Elastic without `flow`.
+// Laws that two moduli determine: Hencky, neo-Hookean, hypoelastic. Without `flow` they are elastic.
 SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_neo_hookean_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 
-/// Returns the one of these laws which has this name; null if it is none of them.
+/// Returns the law with this name; null if none of the above has it.
 SharedLaw make_isotropic_law(const std::string &name, const ElasticModuli &elastic, SharedFlow flow);
 
-/// Elasticity of one of these laws. Throws std::invalid_argument for another name.
+/// Returns the elasticity of one of these laws. Throws std::invalid_argument for another name.
 std::shared_ptr<const Elasticity> make_isotropic_elasticity(const std::string &name, double young,
                                                             double poisson);
 
-/// Type of such a law, whose parameters are Young's modulus and Poisson's ratio.
+/// Returns the type of such a law; its parameters are Young's modulus and Poisson's ratio.
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
                                          SharedLaw (*make)(const ElasticModuli &, SharedFlow));
 

@@ -18,9 +18,9 @@ struct PlasticIncrement {
   double slope = 0.;  ///< derivative of the flow stress by Δα there [stress]
 };
 
-/// Solves q − m Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton,
-/// kept inside a shrinking bracket: hardening laws with kinks or steep starts cannot throw it off. Ends at
-/// round-off. `law` has stress(α) and slope(α).
+/// Solves q − m Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton's
+/// method is safeguarded by a shrinking bracket, so it converges for hardening laws with kinks or steep
+/// starts. It stops at round-off. `law` has stress(α) and slope(α).
 template <class Law>
 double solve_consistency(const Law &law, const double q, const double m, const double alpha_n) {
   double low = 0., high = q / m;
@@ -41,8 +41,9 @@ double solve_consistency(const Law &law, const double q, const double m, const d
   return delta;
 }
 
-/// Flow stress of J2 plasticity, in the sense of von Mises [stress]. A point keeps the equivalent plastic
-/// strain α and, where the flow stress depends on more than α, n_state() more numbers, which begin at zero.
+/// Flow stress of J2 plasticity, in the sense of von Mises [stress]. A point stores the equivalent plastic
+/// strain α. If the flow stress depends on more than α, it also stores n_state() more numbers, initially
+/// zero.
 class FlowStress {
 public:
   static constexpr std::size_t max_state = 4;
@@ -50,7 +51,7 @@ public:
 
   virtual ~FlowStress() = default;
 
-  /// Words for messages and checkpoints, such as "linear hardening".
+  /// Returns a description for messages and checkpoints, such as "linear hardening".
   virtual std::string description() const = 0;
 
   /// Returns the stress at which a point begins to yield.
@@ -61,7 +62,7 @@ public:
   virtual PlasticIncrement solve(double q, double m, double alpha_n, double dt) const = 0;
 
   virtual std::size_t n_state() const { return 0; }
-  /// Overwrites `state` with that at the end of a step.
+  /// Overwrites `state` with the state at the end of a step.
   virtual void advance(double alpha_n, double delta_alpha, double dt, const State &state_n,
                        State &state) const {
     (void)alpha_n, (void)delta_alpha, (void)dt, (void)state_n, (void)state;
@@ -69,13 +70,14 @@ public:
   /// Returns the plastic work per reference volume up to a state [stress].
   virtual double plastic_work(double alpha, const State &state) const = 0;
 
-  /// Returns the same of a point that has flowed at rest.
+  /// Returns the plastic work of a point that has flowed at a vanishing rate [stress].
   virtual double plastic_work_at_rest(double alpha) const = 0;
 
-  /// Whether the flow stress stays below a limit, however far a point flows.
+  /// Whether the flow stress stays below a limit for any plastic strain.
   virtual bool is_bounded() const = 0;
 
-  /// How kernels compute it for several elements at once; by default one lane at a time.
+  /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
+  /// time.
   virtual LaneHardening lane_form() const { return {}; }
   /// Whether it depends on α alone, so that kernels need no other state.
   bool depends_on_strain_alone() const { return n_state() == 0; }

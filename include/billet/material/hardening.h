@@ -16,13 +16,13 @@ class HardeningLaw : public FlowStress {
 public:
   /// Returns the derivative of stress(), from the right where it has a kink [stress].
   virtual double slope(double alpha) const = 0;
-  /// Returns ∫ stress from 0 to α [stress].
+  /// Returns the integral of the stress from 0 to α [stress].
   virtual double work(double alpha) const = 0;
   double plastic_work(const double alpha, const State &) const final { return work(alpha); }
   double plastic_work_at_rest(const double alpha) const final { return work(alpha); }
 };
 
-/// A hardening law from a value type with
+/// Hardening law made from a value type with
 ///   stress(a), slope(a), work(a)   as above, a ≥ 0
 ///   is_bounded(), description()    as in FlowStress
 /// and, where it has one, lane_form().
@@ -106,8 +106,8 @@ struct PowerLawHardening {
   LaneHardening lane_form() const;
 };
 
-/// Straight lines through (strain, stress) points; constant beyond the last one. The strains start at 0 and
-/// increase strictly.
+/// Piecewise linear curve through (strain, stress) points, constant beyond the last one. The strains start at
+/// 0 and increase strictly.
 class TabulatedHardening {
 public:
   TabulatedHardening(std::vector<double> strains, std::vector<double> stresses);
@@ -130,11 +130,11 @@ private:
 using HardeningType = RegisteredType<std::shared_ptr<const HardeningLaw>>;
 TypeTable<std::shared_ptr<const HardeningLaw>> &hardening_types();
 
-/// Words for what is allowed where more would be softening.
+/// Returns the text that describes the allowed values where others would cause softening.
 std::string no_softening(const std::string &allowed);
-/// Returns a number that must not be negative, since that would be softening.
+/// Reads a number that must not be negative, since negative values cause softening.
 double read_hardening(const TypeInput &input, const std::string &key);
-/// Parameter of several hardening laws.
+/// Parameters of several hardening laws.
 extern const TypeParameter yield_stress_parameter, hardening_modulus_parameter;
 
 } // namespace billet

@@ -14,14 +14,14 @@ struct PrincipalElasticState {
   double volumetric_log_strain;                   ///< Σ ε_A = ln J_e
 };
 
-/// Solves the eigenproblem of `b`. False where b is not positive definite or not finite: the state is not
-/// admissible and the step that led there has to be cut.
+/// Solves the eigenproblem of `b`. Returns false if b is not positive definite or not finite: the state is
+/// inadmissible and the step must be cut.
 bool compute_principal_state(const dealii::SymmetricTensor<2, 3> &b, PrincipalElasticState &state);
 
-/// exp(A), by its eigenvectors.
+/// Returns exp(A), from the eigenvectors of A.
 dealii::SymmetricTensor<2, 3> exponential(const dealii::SymmetricTensor<2, 3> &A);
 
-/// What an isotropic law with logarithmic elasticity answers in the principal frame of the trial state: the
+/// Response of an isotropic law with logarithmic elasticity in the principal frame of the trial state: the
 /// Kirchhoff stress τ_A = κ tr ε + 2G β dev ε_A and its derivative
 ///   ∂τ_A/∂ε_B = κ + 2Gβ (δ_AB − 1/3) − 2G γ ν_A ν_B,   ν = dev ε / |dev ε|,
 /// with β = 1, γ = 0 in elasticity (Simo & Hughes, Computational Inelasticity, box 9.1 and eq. 9.2.33 ff.).
@@ -32,11 +32,11 @@ struct PrincipalResponse {
   std::array<double, 3> flow_direction{};
 };
 
-/// Σ_A τ_A n_A ⊗ n_A.
+/// Returns Σ_A τ_A n_A ⊗ n_A.
 dealii::SymmetricTensor<2, 3> compute_kirchhoff_stress(const PrincipalElasticState &trial,
                                                        const PrincipalResponse &response);
 
-/// The exact spatial moduli of the response above,
+/// Computes the exact spatial moduli of the response above,
 ///   c = Σ_AB (∂τ_A/∂ε_B − 2 τ_A δ_AB) m_A ⊗ m_B + Σ_{A<B} 4 g_AB s_AB ⊗ s_AB,
 ///   m_A = n_A ⊗ n_A,  s_AB = sym(n_A ⊗ n_B),  g_AB = (τ_A b_B − τ_B b_A) / (b_A − b_B)
 /// (Simo & Hughes, eq. 9.2.38). Because τ_A − τ_B = Gβ ln(b_A/b_B) holds exactly for this class of laws,

@@ -4,14 +4,14 @@
 
 namespace billet {
 
-/// Hardening laws that the explicit kernels compute themselves, for several elements at once, and `other`,
-/// which they ask one lane at a time. σ_y(α) is concave but for `other`.
+/// Hardening laws that the explicit kernels compute for several elements at once. They evaluate `other`
+/// through a callback, one lane at a time. σ_y(α) is concave except for `other`.
 enum class HardeningKind { linear, voce, power_law, other };
 
-/// Laws that the explicit kernels compute themselves, for several elements at once.
+/// Laws that the explicit kernels compute for several elements at once.
 enum class LaneLaw { hencky, neo_hookean, hypoelastic };
 
-/// A hardening law as plain numbers, in the user's units.
+/// Parameters of a hardening law, in the user's units.
 struct LaneHardening {
   HardeningKind kind = HardeningKind::other;
   double yield_stress = 0., hardening_modulus = 0.;    ///< linear; Voce

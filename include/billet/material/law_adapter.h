@@ -11,7 +11,7 @@
 
 namespace billet {
 
-/// A PointLaw from a value type such as HenckyElasticity, which has
+/// PointLaw made from a value type such as HenckyElasticity, which has
 ///   Moduli, has_plasticity, is_rate_form, has_symmetric_moduli, has_exact_dissipation
 ///   History                        its state, with default values of the undeformed point
 ///   fields(), store(), restore()   names of that state, and the state as numbers; none if History is empty

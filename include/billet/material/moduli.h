@@ -24,9 +24,9 @@ struct ElasticModuli {
 /// (d11, d22, d33, 2 d12, 2 d13, 2 d23) onto (τ11, τ22, τ33, τ12, τ13, τ23) [stress].
 using SpatialModuli = std::array<std::array<double, 6>, 6>;
 
-/// Derivative of a stress by the velocity gradient, δτ = A : L with L = δF F⁻¹, where a law has no moduli in
-/// the sense of SpatialModuli: rows τ11, τ22, τ33, τ12, τ13, τ23, columns L11, L12, L13, L21, ... L33
-/// [stress].
+/// Derivative of a stress with respect to the velocity gradient, δτ = A : L with L = δF F⁻¹, for laws without
+/// moduli in the sense of SpatialModuli. Rows are τ11, τ22, τ33, τ12, τ13, τ23; columns are L11, L12, L13,
+/// L21, ... L33 [stress].
 using GradientModuli = std::array<std::array<double, 9>, 6>;
 
 } // namespace billet

@@ -13,7 +13,7 @@
 
 namespace billet {
 
-/// Base of laws with F = F_e F_p: their history and flow stress.
+/// Base of laws with F = F_e F_p; holds their history and flow stress.
 class MultiplicativePlasticity {
 public:
   struct History {
@@ -59,7 +59,7 @@ protected:
   ElasticModuli elastic_;
   std::shared_ptr<const FlowStress> flow_;
 
-  /// With which F has this b̄_e: C_p⁻¹ = J^{2/3} F⁻¹ b̄_e F⁻ᵀ.
+  /// Returns the history for which F has this b̄_e: C_p⁻¹ = J^{2/3} F⁻¹ b̄_e F⁻ᵀ.
   static History history_of(const dealii::Tensor<2, 3> &F, const dealii::Tensor<2, 3> &b_e,
                             const double equivalent_plastic_strain) {
     const dealii::Tensor<2, 3> F_inverse = dealii::invert(F);
@@ -71,9 +71,9 @@ protected:
 };
 
 /// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the elastic
-/// logarithmic strain, yield |τ| = σ_y(α) in the sense of von Mises in *Kirchhoff* stress, associated flow by
-/// the exponential map. The return map is radial in logarithmic principal space and exact (Simo & Hughes
-/// 1998, box 9.1; Eterovic & Bathe 1990).
+/// logarithmic strain. The yield condition |τ| = σ_y(α) is von Mises' in *Kirchhoff* stress; associated flow
+/// is integrated by the exponential map. The return map is radial in logarithmic principal space and exact
+/// (Simo & Hughes 1998, box 9.1; Eterovic & Bathe 1990).
 class HenckyPlasticity : public MultiplicativePlasticity {
 public:
   static constexpr bool has_symmetric_moduli = true, has_exact_dissipation = true;
@@ -82,17 +82,17 @@ public:
   HenckyPlasticity(const ElasticModuli &elastic, std::shared_ptr<const FlowStress> flow)
       : MultiplicativePlasticity(elastic, std::move(flow)) {}
 
-  /// From the deformation gradient F at the end of a step and the history at its start: Kirchhoff stress
-  /// `tau` [stress], the history at its end, and, if `moduli` is given, the consistent tangent. `history_n`
-  /// and `history` may not be the same object. False where F is not admissible (not finite, singular): the
-  /// step has to be cut.
+  /// Computes the Kirchhoff stress `tau` [stress], the history at the end of the step and, if `moduli` is
+  /// given, the consistent tangent. F is the deformation gradient at the end of the step, `history_n` the
+  /// history at its start. `history_n` and `history` must not be the same object. Returns false if F is
+  /// inadmissible (not finite, singular): the step must be cut.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const PointStep &step = {}) const;
 
-  /// Stored energy per reference volume [stress] at F with a history that belongs to F.
+  /// Returns the stored energy per reference volume [stress] at F with a history that belongs to F.
   double elastic_energy(const dealii::Tensor<2, 3> &F, const History &history) const;
 
-  /// The history with which `F` has the Kirchhoff stress of this deviator, where that is below the yield
+  /// Returns the history for which `F` has a Kirchhoff stress with this deviator, which is below the yield
   /// stress: b̄_e = exp(dev τ/G).
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                        double equivalent_plastic_strain) const;

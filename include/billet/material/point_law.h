@@ -13,101 +13,103 @@
 
 namespace billet {
 
-/// The yield condition that a point shares with the stabilisation of its element, (X7) of doc/theory.md:
-/// √(q² + 6 G W) = σ_y, as W = σ_y²/6G is what a yielding point stores. The return leaves the same share of
-/// both stresses.
+/// Yield condition √(q² + 6 G W) = σ_y that a point shares with the stabilisation of its element, (X7) of
+/// doc/theory.md. A yielding point stores W = σ_y²/6G. The return map scales both stresses by the same
+/// factor.
 struct SharedYield {
-  double energy = 0.;        ///< W: what the stabilisation would store without flow [energy/volume]
+  double energy = 0.;        ///< W: energy that the stabilisation would store without flow [energy/volume]
   double share = 1.;         ///< β
   double slope = 0.;         ///< ∂β/∂W
   dealii::Tensor<2, 3> rate; ///< ∂β : L is the rate of β at given W
 };
 
-/// The step that an update belongs to.
+/// Data of the step that an update belongs to.
 struct PointStep {
-  /// Length of the step [time]. Zero gives rate-dependent laws no time to flow: the stress of a state that is
-  /// known.
+  /// Length of the step [time]. With zero, rate-dependent laws have no time to flow: this evaluates the
+  /// stress of a known state.
   double dt = 0.;
-  /// A point yields where q > σ_y (1 + `yield_slack`): in a state that has just yielded, where round-off
-  /// would decide, 1e-9 gives the tangent of unloading, −1e-9 that of further loading.
+  /// A point yields if q > σ_y (1 + `yield_slack`). In a state that has just yielded, round-off would decide:
+  /// 1e-9 gives the tangent of unloading, −1e-9 that of further loading.
   double yield_slack = 0.;
-  /// With its energy given, q is that of both; its other numbers are answers. Null: none.
+  /// If not null: its energy is input and enters q; its other members are output. Null: no shared yield
+  /// condition.
   SharedYield *shared = nullptr;
 };
 
-/// A named part of a law's state at a point.
+/// Named part of a law's state at a point.
 struct StateField {
   std::string name;
   std::size_t n_components;
 };
 
-/// A material law: what a point answers to a deformation. It knows nothing of elements, schemes or ranks. The
-/// state of a point is an array of n_state() numbers, which fields() names. Stresses are Kirchhoff's. `F` is
-/// the deformation gradient as the element has it; `J` the volume ratio of the pressure, det F of most
+/// Material law: the response of a point to a deformation. It is independent of elements, schemes and ranks.
+/// The state of a point is an array of n_state() numbers, which fields() names. Stresses are Kirchhoff's. `F`
+/// is the deformation gradient of the element; `J` is the volume ratio of the pressure, det F for most
 /// elements.
 class PointLaw {
 public:
   virtual ~PointLaw() = default;
 
-  /// Name of the elasticity, as scenes call it.
+  /// Returns the name of the elasticity in scene files.
   virtual std::string name() const = 0;
-  /// Words for messages and checkpoints, such as "elastoplastic with linear hardening".
+  /// Returns a description for messages and checkpoints, such as "elastoplastic with linear hardening".
   std::string description() const {
     return flow_stress() == nullptr ? "elastic" : "elastoplastic with " + flow_stress()->description();
   }
 
-  /// Bulk and shear modulus of the undeformed solid. They bound what steps, penalties and hourglass control
-  /// need.
+  /// Returns the bulk and shear modulus of the undeformed solid. They determine time steps, penalties and
+  /// hourglass control.
   virtual const ElasticModuli &elastic() const = 0;
-  /// Returns an upper bound of the stiffness of waves at a point, per squared velocity gradient [stress]:
-  /// stresses turn and stretch with the body, hence the terms beyond the moduli.
+  /// Returns an upper bound of the stiffness of waves at a point, per squared velocity gradient [stress]. It
+  /// has terms beyond the moduli, since stresses rotate and stretch with the body.
   virtual double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const;
-  /// Null of laws without plasticity.
+  /// Returns null for laws without plasticity.
   virtual std::shared_ptr<const FlowStress> shared_flow_stress() const = 0;
   const FlowStress *flow_stress() const { return shared_flow_stress().get(); }
   bool has_plasticity() const { return shared_flow_stress() != nullptr; }
 
   virtual bool has_symmetric_moduli() const = 0;
-  /// Whether energies follow from the law but for the order of the step: a stored energy exists.
+  /// Whether the law is in rate form: a stored energy exists only up to the order of the step.
   virtual bool is_rate_form() const = 0;
-  /// Whether the dissipation is exact, or of the order of the elastic strains.
+  /// Whether the dissipation is exact; otherwise its error is of the order of the elastic strains.
   virtual bool has_exact_dissipation() const = 0;
 
   virtual std::vector<StateField> fields() const = 0;
   virtual std::size_t n_state() const = 0;
-  /// Overwrites `state` with that of the undeformed point.
+  /// Overwrites `state` with the state of the undeformed point.
   virtual void initialize(double *state) const = 0;
 
-  /// Stored energy per reference volume [stress], at a state that belongs to F.
+  /// Returns the stored energy per reference volume [stress] at a state that belongs to F.
   virtual double stored_energy(const dealii::Tensor<2, 3> &F, double J, const double *state) const = 0;
-  /// Dissipated energy per reference volume up to a state [stress].
+  /// Returns the dissipated energy per reference volume up to a state [stress].
   virtual double dissipated_energy(const double *state) const = 0;
   virtual double equivalent_plastic_strain(const double *state) const = 0;
 
-  /// Overwrites `state` with that for which `F` has a Kirchhoff stress of this deviator, where that is below
-  /// the yield stress.
+  /// Overwrites `state` with the state for which `F` has a Kirchhoff stress with this deviator, which is
+  /// below the yield stress.
   virtual void set_stress(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                           double equivalent_plastic_strain, double *state) const = 0;
 
-  /// Least stiffness of plane waves over the shear modulus at these principal stretches, (M2) of
-  /// doc/theory.md; nothing where the law does not know it. Where it is negative, results depend on the mesh.
+  /// Returns the minimum stiffness of plane waves over the shear modulus at these principal stretches, (M2)
+  /// of doc/theory.md; nothing if the law cannot compute it. If it is negative, ellipticity is lost and
+  /// results depend on the mesh.
   virtual std::optional<double> least_wave_stiffness(const std::array<double, 3> &stretches) const = 0;
 
-  /// How the explicit kernels compute the law for several elements at once; nothing where they do not, so
-  /// that explicit scenes go element by element.
+  /// Returns the form in which the explicit kernels compute the law for several elements at once. Returns
+  /// nothing if they do not support it; explicit scenes then compute element by element.
   virtual std::optional<LaneLaw> lane_law() const { return {}; }
 };
 
-/// A law whose moduli are those of the Lie derivative, or all derivatives by the velocity gradient. `M`:
-/// SpatialModuli or GradientModuli.
+/// Law whose moduli are those of the Lie derivative, or all derivatives with respect to the velocity
+/// gradient. `M`: SpatialModuli or GradientModuli.
 template <class M> class LawWithModuli : public PointLaw {
 public:
   using Moduli = M;
 
   /// Overwrites `tau` with the Kirchhoff stress at the end of a step [stress], `state` with the state there
   /// and, unless it is null, `moduli` with the consistent tangent. `state_n` and `state` must not overlap.
-  /// Returns false where F is not admissible (not finite, singular): the step has to be cut. In rate form the
-  /// moduli are those of dev τ alone.
+  /// Returns false if F is inadmissible (not finite, singular): the step must be cut. In rate form the moduli
+  /// are those of dev τ alone.
   virtual bool update(const dealii::Tensor<2, 3> &F, double J, const PointStep &step, const double *state_n,
                       double *state, dealii::SymmetricTensor<2, 3> &tau, Moduli *moduli) const = 0;
 };

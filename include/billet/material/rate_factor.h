@@ -9,16 +9,17 @@
 
 namespace billet {
 
-/// Factor of the flow stress over the rate of the equivalent plastic strain [1/time].
+/// Factor of the flow stress as a function of the rate of the equivalent plastic strain [1/time].
 class RateFactor {
 public:
   virtual ~RateFactor() = default;
 
-  /// Words that follow those of the hardening law, such as "times Cowper and Symonds' factor of the rate".
+  /// Returns a description that follows that of the hardening law, such as "times Cowper and Symonds' factor
+  /// of the rate".
   virtual std::string description() const = 0;
   /// Returns the factor, which is 1 at rest and does not decrease.
   virtual double value(double rate) const = 0;
-  /// Returns its derivative; may be infinite at rest [time].
+  /// Returns the derivative of value(); it may be infinite at rest [time].
   virtual double slope(double rate) const = 0;
 };
 
@@ -48,7 +49,7 @@ private:
   std::shared_ptr<const RateFactor> factor_;
 };
 
-/// The hardening law itself where there is no factor.
+/// Makes the flow stress; without a factor it is the hardening law itself.
 std::shared_ptr<const FlowStress> make_flow_stress(std::shared_ptr<const HardeningLaw> hardening,
                                                    std::shared_ptr<const RateFactor> factor);
 

@@ -13,16 +13,16 @@ namespace billet {
 
 using Stretches = std::array<double, 3>;
 
-/// The least stiffness of plane waves, over the shear modulus, in an isotropic elastic law at these principal
-/// stretches: the least eigenvalue, over directions n, of
+/// Returns the minimum stiffness of plane waves, over the shear modulus, in an isotropic elastic law at these
+/// principal stretches: the minimum eigenvalue, over directions n, of
 ///   Q_ik(n) = n_p n_q c_ipkq + δ_ik n_p τ_pq n_q                                                       (M7)
-/// (Legendre & Hadamard's condition; Ogden 1997, ch. 6). Where it is negative such waves grow. Directions are
-/// a grid of an eighth of the sphere in the principal frame, 15 degrees apart, which the others mirror. −∞
-/// where the law has no stress.
+/// (Legendre-Hadamard condition; Ogden 1997, ch. 6). If it is negative, such waves grow. The directions form
+/// a grid on an octant in the principal frame, 15 degrees apart; the other octants follow by symmetry.
+/// Returns −∞ if the law has no stress.
 template <class Law>
 double least_wave_stiffness(const Law &law, const double shear, const Stretches &stretches) {
   constexpr unsigned int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-  constexpr unsigned int n_angles = 6; // of a right angle
+  constexpr unsigned int n_angles = 6; // intervals per right angle
   dealii::Tensor<2, 3> F;
   for (unsigned int i = 0; i < 3; ++i)
     F[i][i] = stretches[i];
@@ -48,9 +48,10 @@ double least_wave_stiffness(const Law &law, const double shear, const Stretches 
   return least / shear;
 }
 
-/// The same of rates of stress, dev τ̊ = 2G dev d with the spin of the material, on a straight path: of shear
-/// waves G − (τ_max − τ_min)/2, τ_max − τ_min = 2G ln(λ_max/λ_min), and of waves along a principal direction
-/// κ (1 − ln J) + 4/3 G − 2G dev ln λ (M8).
+/// Returns the minimum stiffness of plane waves, over the shear modulus, in the hypoelastic law dev τ̊ = 2G
+/// dev d with the spin of the material, on a straight path. For shear waves it is G − (τ_max − τ_min)/2,
+/// τ_max − τ_min = 2G ln(λ_max/λ_min). For waves along a principal direction it is κ (1 − ln J) + 4/3 G − 2G
+/// dev ln λ (M8).
 inline double least_wave_stiffness_of_rates(const ElasticModuli &elastic, const Stretches &stretches) {
   const auto [least, most] = std::minmax_element(stretches.begin(), stretches.end());
   if (!(*least > 0.))

@@ -12,35 +12,35 @@
 
 namespace billet {
 
-/// Constants of (B3) to (B5) for a brick with edges of these lengths. `kept_through`: θ of the bending
-/// through the thickness.
+/// Computes the constants of (B3) to (B5) for a brick with these edge lengths. `kept_through` is θ of the
+/// bending through the thickness.
 strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &elastic,
                                                          const std::array<double, 3> &lengths,
                                                          double kept_through = strain_modes::kept_shear);
-/// The same with more than two points there: the middle point would add the shear's stress to the plastic
-/// moment.
+/// Value of θ for more than two points through the thickness, where the middle point would add the shear
+/// stress to the plastic moment.
 constexpr double kept_shear_of_layers = 0.2;
 
-// Additional data of bricks with more than two points through the thickness ("layers").
+// Additional data of bricks with more than two points through the thickness ("layers"):
 struct NoLayers {};
 struct LayersReference {
   double modulus;      ///< κ' of (B9) [stress]
   double elastic_part; ///< X/E of elastic bricks
 };
 struct LayersKinematics {
-  strain_modes::Strains<double> strains; ///< in space, without the free thinning
+  strain_modes::Strains<double> strains; ///< spatial, without the free thinning
   dealii::Tensor<2, 3> mean_F;           ///< F̄
   double stretch;                        ///< E of (B8)
   double thinning;                       ///< X of (B8), which set_thinning() sets
 };
 
 /// Assumed strains, (B1) to (B6) of doc/theory.md: F_q = (det Y_q)^{−1/3} Y_q F̄ with the mean gradient F̄ and
-/// strains Y_q − 1 that vary through the brick without parasitic shear. Bends as it should with one brick
-/// through a thickness, at any aspect ratio; all points share det F̄. Laws in rate form see Y_q F̄.
+/// strains Y_q − 1 that vary through the brick without parasitic shear. The element bends accurately with one
+/// brick through a thickness, at any aspect ratio; all points share det F̄. Laws in rate form receive Y_q F̄.
 ///
-/// `n_through`: 2, the same points in all directions, or 3, 5 or 7 points through the thickness. There the
-/// brick's thinning X is free, (B8) to (B10): the stresses decide it, as plastic flow thins more than
-/// elasticity.
+/// `n_through` is 2, the same points in all directions, or 3, 5 or 7 points through the thickness. In the
+/// latter case the brick's thinning X is free, (B8) to (B10): the stresses determine it, since plastic flow
+/// thins more than elasticity.
 template <unsigned int n_through = 2> class AssumedStrainElement {
 public:
   static constexpr unsigned int n_points = 4 * n_through;
@@ -51,9 +51,10 @@ public:
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
   template <class Moduli> using ModuliOf = std::array<Moduli, n_points>;
 
-  /// Undeformed brick. With layers its directions are those of turn_corners(), its nodes stay in order.
+  /// Undeformed brick. With layers its directions are those of turn_corners(), but its nodes keep their
+  /// order.
   struct Reference : std::conditional_t<is_layered, LayersReference, NoLayers> {
-    std::array<std::array<double, n_element_nodes>, n_vectors> of_nodes; ///< these from the nodes' positions
+    std::array<std::array<double, n_element_nodes>, n_vectors> of_nodes; ///< coefficients of nodal positions
     dealii::Tensor<2, 3> jacobian, inverse_jacobian;                     ///< (a_1 a_2 a_3)_0
     double volume;
     strain_modes::Constants<double> constants;
@@ -63,9 +64,9 @@ public:
     double hourglass[4][3];
     std::array<dealii::SymmetricTensor<2, 3>, n_points> Y, inverse_Y;
     std::array<dealii::Tensor<2, 3>, n_points> F, F_of_rates;
-    double J, volume; ///< det F̄, and the volume that it makes
+    double J, volume; ///< det F̄, and the current volume
   };
-  /// Thinning of a brick with layers, and the stretch of the plane that belongs to it.
+  /// Thinning of a brick with layers, and the in-plane stretch that belongs to it.
   struct History {
     double thinning = 0., stretch = 0.;
   };
@@ -85,10 +86,10 @@ public:
   static bool compute(const Reference &reference, const ElementVectors &displacements,
                       Kinematics &kinematics);
 
-  // The following functions exist with layers only.
+  // The following functions exist only with layers.
   /// Completes the kinematics; returns false as compute() does.
   static bool set_thinning(double thinning, Kinematics &kinematics);
-  /// Returns the X of a step without plastic flow, where iterations start.
+  /// Returns X for a step without plastic flow, the initial guess of the iterations.
   static double predict_thinning(const Reference &reference, const Kinematics &kinematics,
                                  const History &history_n) {
     return history_n.thinning + reference.elastic_part * (kinematics.stretch - history_n.stretch);
@@ -102,10 +103,11 @@ public:
   }
   /// Returns the pressure −p(ζ) of (B9) at a point, to be subtracted from its Kirchhoff stress.
   static double varying_pressure(const Reference &reference, const Kinematics &kinematics, unsigned int q);
-  /// (B10), derivative of the power by X, which vanishes in balance.
+  /// Returns the residual (B10): the derivative of the power by X, which vanishes in equilibrium.
   static double thinning_residual(const Reference &reference, const Kinematics &kinematics,
                                   const Stresses &tau);
-  /// Its derivative for small strains: of an elastic brick, and without any stiffness of the law.
+  /// Returns the derivative of the residual for small strains, for an elastic brick; below, without any
+  /// stiffness of the law.
   double elastic_thinning_stiffness(const Reference &reference) const {
     return reference.volume / 3. * (4. / 3. * elastic_.shear + reference.modulus);
   }
@@ -136,7 +138,7 @@ public:
     if constexpr (is_symmetrised)
       symmetrise(matrix);
   }
-  /// Of symmetric moduli.
+  /// Computes the tangent from symmetric moduli.
   static void compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
                                         const Stresses &tau, const ModuliOf<SpatialModuli> &moduli,
                                         ElementMatrix &matrix);

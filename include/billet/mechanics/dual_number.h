@@ -6,7 +6,8 @@ namespace billet {
 
 #define BILLET_DUAL inline __attribute__((always_inline))
 
-/// A number with its derivatives along n directions: what is computed with it is differentiated exactly.
+/// Number with its derivatives along n directions (forward automatic differentiation): results have exact
+/// derivatives.
 template <class Value, unsigned int n> struct Dual {
   Value value = {};
   Value rate[n] = {};
@@ -34,7 +35,7 @@ template <class Value, unsigned int n> struct Dual {
       result.rate[d] = a.value * b.rate[d] + a.rate[d] * b.value;
     return result;
   }
-  /// By a constant.
+  /// Product with a constant.
   template <class Constant> friend BILLET_DUAL Dual operator*(const Constant &a, const Dual &b) {
     Dual result;
     result.value = a * b.value;
@@ -44,7 +45,7 @@ template <class Value, unsigned int n> struct Dual {
   }
 };
 
-/// 1/x.
+/// Returns 1/x.
 template <class Value, unsigned int n> BILLET_DUAL Dual<Value, n> invert(const Dual<Value, n> &x) {
   Dual<Value, n> result;
   const Value one = Value{} + 1;
@@ -54,7 +55,7 @@ template <class Value, unsigned int n> BILLET_DUAL Dual<Value, n> invert(const D
   return result;
 }
 
-/// √x, `root` that of a Value.
+/// Returns √x; `root` is the square root of a Value.
 template <class Value, unsigned int n, class Root>
 BILLET_DUAL Dual<Value, n> square_root(const Dual<Value, n> &x, const Root &root) {
   Dual<Value, n> result;
@@ -65,10 +66,10 @@ BILLET_DUAL Dual<Value, n> square_root(const Dual<Value, n> &x, const Root &root
   return result;
 }
 
-/// A number after a step and what the step has added to it: the change of all that is computed with it is as
-/// small as the step, to its last digits. `Value`: the lanes of an explicit kernel. `Stepped()` sets nothing.
+/// Number after a step and its change in the step. Results have changes without cancellation error, however
+/// small the step. `Value` holds the lanes of an explicit kernel. `Stepped()` sets nothing.
 template <class Value> struct Stepped {
-  Value value; ///< now
+  Value value; ///< value after the step
   Value change;
 
   BILLET_DUAL Stepped() = default;
@@ -89,19 +90,19 @@ template <class Value> struct Stepped {
   friend BILLET_DUAL Stepped operator*(const Stepped &a, const Stepped &b) {
     return {a.value * b.value, a.change * b.value + a.before() * b.change};
   }
-  /// By a constant.
+  /// Product with a constant.
   template <class Constant> friend BILLET_DUAL Stepped operator*(const Constant &a, const Stepped &b) {
     return {a * b.value, a * b.change};
   }
 };
 
-/// 1/x.
+/// Returns 1/x.
 template <class Value> BILLET_DUAL Stepped<Value> invert(const Stepped<Value> &x) {
   const Value one = Value{} + 1, value = one / x.value;
   return {value, Value{} - value * x.change / x.before()};
 }
 
-/// √x, `root` that of a Value.
+/// Returns √x; `root` is the square root of a Value.
 template <class Value, class Root>
 BILLET_DUAL Stepped<Value> square_root(const Stepped<Value> &x, const Root &root) {
   const Value value = root(x.value);

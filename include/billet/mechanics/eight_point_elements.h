@@ -7,14 +7,16 @@
 
 namespace billet {
 
-// The elements as LawBlock wants them: what a law is given at each point, and what becomes of its stress.
+// Elements in the form that LawBlock requires: the input of the law at each point, and the forces of its
+// stress.
 
 /// Stresses at the eight points, and their moduli.
 using PointStresses = std::array<dealii::SymmetricTensor<2, 3>, n_element_points>;
 template <class Moduli> using PointModuli = std::array<Moduli, n_element_points>;
 
-/// Q1/P0, see MeanDilatationKinematics. Laws in rate form see F, not F̄, and their dev τ is weighted with
-/// current volumes, J w/J̄, so that σ = τ/J̄ is Cauchy's stress: the element of the explicit kernels.
+/// Q1/P0 element, see MeanDilatationKinematics. Laws in rate form receive F, not F̄, and their dev τ is
+/// weighted with current volumes, J w/J̄, so that σ = τ/J̄ is Cauchy's stress. The explicit kernels have the
+/// same element.
 class MeanDilatationElement {
 public:
   static constexpr unsigned int n_points = n_element_points;
@@ -33,7 +35,7 @@ public:
     return compute_kinematics(reference, displacements, kinematics);
   }
 
-  /// F̄, or F for a law in rate form.
+  /// Returns F̄, or F for a law in rate form.
   template <bool is_rate_form>
   static dealii::Tensor<2, 3> deformation(const Reference &reference, const Kinematics &kinematics,
                                           const unsigned int q) {
@@ -47,7 +49,7 @@ public:
     return reference.volumes[q];
   }
   static double current_volume(const Kinematics &kinematics) { return kinematics.current_volume; }
-  /// What dev τ is multiplied with.
+  /// Returns the weight of dev τ.
   template <bool is_rate_form>
   static double weight(const Reference &reference, const Kinematics &kinematics, const unsigned int q) {
     return is_rate_form ? kinematics.current_volumes[q] / kinematics.volume_ratio : reference.volumes[q];
@@ -80,7 +82,7 @@ public:
     if constexpr (is_symmetrised)
       symmetrise(matrix);
   }
-  /// Of symmetric moduli.
+  /// Computes the tangent from symmetric moduli.
   static void compute_symmetric_tangent(const Reference &reference, const Kinematics &kinematics,
                                         const PointStresses &tau, const PointModuli<SpatialModuli> &moduli,
                                         ElementMatrix &matrix) {
@@ -88,11 +90,12 @@ public:
   }
 
 private:
-  /// The stresses with dev τ times J/J̄.
+  /// Returns the stresses with dev τ multiplied by J/J̄.
   static PointStresses weigh(const Reference &reference, const Kinematics &kinematics,
                              const PointStresses &tau);
 
-  /// With s = (J/J̄) dev τ, δs = (J/J̄) (A : L + dev τ (tr L − div̄)), Π = Σ w κ ln J̄:
+  /// Computes the tangent of a law in rate form. With s = (J/J̄) dev τ, δs = (J/J̄) (A : L + dev τ (tr L −
+  /// div̄)), Π = Σ w κ ln J̄:
   ///   K = Σ_q w {δs g_a − s Lᵀ g_a} + V κ δdiv̄ div̄
   ///       + Π {(1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄}.
   void compute_rate_tangent(const Reference &reference, const Kinematics &kinematics,

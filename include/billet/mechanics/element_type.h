@@ -13,18 +13,18 @@ namespace billet {
 class ElementBlock;
 struct ElementFormulation;
 
-/// Bricks that the explicit kernels compute themselves, for several elements at once.
+/// Bricks that the explicit kernels compute for several elements at once.
 enum class LaneElement { assumed_strain, mean_dilatation, one_point };
 
-/// A formulation of eight-node bricks: how they are made, and what the rest of the program may ask of them.
+/// Formulation of eight-node bricks: its factory and its properties.
 struct ElementKind {
-  const char *name; ///< as scenes call it
+  const char *name; ///< name in scene files
   /// Makes all elements of one body on one rank, with any law; make_law_block() does so from a class.
   std::unique_ptr<ElementBlock> (*make_block)(const std::shared_ptr<const PointLaw> &,
                                               const ElementFormulation &);
-  bool is_stabilised = false; ///< whether it has hourglass modes, whose energy is reported
-  bool has_layers = false;    ///< whether it takes more than two points through a thickness
-  /// Without one, explicit scenes compute the elements one by one.
+  bool is_stabilised = false; ///< whether it has hourglass stabilisation, whose energy is reported
+  bool has_layers = false;    ///< whether it supports more than two points through a thickness
+  /// Element of the explicit kernels; without one, explicit scenes compute the elements one by one.
   std::optional<LaneElement> lanes = {};
 };
 
@@ -54,9 +54,9 @@ private:
 using ElementType = RegisteredType<BrickElement>;
 TypeTable<BrickElement> &element_types();
 
-/// The type of an element, which has no parameters.
+/// Returns the type of an element; it has no parameters.
 ElementType make_element_type(BrickElement element, std::string meaning);
-/// The elements of all types.
+/// Returns the elements of all types.
 std::vector<BrickElement> all_elements();
 
 } // namespace billet

@@ -2,17 +2,17 @@
 #ifndef BILLET_MECHANICS_HOURGLASS_ENERGY_H
 #define BILLET_MECHANICS_HOURGLASS_ENERGY_H
 
-// Energy of the hourglass strains of a one-point brick, (X6) of doc/theory.md, and the stresses that belong
-// to it: one code for implicit scenes and for the lanes of explicit kernels, into which all of it is inlined.
-// `Real` is the type of what differs from element to element, `Number` that of constants. The strains are
-// those of strain_modes.h without any shear. The metric of the plane that they are in knows its normal.
+// Energy of the hourglass strains of a one-point brick, (X6) of doc/theory.md, and the conjugate stresses.
+// Implicit scenes and the lanes of explicit kernels share this code, which is inlined. `Real` is the type of
+// element data, `Number` that of constants. The strains are those of strain_modes.h without any shear. The
+// metric of the plane that they are in knows its normal.
 
 #define BILLET_HOURGLASS inline __attribute__((always_inline))
 
 namespace billet::hourglass {
 
-/// Of plane stress, whose energy of strains e in a plane is ½ bending (tr e)² − plane det e, and of the
-/// fourth mode.
+/// Moduli of plane stress, with the energy ½ bending (tr e)² − plane det e for strains e in a plane, and of
+/// the fourth mode.
 template <class Number> struct Moduli {
   Number bending, plane, fourth; ///< 2G/(3(1 − ν)), 2G/3, E/9
 
@@ -31,7 +31,7 @@ template <class Real> struct Metric {
   Real product[3];                   ///< [k]: a_i · a_j
   Real inverse_area[3];              ///< [k]: 1/|a_i × a_j|²
 
-  /// The squares and products are set; `invert`: 1/x.
+  /// Completes the metric, whose squares and products are set; `invert` is 1/x.
   template <class Invert> BILLET_HOURGLASS void complete(const Invert &invert) {
     for (unsigned int k = 0; k < 3; ++k) {
       inverse_square[k] = invert(square[k]);
@@ -39,19 +39,19 @@ template <class Real> struct Metric {
     }
   }
 
-  /// a_l · Σ_n a_n v_n.
+  /// Returns a_l · Σ_n a_n v_n.
   BILLET_HOURGLASS Real lower(const unsigned int l, const Real *v) const {
     const unsigned int i = (l + 1) % 3, j = (l + 2) % 3;
     return square[l] * v[l] + product[j] * v[i] + product[i] * v[j];
   }
 };
 
-/// Stresses s = ∂W/∂h of the strains h of b_1, b_2, b_3, c in the element's own directions, per volume.
-/// Returns W.
+/// Computes the stresses s = ∂W/∂h, per volume, for the strains h of b_1, b_2, b_3, c in the element's own
+/// directions. Returns W.
 template <class Number, class Real>
 BILLET_HOURGLASS Real respond(const Moduli<Number> &moduli, const Metric<Real> &metric, const Real (*h)[3],
                               Real (*s)[3]) {
-  Real products[3][3], by_products[3][3]; // a_l · b̂_m, and derivatives by it
+  Real products[3][3], by_products[3][3]; // a_l · b̂_m, and derivatives by them
   for (unsigned int l = 0; l < 3; ++l) {
     for (unsigned int m = 0; m < 3; ++m)
       products[l][m] = metric.lower(l, h[m]);
@@ -59,7 +59,7 @@ BILLET_HOURGLASS Real respond(const Moduli<Number> &moduli, const Metric<Real> &
   }
   Real energy{};
   for (unsigned int k = 0; k < 3; ++k) {
-    // What varies along k: fibre i bends by mode (i, k), of place j.
+    // Strains that vary along k: fibre i bends by mode (i, k), at position j.
     const unsigned int i = (k + 1) % 3, j = (k + 2) % 3;
     const Real p = products[i][j], q = products[j][i], r = Number(0.5) * (products[i][i] + products[j][j]);
     const Real inverse = metric.inverse_area[k], angle = metric.product[k];

@@ -13,7 +13,7 @@
 
 namespace billet {
 
-/// What an element does with the moduli of a law.
+/// Form of a law, which selects the computation of an element's tangent.
 template <class LawClass, bool symmetric> struct LawForm {
   using Law = LawClass;
   using Moduli = typename Law::Moduli;
@@ -23,7 +23,7 @@ using SymmetricForm = LawForm<SpatialLaw, true>;
 using UnsymmetricForm = LawForm<SpatialLaw, false>;
 using RateForm = LawForm<RateLaw, false>;
 
-/// The ElementBlock of one element and any law of this form. Elements: AssumedStrainElement,
+/// ElementBlock of one element and any law of this form. Elements: AssumedStrainElement,
 /// MeanDilatationElement, OnePointElement. `has_flow`: whether a stabilised element yields with its point and
 /// keeps a history of its own.
 template <class Element, class Form, bool has_flow> class LawBlock final : public ElementBlock {
@@ -310,7 +310,7 @@ private:
       return {};
   }
 
-  /// At the history of a beat, to which the displacements belong.
+  /// Computes the kinematics at a history, to which the displacements belong.
   bool compute_at(const std::size_t element, const ElementVectors &displacements,
                   [[maybe_unused]] const Beat beat, Kinematics &kinematics) const {
     if (!Element::compute(elements_[element], displacements, kinematics))
@@ -322,7 +322,7 @@ private:
       return true;
   }
 
-  /// Updates all points; returns false if a state is not admissible.
+  /// Updates all points. Returns false if a state is inadmissible.
   bool update_points(const Reference &reference, const Kinematics &kinematics, const std::size_t element,
                      const PointStep &step, Stresses &tau, Moduli *moduli) {
     for (unsigned int q = 0; q < n_points; ++q)
@@ -332,14 +332,15 @@ private:
     return true;
   }
 
-  /// Solves (B10) for the thinning: `update_all` computes `tau` at a thinning. A secant's slope stays between
-  /// bounds, and its steps between the signs that are known. False if a state is not admissible.
+  /// Solves (B10) for the thinning by a secant method; `update_all` computes `tau` at a thinning. The slope
+  /// is clipped to bounds, and the iterates stay in the bracket of the root. Returns false if a state is
+  /// inadmissible.
   template <class History, class Update>
   bool balance_thinning(const Reference &reference, const History &history_n, Kinematics &kinematics,
                         Stresses &tau, const Update &update_all) const {
     const double elastic = element_.elastic_thinning_stiffness(reference),
                  least = 0.5 * Element::least_thinning_stiffness(reference), most = 4. * elastic;
-    constexpr double tolerance = 1e-14, max_change = 0.3; // strains; the former next to round-off
+    constexpr double tolerance = 1e-14, max_change = 0.3; // strains; the tolerance is close to round-off
     constexpr unsigned int max_iterations = 60;
     double X = Element::predict_thinning(reference, kinematics, history_n);
     double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -380,20 +381,20 @@ private:
 
   std::shared_ptr<const PointLaw> shared_law_;
   const Law &law_;
-  std::size_t n_state_; ///< of a point
+  std::size_t n_state_; ///< per point
   Element element_;
-  // Chosen once: how the matrix is made, or what becomes of it.
+  // Selected once: computation or post-processing of the matrix.
   void (*finish_)(ElementMatrix &) = [](ElementMatrix &) {};
   void (*compute_tangent_)(const Element &, const Reference &, const Kinematics &, const Stresses &,
                            const Moduli &, ElementMatrix &) = nullptr;
   std::vector<Reference> elements_;
   std::vector<ThicknessAxis> axes_;                 ///< with more than two points through the thickness
-  std::vector<double> state_n_, state_;             ///< of the points
-  std::vector<ElementHistory> history_n_, history_; ///< of the elements
-  mutable std::vector<double> scratch_;             ///< a state that is thrown away
+  std::vector<double> state_n_, state_;             ///< states of the points
+  std::vector<ElementHistory> history_n_, history_; ///< histories of the elements
+  mutable std::vector<double> scratch_;             ///< discarded state
 };
 
-/// The block of this element with any law.
+/// Makes the block of this element with any law.
 template <class Element>
 std::unique_ptr<ElementBlock> make_law_block(const std::shared_ptr<const PointLaw> &law,
                                              const ElementFormulation &formulation) {

@@ -27,12 +27,12 @@ struct ReferenceElement {
   std::array<double, n_element_points> volumes;
 };
 
-/// Fills `element` from nodal positions. False if the Jacobian is not positive at a Gauss point.
+/// Fills `element` from nodal positions. Returns false if the Jacobian is not positive at a Gauss point.
 bool compute_reference_element(const ElementVectors &positions, ReferenceElement &element);
 
-/// Kinematics of Q1/P0 (mean dilatation): at each point F̄ = (J̄/J)^{1/3} F, with J̄ = v/V the ratio of the
-/// element's current to its reference volume (Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985).
-/// Every volume in it is exact, since 2 × 2 × 2 points integrate the Jacobian of a trilinear map exactly.
+/// Kinematics of Q1/P0 (mean dilatation). At each point F̄ = (J̄/J)^{1/3} F, with J̄ = v/V the ratio of the
+/// element's current to its reference volume (Nagtegaal, Parks & Rice 1974; Simo, Taylor & Pister 1985). All
+/// volumes are exact, since 2 × 2 × 2 points integrate the Jacobian of a trilinear map exactly.
 struct MeanDilatationKinematics {
   std::array<dealii::Tensor<2, 3>, n_element_points> F_bar;
   /// ∂N_a/∂x_i in the current configuration, [1/length]
@@ -43,13 +43,14 @@ struct MeanDilatationKinematics {
   ElementVectors mean_divergence;                       ///< (1/v) Σ J w ∂N_a/∂x_i
 };
 
-/// False where det F ≤ 0 or is not finite at a Gauss point: the step has to be cut.
+/// Computes the kinematics. Returns false if det F ≤ 0 or is not finite at a Gauss point: the step must be
+/// cut.
 bool compute_kinematics(const ReferenceElement &element, const ElementVectors &displacements,
                         MeanDilatationKinematics &kinematics);
 
 /// Adds the nodal forces [force] of the stresses `tau` (Kirchhoff, at F̄),
 ///   f_a = Σ_q w [dev τ ∇N_a] + Π ∇̄N_a,   Π = Σ_q w tr τ / 3,
-/// the gradient of the stored energy Σ_q w ψ(F̄_q) where the law has one.
+/// which are the gradient of the stored energy Σ_q w ψ(F̄_q) if the law has one.
 void add_internal_force(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
                         const std::array<dealii::SymmetricTensor<2, 3>, n_element_points> &tau,
                         ElementVectors &force);
@@ -58,13 +59,13 @@ void add_internal_force(const ReferenceElement &element, const MeanDilatationKin
 /// configuration and d̄ = sym L + θ I (bars over the virtual field likewise),
 ///   K = Σ_q w { δd̄ : c : d̄ + ∇N_a·τ·∇N_b I + 2 θ τ:δd + 2 δθ τ:d + 2 θ δθ tr τ + tr τ/3 tr(δL L) }
 ///       + Π { (1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄ }.
-/// Symmetric where the moduli are, which has to be known: of unsymmetric ones only a part would be used.
+/// The moduli must be symmetric, and so is the matrix; only part of unsymmetric moduli would be used.
 void compute_internal_tangent(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
                               const std::array<dealii::SymmetricTensor<2, 3>, n_element_points> &tau,
                               const std::array<SpatialModuli, n_element_points> &moduli,
                               ElementMatrix &matrix);
 
-/// The same for moduli of any kind.
+/// Overwrites `matrix` with ∂f/∂u for symmetric or unsymmetric moduli.
 void compute_unsymmetric_internal_tangent(
     const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
     const std::array<dealii::SymmetricTensor<2, 3>, n_element_points> &tau,

@@ -6,13 +6,13 @@
 
 namespace billet {
 
-/// ±1: coordinate i of corner a of the bi-unit cube.
+/// Returns coordinate i of corner a of the bi-unit cube, ±1.
 inline double corner(const unsigned int a, const unsigned int i) { return ((a >> i) & 1U) != 0U ? 1. : -1.; }
 
 constexpr unsigned int n_element_modes = 7; ///< a_1, a_2, a_3, b_1, b_2, b_3, c
-constexpr unsigned int n_linear_modes = 6;  ///< those which the mean gradient sees: all but c
+constexpr unsigned int n_linear_modes = 6;  ///< modes that contribute to the mean gradient: all but c
 
-/// A mode's directions, as the bits ξ, η, ζ.
+/// Directions of each mode, as the bits ξ, η, ζ.
 constexpr std::array<unsigned int, n_element_modes> mode_places = {1, 2, 4, 6, 5, 3, 7};
 
 /// Value of mode m at node a, ±1; a nodal vector's mode is the mean of its products with these.
@@ -27,7 +27,7 @@ constexpr std::array<std::array<double, n_element_nodes>, n_element_modes> mode_
   return values;
 }();
 
-/// Modes of a nodal vector.
+/// Returns the modes of a nodal vector.
 inline std::array<dealii::Tensor<1, 3>, n_element_modes> compute_modes(const ElementVectors &values) {
   std::array<dealii::Tensor<1, 3>, n_element_modes> modes;
   for (unsigned int m = 0; m < n_element_modes; ++m)
@@ -37,8 +37,8 @@ inline std::array<dealii::Tensor<1, 3>, n_element_modes> compute_modes(const Ele
   return modes;
 }
 
-/// A brick by its modes, x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ, the one-point
-/// element's geometry: doc/theory.md, (X1), (X2).
+/// Brick in terms of its modes, x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ, the
+/// one-point element's geometry: doc/theory.md, (X1), (X2).
 struct ModalGeometry {
   std::array<dealii::Tensor<1, 3>, n_element_modes> modes;
   double volume = 0.;

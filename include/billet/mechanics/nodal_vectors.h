@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// Numbers that a vector at a node takes: x, y, z and one more, so that a node begins at a multiple of 32
+/// Stride of nodal vectors: x, y, z and one unused number, so that each node begins at a multiple of 32
 /// bytes.
 constexpr unsigned int nodal_stride = 4;
 

@@ -10,16 +10,16 @@
 
 namespace billet {
 
-/// The one-point brick of the explicit kernels, with its tangent: stored energy V ψ(F̄) of the mean gradient
-/// F̄, and that of the hourglass strains ĥ which F̄ does not see, (X4), (X6) of doc/theory.md. Where the body
-/// is plastic both yield together, (X7), and flow moves ĥ_0.
+/// One-point brick of the explicit kernels, with its tangent. It stores the energy V ψ(F̄) of the mean
+/// gradient F̄, and that of the hourglass strains ĥ, which do not affect F̄, (X4), (X6) of doc/theory.md. In
+/// plastic bodies both yield together, (X7), and flow changes ĥ_0.
 class OnePointElement {
 public:
   static constexpr unsigned int n_points = 1;
   static constexpr bool is_stabilised = true;
   static constexpr bool is_layered = false;
 
-  /// Of b_1, b_2, b_3, c, in the element's own directions.
+  /// Components of b_1, b_2, b_3, c in the element's own directions.
   using HourglassVector = std::array<std::array<double, 3>, 4>;
 
   struct Reference {
@@ -27,31 +27,31 @@ public:
     double volume;
     dealii::Tensor<2, 3> jacobian, inverse_jacobian; ///< (a_1 a_2 a_3)_0
     HourglassVector strain;                          ///< ĥ_0 of the undeformed element
-    hourglass::Metric<double> metric;                ///< of the undeformed columns
+    hourglass::Metric<double> metric;                ///< metric of the undeformed columns
   };
   struct Kinematics {
     dealii::Tensor<2, 3> F;                ///< F̄
     double J;                              ///< det F̄
     dealii::Tensor<2, 3> inverse_jacobian; ///< J̄⁻¹
-    Gradients<n_linear_modes> gradients;   ///< J̄⁻ᵀ β: of the modes' values, as ∂N_a/∂x of nodes'
+    Gradients<n_linear_modes> gradients;   ///< J̄⁻ᵀ β: gradients of the modes, as ∂N_a/∂x of nodes
     HourglassVector strain;                ///< ĉ = J̄⁻¹ (b_1, b_2, b_3, c)
     double volume;                         ///< V J
   };
-  /// What the stabilisation keeps: how far plastic flow has moved ĥ_0.
+  /// History of the stabilisation: the change of ĥ_0 by plastic flow.
   struct History {
     HourglassVector shift{};
   };
   static constexpr unsigned int n_history = 12;
   static constexpr std::size_t stabilisation_size =
-      sizeof(HourglassVector) + sizeof(hourglass::Metric<double>); ///< of Reference [bytes]
+      sizeof(HourglassVector) + sizeof(hourglass::Metric<double>); ///< size in Reference [bytes]
   static void store(const History &history, double *numbers);
   static History restore(const double *numbers);
 
-  /// The stabilisation's answer.
+  /// Response of the stabilisation.
   struct Stabilisation {
     HourglassVector strain, stress; ///< ĥ and V ∂W/∂ĥ without flow
-    double energy = 0.;             ///< that they store
-    SharedYield yield;              ///< what is left of both
+    double energy = 0.;             ///< stored energy
+    SharedYield yield;              ///< factor of both after plastic flow
   };
 
   OnePointElement(const ElasticModuli &elastic, const ElementFormulation &)
@@ -73,19 +73,20 @@ public:
     return reference.volume;
   }
 
-  /// Without flow.
+  /// Returns the response without flow.
   Stabilisation stabilise(const Reference &reference, const Kinematics &kinematics,
                           const History &history_n) const;
-  /// Of the end of the step.
+  /// Returns the history at the end of the step.
   static History flow(const Stabilisation &stabilisation, const History &history_n);
-  /// The history with which the element's hourglass strains hold no energy.
+  /// Returns the history with which the hourglass strains store no energy.
   static History find_history(const Reference &reference, const Kinematics &kinematics);
 
   static void add_force(const Reference &reference, const Kinematics &kinematics,
                         const dealii::SymmetricTensor<2, 3> &tau, const Stabilisation &stabilisation,
                         ElementVectors &force);
 
-  /// Symmetric where the moduli are and the rate of the share belongs to them: with Hencky's law.
+  /// Computes the tangent. It is symmetric if the moduli are and the rate of the share is consistent with
+  /// them, as for Hencky's law.
   template <class Moduli>
   void compute_tangent(const Reference &reference, const Kinematics &kinematics,
                        const dealii::SymmetricTensor<2, 3> &tau, const Moduli &moduli,

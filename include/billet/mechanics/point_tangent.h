@@ -7,13 +7,13 @@
 
 namespace billet {
 
-// The tangent of the forces f_a = w τ g_a that a point with the Kirchhoff stress τ gives to n nodes, or
-// modes, with gradients g_a = ∂N_a/∂x: added to the first 3 n rows and columns of a row-major matrix `width`
-// wide.
+// Tangent of the forces f_a = w τ g_a that a point with the Kirchhoff stress τ exerts on n nodes, or modes,
+// with gradients g_a = ∂N_a/∂x. It is added to the first 3 n rows and columns of a row-major matrix with rows
+// of `width` numbers.
 
 template <std::size_t n> using Gradients = std::array<std::array<double, 3>, n>;
 
-/// τ g of each, [component][3 b + ...]: at 3 b + i.
+/// Returns τ g_b for each gradient; component i is at 3 b + i.
 template <std::size_t n>
 std::array<double, 3 * n> multiply_gradients(const dealii::SymmetricTensor<2, 3> &tau,
                                              const Gradients<n> &gradients) {
@@ -25,10 +25,10 @@ std::array<double, 3 * n> multiply_gradients(const dealii::SymmetricTensor<2, 3>
   return result;
 }
 
-/// Rows of δτ or c : d that meet the gradient's components in component i of a force.
+/// Rows of δτ or c : d that multiply the gradient's components in component i of a force.
 constexpr unsigned int stress_rows[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 
-/// K_ab = w {B_aᵀ c B_b + g_a·τ·g_b 1}.
+/// Adds K_ab = w {B_aᵀ c B_b + g_a·τ·g_b 1}.
 template <std::size_t n>
 void add_point_tangent(const double w, const Gradients<n> &g, const dealii::SymmetricTensor<2, 3> &tau,
                        const SpatialModuli &c, double *matrix, const std::size_t width) {
@@ -56,7 +56,7 @@ void add_point_tangent(const double w, const Gradients<n> &g, const dealii::Symm
   }
 }
 
-/// δτ of each displacement: A : (e_j ⊗ g_b) at 3 b + j.
+/// Returns δτ for each displacement: A : (e_j ⊗ g_b) at 3 b + j.
 template <std::size_t n>
 std::array<std::array<double, 3 * n>, 6> multiply_gradients(const GradientModuli &A, const Gradients<n> &g) {
   std::array<std::array<double, 3 * n>, 6> result;
@@ -67,7 +67,8 @@ std::array<std::array<double, 3 * n>, 6> multiply_gradients(const GradientModuli
   return result;
 }
 
-/// K_aibj = w {(δτ_bj g_a)_i − (τ g_b)_i g_aj}, δτ_bj the stress' derivative by displacement bj.
+/// Adds K_aibj = w {(δτ_bj g_a)_i − (τ g_b)_i g_aj}, with δτ_bj the derivative of the stress by displacement
+/// bj.
 template <std::size_t n>
 void add_point_tangent(const double w, const Gradients<n> &g, const dealii::SymmetricTensor<2, 3> &tau,
                        const std::array<std::array<double, 3 * n>, 6> &stress_rates, double *matrix,
@@ -84,10 +85,10 @@ void add_point_tangent(const double w, const Gradients<n> &g, const dealii::Symm
     }
 }
 
-/// The symmetric part, or the moduli themselves.
+/// Returns the symmetric part of the moduli.
 SpatialModuli symmetrise(const SpatialModuli &moduli);
 
-/// Makes the matrix its symmetric part.
+/// Replaces the matrix with its symmetric part.
 void symmetrise(ElementMatrix &matrix);
 
 } // namespace billet

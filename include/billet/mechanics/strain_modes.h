@@ -2,14 +2,15 @@
 #ifndef BILLET_MECHANICS_STRAIN_MODES_H
 #define BILLET_MECHANICS_STRAIN_MODES_H
 
-// The assumed strains of a brick, (B1) to (B5) of doc/theory.md, and the forces that belong to them: one code
-// for the numbers of static scenes, for their derivatives (Dual), and for the lanes of explicit kernels, into
-// which all of it is inlined. `Real` is the type of what varies with the displacements, `Fixed` that of
-// constants, `Number` that of literals. Symmetric tensors are 11, 22, 33, 12, 13, 23; of a vector per
-// direction of the brick, v[k][i] is component i of that of direction k.
+// Assumed strains of a brick, (B1) to (B5) of doc/theory.md, and the conjugate forces. Implicit scenes, their
+// derivatives (Dual) and the lanes of explicit kernels share this code, which is inlined. `Real` is the type
+// of data that vary with the displacements, `Fixed` that of constants, `Number` that of literals. Symmetric
+// tensors have the order 11, 22, 33, 12, 13, 23. For vectors per direction of the brick, v[k][i] is component
+// i for direction k.
 //
-// Strains are written by their products with the columns, h_ab = a_a·h a_b (B7). There most vectors of (B3)
-// to (B5) have one component or two, and nothing but scalars is left: of the metric a_a·a_b and of a_a·b̂.
+// Strains are represented by their products with the columns, h_ab = a_a·h a_b (B7). In this form most
+// vectors of (B3) to (B5) have only one or two components, and only scalars remain: the metric a_a·a_b and
+// a_a·b̂.
 
 #include <type_traits>
 
@@ -17,17 +18,17 @@
 
 namespace billet::strain_modes {
 
-/// θ of (B4), (B5): how much of the parasitic shear is kept. 0 lets modes go free in ideally plastic flow,
-/// 1 makes bending in flow up to 2 % stiffer.
+/// θ of (B4), (B5): the retained fraction of the parasitic shear. With 0, zero-energy modes exist in ideally
+/// plastic flow; with 1, bending in plastic flow is up to 2 % stiffer.
 constexpr double kept_shear = 0.5;
 
-/// Where a pair of directions stands.
+/// Index of a pair of directions.
 constexpr unsigned int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 constexpr unsigned int first_of[6] = {0, 1, 2, 0, 0, 1}, second_of[6] = {0, 1, 2, 1, 2, 2};
 
-/// Share s of a fibre j's bending that it has itself, the rest is the shear's which goes with it, and that
-/// shear per bending, s θ_jk; of the edges' lengths l_j/l_k in the undeformed brick, (B4).
-/// Then the thinning x_k of (B3), and the share of the fourth mode. All from the elastic moduli.
+/// Constants that follow from the elastic moduli and from the ratios l_j/l_k of the undeformed edge lengths,
+/// (B4). `share` is the part s of the bending of fibre j that remains bending; the rest is shear. `shear` is
+/// that shear per bending, s θ_jk. `thinning` is x_k of (B3), `fourth` the share of the fourth mode.
 template <class Fixed> struct Constants {
   Fixed share[3][3], shear[3][3]; ///< [j][k], j ≠ k
   Fixed thinning[3];
@@ -43,34 +44,34 @@ template <class Real> struct Frame {
   Real inverse_squares[3];           ///< 1/l_k²
   Real inverse_lengths[3];
   Real square_heights[3]; ///< 1/|a^k|²
-  Real heights[3];        ///< of a_k over the plane of the others
+  Real heights[3];        ///< heights of a_k above the plane of the others
   Real inverse_areas[3];  ///< 1/|a_i × a_j|²
-  Real slopes[3][3];      ///< [k][j], j ≠ k: how much of a_j is in the part of a_k in the plane, d^j·a_k
+  Real slopes[3][3];      ///< [k][j], j ≠ k: d^j·a_k, the coefficient of a_j in the in-plane part of a_k
 };
 
-/// Strains that vary as ξ_k, and as the product of the two other coordinates.
+/// Amplitudes of the strains that vary as ξ_k, and as the product of the two other coordinates.
 template <class Real> struct Strains { Real linear[3][6], bilinear[3][6]; };
 
-/// a_k·b̂_1, b̂_2, b̂_3, ĉ: [vector][k].
+/// Products a_k·b̂_1, b̂_2, b̂_3, ĉ: [vector][k].
 template <class Real> struct Products { Real of[4][3]; };
 
-/// The thinning along the third direction where (B3) does not give it.
+/// Thinning along the third direction: given by (B3), or free.
 struct GivenThinning {};
 template <class Real> struct FreeThinning {
   Real strain;   ///< X of (B8): the strain along the normal is −X ξ_3
-  Real pressure; ///< P of (B9), which works on the stretch of the plane
+  Real pressure; ///< P of (B9), conjugate to the in-plane stretch
 };
 template <class Thinning> constexpr bool is_free = !std::is_same_v<Thinning, GivenThinning>;
 
-/// Forces of the hourglass vectors, and of the columns where strains follow those by their metric and by
-/// their products with the hourglass vectors.
+/// Forces of the hourglass vectors, and of the columns, on which strains depend by their metric and by their
+/// products with the hourglass vectors.
 template <class Real> struct Forces { Real hourglass[4][3], columns[3][3]; };
 
 template <class Real, class Other> BILLET_STRAIN auto dot(const Real *a, const Other *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// `columns` are set; `invert` and `root` are 1/x and √x.
+/// Completes a frame whose `columns` are set; `invert` and `root` are 1/x and √x.
 template <class Real, class Invert, class Root>
 BILLET_STRAIN void complete(Frame<Real> &frame, const Invert &invert, const Root &root) {
   const auto &a = frame.columns;
@@ -109,13 +110,13 @@ BILLET_STRAIN void multiply(const Frame<Real> &frame, const Real (*hourglass)[3]
       products.of[m][k] = dot(frame.columns[k], hourglass[m]);
 }
 
-/// What bends along k, of the fibres i and j: η of (B2) and e = η_jj/l_j², and what (B3) makes of them but
-/// for the thinning.
+/// Bending strains that vary along k, in the fibres i and j: η of (B2), e = η_jj/l_j², and h_k of (B3)
+/// without the thinning.
 template <class Real> struct Bending {
   Real eta_ii, eta_jj, eta_ij, e_i, e_j;
-  Real less;               ///< Σ (1 − s) e of both, with its sign
-  Real ii, jj, ij, ik, jk; ///< h_k; a_k has the strain of its part in the plane
-  Real sum;                ///< what the thinning follows
+  Real less;               ///< Σ (s − 1) e of both
+  Real ii, jj, ij, ik, jk; ///< h_k; a_k has the strain of its in-plane part
+  Real sum;                ///< in-plane stretch that drives the thinning
 };
 
 template <class Number, unsigned int k, class Fixed, class Real>
@@ -125,7 +126,7 @@ BILLET_STRAIN Bending<Real> bend(const Constants<Fixed> &constants, const Frame<
   const Fixed s_i = constants.share[i][k], s_j = constants.share[j][k];
   const Real &g_ij = frame.metric[pair[i][j]], &p_i = frame.slopes[k][i], &p_j = frame.slopes[k][j];
   Bending<Real> h;
-  h.eta_ii = products.of[j][i]; // with ξ_k goes fibre i's by mode (i, k), of place j
+  h.eta_ii = products.of[j][i]; // fibre i varies with ξ_k by mode (i, k), at position j
   h.eta_jj = products.of[i][j];
   h.eta_ij = Number(0.5) * (products.of[i][i] + products.of[j][j]);
   h.e_i = frame.inverse_squares[i] * h.eta_ii;
@@ -141,7 +142,7 @@ BILLET_STRAIN Bending<Real> bend(const Constants<Fixed> &constants, const Frame<
   return h;
 }
 
-/// h += factor sym(a_j ⊗ a^k), l the third direction.
+/// Adds factor sym(a_j ⊗ a^k) to h; l is the third direction.
 template <class Number, unsigned int j, unsigned int k, class Real>
 BILLET_STRAIN void add_shear(const Frame<Real> &frame, const Real &factor, Real *h) {
   constexpr unsigned int l = 3 - j - k;
@@ -151,7 +152,7 @@ BILLET_STRAIN void add_shear(const Frame<Real> &frame, const Real &factor, Real 
   h[pair[k][l]] += half * frame.metric[pair[j][l]];
 }
 
-/// h_k of (B3), without shear; e: [j][k].
+/// Sets h_k of (B3), without shear; e: [j][k].
 template <class Number, unsigned int k, class Fixed, class Real, class Thinning>
 BILLET_STRAIN void set_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                const Products<Real> &products, [[maybe_unused]] const Thinning &thinning,
@@ -173,7 +174,7 @@ BILLET_STRAIN void set_bending(const Constants<Fixed> &constants, const Frame<Re
            constants.thinning[k] * (frame.square_heights[k] * bending.sum);
 }
 
-/// Of the fourth mode, without shear; returns θ e_j.
+/// Sets the strain of the fourth mode, without shear. Returns θ e_j.
 template <class Number, unsigned int j, class Fixed, class Real>
 BILLET_STRAIN Real set_fourth(const Constants<Fixed> &constants, const Frame<Real> &frame,
                               const Products<Real> &products, Real *h) {
@@ -191,23 +192,23 @@ BILLET_STRAIN Real set_fourth(const Constants<Fixed> &constants, const Frame<Rea
   return Number(kept_shear) * e;
 }
 
-/// What of fibre j is sheared where k is the other direction: (B4), and of the fourth mode.
+/// Adds the shear of fibre j with k as the other direction: (B4), and that of the fourth mode.
 template <class Number, unsigned int j, unsigned int k, class Fixed, class Real>
 BILLET_STRAIN void add_shears(const Constants<Fixed> &constants, const Frame<Real> &frame, const Real &e,
                               const Real &fourth, Strains<Real> &strains) {
-  const Real slender = frame.inverse_lengths[j] * frame.heights[k]; // t_j ⊗ n_k = a_j ⊗ a^k times it
+  const Real slender = frame.inverse_lengths[j] * frame.heights[k]; // t_j ⊗ n_k = a_j ⊗ a^k times this
   add_shear<Number, j, k>(frame, constants.shear[j][k] * (e * slender), strains.linear[j]);
   add_shear<Number, j, k>(frame, fourth * slender, strains.bilinear[k]);
 }
 
-/// E of (B8): how much bending stretches the plane of the first two directions, per ξ_3.
+/// Returns E of (B8): the stretch of the plane of the first two directions by bending, per ξ_3.
 template <class Number, class Fixed, class Real>
 BILLET_STRAIN Real compute_plane_stretch(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                          const Products<Real> &products) {
   return bend<Number, 2>(constants, frame, products).sum;
 }
 
-/// (B3) to (B5); with a FreeThinning (B8).
+/// Computes the strains (B3) to (B5); with a FreeThinning, (B8).
 template <class Number, class Fixed, class Real, class Thinning = GivenThinning>
 BILLET_STRAIN void compute_strains(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                    const Products<Real> &products, Strains<Real> &strains,
@@ -230,8 +231,9 @@ BILLET_STRAIN void compute_strains(const Constants<Fixed> &constants, const Fram
 /// Derivatives of a power by the metric, by ln l_j, by ln(height_k), and by the products.
 template <class Real> struct Derivatives { Real metric[6], length[3], height[3], products[4][3]; };
 
-/// Of a strain `factor` e sym(a_j ⊗ a^k) and its stress T, l the third direction: by e, and added to
-/// `derivatives`. `factor` goes with height_k/l_j.
+/// Differentiates the power of a strain `factor` e sym(a_j ⊗ a^k) with stress T; l is the third direction.
+/// Returns the derivative by e, and adds the others to `derivatives`. `factor` is proportional to
+/// height_k/l_j.
 template <class Number, unsigned int j, unsigned int k, class Real>
 BILLET_STRAIN Real differentiate_shear(const Frame<Real> &frame, const Real &factor, const Real &e,
                                        const Real *T, Derivatives<Real> &derivatives) {
@@ -248,7 +250,7 @@ BILLET_STRAIN Real differentiate_shear(const Frame<Real> &frame, const Real &fac
   return by_e;
 }
 
-/// Of the fourth mode's part that follows fibre j.
+/// Adds the derivatives for the part of the fourth mode that depends on fibre j.
 template <class Number, unsigned int j, class Fixed, class Real>
 BILLET_STRAIN void differentiate_fourth(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                         const Products<Real> &products, const Strains<Real> &stresses,
@@ -280,7 +282,7 @@ BILLET_STRAIN void differentiate_fourth(const Constants<Fixed> &constants, const
   derivatives.products[3][j] = share * by_e;
 }
 
-/// Of what bends along k. To be called last, when derivatives.height[k] is complete.
+/// Adds the derivatives for the bending along k. Call it last, when derivatives.height[k] is complete.
 template <class Number, unsigned int k, class Fixed, class Real, class Thinning>
 BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                          const Products<Real> &products, const Strains<Real> &stresses,
@@ -293,7 +295,7 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
   const Real &p_i = frame.slopes[k][i], &p_j = frame.slopes[k][j];
   const Real &g_ij = frame.metric[pair[i][j]];
 
-  // The thinning, then from a_k to its part in the plane
+  // Thinning, then the in-plane part of a_k
   Real by_sum; // with its sign
   if constexpr (k == 2 && is_free<Thinning>) {
     by_sum = Real{} - thinning.pressure;
@@ -315,7 +317,7 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
   derivatives.metric[i] += by_area * (h.sum * frame.metric[j] - h.jj);
   derivatives.metric[j] += by_area * (h.sum * frame.metric[i] - h.ii);
 
-  // The shear that goes with each fibre's bending
+  // Shear that accompanies the bending of each fibre
   const Real by_e_i = (s_i - Number(1)) * by_less +
                       differentiate_shear<Number, i, k>(
                           frame, constants.shear[i][k] * (frame.inverse_lengths[i] * frame.heights[k]), h.e_i,
@@ -346,8 +348,8 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
   derivatives.metric[pair[i][j]] -= pi_i * p_j + pi_j * p_i;
 }
 
-/// Of the power Σ T_ab h_ab˙ of stresses, a ≤ b: the shear stresses count twice. The derivatives of
-/// compute_strains(), and of P times compute_plane_stretch(). Those of the columns are added.
+/// Computes the forces of the power Σ T_ab h_ab˙ of stresses, a ≤ b: shear stresses count twice. They are the
+/// derivatives of compute_strains(), and of P times compute_plane_stretch(). Those of the columns are added.
 template <class Number, class Fixed, class Real, class Thinning = GivenThinning>
 BILLET_STRAIN void compute_forces(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                   const Real (*hourglass)[3], const Products<Real> &products,

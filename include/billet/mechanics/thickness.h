@@ -16,42 +16,42 @@ namespace billet {
 inline constexpr std::array<unsigned int, 4> all_points_through = {2, 3, 5, 7};
 constexpr unsigned int max_points_through = 7;
 
-/// Gauss points on [−1, 1] in increasing order, and their weights, which add up to 1.
+/// Gauss points on [−1, 1] in increasing order, and their weights, which sum to 1.
 struct GaussRule {
   std::vector<double> points, weights;
 };
 /// Returns the rule with one of `all_points_through`.
 const GaussRule &gauss_rule(unsigned int n_through);
 
-/// The axis of a brick (0, 1, 2: ξ, η, ζ) that runs through the thickness, and whether the thickness
-/// direction runs against it.
+/// Axis of a brick (0, 1, 2: ξ, η, ζ) through the thickness, and whether the thickness direction is opposite
+/// to it.
 struct ThicknessAxis {
   unsigned int axis = 2;
   bool is_reversed = false;
 
-  /// Returns it as one number, for checkpoints.
+  /// Returns the axis as one number, for checkpoints.
   unsigned int code() const { return axis + (is_reversed ? 3 : 0); }
   static ThicknessAxis from_code(const unsigned int code) { return {code % 3, code >= 3}; }
   bool operator==(const ThicknessAxis &other) const { return code() == other.code(); }
 };
 
-/// The axis nearest to a direction; none if another axis is as near, to 10 degrees, or if the direction is
-/// zero.
+/// Returns the axis nearest to a direction; none if another axis is as near within 10 degrees, or if the
+/// direction is zero.
 std::optional<ThicknessAxis> find_thickness_axis(const ElementVectors &positions,
                                                  const dealii::Tensor<1, 3> &direction);
 
-/// Nodes (or corner points) of the brick in the order of its directions turned so that the third one is the
-/// thickness direction: number a of the turned brick is number turn_corners(axis)[a] of the brick.
+/// Returns the nodes (or corner points) of the brick in the order of rotated directions, of which the third
+/// is the thickness direction. Node a of the rotated brick is node turn_corners(axis)[a] of the brick.
 std::array<unsigned int, n_element_nodes> turn_corners(const ThicknessAxis &axis);
 
-/// State of a material point, whatever law and kinematics it has: enough to continue with others.
+/// State of a material point, independent of its law and kinematics; sufficient to continue with others.
 struct PointStress {
-  dealii::SymmetricTensor<2, 3> deviator; ///< of the Kirchhoff stress [stress]
+  dealii::SymmetricTensor<2, 3> deviator; ///< deviator of the Kirchhoff stress [stress]
   double equivalent_plastic_strain = 0.;
 };
 
 /// States of the points of a brick. With two points through each direction they are in the order of the
-/// corners. With more they are in layers of four from the inside to the outside, within a layer in the order
+/// corners. With more they are in layers of four from inside to outside; within a layer they are in the order
 /// of turn_corners().
 class ElementStress {
 public:
@@ -67,7 +67,8 @@ public:
   std::vector<PointStress>::const_iterator end() const { return points_.end(); }
 
   /// Returns the states on another number of layers, (B11) of doc/theory.md: means over the part of the
-  /// thickness that belongs to each point. Keeps the mean of each column, never leaves the yield surface.
+  /// thickness that belongs to each point. The transfer preserves the mean of each column and never exceeds
+  /// the yield stress.
   ElementStress transfer(unsigned int n_through, const ThicknessAxis &axis = {}) const;
 
 private:
@@ -81,7 +82,7 @@ struct LayerSummary {
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
   double equivalent_plastic_strain = 0.;
 };
-/// Layers that output shows: the first, the middle and the last one along the thickness direction.
+/// Layers in the output: the first, the middle and the last one along the thickness direction.
 constexpr std::array<const char *, 3> layer_names = {"inner", "membrane", "outer"};
 using LayerSummaries = std::array<LayerSummary, layer_names.size()>;
 

@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// Writes capabilities.csv into the folder: of each capability how often its loops ran, over how many items,
-/// and how many bytes it held at most, summed over ranks (calls: of the rank that has most). Where the first
-/// rank cannot write, the run goes on. Collective.
+/// Writes capabilities.csv into the folder: calls of its loops, items in them and peak memory [bytes] of each
+/// capability. Items and memory are summed over ranks; calls are the maximum. If the first rank cannot write,
+/// the run continues. Collective.
 void write_capabilities(const std::string &folder, MPI_Comm communicator);
 
 } // namespace billet

@@ -10,31 +10,33 @@
 
 namespace billet {
 
-/// A value of each owned element, by body, in the order of Discretization::elements().
+/// Values of the owned elements, by body, in the order of Discretization::elements().
 using ElementValues = std::vector<std::vector<double>>;
 
-/// Of each element the mean of its nodes' means, each over the elements of the body around the node, weighted
-/// with their undeformed volumes. Collective.
+/// Returns smoothed values: each element has the mean of its nodes' means. A node's mean is over the elements
+/// of the body around it, weighted by undeformed volume. Collective.
 ElementValues smooth(const Discretization &discretization, const ElementValues &values);
 
-/// How far stresses jump between elements, an indication of what the mesh makes, after Zienkiewicz & Zhu
-/// (1987): √(Σ V |σ − σ*|² / Σ V |σ|²) over all elements, σ the mean Cauchy stress of one of volume V, σ*
-/// that of smooth(). It falls with the element's size, and is an error of stresses: forces are better. 0
-/// without stress. Collective.
+/// Returns the relative jump of stresses between elements, an indicator of the discretization error after
+/// Zienkiewicz & Zhu (1987): √(Σ V |σ − σ*|² / Σ V |σ|²) over all elements. Here σ is the mean Cauchy stress
+/// of an element with volume V, and σ* the smoothed stress, see smooth(). It decreases with element size and
+/// measures errors of stresses; errors of forces are smaller. 0 without stress. Collective.
 double stress_jumps(const Solution &solution, const Discretization &discretization);
 
-/// What of the pressures alternates from element to element, as bricks with one pressure each may (Sussman &
-/// Bathe, Comput. Struct. 26 (1987) 357-409): d = p - S p, S as smooth(), of which a checkerboard keeps all
-/// and S d nothing, while of a smooth field S d keeps nearly all.
+/// Pressure checkerboard: the part of the pressures that alternates from element to element, as bricks with
+/// one pressure each allow (Sussman & Bathe, Comput. Struct. 26 (1987) 357-409). The indicator is d = p - S
+/// p, with S as in smooth(). For a checkerboard, d contains all of it and S d vanishes; for a smooth field, S
+/// d retains nearly all of d.
 struct Checkerboard {
   double size = 0.;        ///< sqrt(sum V d^2 / sum V p^2), 0 without pressure
-  double alternating = 0.; ///< sqrt(sum V (d - S d)^2 / sum V d^2): 1 of a checkerboard
+  double alternating = 0.; ///< sqrt(sum V (d - S d)^2 / sum V d^2): 1 for a checkerboard
 
-  /// A message if it is large.
+  /// Returns a message if it is large.
   DiagnosticList check() const;
 };
 
-/// Of meshes with so few elements that a checkerboard cannot be told from their stresses: zeros. Collective.
+/// Measures the checkerboard. Returns zeros for meshes with too few elements to distinguish it from gradients
+/// of stress. Collective.
 Checkerboard find_checkerboard(const Solution &solution, const Discretization &discretization);
 
 } // namespace billet

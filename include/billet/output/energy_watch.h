@@ -11,17 +11,16 @@
 
 namespace billet {
 
-/// Checks whether the energies of accepted steps balance in implicit dynamics (explicit runs check that
-/// themselves). The energy of the one-point elements' stabilisation is that of bending: ElementWatch judges
-/// it.
+/// Checks the energy balance of accepted steps in implicit dynamics; explicit runs have a check of their own.
+/// The stabilisation energy of one-point elements is that of bending: ElementWatch checks it.
 class EnergyWatch {
 public:
-  /// What becomes of energies that fail to balance: nothing, a word, or the end of the run.
+  /// Reaction to an energy imbalance: none, a warning, or the end of the run.
   enum class Balance { is_left, is_told, is_kept };
-  /// Of the largest energy, where the scene allows no part of its own.
+  /// Default of the allowed drift, relative to the maximum energy.
   static constexpr double doubtful_drift = 0.05;
 
-  /// Why energies may fail to balance: what can be done differs.
+  /// Causes of an energy imbalance, with different remedies.
   enum class Cause {
     steps,
     soft_penalties,
@@ -30,18 +29,18 @@ public:
     unstable_law,
     inexact_dissipation
   };
-  /// In words, and what to do.
+  /// Returns a description of the cause and its remedy.
   static std::string advise(Cause cause);
 
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
       : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// Messages about the energies at this time. `find_cause` is asked for the likely one where energies fail
-  /// to balance, on all ranks.
+  /// Returns messages about the energies at this time. In an imbalance, calls `find_cause` on all ranks for
+  /// the likely cause.
   DiagnosticList check(
       double time, const EnergyLedger &energies,
       const std::function<Cause()> &find_cause = [] { return Cause::steps; });
-  /// Why the run has to end after the last check(); empty if it may go on.
+  /// Returns why the run has to end after the last check(); empty if it may continue.
   const std::string &imbalance() const { return imbalance_; }
 
 private:
@@ -49,7 +48,7 @@ private:
   double allowed_drift_;
   double largest_ = 0.;
   std::string imbalance_;
-  std::optional<Cause> cause_; ///< of the first imbalance
+  std::optional<Cause> cause_; ///< cause of the first imbalance
 };
 
 } // namespace billet

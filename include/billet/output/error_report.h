@@ -10,29 +10,30 @@
 
 namespace billet {
 
-/// The estimated error of a run, beside what was asked for and what it cost.
+/// Estimated error of a run, with its target and costs.
 struct ErrorReport {
-  /// One source of errors: its name, its part of the forces or energies, and what lowers it.
+  /// Source of errors: its name, its error relative to the forces or energies, and its remedy.
   struct Source {
     std::string name;
     double error;
     std::string remedy;
-    bool is_known = true; ///< else it could not be measured
+    bool is_known = true; ///< false: it could not be measured
   };
 
-  std::string of_what;         ///< that the errors are parts of: forces, energies
-  double since = 0.;           ///< time from which on they are known; 0: from the start
-  double target = 0.;          ///< 0: none was asked for
-  bool is_known = true;        ///< whether there was something that errors can be parts of
-  std::vector<Source> sources; ///< that are estimated
-  double stress_jumps = 0.;    ///< see stress_jumps()
+  std::string of_what;         ///< reference quantity of the errors: forces or energies
+  double since = 0.;           ///< time from which errors are known; 0: from the start
+  double target = 0.;          ///< 0: none
+  bool is_known = true;        ///< whether there was a reference quantity to normalise by
+  std::vector<Source> sources; ///< estimated sources
+  double stress_jumps = 0.;    ///< from stress_jumps()
   std::vector<std::pair<std::string, double>> costs;
 
-  /// Of what is known.
+  /// Returns the sum of the known errors.
   double total() const;
-  /// The estimate, and whether it meets the target.
+  /// Returns the estimate and, if there is a target, whether it is missed or unknown.
   DiagnosticList diagnostics() const;
-  /// error_estimate.csv in this folder: quantity, value. Throws SolutionFailure if it cannot be written.
+  /// Writes error_estimate.csv into this folder: quantity, value. Throws SolutionFailure if it cannot be
+  /// written.
   void write(const std::string &folder) const;
 
 private:

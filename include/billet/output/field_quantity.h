@@ -11,7 +11,7 @@
 
 namespace billet {
 
-/// Averages over the points of an element, or of one of its layers.
+/// Averages over the integration points of an element, or of one of its layers.
 struct ElementAverage {
   std::size_t body;
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
@@ -20,10 +20,10 @@ struct ElementAverage {
 
 /// Quantity that is constant in an element: a scalar, or the components of a vector or tensor.
 struct ElementQuantity {
-  std::string name;                    ///< as the manual calls it
+  std::string name;                    ///< name in the manual
   std::string unit;                    ///< of all components; empty if they have none
   std::vector<std::string> components; ///< their names in files
-  bool has_layers;                     ///< whether it follows from points, so that layers have it, too
+  bool has_layers; ///< whether it follows from integration points, so that layers have it, too
   std::function<bool(const Scene &)> is_written;
   /// Returns one value for each component.
   std::function<std::vector<double>(const ElementAverage &)> evaluate;
@@ -38,20 +38,20 @@ struct NodalField {
 
 /// Quantity at the nodes.
 struct NodalQuantity {
-  std::string name; ///< as the manual calls it
+  std::string name; ///< name in the manual
   std::string unit; ///< empty if there is none, or if its components have different ones
-  /// Returns its fields; none where the scene does not have it or does not ask for it. Collective.
+  /// Returns its fields; none if the scene does not have it or does not request it. Collective.
   std::function<std::vector<NodalField>(const Scene &, const Discretization &, const Solution &)> evaluate;
 };
 
-/// Quantities that field output can show, in the order of the files. A new one is a file in
-/// source/output/fields/ with a function that returns it, and its name in the table of field_quantity.cc; or,
-/// outside the library, one call of add() before fields are written.
+/// Quantities of field output, in the order of the files. A new one is a file in source/output/fields/ with a
+/// function that returns it, and its name in the table of field_quantity.cc. Outside the library, it is one
+/// call of add() before fields are written.
 class FieldQuantities {
 public:
   FieldQuantities(const std::vector<NodalQuantity> &nodal, const std::vector<ElementQuantity> &of_elements);
 
-  /// Throws std::logic_error if the name, or that of a component, is taken.
+  /// Adds a quantity. Throws std::logic_error if its name, or the name of a component, is taken.
   void add(const NodalQuantity &quantity);
   void add(const ElementQuantity &quantity);
 

@@ -12,21 +12,21 @@
 
 namespace billet {
 
-/// Pictures of the state for ParaView: the deformed bodies with the fields that the scene asks for, as VTU or
-/// HDF5, and the tools where they are, as VTP. An index file ties them together over time and is rewritten
-/// each time, so that a run that stops leaves all that it had computed.
+/// Field output for ParaView: the deformed bodies with the requested fields, as VTU or HDF5, and the tools as
+/// VTP. An index file lists all snapshots. It is rewritten with each snapshot, so that results of an
+/// interrupted run remain readable.
 class FieldWriter {
 public:
   FieldWriter(const Scene &scene, MPI_Comm communicator, std::string folder);
 
-  /// Collective.
+  /// Writes a snapshot. Collective.
   void write(const Solution &solution);
 
-  /// Goes on with the pictures of a run whose files are in the same folder.
+  /// Saves and restores the list of snapshots, so that a resumed run continues the files in the same folder.
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// The file to open, once something was written; empty if the scene wants no fields.
+  /// Returns the file to open, once a snapshot was written; empty if the scene requests no fields.
   std::string file_to_open() const;
 
 private:

@@ -10,24 +10,24 @@
 
 namespace billet {
 
-/// history.csv: a line for every accepted step, or of an explicit scene as often as it asks, on disk as soon
-/// as it is known. Written by the first rank.
+/// History file history.csv: a line for every accepted step or, in explicit scenes, for every interval of the
+/// history. Each line is flushed to disk. Written by the first rank.
 class HistoryFile {
 public:
   HistoryFile(const Scene &scene, const std::string &folder);
 
-  /// How far a history has come.
+  /// Position in a history, to resume from.
   struct Mark {
     std::string columns; ///< its first line
     double n_bytes = 0.;
   };
   Mark mark();
-  /// Goes on behind the mark of a run in the same folder. If the file has other columns, or is shorter, it is
-  /// kept under another name that tells the `time` until which it goes, and a new one is begun.
+  /// Continues after the mark of a run in the same folder. If the file has other columns, or is shorter, it
+  /// is renamed with the `time` at which it ends, and a new one begins.
   HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, double time);
 
   void write(const StepReport &report, const SolutionState &state);
-  /// Of an explicit scene: steps taken, and the length of the next.
+  /// Writes a line of an explicit scene: number of steps, and length of the next.
   void write(unsigned int step, double length, const SolutionState &state);
 
 private:

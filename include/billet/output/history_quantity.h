@@ -11,40 +11,40 @@
 
 namespace billet {
 
-/// What a step of an implicit scene took to solve.
+/// Solution effort of a step of an implicit scene.
 struct StepReport {
   unsigned int step = 0;
   double length = 0.;
   NewtonReport newton;
-  unsigned int total_iterations = 0; ///< since time 0, those of failed tries included
+  unsigned int total_iterations = 0; ///< since time 0, including those of failed steps
   unsigned int total_cuts = 0;
 };
 
-/// What a line of the history is made from.
+/// Data of a line of the history.
 struct HistorySample {
   const SolutionState &state;
   unsigned int step;
-  double length;            ///< of an explicit scene: of the next step [time]
-  const StepReport *report; ///< none in explicit scenes
+  double length;            ///< explicit scenes: of the next step [time]
+  const StepReport *report; ///< null in explicit scenes
 };
 
 /// Columns of the history that belong together.
 struct HistoryQuantity {
   std::string name;
-  /// Returns the columns' names; none where the scene does not have the quantity.
+  /// Returns the columns' names; none if the scene does not have the quantity.
   std::function<std::vector<std::string>(const Scene &)> columns;
   /// Returns one value for each column.
   std::function<std::vector<double>(const HistorySample &)> evaluate;
 };
 
-/// Quantities of the history, in the order of its columns. A new one is a file in source/output/history/
-/// with a function that returns it, and its name in the table of history_quantity.cc; or, outside the
-/// library, one call of add() before the history begins.
+/// Quantities of the history, in the order of its columns. A new one is a file in source/output/history/ with
+/// a function that returns it, and its name in the table of history_quantity.cc. Outside the library, it is
+/// one call of add() before the history begins.
 class HistoryQuantities {
 public:
   explicit HistoryQuantities(const std::vector<HistoryQuantity> &quantities);
 
-  /// Throws std::logic_error if the name is taken.
+  /// Adds a quantity. Throws std::logic_error if the name is taken.
   void add(const HistoryQuantity &quantity);
 
   auto begin() const { return quantities_.begin(); }

@@ -10,25 +10,25 @@
 
 namespace billet {
 
-/// The console of a run: a line for every step, and on a terminal a bar with the time to go. First rank only.
+/// Console of a run: a line for every step and, on a terminal, a progress bar with the remaining time. First
+/// rank only.
 class Progress {
 public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
 
   void start(const Discretization &discretization, const Solution &solution);
-  /// Of an explicit scene, once its first step is known: how many there will be, if they stay as long.
+  /// Shows the estimated number of steps of an explicit scene, from the length of the first step.
   void show_number_of_steps(double n_steps, double step);
-  /// Of an explicit scene, where a line of the history is due.
+  /// Shows a step of an explicit scene for which a line of the history is due.
   void show(unsigned int step, double length, const SolutionState &state);
-  /// A warning, whatever the verbosity; a note unless that is quiet.
+  /// Shows a warning at any verbosity, a note unless the verbosity is quiet.
   void show_diagnostic(Severity severity, const std::string &text);
   void accept(const StepReport &report, const SolutionState &state);
   void reject(const StepReport &report, double from, double to);
-  /// Of an explicit scene, at its end: how long its steps took without output, by the clock and of the
-  /// processor.
+  /// Shows wall-clock and CPU time of the steps of an explicit scene, without output.
   void show_pace(unsigned int n_steps, std::size_t n_elements, double seconds, double processor_seconds);
-  /// The last lines: how often messages were repeated, how many warnings there were (in words, or empty), and
-  /// what to open.
+  /// Shows the last lines: counts of repeated messages, the number of warnings (in words, or empty), and the
+  /// file to open.
   void finish(const std::vector<std::string> &repetitions, const std::string &warnings,
               const std::string &file_to_open);
 

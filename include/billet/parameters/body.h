@@ -13,7 +13,7 @@
 
 namespace billet::parameters {
 
-/// Subsection Mesh: where the hexahedra of a body come from.
+/// Subsection Mesh: source of a body's hexahedra.
 struct Mesh {
   enum class Source { primitive, extruded, file };
 
@@ -30,7 +30,7 @@ struct Mesh {
   dealii::Tensor<1, 3> rotation_axis;
   double rotation_angle;
   dealii::Tensor<1, 3> translation;
-  /// New id and muParser condition on x, y, z of the face's centre; the last match holds.
+  /// New id, and muParser condition on x, y, z of the face's centre; the last condition that holds applies.
   Located<std::vector<std::pair<unsigned int, std::string>>> boundary_ids;
 
   static void declare(dealii::ParameterHandler &prm);
@@ -59,19 +59,19 @@ struct Support {
   void parse(Reader &reader);
 };
 
-/// One named subsection of Loads: what acts on a body besides tools and other bodies.
+/// One named subsection of Loads: a load on a body in addition to contact.
 struct Load {
   std::string name;
   std::string type;
   billet::Load load;
-  std::vector<std::string> origins;                ///< of its expressions, for messages
-  Located<std::vector<unsigned int>> boundary_ids; ///< of loads on faces
+  std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
+  Located<std::vector<unsigned int>> boundary_ids; ///< only for loads on faces
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 };
 
-/// n · X = offset: boundary nodes on it do not leave it.
+/// Symmetry plane n · X = offset: boundary nodes on it stay on it.
 struct SymmetryPlane {
   dealii::Tensor<1, 3> normal;
   double offset;
@@ -85,13 +85,13 @@ struct Body {
   Mesh mesh;
   Material material;
   Located<BrickElement> element{BrickElement::assumed_strain, ""};
-  Located<unsigned int> points_through;                  ///< the thickness, of assumed strains
+  Located<unsigned int> points_through; ///< integration points through the thickness, for assumed strains
   Located<std::vector<std::string>> thickness_direction; ///< expressions of x, y, z; empty with two points
   std::vector<Support> supports;
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z
   Located<std::vector<SymmetryPlane>> symmetry_planes;
-  Located<bool> is_stabilised; ///< by viscous forces, until contact supports it
+  Located<bool> is_stabilised; ///< viscous forces stabilise it until contact supports it
 
   static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names,
                       const std::vector<std::string> &load_names);

@@ -6,7 +6,7 @@
 
 namespace billet::parameters {
 
-/// One named subsection of Amplitudes: a function of time, for use by its name in expressions.
+/// One named subsection of Amplitudes: a function of time that expressions use by its name.
 struct Amplitude {
   enum class Interpolation { linear, smooth };
 
@@ -26,10 +26,10 @@ struct TimeStepping {
   Scheme scheme;
   std::vector<double> stops;
   double end_time;
-  // Of implicit scenes, quasi-static or dynamic:
+  // Implicit schemes only, quasi-static or dynamic:
   Control control = Control::automatic;
   double initial_step = 0., smallest_step = 0., largest_step = 0.;
-  double error_tolerance = 0.; ///< of quasi-static steps, part of the forces; 0: none
+  double error_tolerance = 0.; ///< for quasi-static steps, relative to the forces; 0: none
   unsigned int few_iterations = 0, many_iterations = 0;
   double growth_factor = 1., shrink_factor = 1., cut_factor = 1.;
 
@@ -43,22 +43,22 @@ struct ExplicitDynamics {
   enum class NumberType { double_precision, float_precision };
 
   double safety_factor;
-  double contact_resolution; ///< of the oscillation on penalties, >= 1
+  double contact_resolution; ///< for the oscillation of nodes on penalty springs, >= 1
   double linear_viscosity, quadratic_viscosity;
-  double scaled_step;   ///< elements get mass until their step is not shorter; 0: none
-  double largest_drift; ///< part of the energy
+  double scaled_step;   ///< stable step that mass scaling ensures for each element; 0: none
+  double largest_drift; ///< maximum, relative to the energy
   Instructions instructions;
-  NumberType number_type; ///< of the element kernels
+  NumberType number_type; ///< for the element kernels
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 };
 
-/// How the contact forces are linearised; see contact/traction.h.
+/// Linearisation of the contact forces; see contact/traction.h.
 enum class ContactTangent {
-  automatic, ///< exact where there is friction; consistent, and so symmetric, where there is none
+  automatic, ///< exact with friction; consistent, hence symmetric, without
   exact,
-  numerical, ///< the same by central differences, for comparison
+  numerical, ///< exact, by central differences, for comparison
   consistent,
   continuum,
   symmetrised_upper,
@@ -66,9 +66,9 @@ enum class ContactTangent {
   symmetrised_mean
 };
 
-/// How the stresses are linearised where their exact tangent is unsymmetric.
+/// Linearisation of stresses whose exact tangent is unsymmetric.
 enum class MaterialTangent {
-  automatic, ///< its symmetric part where nothing else in the scene makes the matrix unsymmetric
+  automatic, ///< symmetric part, unless something else in the scene makes the matrix unsymmetric
   exact,
   symmetrised
 };
@@ -77,8 +77,8 @@ enum class MaterialTangent {
 struct Solver {
   enum class LineSearch { none, energy };
   enum class Predictor { tangent, extrapolation };
-  /// Above so many unknowns, or where a direct solver would want half of the memory, `automatic` is
-  /// iterative.
+  /// Above this number of unknowns, or if a direct solver would need half of the memory, `automatic` selects
+  /// an iterative solver.
   static constexpr unsigned int most_direct_dofs = 10000;
   enum class LinearSolver { automatic, mumps_symmetric, mumps, klu, conjugate_gradients, gmres };
   enum class Forcing { eisenstat_walker, fixed };
@@ -87,12 +87,12 @@ struct Solver {
   Located<MaterialTangent> material_tangent;
   double force_tolerance, energy_tolerance, displacement_tolerance;
   unsigned int most_iterations;
-  unsigned int most_augmentations; ///< in a step
+  unsigned int most_augmentations; ///< maximum in a step
   LineSearch line_search;
   Predictor predictor;
   Located<LinearSolver> linear_solver;
   Forcing forcing;
-  double linear_tolerance; ///< |b − A x| / |b|; with Eisenstat and Walker the smallest that is asked for
+  double linear_tolerance; ///< |b − A x| / |b|; for Eisenstat and Walker the minimum
   unsigned int most_linear_iterations;
 
   static void declare(dealii::ParameterHandler &prm);
@@ -108,15 +108,15 @@ struct Output {
   Format format;
   unsigned int every_steps;
   double interval;
-  double history_interval; ///< of explicit scenes; 0: a two hundredth of the end time
+  double history_interval; ///< for explicit scenes; 0: 1/200 of the end time
   bool stress, plastic_strain, contact;
   Verbosity verbosity;
 
   /// Subsection Checkpoint.
   struct Checkpoint {
-    unsigned int every_steps; ///< 0: not by steps
-    double interval;          ///< 0: not by time
-    unsigned int keep;        ///< the last ones
+    unsigned int every_steps; ///< 0: no checkpoints by steps
+    double interval;          ///< 0: no checkpoints by time
+    unsigned int keep;        ///< number of checkpoints to keep
 
     bool is_regular() const { return every_steps > 0 || interval > 0.; }
   };
@@ -128,8 +128,8 @@ struct Output {
 
 /// Subsection Restart.
 struct Restart {
-  Located<std::string> file; ///< a checkpoint to go on with; empty: the scene starts at time 0
-  double release_time;       ///< in which forces out of balance fade; 0: until the end time
+  Located<std::string> file; ///< checkpoint to resume from; empty: the scene starts at time 0
+  double release_time;       ///< over which unbalanced forces fade; 0: until the end time
 
   bool is_wanted() const { return !file.value.empty(); }
 

@@ -8,12 +8,11 @@ class ParameterHandler;
 
 namespace billet::parameters {
 
-/// Begins the name that stands for any surface's; the shape and a bracket follow.
+/// Start of the placeholder for the name of a surface; shape and bracket follow.
 constexpr const char *name_of_surface = "(name of a surface of shape ";
 
-/// Declares all parameters that a scene may have. Subsections that users name have a name that says so, such
-/// as
-/// "(name of a body)".
+/// Declares all parameters that a scene may have. A placeholder such as "(name of a body)" stands for
+/// subsections that users name.
 void declare_every_parameter(dealii::ParameterHandler &prm);
 
 } // namespace billet::parameters

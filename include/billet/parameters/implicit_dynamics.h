@@ -13,12 +13,12 @@ struct ImplicitDynamics {
 
   TimeIntegrator integrator;
   Mass mass;
-  double error_tolerance;        ///< of a step, part of the displacement; 0: none
-  double reference_displacement; ///< 0: the largest so far
-  double largest_drift;          ///< of energies, part of the largest; 0: the run does not end for it
+  double error_tolerance;        ///< of a step, relative to the displacement; 0: none
+  double reference_displacement; ///< 0: maximum so far
+  double largest_drift;          ///< maximum, relative to the maximum energy; 0: the run never ends for it
 
   static void declare(dealii::ParameterHandler &prm);
-  /// `steps_are_fixed`: an error tolerance has no use.
+  /// Reads the subsection. `steps_are_fixed`: an error tolerance has no effect.
   void parse(Reader &reader, bool steps_are_fixed);
 };
 

@@ -13,7 +13,7 @@ class ParameterHandler;
 
 namespace billet::parameters {
 
-/// A parameter that the scene leaves open, and what a profile or the target error makes of it.
+/// Parameter that the scene does not set, with the value from the profile or the target error.
 struct Preset {
   SceneFile::Path path;
   std::string key, value;
@@ -22,15 +22,15 @@ struct Preset {
 /// Declares 'Profile' and 'Target error' at the top level.
 void declare_presets(dealii::ParameterHandler &prm);
 
-/// Gives the parameters that `file` leaves open the values of the profile or of the target error that it asks
-/// for, in `prm`, and tells which. Before prm is read; values that the file sets stay. Throws InputError.
+/// Gives the parameters in `prm` that `file` does not set the values of its profile or target error. Returns
+/// these parameters. Call it before prm is read. Throws InputError.
 std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file);
 
-/// What 'Target error' says, such as '1 percent', '1 %' or '0.01', as a part of one; 0: nothing. Throws
-/// InputError.
+/// Returns the value of 'Target error', such as '1 percent', '1 %' or '0.01', as a fraction; 0 if it is not
+/// set. Throws InputError.
 double read_target_error(const SceneFile &file);
 
-/// "Time stepping / Maximum step = 0.2".
+/// Returns "Time stepping / Maximum step = 0.2".
 std::string to_string(const Preset &preset);
 
 } // namespace billet::parameters

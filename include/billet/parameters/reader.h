@@ -12,21 +12,21 @@
 
 namespace billet {
 
-/// A parameter with the place where the user set it, for checks that can only be made later.
+/// Parameter with the place where the user set it, for checks that can only be made later.
 template <class T> struct Located {
   T value{};
   /// "file:line: 'Boundary ids' in 'Bodies / billet'", the beginning of a message.
   std::string origin;
 };
 
-/// Powers and products of larger numbers, and of smaller ones, may leave the range of double.
+/// Range of input numbers. Powers and products of numbers outside it may leave the range of double.
 constexpr double largest_number = 1e60, smallest_number = 1e-60;
 
-/// A whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
+/// Returns a whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
 unsigned int parse_count(const std::string &text);
 
 /// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
-/// InputError with file, line, parameter, what was found and what is allowed.
+/// InputError with file, line, parameter, the value found and the allowed values.
 class Reader : public TypeInput {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
@@ -37,7 +37,7 @@ public:
     read();
     leave();
   }
-  /// The subsections that the user opened here, by name.
+  /// Returns the names of the subsections that the user opened here.
   std::vector<std::string> names() const { return file_.names_below(path_); }
 
   std::string text(const std::string &key) const override;
@@ -48,20 +48,20 @@ public:
   unsigned int count(const std::string &key, unsigned int least = 0, unsigned int most = 999999999) const;
   std::vector<double> numbers(const std::string &key) const override;
   std::vector<unsigned int> counts(const std::string &key) const;
-  /// Three numbers.
+  /// Returns three numbers.
   dealii::Tensor<1, 3> vector(const std::string &key) const override;
-  /// Three numbers, not all zero, normalised.
+  /// Returns a normalised vector of three numbers that are not all zero.
   dealii::Tensor<1, 3> direction(const std::string &key) const override;
-  /// Parts between semicolons, trimmed, empty ones left out.
+  /// Returns the trimmed parts between separators, without empty ones.
   std::vector<std::string> parts(const std::string &key, char separator = ';') const override;
-  /// The name of a file as it can be opened from here. Refuses one that cannot be read.
+  /// Returns the name of a file as a path from the working directory. Refuses a file that cannot be read.
   std::string file(const std::string &key) const override;
 
   template <class T> Located<T> located(const std::string &key, T value) const {
     return {std::move(value), origin(key)};
   }
   std::string origin(const std::string &key) const;
-  /// The subsection at hand, for messages about what is missing in it.
+  /// Returns the place of the current subsection, for messages about missing parameters.
   std::string origin() const;
   bool is_set(const std::string &key) const override { return file_.is_set(path_, key); }
 

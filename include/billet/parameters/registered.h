@@ -22,7 +22,7 @@ class ParameterUnion {
 public:
   void add(const std::string &type, const std::vector<TypeParameter> &parameters);
   void declare(dealii::ParameterHandler &prm) const;
-  /// Refuses each parameter that the user set though `used` does not hold it. `reason` follows "no value: ".
+  /// Refuses each parameter that the user set and that is not in `used`. `reason` follows "no value: ".
   void reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,
                      const std::string &reason) const;
 

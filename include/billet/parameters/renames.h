@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// A parameter that had another name, or values of other names. Scenes may use the old ones until version
+/// Parameter that had another name, or values with other names. Scenes may use the old ones until version
 /// 1.0.
 struct Rename {
   std::vector<std::string> path; ///< the subsections; "*" stands for a name of the user's choice
@@ -16,15 +16,15 @@ struct Rename {
   std::vector<std::pair<std::string, std::string>> values; ///< old and new name of each value that changed
 };
 
-/// The table of all renamed parameters: the only place that knows old names.
+/// Returns the table of all renamed parameters, the only place with old names.
 const std::vector<Rename> &renames();
 
-/// A parameter and its value as they are called today.
+/// Current names of a parameter and its value.
 struct CurrentNames {
   std::string key, value;
 };
 
-/// Returns today's names of a parameter and of its value, which are the given ones unless they are old.
+/// Returns the current names of a parameter and of its value. Names that are not old remain unchanged.
 CurrentNames current_names(const std::vector<std::string> &path, const std::string &key,
                            const std::string &value);
 

@@ -13,15 +13,15 @@
 
 namespace billet::parameters {
 
-/// Everything that a scene file says, each value checked, and names that refer to each other resolved.
+/// Contents of a scene file, with every value checked and references between names resolved.
 struct Scene {
   std::string title;
   std::string file_name;
   std::string text; ///< the file as read
   std::string profile;
-  double target_error = 0.; ///< part of the forces; 0: none is asked for
+  double target_error = 0.; ///< relative to the forces; 0: none
   bool warnings_are_errors = false;
-  std::vector<Preset> presets; ///< what the profile, or the target error, has set
+  std::vector<Preset> presets; ///< parameters that the profile or the target error has set
   DiagnosticList warnings;     ///< about old names of parameters
   std::vector<Amplitude> amplitudes;
   std::vector<Body> bodies;
@@ -34,7 +34,7 @@ struct Scene {
   Output output;
   Restart restart;
 
-  /// Throws InputError. `restart_file`, unless it is empty, takes the place of the scene's own.
+  /// Reads a scene file. `restart_file`, unless it is empty, replaces the scene's own. Throws InputError.
   static Scene read(const std::string &file_name, const std::string &restart_file = "");
 
   bool is_explicit() const { return time_stepping.scheme == TimeStepping::Scheme::explicit_dynamics; }
@@ -48,7 +48,8 @@ struct Scene {
 /// Prints every parameter with its default, range, unit and meaning.
 void print_all_parameters(std::ostream &stream);
 
-/// Prints the same as a JSON Schema (draft 7) of a scene written as JSON: an object for each subsection.
+/// Prints all parameters as a JSON Schema (draft 7) of a scene written as JSON, with an object for each
+/// subsection.
 void print_schema(std::ostream &stream);
 
 } // namespace billet::parameters

@@ -13,18 +13,17 @@ namespace billet {
 /// Returns a warning for each old name of a parameter, or of a value, that the scene uses.
 DiagnosticList describe_old_names(const SceneFile &file);
 
-/// A scene file under today's names.
+/// Scene file with the current names.
 struct SceneUpdate {
   std::string text;
   /// "scene.prm:12: 'Old name' is now 'New name'", for each change in the file.
   std::vector<std::string> changes;
-  /// The same for the files that it includes, which are left as they are.
+  /// Old names in included files, which are not changed.
   std::vector<std::string> left;
 };
 
-/// Replaces old names in a scene file, or in a part of one that another file includes. Everything else
-/// stays, but for the blanks in front of an equals sign, which stays in its column where it can. Throws
-/// InputError.
+/// Replaces old names in a scene file, or in a file that a scene includes. Everything else stays, except that
+/// blanks before an equals sign may change to keep its column. Throws InputError.
 SceneUpdate update_scene(const std::string &file_name);
 
 } // namespace billet

@@ -13,22 +13,23 @@
 
 namespace billet::parameters {
 
-/// Subsection Motion of a tool: it turns about an axis through its centre, then moves.
+/// Subsection Motion of a tool: it rotates about an axis through its centre, then translates.
 struct Motion {
   Located<std::array<std::string, 3>> translation; ///< expressions of t and the amplitudes
-  Located<std::string> rotation_angle;             ///< expression of t and the amplitudes, radians
+  Located<std::string> rotation_angle;             ///< expression of t and the amplitudes [radians]
   dealii::Tensor<1, 3> rotation_axis;
   dealii::Tensor<1, 3> centre;
-  /// What the tool does besides: nothing; moves on along `direction` until it presses with `load`; turns on
-  /// until it twists with `load`; stops where it presses with `load`.
+  /// Control of the tool in addition to this motion. `motion`: none. `force`: moves along `direction` until
+  /// the contact force equals `load`. `moment`: rotates until the contact moment equals `load`. `stop`: stops
+  /// once the contact force reaches `load`.
   enum class Control { motion, force, moment, stop };
   Control control = Control::motion;
-  Located<std::string> load;      ///< expression of t and the amplitudes [force, or force length]
-  dealii::Tensor<1, 3> direction; ///< unit; of force and stop
-  double inertia = 0.;      ///< mass, or moment of inertia about the axis, of a tool with a force or moment
-  double initial_rate = 0.; ///< speed along the direction, or about the axis
+  Located<std::string> load;      ///< expression of t and the amplitudes [force or force length]
+  dealii::Tensor<1, 3> direction; ///< unit; for force and stop
+  double inertia = 0.;          ///< mass, or moment of inertia about the axis, of a tool with force or moment
+  double initial_rate = 0.;     ///< speed along the direction, or about the axis
   Located<double> removal_time; ///< infinite: never
-  double release_time;          ///< in which the forces of a removed tool fade
+  double release_time;          ///< over which the forces of a removed tool fade
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
@@ -45,7 +46,7 @@ struct Tool {
   std::string shapes; ///< of the surface's parts, for reports
   Motion motion;
 
-  /// `shapes`: name and shape of each part of the surface.
+  /// Declares the parameters. `shapes`: name and shape of each part of the surface.
   static void declare(dealii::ParameterHandler &prm,
                       const std::vector<std::pair<std::string, std::string>> &shapes);
   void parse(Reader &reader);
@@ -59,8 +60,8 @@ struct ContactPair {
   std::string origin;
   Located<std::string> body;
   Located<std::vector<unsigned int>> boundary_ids;
-  Located<std::string> tool;        ///< empty if the pair is of two bodies
-  Located<std::string> second_body; ///< empty if the pair is of a body and a tool
+  Located<std::string> tool;        ///< empty for a pair of two bodies
+  Located<std::string> second_body; ///< empty for a pair of a body and a tool
   Located<std::vector<unsigned int>> second_boundary_ids;
   enum class Facets { automatic, planed, mean_gap, bilinear, overlap };
   enum class PenaltyOf { automatic, stiffer, series };
@@ -75,15 +76,15 @@ struct ContactPair {
   FrictionPointer friction; ///< null: none
   PenaltyUnit penalty_unit;
   double normal_penalty;
-  bool has_own_penalty = false;            ///< the scene sets it: what it is worth is the user's, and stays
-  bool has_own_tangential_penalty = false; ///< the same of the tangential one
+  bool has_own_penalty = false;            ///< set in the scene, and therefore kept
+  bool has_own_tangential_penalty = false; ///< same for the tangential penalty
   double tangential_penalty;
-  std::optional<double> penetration_tolerance; ///< 0: penalties alone; none: contact must not be too soft
+  std::optional<double> penetration_tolerance; ///< 0: pure penalty; none: limits softness, (L7)
   Located<double> allowed_penetration;
-  bool may_overlap;  ///< at the start
-  double ramp_time;  ///< in which that ceases; 0: never
-  double closed_gap; ///< up to which initial gaps count as closed; 0: none does
-  /// The true surface behind the facets of both bodies, if it is known.
+  bool may_overlap;  ///< initially
+  double ramp_time;  ///< over which the allowed overlap fades; 0: never
+  double closed_gap; ///< maximum initial gap that counts as closed; 0: none
+  /// Exact surface that the facets of both bodies approximate, if it is known.
   struct Correction {
     enum class Kind { none, cylinder, sphere };
     Kind kind = Kind::none;

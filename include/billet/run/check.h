@@ -8,14 +8,13 @@
 
 namespace billet {
 
-/// Refuses what a run would refuse before its first step, by the same code on the same mesh: throws
-/// InputError. Else describes to `stream`, on the first rank, what will be modelled, and what a run would
-/// warn of, as text or as one JSON object. Of a restart the checkpoint alone is checked, and the meshes.
-/// Collective.
+/// Checks a scene by the code that a run executes before its first step, on the same mesh: throws InputError
+/// if a run would. Otherwise the first rank describes the model and the warnings to `stream`, as text or as
+/// one JSON object. For a restart, it checks only the checkpoint file and the meshes. Collective.
 void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
                       bool as_json);
 
-/// Returns what is doubtful about the undeformed meshes. Collective.
+/// Returns warnings about the undeformed meshes. Collective.
 DiagnosticList check_meshes(const Scene &scene, const Discretization &discretization);
 
 } // namespace billet

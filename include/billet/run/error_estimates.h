@@ -14,11 +14,12 @@ namespace billet {
 /// Returns the estimate of a static run, with its costs.
 ErrorReport make_report(const ErrorWatch &watch, const StepReport &report);
 
-/// Returns the estimate of a dynamic run. Its costs are left to the caller. `shorter_steps`: the advice that
-/// lowers the errors of steps.
+/// Returns the estimate of a dynamic run, without costs. `shorter_steps`: the advice that reduces the errors
+/// of steps.
 ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_steps);
 
-/// Adds what the mesh and soft contact make, reports the estimate, and writes error_estimate.csv. Collective.
+/// Adds the errors of elements and soft contact, reports the estimate, and writes error_estimate.csv.
+/// Collective.
 void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
                    const parameters::Scene &parameters, const RunReview &review, RunOutput &output);
 

@@ -14,8 +14,8 @@
 
 namespace billet {
 
-/// Explicit dynamics: steps that are always taken. step() completes the state at the current time;
-/// after_step() looks at it now and then, and moves on to the next time.
+/// Run of explicit dynamics; every step is accepted. step() completes the state at the current time.
+/// after_step() checks it at intervals and advances to the next time.
 class ExplicitRun final : public Run {
 public:
   ExplicitRun(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
@@ -34,27 +34,27 @@ protected:
 
 private:
   void load(Resumption &resumption);
-  /// Runs a part of a step by the stopwatch. Where it fails, the state is written and the failure explained.
+  /// Runs and times a part of a step. On failure, writes the state and throws an explanation.
   template <class Part> void attempt(RunOutput &output, const Part &part);
   void show_number_of_steps(RunOutput &output) const;
   void write_row(RunOutput &output);
   void write_fields(RunOutput &output);
   void check_stability(RunOutput &output);
-  /// Advice on the law, if that may be why energies fail to balance; else empty.
+  /// Returns advice on the law if it may cause the energy imbalance; otherwise an empty text.
   std::string advise_on_law(RunOutput &output);
-  /// Throws SolutionFailure where the energies fail to balance for too long, or are not finite.
+  /// Throws SolutionFailure if the energies fail to balance for too long or are not finite.
   void check_drift(RunOutput &output);
-  /// Shortens steps whose errors of energy are too large.
+  /// Shortens the steps if their energy errors are too large.
   void control_errors();
 
   ExplicitDynamics problem_;
   const Stops stops_;
   HistoryTimes history_times_;
-  std::unique_ptr<EnergyErrors> errors_;                ///< of scenes that control their errors
+  std::unique_ptr<EnergyErrors> errors_;                ///< only for scenes that control their errors
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
-  Stopwatch stopwatch_;                                 ///< of the steps, without output
-  unsigned int balanced_step_ = 0; ///< the last at which the energies were seen to balance
-  double next_look_ = 0.;          ///< of check_stability() [time]
+  Stopwatch stopwatch_;                                 ///< for the steps, without output
+  unsigned int balanced_step_ = 0;                      ///< last step with a balance of energies
+  double next_look_ = 0.;                               ///< time of the next check_stability() [time]
   bool is_finished_ = false, is_between_steps_ = true;
 };
 

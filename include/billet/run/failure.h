@@ -7,29 +7,29 @@
 
 namespace billet {
 
-/// Returns a hint that a given force or moment may exceed what a body without hardening can bear; else an
-/// empty text.
+/// Returns a hint that a prescribed force or moment may exceed the limit load of a body without hardening;
+/// otherwise an empty text.
 std::string describe_limit_load(const parameters::Scene &parameters);
 
-/// Whether a body that yields, of another law than Hencky's, has elastic strains of the order of the allowed
-/// error of energy. Collective.
+/// Whether a yielding body has elastic strains so large that its law, unlike Hencky's, computes the
+/// dissipation inexactly. Collective.
 bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
                              const Solution &solution);
 
-/// Returns why an implicit run ends with the step between these times, and what to change. `is_unstable`: a
-/// body is strained beyond the stability of its law.
+/// Returns why an implicit run fails in the step between these times, and the remedy. `is_unstable`: a body
+/// is strained beyond the stability of its law.
 std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report, double from,
                                 double to, bool is_unstable);
 
-/// Returns why an implicit run ends with this imbalance of energies.
+/// Returns why an implicit run ends because of this energy imbalance.
 std::string explain_imbalance(const parameters::Scene &parameters, const StepReport &report, double time,
                               const std::string &imbalance);
 
 /// Returns why an explicit run ends with energies that fail to balance or are not finite. `advice` replaces
-/// the usual one where it is not empty.
+/// the usual advice unless it is empty.
 std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, const std::string &advice);
 
-/// Returns why an explicit run ends with a step that failed for this reason.
+/// Returns why an explicit run ends with a step that failed for this `reason`.
 std::string explain_failed_step(const parameters::Scene &parameters, const std::string &reason,
                                 bool is_unstable);
 

@@ -15,7 +15,7 @@
 
 namespace billet {
 
-/// Statics and implicit dynamics: steps that Newton's method solves, and that are cut where it fails.
+/// Run of statics or implicit dynamics: Newton's method solves the steps, and failed steps are cut.
 class ImplicitRun final : public Run {
 public:
   ImplicitRun(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
@@ -32,22 +32,22 @@ protected:
   void save_method(StateWriter &writer) const override;
 
 private:
-  /// Sets the problem to the checkpoint, if there is one. Returns the times at which steps have to end.
+  /// Loads the checkpoint into the problem, if there is one. Returns the times at which steps have to end.
   std::vector<double> load_problem(Resumption *resumption);
-  /// What else the checkpoint has.
+  /// Reads the step control and the rest of the checkpoint.
   void load_control(Resumption &resumption);
-  /// Lets the controls of errors know the accepted step.
+  /// Passes the accepted step to the error control.
   void control_errors(RunOutput &output);
   EnergyWatch::Cause find_cause_of_imbalance() const;
-  /// Throws SolutionFailure where the energies fail to balance by more than is allowed.
+  /// Throws SolutionFailure if the energy imbalance exceeds the allowed drift.
   void check_energies(RunOutput &output);
-  /// Cuts the step that failed. Throws SolutionFailure if that is not allowed.
+  /// Cuts the failed step. Throws SolutionFailure if that is not allowed.
   void reject_step(double from, double to, RunOutput &output);
 
   ImplicitSolution problem_;
   StepControl control_;
-  std::unique_ptr<ErrorWatch> watch_;    ///< of static scenes that control their errors
-  std::unique_ptr<EnergyErrors> errors_; ///< of dynamic ones; their steps follow an estimate of their own
+  std::unique_ptr<ErrorWatch> watch_;    ///< only for static scenes that control their errors
+  std::unique_ptr<EnergyErrors> errors_; ///< only for dynamic ones; their steps follow another estimate
   EnergyWatch energies_;
   StepReport report_;
   double continued_ = 0.; ///< length of the last step, if its increment may be continued

@@ -6,11 +6,11 @@
 
 namespace billet {
 
-/// Throws InputError if the scene's output folder is not there and cannot be made, or cannot be written to.
+/// Throws InputError if the scene's output folder does not exist and cannot be made, or is not writable.
 void check_output_folder(const parameters::Scene &parameters);
 
-/// Makes the folder and puts a copy of the scene as it was read into it. First rank only. Throws InputError
-/// if that fails.
+/// Makes the folder and writes a copy of the scene as read into it. First rank only. Throws InputError on
+/// failure.
 void prepare_output_folder(const parameters::Scene &parameters);
 
 } // namespace billet

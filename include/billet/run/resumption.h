@@ -17,17 +17,18 @@ struct Resumption {
   CheckpointReader reader;
   RestartReport report;
 
-  /// Opens the checkpoint that the scene names; null if it names none. Throws InputError where the file is no
-  /// sound checkpoint. Collective.
+  /// Opens the checkpoint that the scene names; returns null if it names none. Throws InputError if the file
+  /// is no valid checkpoint. Collective.
   static std::unique_ptr<Resumption> open(const parameters::Scene &parameters, MPI_Comm communicator);
 
-  /// Whether the checkpoint stands in this folder; then the run continues the files there.
+  /// Whether the checkpoint is in this folder; then the run continues the files there.
   bool is_from(const std::string &folder) const;
-  /// Checks the scene against the checkpoint, and calls `load`, which reads the solution's own part and
-  /// returns the report. Throws InputError where the scene does not fit.
+  /// Checks the scene against the checkpoint and calls `load`, which reads the solution and returns the
+  /// report. Throws InputError if the scene does not fit.
   void load(const Scene &scene, const Discretization &discretization,
             const std::function<RestartReport()> &load);
-  /// Reports time and changes of the scene. Forces out of balance are named above this part of the forces.
+  /// Returns a message about time and changes of the scene. It includes unbalanced forces above this relative
+  /// tolerance.
   Diagnostic describe(double force_tolerance) const;
 };
 

@@ -11,10 +11,10 @@
 
 namespace billet {
 
-/// A solution method in the loop of run_to_end(), on the mesh that it makes. All that knows the mesh lives
-/// and ends with the run; files and console (RunOutput) outlive it, so that another run, on another mesh, can
-/// continue them. The constructor of a method sets up its problem, from a checkpoint where there is one; it
-/// throws InputError before anything is written.
+/// Solution method in the loop of run_to_end(), with its own mesh. All objects that depend on the mesh end
+/// with the run. Files and console (RunOutput) outlive it, so that another run, on another mesh, can continue
+/// them. The constructor of a method sets up its problem, from a checkpoint if there is one; it throws
+/// InputError before anything is written.
 class Run {
 public:
   Run(const Scene &scene, MPI_Comm communicator)
@@ -24,31 +24,32 @@ public:
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
 
-  /// Before the first step: shows what is run, and reports doubts about the scene. `resumption`: null at time
-  /// 0. Collective, as all that follow.
+  /// Starts the run before the first step: shows the model and reports warnings about the scene.
+  /// `resumption`: null at time 0. Collective, as all functions below.
   virtual void begin(RunOutput &output, const Resumption *resumption) = 0;
-  /// Whether the run has come to its end time.
+  /// Whether the run has reached its end time.
   virtual bool is_finished() const = 0;
-  /// Tries a step. Returns whether it is taken. Throws SolutionFailure, with the last state written, if the
-  /// run cannot go on.
+  /// Tries a step. Returns whether it is accepted. If the run cannot continue, writes the last state and
+  /// throws SolutionFailure.
   virtual bool step(RunOutput &output) = 0;
-  /// After a step that is taken: writes rows and fields, judges the state, and moves on. Throws as step().
+  /// Completes an accepted step: writes rows and fields, checks the state, and advances. Throws as step().
   virtual void after_step(RunOutput &output) = 0;
-  /// After the last step: reports what the whole run shows.
+  /// Completes the run after the last step: reports results of the whole run.
   virtual void end(RunOutput &output) = 0;
 
   virtual unsigned int n_steps() const = 0;
   virtual double time() const = 0;
   double end_time() const { return parameters_.time_stepping.end_time; }
-  /// Whether a run could resume from the state as it is.
+  /// Whether a run could resume from the current state.
   virtual bool is_resumable() const { return true; }
-  /// Saves what resumes the run bit by bit, and what tells whether a scene fits it.
+  /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.
   void save(StateWriter &writer) const;
 
 protected:
-  /// The part of save() that is the method's own.
+  /// Saves the method's own part of the state.
   virtual void save_method(StateWriter &writer) const = 0;
-  /// The part of begin() that all methods share. Forces out of balance are named above this part of them.
+  /// Performs the part of begin() that all methods share. Unbalanced forces above this relative tolerance are
+  /// reported.
   void announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
                 double force_tolerance) const;
 
@@ -59,10 +60,10 @@ protected:
   StabilityWatch stability_;
 };
 
-/// Makes the method that the scene asks for. `resumption`: null at time 0. Collective.
+/// Makes the method that the scene selects. `resumption`: null at time 0. Collective.
 std::unique_ptr<Run> make_run(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
 
-/// Runs from begin() to end(), or until a signal demands the end. Collective.
+/// Runs from begin() to end(), or until a signal requests the end. Collective.
 ExitCode run_to_end(Run &run, RunOutput &output, const Resumption *resumption);
 
 } // namespace billet

@@ -16,8 +16,8 @@
 
 namespace billet {
 
-/// Files and console of a run: the copy of the scene, the history, the fields, messages, checkpoints; and the
-/// signals that ask for a checkpoint or the end.
+/// Files and console of a run: copy of the scene, history, fields, messages and checkpoints. Also handles the
+/// signals that request a checkpoint or the end.
 class RunOutput {
 public:
   /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0.
@@ -39,17 +39,17 @@ public:
 
   const Checkpoints &checkpoints() const { return checkpoints_; }
   Signals &signals() { return signals_; }
-  /// Writes a checkpoint of what `save` saves. Returns whether that succeeded: a full disk does not end the
-  /// run.
+  /// Writes a checkpoint with the state from `save`. Returns whether that succeeded; a full disk does not end
+  /// the run.
   bool write_checkpoint(double time, const std::function<void(StateWriter &)> &save);
 
-  /// Ends a run that has come to its end time. Collective.
+  /// Ends a run that has reached its end time. Collective.
   ExitCode finish();
-  /// Ends the run as a signal demands. Throws SolutionFailure if there is no checkpoint.
+  /// Ends the run as a signal requests. Throws SolutionFailure if there is no checkpoint.
   ExitCode stop(unsigned int n_steps, double time, bool has_checkpoint) const;
 
 private:
-  /// Name of the format of fields.
+  /// Returns the name of the field output format.
   std::string format() const;
 
   const Scene &scene_;

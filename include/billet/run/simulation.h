@@ -9,9 +9,9 @@
 
 namespace billet {
 
-/// Runs a scene from start to end, or from a checkpoint. Collective. Throws InputError before anything is
-/// written, SolutionFailure after everything that was computed is on disk. Returns success or, where a signal
-/// has ended the run, stopped.
+/// Runs a scene from start to end, or from a checkpoint. Throws InputError before anything is written,
+/// SolutionFailure after all results are on disk. Returns the exit code: success, warnings, target_missed, or
+/// stopped by a signal. Collective.
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
 
 } // namespace billet

@@ -7,13 +7,13 @@
 
 namespace billet {
 
-/// Times at which fields are written: the start, as often as the scene asks for, and the end.
+/// Schedule of field output: at the start, at the requested intervals, and at the end.
 class Snapshots {
 public:
   Snapshots(const parameters::Scene &parameters, FieldWriter &writer)
       : output_(parameters.output), end_(parameters.time_stepping.end_time), writer_(writer) {}
 
-  /// After so many steps, at this time.
+  /// Whether fields are due after this number of steps, at this time.
   bool is_due(unsigned int step, double time) const;
   /// Writes the fields if they are due. Collective.
   void after_step(unsigned int step, const Solution &solution);

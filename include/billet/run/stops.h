@@ -8,12 +8,12 @@
 
 namespace billet {
 
-/// Times at which steps of an explicit scene end: those of the scene itself, not those of output.
+/// Times at which steps of an explicit scene end: only the stops of the scene, not those of output.
 class Stops {
 public:
   explicit Stops(const Scene &scene);
 
-  /// The first after this time.
+  /// Returns the first stop after this time.
   double next(double time) const;
   double end() const { return end_; }
 
@@ -22,16 +22,16 @@ private:
   std::vector<double> stops_; ///< ascending; the last is the end
 };
 
-/// Times at which a row of the history of an explicit scene is due: the start, the end of the first step that
-/// reaches the next multiple of the interval, and the end.
+/// Schedule of the history of an explicit scene: a row at the start, at the end of the first step that
+/// reaches the next multiple of the interval, and at the end.
 class HistoryTimes {
 public:
   explicit HistoryTimes(const parameters::Scene &parameters);
 
-  /// Once for each time.
+  /// Whether a row is due at this time. Call it once for each time.
   bool is_due(double time);
 
-  double last() const { return last_; } ///< multiple that was reached
+  double last() const { return last_; } ///< multiple of the interval reached last
   double interval() const { return interval_; }
   void begin_after(const double last) { last_ = last; }
 

@@ -6,10 +6,10 @@
 
 namespace billet {
 
-/// Returns the time that this process has taken of the processor [s].
+/// Returns the CPU time of this process [s].
 double processor_time();
 
-/// Sums the time that parts of a run take, by the clock and of the processor [s].
+/// Sums wall-clock and CPU time of parts of a run [s].
 class Stopwatch {
 public:
   template <class Part> void measure(const Part &part) {

@@ -13,27 +13,27 @@
 
 namespace billet {
 
-/// Value of an amplitude at time t.
+/// Returns the value of an amplitude at time t.
 double evaluate_amplitude(const parameters::Amplitude &amplitude, double t);
 
-/// Times, ascending, at which it turns back, begins, comes to rest, or becomes more than twice as fast or
-/// slow: where the rates of the straight lines between two pairs of its points, or the rest before and after
-/// them, differ by more than half of the greater. A step that goes on past one cuts the corner.
+/// Returns the times, ascending, at which the amplitude reverses, starts, stops, or changes its rate by a
+/// factor of more than two. There the rates of adjacent segments differ by more than half of the greater;
+/// before and after all points the rate is 0. A step across such a time would miss the corner.
 std::vector<double> corners(const parameters::Amplitude &amplitude);
 
-/// A muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x,
+/// muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x,
 /// y, z.
 class Expression {
 public:
   enum class Variables { time, time_and_position };
 
-  /// Throws InputError, beginning with `origin`, if the text does not make sense.
+  /// Parses the text. Throws InputError, beginning with `origin`, if the text is invalid.
   Expression(const std::string &text, Variables variables, std::vector<parameters::Amplitude> amplitudes,
              const std::string &origin);
 
-  /// Throws SolutionFailure, on the calling rank, if the value is not finite.
+  /// Returns the value. Throws SolutionFailure, on the calling rank, if it is not finite.
   double value(double t, const dealii::Point<3> &position = {}) const;
-  /// Whether the value is the same anywhere, as far as the text shows.
+  /// Whether the value does not depend on the position, as far as the text shows.
   bool is_uniform() const { return is_uniform_; }
 
 private:
@@ -43,7 +43,7 @@ private:
   std::string variables_;
   std::vector<parameters::Amplitude> amplitudes_;
   bool is_uniform_ = true;
-  // The parser takes amplitudes as constants and is made anew when the time changes, if the text has any.
+  // The parser treats amplitudes as constants. If the text has any, it is rebuilt when the time changes.
   mutable std::unique_ptr<dealii::FunctionParser<3>> parser_;
   mutable double parsed_time_ = 0.;
   mutable bool uses_amplitudes_ = false;

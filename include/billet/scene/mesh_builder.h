@@ -8,19 +8,19 @@
 
 namespace billet {
 
-/// How much of a mesh to build.
+/// Level of detail of a mesh.
 enum class MeshDetail {
   full,
-  outline ///< no refinements, one layer: enough for its boundary ids, its extent and its supports
+  outline ///< no refinements, one layer: sufficient for boundary ids, extent and supports
 };
 
 /// Builds the mesh of one body. Throws InputError.
 void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh);
 
-/// Elements that the full mesh will have, from its outline and the refinements asked for.
+/// Returns the number of elements of the full mesh, from its outline and the requested refinements.
 std::size_t count_full_elements(const parameters::Mesh &parameters, const dealii::Triangulation<3> &outline);
 
-/// All bodies side by side in one unrefined mesh, without shared nodes: cell material ids are the indices of
+/// Merges all bodies into one unrefined mesh, without shared nodes: cell material ids are the indices of
 /// `meshes`, boundary ids are kept.
 void merge_bodies(const std::vector<const dealii::Triangulation<3> *> &meshes,
                   dealii::Triangulation<3> &merged);

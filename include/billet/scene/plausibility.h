@@ -7,32 +7,34 @@
 
 namespace billet {
 
-/// Returns warnings about numbers that do not fit each other, most often since units are mixed: yield
-/// stresses, speeds, the length of the run and of steps, travels and forces of tools, friction, and nodes
-/// that start behind a tool; a note where a tool turns often. All are ratios; none has a unit. `mesh`: of all
-/// bodies, or of their outlines, each rank its cells. Collective.
+/// Returns warnings about inconsistent numbers, often due to mixed units. It checks yield stresses, speeds,
+/// the durations of run and steps, travels and forces of tools, friction, and nodes that start behind a tool.
+/// A tool with many turns gets a note. All criteria are dimensionless ratios. `mesh`: all bodies or their
+/// outlines, on each rank its cells. Collective.
 DiagnosticList check_plausibility(const Scene &scene, const dealii::Triangulation<3> &mesh,
                                   MPI_Comm communicator);
 
-/// What the largest section of a body bears as it yields at a strain of one, or, of an elastic body, as it is
-/// strained that much [force].
+/// Returns the force that a body bears on a section: area times the flow stress at a plastic strain of one,
+/// or, for an elastic body, the stress at a strain of one [force].
 double borne_force(const Body &body, double section);
-/// Beyond these a force of a tool, and a number of explicit steps, are implausible.
+/// Limits above which a tool force, relative to the borne force, and a number of explicit steps are
+/// implausible.
 constexpr double many_times_borne = 10., too_many_steps = 1e8;
 
-/// How many bricks a body has through its thickness, and their shape, where it is thin.
+/// Number and shape of the bricks through the thickness of a body, where it is thin.
 struct ThinPart {
-  double area = 0.;        ///< part of the boundary that can bend below which the body is thin
+  double area = 0.;        ///< fraction of the boundary, where it can bend, below which the body is thin
   double mean_layers = 0.; ///< bricks through the thickness, mean over that area
   double mean_aspect = 0.; ///< longest edge along the face / brick's height, mean over that area
   double slenderness = 0.; ///< size of the body / mean thickness
 };
-/// From each boundary face through opposite faces of bricks to the other side; thin is what has less than a
-/// tenth of the diagonal of the box around the body. What `holds` keep flat cannot bend, and is left out.
+/// Measures the thickness from each boundary face through opposite faces of bricks to the other side. A part
+/// is thin if its thickness is below a tenth of the diagonal of the body's bounding box. Faces that `holds`
+/// keep flat cannot bend and are left out.
 ThinPart measure_thin_part(const dealii::Triangulation<3> &mesh, const std::vector<Hold> &holds);
 
-/// Returns warnings about thin bodies whose elements may lock in bending, from their full meshes. Bodies of
-/// very many elements are left out. Serial.
+/// Returns warnings about thin bodies whose elements may lock in bending, from their full meshes. Very large
+/// bodies are left out. Serial.
 DiagnosticList check_bricks(const Scene &scene);
 
 } // namespace billet

@@ -11,30 +11,30 @@
 
 namespace billet {
 
-/// A rigid surface and its motion.
+/// Rigid tool: a surface and its motion.
 class Tool {
 public:
-  /// Throws InputError where an expression does not make sense.
+  /// Builds the tool. Throws InputError if an expression is invalid.
   Tool(const parameters::Tool &parameters, const std::vector<parameters::Amplitude> &amplitudes);
 
   const std::string &name() const { return name_; }
   const RigidSurface &surface() const { return *surface_; }
-  /// In words.
+  /// Returns the shapes of the surface's parts in words.
   const std::string &shapes() const { return shapes_; }
-  /// Where the prescribed motion takes it, moved on by `offset`: along the force direction [length], or, of a
-  /// tool with a moment, about its axis [radians].
+  /// Returns the placement of the prescribed motion plus `offset`: along the force direction [length], or,
+  /// for a tool with a moment, about its axis [radians].
   Placement placement(double t, double offset = 0.) const;
   using Control = parameters::Motion::Control;
   Control control() const { return control_; }
-  /// Whether its travel follows from a force or a moment.
+  /// Whether a force or a moment determines its travel.
   bool is_driven() const { return control_ == Control::force || control_ == Control::moment; }
-  /// Of a tool with a force or a stop force; unit.
+  /// Returns the unit direction of a force or a stop force.
   const dealii::Tensor<1, 3> &force_direction() const { return force_direction_; }
-  /// The force or moment with which it presses, or stops. Throws SolutionFailure where a force is negative.
+  /// Returns the force or moment that drives it or stops it. Throws SolutionFailure if a force is negative.
   double load(double t) const;
   double removal_time() const { return removal_time_; }
   double release_time() const { return release_time_; }
-  /// Of the motion; moments and turns are about it.
+  /// Returns the axis of rotations and moments.
   const dealii::Tensor<1, 3> &rotation_axis() const { return axis_; }
 
 private:
@@ -45,7 +45,7 @@ private:
   dealii::Tensor<1, 3> axis_, centre_;
   Control control_;
   std::string load_origin_;
-  std::unique_ptr<Expression> load_; ///< none where the motion is all
+  std::unique_ptr<Expression> load_; ///< null if the motion is fully prescribed
   dealii::Tensor<1, 3> force_direction_;
   double removal_time_, release_time_;
 };

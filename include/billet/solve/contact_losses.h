@@ -19,12 +19,14 @@ public:
   };
 
   void add(const Cause cause, const double energy) { energies_[cause] += energy; }
-  /// Takes up to this energy back from what areas and impacts have taken; returns how much.
+  /// Subtracts up to this energy from the losses by crossings, then from those by impacts. Returns the energy
+  /// that was subtracted.
   double give_back(double energy);
   double of(const Cause cause) const { return energies_[cause]; }
   double total() const;
 
-  /// A message, if the total is much of the largest energy, and again where it is twice as much.
+  /// Returns a warning if the total exceeds a twentieth of the largest energy, and again whenever its part
+  /// has doubled.
   DiagnosticList watch(double largest_energy, double time);
 
   std::vector<double> save() const;

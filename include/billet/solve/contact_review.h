@@ -16,40 +16,40 @@
 
 namespace billet {
 
-/// How a pair's force is spread over nodes, each counted with its mirror images.
+/// Distribution of a pair's force over nodes, each counted with its mirror images.
 struct ForceSpread {
   double force = 0., squares = 0.;                          ///< Σ m F, Σ m F²
   double nodes = 0., pressures = 0., pressure_squares = 0.; ///< Σ 1, Σ p, Σ p² of the nodes themselves
   double on_coarse_curves = 0.; ///< force of nodes with fewer than five facets on a quarter turn
   double coarsest = 0.;         ///< facet size / radius of the tool, largest
-  /// Of the indentations of single nodes, Σ F²/(2 E h), and all that bodies and contacts have taken by then
-  /// [energy].
+  /// Energy Σ F²/(2 E h) of the indentation by single nodes, and the energy of all deformation and contact at
+  /// that time [energy].
   double indentation = 0., deformation = 0.;
 
-  /// By how many equal forces: (Σ m F)²/Σ m F².
+  /// Returns the number of equal forces with the same spread: (Σ m F)²/Σ m F².
   double effective_nodes() const { return squares > 0. ? force * force / squares : 0.; }
-  /// Whether pressures are alike, as of a flat face on another, which needs no more nodes.
+  /// Whether pressures are uniform, as between flat faces, which need no more nodes.
   bool is_uniform() const;
-  /// Too few for the indentation, if that is a part of the deformation that counts: a strip that bends over a
-  /// roll needs no more than a row of nodes.
+  /// Whether the nodes are too few to resolve the indentation, if its energy is a relevant part of the
+  /// deformation. For a strip that bends over a roll one row of nodes is enough.
   bool has_few_nodes() const;
   bool is_coarse_on_curves() const;
 };
 
-/// Judges contact over a whole run: what penetration makes softer along each load path, pairs that few nodes
-/// carry, facets that are large beside the tool's radius, tangential springs that are too soft, pairs and
-/// tools without contact, forces beyond what bodies bear.
+/// Reviews contact over a whole run. It checks the part of penetration in each load path's deformation, pairs
+/// with few contact nodes, and facets that are coarse for the tool's radius. It also checks for tangential
+/// penalties that are too low, pairs and tools without contact, and implausible forces.
 class ContactReview {
 public:
   ContactReview(const Scene &scene, const Discretization &discretization);
 
-  /// After an accepted step; of explicit scenes now and then. Collective.
+  /// Adds an accepted step; in explicit scenes a step now and then. Collective.
   void add(const Solution &solution);
-  /// At the end of the run.
+  /// Returns the diagnostics at the end of the run.
   DiagnosticList finish() const;
 
-  /// By what part forces are too small since penetration takes it, along the softest load path, (L6); 0 where
-  /// that is little.
+  /// Returns the part by which penetration makes forces too small, along the softest load path, (L6); 0 if it
+  /// is below the limit of the warning.
   double penalty_error() const;
 
   void save(StateWriter &writer) const;
@@ -64,10 +64,10 @@ private:
     bool is_augmented = false;
     bool is_softer_tangentially = false; ///< than in the normal direction
     bool has_touched = false;
-    double largest_force = 0., time = 0.; ///< and when
+    double largest_force = 0., time = 0.; ///< of the largest force
     ForceSpread spread;                   ///< at the largest force
-    StickSoftness largest_friction;       ///< what it has and what it lacks, each over the run
-    double largest_of_edges = 0.;         ///< force that edges carry, at least [force]
+    StickSoftness largest_friction;       ///< largest friction and largest lost friction, each over the run
+    double largest_of_edges = 0.;         ///< lower bound of the force on crossing edges [force]
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
@@ -78,12 +78,12 @@ private:
 
   const Scene &scene_;
   const Discretization &discretization_;
-  /// Of a node, with symmetry planes.
+  /// Numbers of mirror images of a node by symmetry planes.
   struct Images {
-    double apart = 1., on_it = 1.; ///< elsewhere, itself included, and in the same place
+    double apart = 1., on_it = 1.; ///< by planes away from it, itself included; by planes through it
   };
   std::map<DofIndex, Images> images_; ///< by first dof, on this rank
-  std::vector<double> sections_;      ///< of the bodies: the largest face of the box around [length²]
+  std::vector<double> sections_;      ///< of the bodies: the largest face of the bounding box [length²]
   std::vector<Pair> pairs_;           ///< with tools first
   std::vector<LoadPath> paths_;
   std::vector<PathSoftness> softness_; ///< by path

@@ -16,63 +16,64 @@ namespace billet {
 /// is 1 once the body is held, and fades in accepted steps at whose end contact supports the body.
 class ContactStabilisation {
 public:
-  /// ζ: small, so that a body that moves by its size within the run feels a mean stress of ζ E; large, so
-  /// that round-off of the stiffness spoils no rigid-body mode, as it does with 1e-10.
+  /// Factor ζ. It is small enough that a body that moves by its size within the run feels a mean stress of
+  /// ζ E. It is large enough that round-off of the stiffness spoils no rigid-body mode, as it does with
+  /// 1e-10.
   static constexpr double strength = 1e-8;
   /// Factor of φ in an accepted step, and the value below which it becomes 0.
   static constexpr double fading = 0.1, min_factor = 5e-4;
-  /// Part of all work that viscous forces may do, and of the forces that they may be at the end.
+  /// Maximum part of all work that viscous forces may do, and of the forces that they may be at the end.
   static constexpr double max_part = 1e-3;
 
-  /// A node on this rank.
+  /// Node on this rank.
   struct Node {
     std::size_t body;
     std::size_t first; ///< index of its first displacement among those that this rank owns
     double damping;    ///< c_a [force time/length]
   };
 
-  /// c_a of a node.
+  /// Returns c_a of a node.
   static double damping(double young_modulus, double size, double end_time, double volume);
 
-  /// `speeds`: L / T of each body, 0 where it has no nodes here. Holds none. Collective.
+  /// `speeds`: L / T of each body, 0 where it has no nodes here. Stabilises no body at first. Collective.
   ContactStabilisation(MPI_Comm communicator, const std::vector<double> &speeds, std::vector<Node> nodes);
 
-  /// From now on, until contact supports it.
+  /// Stabilises a body from now on, until contact supports it.
   void hold(const std::size_t body) { bodies_[body].factor = 1.; }
-  /// φ of a body.
+  /// Returns φ of a body.
   double factor(const std::size_t body) const { return bodies_[body].factor; }
   bool acts_on(const std::size_t body) const { return bodies_[body].factor > 0.; }
   bool acts() const;
-  /// Dissipated by the forces on a body in accepted steps [energy].
+  /// Returns the energy that the forces on a body have dissipated in accepted steps [energy].
   double work(const std::size_t body) const { return bodies_[body].work; }
-  /// That less what loads of driven tools did in the same steps. A load that moves over a gap does a work
-  /// that any ζ dissipates, and that changes nothing once contact bears the load.
+  /// Returns work() less the work of the loads of driven tools in the same steps. A load that closes a gap
+  /// does a work that is dissipated for any ζ and changes nothing once contact bears the load.
   double work_of_motion(const std::size_t body) const { return bodies_[body].work_of_motion; }
-  /// Norm of the nodal forces on a body at the end of the last accepted step. Collective.
+  /// Returns the norm of the nodal forces on a body at the end of the last accepted step. Collective.
   double last_force(std::size_t body) const;
 
-  /// Begins a step of this length. Of length 0: forces are those at the end of the last accepted step, and do
-  /// not depend on displacements.
+  /// Begins a step of this length. If it is 0, the forces are those at the end of the last accepted step and
+  /// do not depend on displacements.
   void start_step(double length) { length_ = length; }
-  /// Adds −f to the residual, of displacements that this rank owns.
+  /// Adds −f to the residual at displacements that this rank owns.
   void add_forces(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n,
                   dealii::ArrayView<double> residual) const;
   const std::vector<Node> &nodes() const { return nodes_; }
-  /// The norm of the forces at speeds L / T, of all bodies. Smaller ones need no exact balance: their
-  /// round-off would be a large part of them [force].
+  /// Returns the norm of the forces of all bodies at speeds L / T [force]. Smaller forces need no exact
+  /// balance, since round-off would be a large part of them.
   double force_scale() const;
-  /// −∂f/∂u of a node, the same in each direction [force/length].
+  /// Returns −∂f/∂u of a node, the same in each direction [force/length].
   double stiffness(const Node &node) const;
-  /// The potential of −f in the step, Σ ½ φ c |u − u_n|² / Δt, on this rank.
+  /// Returns the potential of −f in the step, Σ ½ φ c |u − u_n|² / Δt, on this rank.
   double potential(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n) const;
 
-  /// Accepts the step: adds its works, by the trapezoidal rule as those of all other forces, and fades the
-  /// forces on supported bodies. `driven_work`: of the loads of driven tools in the step. Returns the work of
-  /// the forces. Collective.
+  /// Accepts the step: adds its works by the trapezoidal rule, and fades the forces on supported bodies.
+  /// `driven_work`: of the loads of driven tools in the step. Returns the work of the forces. Collective.
   double commit(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n,
                 const std::vector<bool> &is_supported, double driven_work = 0.);
 
-  /// For checkpoints: φ and works of each body, and the last forces in the order of nodes().
+  /// For checkpoints: φ and works of each body. The last forces, in the order of nodes(), are saved
+  /// separately.
   std::vector<double> save() const;
   void load(const std::vector<double> &values);
   const std::vector<double> &last_forces() const { return last_forces_; }

@@ -12,42 +12,43 @@
 
 namespace billet {
 
-/// Compares the elements of each body with ones that bend right, (L1) of doc/theory.md, and warns where they
-/// are too stiff or too soft: at the end of the run, of the state of the largest energy of deformation or of
-/// the last one where it is still loaded. In statics a note tells it at the first loaded step already; a
-/// sheet that bends first and is stretched then may be wrong there and right in the end.
+/// Compares the elements of each body with elements that are accurate in bending, (L1) of doc/theory.md.
+/// Warns of elements that are too stiff or too soft. The final warning refers to the state of largest
+/// deformation energy, or to the last state if it is still loaded. In statics a note is printed at the first
+/// loaded step. A sheet that bends first and is stretched later may be inaccurate there and accurate in the
+/// end.
 class ElementWatch {
 public:
   ElementWatch(const Scene &scene, const Discretization &discretization);
 
-  /// After an accepted step. Collective.
+  /// Checks an accepted step. Collective.
   DiagnosticList watch(const SolutionState &state, bool is_last);
 
-  /// By what part forces (of driven tools) are wrong, over all bodies together, at the last comparison: at
-  /// least, where they are too large; about, where they are too small. 0 where no body is doubtful.
+  /// Returns the relative error of forces (of driven tools) over all bodies at the last comparison. If they
+  /// are too large, it is a lower bound; if too small, an estimate. It is 0 if no body is doubtful.
   double error() const;
-  /// The energies of the bodies at the last comparison.
+  /// Returns the energies of the bodies at the last comparison.
   const std::vector<ElementEnergies> &energies() const { return energies_; }
 
-  /// Messages about the last comparison; notes where it is that of the first loaded step.
+  /// Returns messages about the last comparison; notes if it is that of the first loaded step.
   DiagnosticList judge(bool is_first) const;
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Beyond this factor, or below its inverse, an element is wrong for what it does.
+  /// Factor above which, or below whose inverse, an element is unfit for its deformation.
   static constexpr double doubtful_factor = 1.1;
 
 private:
   void compare(const SolutionState &state);
-  /// Bodies that bend and yield with too few one-point elements through the thickness, or where the points of
-  /// bricks of assumed strains do not see it, (L3).
+  /// Returns warnings about plastic bending, (L3): of bodies with too few one-point elements through the
+  /// thickness, or with flow between the points of assumed-strain bricks.
   DiagnosticList judge_bending() const;
-  /// (L1), on the safe side for bodies that yield.
+  /// Returns (L1), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;
-  /// Whether its element is too stiff or too soft for what it does.
+  /// Whether the body's elements are too stiff or too soft for its deformation.
   bool is_doubtful(std::size_t body) const;
-  /// Whether the energies of a body are more than round-off and a part of all that counts.
+  /// Whether the energies of a body exceed round-off and 1 % of those of all bodies.
   bool counts(std::size_t body) const;
 
   const Scene &scene_;

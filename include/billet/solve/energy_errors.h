@@ -10,15 +10,16 @@
 
 namespace billet {
 
-/// What a run of explicit or implicit dynamics believes its energies to be off, ∫|E − E*| dt over ∫Σ E* dt:
-/// by steps, from the drift of the energies and what the integration dissipates, and by penalties, from what
-/// their springs hold. Steps get shorter while the first is more than its part of the tolerance, and grows.
+/// Error estimate for the energies of explicit or implicit dynamics, ∫|E − E*| dt over ∫Σ E* dt. Errors by
+/// steps follow from the drift of the energies and the dissipation of the integration. Errors by penalties
+/// follow from the energy in their springs. Steps become shorter while the errors by steps exceed their part
+/// of the tolerance and grow.
 ///
-/// Energies are those without `carried`, of a motion that all share and nothing holds: an observer who moves
-/// along would not see it, nor is it at stake.
+/// Energies exclude `carried`, the energy of a common motion that nothing constrains: it depends on the
+/// observer, and no error affects it.
 ///
-/// A node that is g deep in is late by g/v, v its velocity: kinetic energy, which falls by F v in a unit of
-/// time, is off by F g = 2 E_c, and the springs hold E_c themselves.
+/// A node with penetration g is late by g/v, v its velocity. The kinetic energy, which falls by F v in a unit
+/// of time, is off by F g = 2 E_c, and the springs store E_c themselves.
 class EnergyErrors {
 public:
   /// `tolerance`: part of the energies.
@@ -27,12 +28,12 @@ public:
   /// Begins at this time.
   void begin(const double time) { start_ = time; }
   double start() const { return start_; }
-  /// Whether there has been energy that errors can be parts of.
+  /// Whether there has been any energy to normalise errors by.
   bool has_energies() const { return total_ > 0.; }
 
-  /// The energies at a later time than the last ones; of them `carried`, see carried_energy().
+  /// Adds the energies at a later time than the last ones. `carried`: their part of carried_energy().
   void add(double time, const EnergyLedger &energies, double carried);
-  /// What the step's length should be multiplied by from now on, from 0.5 to 1.
+  /// Returns the factor for all further step lengths, from 0.5 to 1.
   double step_factor() const { return step_factor_; }
 
   double steps() const { return total_ > 0. ? drift_ / total_ : 0.; }
@@ -50,8 +51,8 @@ private:
   HeldMemory memory_{Capability::error_control};
 };
 
-/// ½ Σ p_i²/m over the directions that are free: the kinetic energy of a motion that all bodies share. The
-/// momentum and the mass of all of them; see Scene::free_directions().
+/// Returns ½ Σ p_i²/m over the free directions: the kinetic energy of a motion that all bodies share.
+/// `momentum` and `mass` are those of all bodies; see Scene::free_directions().
 double carried_energy(const std::array<bool, 3> &free_directions, const dealii::Tensor<1, 3> &momentum,
                       double mass);
 

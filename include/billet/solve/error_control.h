@@ -8,13 +8,14 @@
 namespace billet {
 
 /// Keeps the error of force curves within bounds, ∫Σ|F − F*| dt over ∫Σ|F*| dt, F the forces of tools and
-/// pairs of bodies: from differences that are measured now and then follow an estimate of what all steps so
-/// far have made, and the longest next step. Knows nothing of what is solved; doc/theory.md derives it.
+/// pairs of bodies. Differences that are measured now and then yield an error estimate for all steps so far,
+/// and the maximum length of the next step. It is independent of the problem that is solved; doc/theory.md
+/// derives it.
 ///
-/// A step of length h that returns stresses to a yield surface, or tractions to a friction cone, in the
-/// direction of its whole motion leaves an error c h², and errors of steps add up. From the same state one
-/// step of 2 h differs from two of h by 4 c h² − 2 c h²: by what the two are off. Tractions alone, without
-/// stresses that depend on their way, forget it: every two steps half of what was, so that 4 c h² is left.
+/// A step of length h with return mapping to a yield surface or friction cone leaves an error c h². Errors of
+/// steps add up. From the same state, one step of 2 h and two steps of h differ by 4 c h² − 2 c h², the error
+/// of the two steps. If only tractions depend on the path, half of the error fades every two steps, and 4 c
+/// h² remains.
 class ErrorControl {
 public:
   using Forces = ResultGroup;
@@ -34,57 +35,58 @@ public:
 
   double start() const { return course_.start(); }
 
-  /// Adds an accepted step of length `h`. `residual`: of the forces, at its end, as part of them;
-  /// `penetration`: the deepest, see measure_penetration().
+  /// Adds an accepted step of length `h`. `residual`: at its end, as part of the forces; `penetration`: the
+  /// deepest, see measure_penetration().
   void accept(double h, const Forces &forces, double residual, double penetration);
 
-  /// Whether the next two steps should be compared with one of twice the length. Where nothing acts yet, or
-  /// no more, that would tell nothing.
+  /// Whether the next two steps should be compared with one of twice the length. Before the first force and
+  /// after the last one this is false.
   bool wants_measurement() const { return steps_.wants_measurement(course_); }
-  /// Whether they should before a step of this length: where the last ones were much shorter, or where it is
-  /// the last occasion for the first comparison.
+  /// Whether to compare before a step of this length: the last steps were much shorter, or it is the last
+  /// opportunity for a first comparison.
   bool wants_measurement(const double h) const { return steps_.wants_measurement(course_, h); }
   /// Compares forces after the second of two steps of length `h` with those of one step of twice the length.
-  /// What `residuals` make of the difference, as part of the forces, does not count.
+  /// The difference that `residuals` (part of the forces) can explain does not count.
   void measure_steps(const double h, const Forces &forces, const Forces &of_one_step,
                      const double residuals) {
     steps_.measure(course_, h, forces, of_one_step, residuals);
   }
-  /// Notes that two steps of this length cannot be compared with one: another measurement is due soon. If
-  /// that one `failed`, of shorter ones.
+  /// Notes that two steps of this length cannot be compared with one: another measurement is due soon. If the
+  /// comparison `failed`, it is due with shorter steps.
   void miss_measurement(const double h, const bool failed) { steps_.miss(h, failed); }
-  /// Whether so many comparisons in a row have failed that steps are left to Newton's method until one
+  /// Whether so many comparisons in a row have failed that only Newton's method controls steps until one
   /// succeeds.
   bool has_given_up() const { return steps_.has_given_up(); }
 
   /// See PenetrationErrors.
   bool wants_penetration() const { return penetrations_.wants_measurement(); }
   double allowed_at_first() const { return penetrations_.allowed_at_first(); }
-  /// Compares forces of a step whose deepest penetration was `penetration`, as part of the tightest that may
-  /// be asked for, with those without penetrations. What `residuals` make of the difference does not count.
+  /// Compares forces of a step with those without penetration. `penetration`: the deepest in the step, over
+  /// the smallest penetration tolerance that may be set. The difference that `residuals` can explain does not
+  /// count.
   void measure_penetration(const double penetration, const Forces &forces, const Forces &without,
                            const double residuals) {
     penetrations_.measure(course_, penetration, forces, without, residuals);
   }
-  /// Notes that the error by penetrations was not found, where some bear, or nothing `touches`: another
-  /// measurement is due after some steps, or as soon as there is one to take.
+  /// Notes that the error by penetration was not found. If contact `touches`, another measurement is due
+  /// after some steps, else as soon as one is possible.
   void miss_penetration(const bool touches) { penetrations_.miss(touches); }
 
-  /// The next step should not be longer.
+  /// Returns the maximum length of the next step.
   double longest_step() const { return steps_.longest_step(); }
-  /// The deepest penetration to allow, in units of that of measure_penetration().
+  /// Returns the maximum penetration allowed, in units of that of measure_penetration().
   double penetration_allowed() const { return penetrations_.allowed(); }
 
   struct Estimate {
     double steps = 0., penetration = 0., iterations = 0.; ///< parts of the forces
     double total() const { return steps + penetration + iterations; }
   };
-  /// Of all steps so far.
+  /// Returns the error estimate for all steps so far.
   Estimate estimate() const;
-  /// Whether there have been forces that errors can be parts of.
+  /// Whether there have been forces to normalise errors by.
   bool has_forces() const { return course_.work() > 0.; }
   unsigned int n_measurements() const { return steps_.n_measurements(); }
-  /// Whether it has been measured what penetrations make, or there were none.
+  /// Whether the error by penetration has been measured, or there was no penetration.
   bool knows_penetration() const { return penetrations_.is_known(); }
 
   void save(StateWriter &writer) const;
@@ -94,7 +96,7 @@ private:
   ForceCourse course_;
   StepErrors steps_;
   PenetrationErrors penetrations_;
-  double iterations_ = 0.; ///< integral of the errors that residuals make
+  double iterations_ = 0.; ///< time integral of the errors by residuals
 };
 
 } // namespace billet

@@ -12,71 +12,70 @@
 
 namespace billet {
 
-/// Lets ErrorControls, one for each group of ImplicitSolution::Results, choose the steps of a static scene,
-/// and how deep contacts may go in: makes the measurements that they want. The strictest decides.
+/// Controls the steps of a static scene, and the penetration allowed, by one ErrorControl for each group of
+/// ImplicitSolution::Results. Makes the measurements that these need. The strictest control decides.
 class ErrorWatch {
 public:
   /// Whether the scene has an 'Error tolerance' of steps or a 'Target error'.
   static bool is_wanted(const parameters::Scene &parameters);
   ErrorWatch(const Scene &scene, const Discretization &discretization, ImplicitSolution &problem);
 
-  /// Begins at this time, with another method's state.
+  /// Begins at this time, from the state of another method.
   void begin(double time);
 
-  /// Before a step: where a measurement is due, tries one of twice the length and steps back. Iterations that
-  /// this took. `previous_step`: see ImplicitSolution::step().
+  /// Tries a step of twice the length and steps back, if a measurement is due before the next step. Returns
+  /// the iterations of the measurement. `previous_step`: see ImplicitSolution::step().
   unsigned int before_step(StepControl &control, double previous_step);
-  /// After an accepted step of this length, and control.accept().
+  /// Updates the controls after an accepted step of this length, and control.accept().
   void after_step(StepControl &control, double length, const NewtonReport &report);
-  /// After one that has failed.
+  /// Updates the controls after a failed step.
   void after_failure();
 
-  /// What is believed of the results that are off the most, and their name.
+  /// Error estimate of the result with the largest error.
   struct Belief {
     ErrorControl::Estimate estimate;
     std::string of_what;
-    double since = 0.;              ///< time from which on they are known
-    bool has_results = false;       ///< that errors can be parts of
+    double since = 0.;              ///< time from which on errors are known
+    bool has_results = false;       ///< whether there are results to normalise errors by
     bool knows_penetration = false; ///< see ErrorControl
   };
   Belief belief() const;
   unsigned int n_measurements() const { return controls_.front().n_measurements(); } ///< of steps
-  /// Whether it chooses how deep contacts may go in; else the scene does.
+  /// Whether the target error sets the penetration allowed, instead of the scene.
   bool controls_penetration() const { return controls_penetration_; }
-  /// Whether steps, or penetrations, are a source of errors in this scene.
+  /// Whether steps, or penetration, are a source of errors in this scene.
   bool measures_steps() const { return measures_steps_; }
   bool measures_penetration() const { return measures_penetration_; }
-  /// Messages before the end of the run: that very many steps are to come, that none can be compared any
-  /// more.
+  /// Returns messages before the end of the run: very many steps remain, or no step can be compared any more.
   DiagnosticList check(const StepControl &control) const;
-  /// Iterations of all measurements.
+  /// Returns the iterations of all measurements.
   unsigned int n_iterations() const { return n_iterations_; }
 
   void save(StateWriter &writer) const;
-  /// Where the run up to there kept no account of some results, or none, that goes on from begin().
+  /// Loads the controls. If the earlier run had no account of some or all results, these start at begin().
   void load(StateReader &reader);
 
 private:
   void allow_penetration();
   void demand_accuracy(bool is_measured);
-  /// Such as the longest step, of the strictest.
+  /// Returns the smallest value of a bound, such as the maximum step, over all controls.
   double least(double (ErrorControl::*bound)() const) const;
   bool wants_measurement(double length) const;
   bool wants_penetration() const;
   void miss_measurement(double length, bool failed);
-  /// Where a measurement of steps is due. Iterations that it took.
+  /// Tries the longer step if a measurement of steps is due. Returns its iterations.
   unsigned int probe(StepControl &control, double previous_step);
-  /// What the last step's penetrations made, if it has measured that.
+  /// Takes over the measured error by the last step's penetration, if there is one.
   void take_measurement();
 
   ImplicitSolution &problem_;
   std::vector<ErrorControl> controls_; ///< of forces first
-  double residual_factor_;             ///< of a force, over that of the residual
+  double residual_factor_;             ///< residual of a resultant force over that of nodal forces
   double end_time_;
   bool measures_steps_, measures_penetration_, controls_penetration_;
-  double accuracy_of_measurements_; ///< residuals of steps that are compared, over those of others
+  double accuracy_of_measurements_; ///< residual tolerance of steps that are compared, over that of others
   ImplicitSolution::Probe probe_;
-  double probe_length_ = 0.; ///< of each of the two steps that are compared with it; 0: none
+  double probe_length_ = 0.; ///< length of the two steps that are compared with the probe; 0: none
   double probe_end_ = 0.;
   double last_residual_ = 0.;
   unsigned int n_iterations_ = 0;

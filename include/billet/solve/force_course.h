@@ -7,7 +7,7 @@
 
 namespace billet {
 
-/// The sum of forces S = Σ|F| over time, and its integral, which errors are parts of.
+/// Sum of forces S = Σ|F| over time, and its integral, which normalises errors.
 class ForceCourse {
 public:
   explicit ForceCourse(const double end_time) : end_time_(end_time) {}
@@ -22,16 +22,17 @@ public:
   double end_time() const { return end_time_; }
   /// Returns the time from start to end.
   double span() const { return end_time_ - start_; }
-  /// Returns the time that is left; not negative.
+  /// Returns the remaining time; not negative.
   double left() const { return std::max(0., end_time_ - time_); }
   /// Returns S at the last step.
   double force() const { return force_; }
   /// Returns ∫S dt.
   double work() const { return work_; }
-  /// Returns the size of forces: what S is, has been, or will be in the mean if it grows on.
+  /// Returns a reference value of the forces: the largest of S now, its mean so far, and its extrapolated
+  /// mean.
   double scale() const;
 
-  // For checkpoints: the numbers that are of this class among those of ErrorControl.
+  // For checkpoints: this class's numbers among those of ErrorControl.
   void save(std::vector<double> &numbers) const;
   void load(const std::vector<double> &numbers);
 

@@ -11,25 +11,25 @@
 
 namespace billet {
 
-/// Compares the kinetic energy that masses at the nodes have with that of the elements' shape functions, of
-/// the motion of each body relative to its mean velocity: a bar of one brick across twists with three times
-/// the inertia. Of scenes with lumped masses; in others it does nothing.
+/// Compares the kinetic energies of lumped and consistent masses, for the motion of each body relative to its
+/// mean velocity. A bar of one brick across, for example, twists with three times its inertia. Without lumped
+/// masses it does nothing.
 class InertiaWatch {
 public:
   InertiaWatch(const Scene &scene, const Discretization &discretization);
 
-  /// After an accepted step; of explicit scenes now and then. Collective.
+  /// Adds an accepted step; in explicit scenes a step now and then. Collective.
   void add(const SolutionState &state);
 
-  /// `largest_energy`: of all that counts in the run; bodies whose motion has little of it are left out.
-  /// Collective.
+  /// Returns warnings. Bodies whose motion has little of `largest_energy`, the largest energy in the run, are
+  /// left out. Collective.
   DiagnosticList judge(double largest_energy) const;
 
   void save(StateWriter &writer) const;
-  /// Of a run that kept no such account it begins anew.
+  /// Loads the sums; they start from zero if the earlier run did not save them.
   void load(const StateReader &reader);
 
-  /// Lumped over consistent energy from which on periods are off by 15 % and more: 1.5 in torsion with two
+  /// Lumped over consistent energy above which periods are off by 15 % or more: 1.5 in torsion with two
   /// bricks across, 1.7 in waves of three bricks' length.
   static constexpr double doubtful_ratio = 1.6;
 
@@ -37,7 +37,7 @@ private:
   const Scene &scene_;
   const Discretization &discretization_;
   bool is_lumped_;
-  std::vector<double> lumped_, consistent_; ///< energies times time, by body, of all ranks
+  std::vector<double> lumped_, consistent_; ///< time integrals of the energies, by body, over all ranks
   double time_ = 0., duration_ = 0.;
 };
 

@@ -9,17 +9,17 @@
 
 namespace billet {
 
-/// Bodies that contact pairs connect, directly or by others, and the pairs: forces go through all of them,
+/// Bodies that contact pairs connect, directly or by others, and the pairs. Forces pass through all of them,
 /// and their penetrations add up. Tools are rigid and connect nothing.
 struct LoadPath {
   std::vector<std::size_t> bodies, pairs;
-  bool bears_given_loads = false; ///< of bodies, or of driven tools: its forces are right at any stiffness
+  bool bears_given_loads = false; ///< on bodies or driven tools: its forces are right at any penalty
 };
-/// `bodies_of`: the one or two bodies of each pair.
+/// Finds the load paths. `bodies_of`: the one or two bodies of each pair.
 std::vector<LoadPath> find_load_paths(std::size_t n_bodies,
                                       const std::vector<std::vector<std::size_t>> &bodies_of);
 
-/// Of all contact pairs, those with tools first.
+/// Finds the load paths of all contact pairs, those with tools first.
 std::vector<LoadPath> find_load_paths(const Scene &scene);
 
 } // namespace billet

@@ -6,33 +6,33 @@
 
 namespace billet {
 
-/// How many steps are taken between two measurements of errors: the more, the less the errors change.
+/// Number of steps between two measurements of errors. It grows while the errors change little.
 class MeasurementInterval {
 public:
-  /// Steps between measurements. With fewer they cost more than they save.
+  /// Minimum and maximum number of steps. With fewer steps a measurement costs more than it saves.
   static constexpr unsigned int min = 4, max = 8;
-  /// Part of the target below which errors are little: measurements become rare.
+  /// Part of the target below which errors are small and measurements become rare.
   static constexpr double little = 0.1;
-  /// Whether one measurement after the other found the same, but for a factor of 2.
+  /// Whether two successive measurements agree within a factor of 2.
   static bool is_steady(const double slope, const double last_slope) {
     constexpr double steady = 2.;
     return slope <= steady * last_slope && slope >= last_slope / steady;
   }
 
-  /// The first measurement is due after so many steps.
+  /// The first measurement is due after `first` steps.
   explicit MeasurementInterval(const unsigned int first) : until_(first) {}
 
   bool is_due() const { return until_ == 0; }
   void count_step() { until_ -= until_ > 0 ? 1 : 0; }
-  /// Start the interval, after a measurement: a longer one, or one of this length.
+  /// Starts an interval after a measurement: a longer one, or one of `length` steps.
   void start_longer() { start(std::clamp(2 * length_, min, max)); }
   void start(const unsigned int length) {
     length_ = length;
     repeat();
   }
-  /// Starts one as long as the last.
+  /// Starts an interval of the same length as the last.
   void repeat() { until_ = length_; }
-  /// Makes the next measurement due after so many steps, once.
+  /// Makes the next measurement due after `n_steps` steps, once.
   void wait(const unsigned int n_steps) { until_ = n_steps; }
 
   unsigned int until() const { return until_; }

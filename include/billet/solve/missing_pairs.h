@@ -13,24 +13,27 @@
 
 namespace billet {
 
-/// Finds bodies that go into each other, into a tool, or into themselves, where no contact pair connects the
-/// faces that meet. Bodies and tools all of whose faces are in pairs cost nothing.
+/// Finds bodies that penetrate each other, a tool, or themselves where no contact pair connects the faces
+/// that meet. Bodies and tools all of whose faces are in pairs need no check.
 ///
-/// Of two bodies whose boxes overlap, nodes of the surface of one count that are inside elements of the
-/// other, deeper below its surface than a tenth of a facet and a fifth of the element's thickness there; not
-/// if both the node and the face nearest to it are in pairs of the two. Bodies that are so at the start are
-/// left out. Nodes that are in no pair with a tool count as inside it if they were in front of it at the
-/// check before, and are now behind it, by a tenth of a facet more than those that are in one. A body without
-/// a pair with itself is inside itself where the middle of a facet is well within an element.
+/// For two bodies with overlapping bounding boxes, a surface node of one counts if it is inside an element of
+/// the other. Its depth below the surface must exceed a tenth of a facet or a fifth of the element's
+/// thickness there, whichever is smaller. The node does not count if both it and the nearest face are in
+/// pairs of the two bodies. Bodies that overlap at the start are left out.
+///
+/// A node that is in no pair with a tool counts as inside it under two conditions. It was in front of the
+/// tool at the last check. It is now behind by a tenth of a facet more than the nodes in pairs. A body
+/// without a pair with itself penetrates itself if the centre of a facet is well within an element.
 class MissingPairs {
 public:
   /// Collective.
   MissingPairs(const Scene &scene, const Discretization &discretization);
 
-  /// After an accepted step; of explicit scenes now and then. Each couple is reported once. Collective.
+  /// Checks an accepted step; in explicit scenes a step now and then. Each couple is reported once.
+  /// Collective.
   DiagnosticList check(const SolutionState &state);
 
-  /// What has been reported.
+  /// Saves which couples have been reported.
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
@@ -40,20 +43,21 @@ private:
     dealii::Point<3> position; ///< undeformed
     double facet_size;         ///< the smallest around it [length]
   };
-  /// Which nodes and facets of a surface are in pairs of the couple, as nodes_ and facets_ list them.
+  /// Flags of the nodes and facets of a surface, in the order of nodes_ and facets_, that are in pairs of the
+  /// couple.
   struct Named {
     std::vector<bool> nodes, facets;
   };
   struct Couple {
     std::size_t body, other;    ///< another body, the same one, or a tool
-    bool has_pair;              ///< of which faces are missing
+    bool has_pair;              ///< a pair that leaves out some faces
     std::array<Named, 2> named; ///< of the body, and of the other one
     bool is_open = true;        ///< not yet reported
     std::vector<bool> is_in_front;
   };
-  /// The deepest node of one body in another.
+  /// Deepest node of one body in another.
   struct Deepest {
-    double depth = 0., relative = 0.; ///< [length], [what is allowed]
+    double depth = 0., relative = 0.; ///< [length], [allowed depth]
     dealii::Tensor<1, 3> position;
   };
   using Positions = std::vector<std::vector<dealii::Tensor<1, 3>>>; ///< of surface nodes, by body
@@ -63,27 +67,28 @@ private:
   bool is_complete(const Couple &couple) const;
   Positions positions_at(const Vector *displacements) const;
   std::vector<BoundingBox> boxes_around(const Positions &positions) const;
-  /// Of the couple's first body in the other, whose boxes overlap, or the other way round. Collective.
+  /// Finds the deepest node of the couple's first body in the other, whose boxes overlap, or the reverse.
+  /// Collective.
   Deepest find_deepest(const Couple &couple, bool other_in_first, const Positions &positions,
                        const std::vector<BoundingBox> &boxes, const Vector *displacements) const;
   std::optional<Deepest> find_overlap(const Couple &couple, const Positions &positions,
                                       const std::vector<BoundingBox> &boxes,
                                       const Vector *displacements) const;
-  /// The middle of a facet of a body that is well within an element of it. Collective.
+  /// Returns the centre of a facet of a body that is well within an element of it. Collective.
   std::optional<dealii::Tensor<1, 3>> find_self_overlap(const Couple &couple,
                                                         const Vector *displacements) const;
   std::string describe_body(const Couple &couple) const;
   std::string describe_tool(const Couple &couple) const;
-  /// A line that names both.
+  /// Returns a line that names both.
   std::string name_of(const Couple &couple, const std::string &other) const;
   Deepest enter_tool(Couple &couple, const Positions &positions, const Placement &placement) const;
 
   const Scene &scene_;
   const Discretization &discretization_;
   std::vector<std::vector<Node>> nodes_;           ///< of surfaces, by body, on this rank
-  std::vector<std::vector<BoundaryFacet>> facets_; ///< of surfaces but for symmetry planes
-  std::vector<Couple> bodies_, tools_, selves_;    ///< that pairs do not connect in full
-  std::string told_;                               ///< lines of name_of()
+  std::vector<std::vector<BoundaryFacet>> facets_; ///< of surfaces except symmetry planes
+  std::vector<Couple> bodies_, tools_, selves_;    ///< that pairs do not connect completely
+  std::string told_;                               ///< lines of name_of() that have been reported
 };
 
 } // namespace billet

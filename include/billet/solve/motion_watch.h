@@ -11,17 +11,17 @@
 
 namespace billet {
 
-/// Finds prescribed motions that a step would not see, since it knows them at its ends only: to and fro, or
-/// around. Of each tool with a contact pair it follows four points, of the supports some nodes. A step is too
-/// long for a point if its path is longer than the straight way by more than that of an arc of 15 degrees,
-/// and is no trifle beside all that the point does in the run.
+/// Finds prescribed motions, such as oscillations or full turns, that a step misses because it samples them
+/// at its ends only. It follows four points of each tool with a contact pair, and some nodes of the supports.
+/// A step is too long if a point's path exceeds the chord by more than that of an arc of 15 degrees. Paths
+/// that are small compared with the point's motion in the whole run do not count.
 class MotionWatch {
 public:
   /// Collective.
   MotionWatch(const Scene &scene, const Supports &supports, const Discretization &discretization);
 
-  /// What moves so between these times, in words ("tool 'punch'", "a support"); empty if nothing does.
-  /// Collective.
+  /// Returns the name of an object with such a motion between these times ("tool 'punch'", "a support");
+  /// empty if there is none. Collective.
   std::string find_unseen(double from, double to) const;
 
 private:
@@ -29,12 +29,13 @@ private:
   struct Track {
     std::string name;
     std::function<Point(double)> at;
-    double end;         ///< from when on it is gone
-    double extent = 0.; ///< largest distance from where it starts, in the whole run [length]
+    double end;         ///< time at which it is removed
+    double extent = 0.; ///< largest distance from its start, in the whole run [length]
   };
-  /// What moves no further than `rounding`, as a point on the axis of rotation, is at rest.
+  /// Adds a track. A point that moves no further than `rounding`, such as one on the axis of rotation, is at
+  /// rest and left out.
   void add(Track track, double rounding);
-  /// Where it is at these times, without those at which its motion has no value.
+  /// Returns the positions at these times, except times at which the motion has no value.
   static std::vector<Point> places(const Track &track, const std::vector<double> &times);
 
   MPI_Comm communicator_;

@@ -7,14 +7,14 @@
 
 namespace billet {
 
-/// What penetration takes of the deformation along a load path, (L6) of doc/theory.md: over the time in
-/// which its pairs press, the energy of their penetrations beside that of the bodies' deformation.
+/// Part of penetration in the deformation along a load path, (L6) of doc/theory.md. It compares the energy of
+/// penetration with that of the bodies' deformation, over the time in which the pairs bear load.
 class PathSoftness {
 public:
-  /// At these times; `all_energy`: of all that counts, (L6).
+  /// Adds energies at this time. `all_energy`: total energy of reference, (L6).
   void add(double time, double penetration, double deformation, double all_energy);
-  /// The part by which forces of driven tools are too small; 0 where penetration holds less than the part
-  /// `counts` of all energy, and so is no matter for the scene.
+  /// Returns the part by which forces of driven tools are too small. It is 0 if penetration holds less than
+  /// the part `counts` of all energy, and so is irrelevant.
   double part(double counts = 0.01) const;
   /// Forgets all but the last energies.
   void restart() { penetration_ = deformation_ = all_ = 0.; }
@@ -27,7 +27,7 @@ private:
   struct Sample {
     double time = 0., penetration = 0., deformation = 0., all = 0.;
   };
-  Sample last_;                                           ///< at time 0 nothing
+  Sample last_;                                           ///< zero at time 0
   double penetration_ = 0., deformation_ = 0., all_ = 0.; ///< integrals over time
 };
 

@@ -19,32 +19,32 @@
 
 namespace billet {
 
-/// Raises the penalties of dynamic scenes, of pairs that leave them to the program: normal ones while
-/// penetration takes more than a small part of the deformation along their load path, (L8) of doc/theory.md,
-/// tangential ones while friction that sticks lacks more than that, (L9).
+/// Raises penalties of dynamic scenes for pairs with automatic penalties. Normal penalties rise while
+/// penetration exceeds a small part of the deformation along their load path, (L8) of doc/theory.md.
+/// Tangential penalties rise while sticking friction is too small by more than a small part, (L9).
 class PenaltyControl {
 public:
   struct Pair {
     std::string name;
     bool may_be_raised, may_be_raised_tangentially;
   };
-  /// Of the normal and the tangential penalty of a pair.
+  /// Factors for the normal and the tangential penalty of a pair.
   struct Factors {
     double normal = 1., tangential = 1.;
     bool raises() const { return normal > 1. || tangential > 1.; }
   };
-  /// Factors by which normal penalties rise at a time, at most. Explicit ones rise slowly, so that nodes
-  /// settle without a blow; after implicit ones softness is measured anew.
+  /// Maximum factors by which normal penalties rise at a time. In explicit scenes they rise slowly, so that
+  /// nodes settle without an impact; in implicit ones softness is measured anew after a raise.
   static constexpr double in_explicit_scenes = 1.1, in_implicit_scenes = 4.;
-  /// Pairs with tools first.
+  /// Pairs with tools come first.
   PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths, double largest_raise);
   /// Collective.
   PenaltyControl(const Scene &scene, const Discretization &discretization, double largest_raise);
 
-  /// Whether there is a pair that leaves its penalty to the program.
+  /// Whether there is a pair with an automatic penalty.
   bool is_used() const;
 
-  /// What all ranks know at a time.
+  /// Energies at a time, the same on all ranks.
   struct Energies {
     double time = 0.;
     std::vector<double> of_pairs;  ///< of penetration, pairs with tools first
@@ -52,35 +52,37 @@ public:
     EnergyLedger all;
     std::vector<StickSoftness> sticking; ///< of pairs
   };
-  /// By which the penalties of a contact, with a tool or of bodies, may be raised. Collective.
+  /// Returns the factors by which the penalties of a contact, with a tool or between bodies, may still rise.
+  /// Collective.
   template <class Contact> Factors room_of(const Contact &contact, const MPI_Comm communicator) const {
     const std::vector<double> left{contact.stiffening_left(), contact.tangential_stiffening_left()};
     std::vector<double> least(left.size());
     dealii::Utilities::MPI::min(left, communicator, least);
     return {most_in_all * least[0], most_in_all * least[1]};
   }
-  /// Those of a solution whose ledger is that of this time. Collective.
+  /// Returns the energies of a solution whose ledger is that of this time. Collective.
   Energies measure(const Solution &solution, std::size_t n_bodies, double time, MPI_Comm communicator) const;
-  /// By which factors the penalties of each pair are to be raised now, by at most `room` in all; 1: it
-  /// stays. Of a time that it knows nothing is raised again.
+  /// Returns the factors by which the penalties of each pair are to be raised now, at most by `room`; 1 means
+  /// unchanged. A time that is not later than the last one raises nothing.
   std::vector<Factors> raises(const Energies &energies, const std::vector<Factors> &room);
-  /// What the last raises() began.
+  /// Returns messages about raises that the last raises() began.
   DiagnosticList take_diagnostics();
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
 private:
-  /// Beyond 10 E/h. Where bodies are confined, and hardly compressible, they are many times as stiff as E.
+  /// Maximum raise beyond 10 E/h. Bodies that are confined and nearly incompressible are many times as stiff
+  /// as E.
   static constexpr double most_in_all = 1e5;
   struct Controlled {
     LoadPath parts;
-    double left = 1.;      ///< factor by which penalties are still to be raised
+    double left = 1.;      ///< remaining factor of the present raise
     PathSoftness softness; ///< since the last raise
   };
   void judge(Controlled &path, const Energies &energies, const std::vector<Factors> &room);
   double tangential_raise(std::size_t pair, const Energies &energies, double room);
-  /// `room`: by which the penalty may be raised at most.
+  /// `room`: maximum factor by which the penalty may still rise.
   void describe(const std::string &penalty, std::size_t pair, double time, double factor, double room,
                 const std::string &reason);
 
@@ -89,7 +91,7 @@ private:
   double largest_kinetic_ = 0.; ///< so far
   std::vector<Pair> pairs_;
   std::vector<Controlled> paths_;
-  std::optional<StickSprings> stick_springs_; ///< none where nothing is raised
+  std::optional<StickSprings> stick_springs_; ///< none if no penalty is automatic
   DiagnosticList diagnostics_;
 };
 

@@ -13,23 +13,23 @@
 
 namespace billet {
 
-/// Says which contact pairs have penalties that are too soft for what presses them, by three signs: nodes a
-/// tenth of a facet deep; or deeper than a fifth of the largest displacement so far, of bodies or of the
-/// pair's tool; or more than a fifth of all work in the pair's springs, as where what is pressed is flat and
-/// moves aside: then the penalty gives way in place of the body. In an impact nodes come in before bodies
-/// deform: there only the first sign counts, if springs hold 1 % of all energy or nodes stay that deep until
-/// the next check.
+/// Warns of contact pairs whose penalties are too low, by three signs. The first is penetration of a tenth of
+/// a facet. The second is penetration of a fifth of the largest displacement so far, of bodies or of the
+/// pair's tool. The third is more than a fifth of all work in the pair's springs. It finds flat contact on
+/// bodies that move aside, where the penalty yields in place of the body. In an impact, penetration precedes
+/// deformation. There only the first sign counts, if springs hold 1 % of all energy or the penetration
+/// persists until the next check.
 class PenaltyWatch {
 public:
   enum class Motion { slow, sudden };
 
   explicit PenaltyWatch(const Motion motion) : motion_(motion) {}
 
-  /// The deepest node of the pair, the largest displacement [length], and what part of all work the pair's
-  /// springs hold, of all ranks. A message, or none.
+  /// Checks a pair by its deepest node, the largest displacement [length], and the part of all work in the
+  /// pair's springs, over all ranks. Returns a warning, or none.
   DiagnosticList check(const std::string &pair, double time, const Penetration &deepest, double displacement,
                        double part_of_work = 0.);
-  /// Whether a pair has shown either sign.
+  /// Whether a pair has shown any of the signs.
   bool has_soft_pairs() const { return has_soft_pairs_; }
 
   void save(StateWriter &writer) const;
@@ -42,7 +42,7 @@ private:
   std::map<std::string, double> displacements_; ///< by pair, the largest so far [length]
 };
 
-/// How far a tool's motion takes a point that is `radius` from its moved centre, at most [length].
+/// Returns an upper bound of a tool's motion at points up to `radius` from its moved centre [length].
 double largest_motion(const Placement &from, const Placement &to, double radius);
 
 } // namespace billet

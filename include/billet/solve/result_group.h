@@ -11,12 +11,12 @@
 
 namespace billet {
 
-/// Results of which an error is a part, such as the forces of all tools and pairs of bodies.
+/// Results that share an error estimate, such as the forces of all tools and pairs of bodies.
 using ResultGroup = std::vector<dealii::Tensor<1, 3>>;
 
 /// Returns Σ|F|.
 double size_of(const ResultGroup &forces);
-/// Returns Σ|F − F'|, of as many.
+/// Returns Σ|F − F'|; both have the same size.
 double distance_of(const ResultGroup &a, const ResultGroup &b);
 
 void save(StateWriter &writer, const std::string &name, const ResultGroup &forces);

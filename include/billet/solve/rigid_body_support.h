@@ -16,18 +16,18 @@ namespace billet {
 
 /// Rigid-body modes of all bodies and driven tools together that neither supports nor contact resist, (Q2).
 ///
-/// The unknowns are z = (v_1, ω_1 L_1, ..., s_1, ...): velocity and spin of each body about its centre c, L
-/// its size, and the rate of each tool that a force or moment drives. A row r z is the relative velocity of
-/// two points along a direction d: of a body d·v + ((x − c) × d)·ω, of a tool −d·v_s s.
+/// The unknowns are z = (v_1, ω_1 L_1, ..., s_1, ...): velocity v and spin ω of each body about its centre c,
+/// and the rate s of each driven tool. L is the size of the body. A row r z is the relative velocity of two
+/// points along a direction d. A body contributes d·v + ((x − c) × d)·ω, a tool −d·v_s s.
 ///
-/// A support, the normal of a point that touches and the surface of one that sticks resist r z of either
-/// sign: their springs are in the tangent, and an unloaded one that opens no longer touches. A point that
-/// slips resists a motion across its slip direction; along it only a motion back, r z < 0. Onwards friction
-/// keeps its limit and has no stiffness.
+/// A support, the normal of a point in contact and the surface of a sticking point resist r z of either sign.
+/// Their springs are in the tangent, and an unloaded point that opens is no longer in contact. A slipping
+/// point resists motion across its slip direction, and along it only backwards, r z < 0. Forward, friction
+/// stays at its limit and has no stiffness.
 class RigidBodySupport {
 public:
-  /// What moves with a point: a body, a driven tool at the velocity that a unit rate gives to the point, or
-  /// neither, if it stands still or moves as prescribed.
+  /// Object that a point moves with: a body, or a driven tool with the velocity that a unit rate gives to the
+  /// point. Neither is set if the point is fixed or has a prescribed motion.
   struct Side {
     std::optional<std::size_t> body;
     std::optional<std::size_t> tool;
@@ -45,35 +45,36 @@ public:
                    const dealii::Tensor<1, 3> &normal);
   /// Adds a point of the body `of` that touches `on`.
   void add_contact(const SupportingPoint &point, const Side &of, const Side &on);
-  /// Adds one whose friction is at its limit, and resists nothing more: it says where its body would slide.
+  /// Adds a point whose friction is at its limit and resists no further motion: it shows where its body would
+  /// slide.
   void add_spent_contact(const SupportingPoint &point, const Side &of, const Side &on);
-  /// Adds one that no force presses: it resists a motion into the surface only, and has no friction.
+  /// Adds a point without contact force: it resists a motion into the surface only, and has no friction.
   void add_unloaded_contact(const SupportingPoint &point, const Side &of, const Side &on);
-  /// Asks for Result::is_free. On all ranks.
+  /// Requests Result::is_free. On all ranks.
   void weigh_pushes() { pushes_ = true; }
-  /// Adds one whose normal resists a motion into the surface only, and friction as in add_contact(). Such
-  /// points hold a body only from both sides: a tool that pushes a loose body does not.
+  /// Adds a point whose normal resists a motion into the surface only, with friction as in add_contact().
+  /// Such points support a body only from both sides: a tool that pushes a loose body does not.
   void add_pushing_contact(const SupportingPoint &point, const Side &of, const Side &on);
   /// Adds the load of a driven tool, which resists a motion of the tool against it.
   void add_load(std::size_t tool, double load);
-  /// Adds a hold of the whole body.
+  /// Adds constraints on all rigid-body modes of a body.
   void hold(std::size_t body);
 
-  /// A mode of one body; its motion is RigidMotion's.
+  /// Rigid-body mode of one body.
   struct Mode {
     std::size_t body;
     RigidMotion motion;
   };
   struct Result {
     std::size_t n_free = 0;   ///< modes of the bodies that nothing resists
-    std::optional<Mode> free; ///< one of them: of the body that moves most in it
-    /// One that only points resist that slip; where friction is spent, that along which it was.
+    std::optional<Mode> free; ///< one of them, for the body that moves most in it
+    /// Mode that only slipping points resist; if friction is at its limit, along the slip direction.
     std::optional<Mode> sliding;
-    /// Of each body, if weigh_pushes(): whether it takes part in a mode that nothing resists. `free` is one
-    /// of these modes then.
+    /// Whether each body takes part in a mode that nothing resists, if weigh_pushes(). `free` is one of these
+    /// modes then.
     std::vector<bool> is_free;
   };
-  /// Sums over all ranks; the result is the same on each. Collective.
+  /// Finds the modes from the sums over all ranks; the result is the same on each. Collective.
   Result find() const;
 
 private:
@@ -87,12 +88,12 @@ private:
   void add_one_way(const Row &row) { one_way_.insert(one_way_.end(), row.begin(), row.end()); }
   void add_friction(const SupportingPoint &point, const Side &of, const Side &on);
   Mode mode_of(const Row &motion) const;
-  /// Orthonormal motions that nothing resists in both directions.
+  /// Orthonormal motions without resistance in either direction.
   struct Unresisted {
-    std::vector<Row> all;       ///< tools that move without bodies among them: a body may follow them
-    std::vector<Row> of_bodies; ///< of those that differ in the motion of tools only, one
+    std::vector<Row> all;       ///< all of them, including those of tools alone: a body may follow a tool
+    std::vector<Row> of_bodies; ///< one of each set that differs in the motion of tools only
   };
-  /// Collective, as the next two.
+  /// Finds these motions. Collective, like the next two.
   Unresisted find_unresisted_both_ways() const;
   /// Returns the rows of all ranks that resist in one direction only.
   std::vector<Row> gather_one_way() const;

@@ -9,32 +9,31 @@
 
 namespace billet {
 
-/// Judges a run by its accepted steps: whether its scene is plausible and complete, its elements, contact
-/// and steps fine enough.
-/// All in one place, for both kinds of schemes.
+/// Reviews a run by its accepted steps, for both kinds of schemes. It checks whether the scene is plausible
+/// and complete, and whether its elements, contact and steps are fine enough.
 class RunReview {
 public:
   RunReview(const Scene &scene, const Discretization &discretization);
 
-  /// Before the first step. Collective.
+  /// Returns diagnostics before the first step. Collective.
   DiagnosticList start() const;
-  /// After an accepted step; of explicit scenes now and then. Collective.
+  /// Returns diagnostics after an accepted step; in explicit scenes a step now and then. Collective.
   DiagnosticList after_step(const Solution &solution, bool is_last);
-  /// After the last one. Collective.
+  /// Returns diagnostics after the last step. Collective.
   DiagnosticList finish() const;
 
-  /// Largest kinetic energy of the run over the largest internal energy, of deformation; a process is
-  /// quasi-static where that is small.
+  /// Returns the largest kinetic energy of the run over the largest internal energy. It is small in a
+  /// quasi-static process.
   double kinetic_part() const { return largest_internal_ > 0. ? largest_kinetic_ / largest_internal_ : 0.; }
 
-  /// By what part forces are too large since elements are too stiff; 0 where none is found so.
+  /// Returns the relative error of forces by elements that are too stiff or too soft; 0 if none is found.
   double element_error() const { return elements_.error(); }
 
-  /// By what part forces are too small since penetration takes it; 0 where that is little.
+  /// Returns the part by which penetration makes forces too small; 0 if it is small.
   double penalty_error() const { return contacts_.penalty_error(); }
 
   void save(StateWriter &writer) const;
-  /// Of a run that kept no such account it begins anew.
+  /// Loads the review; it starts from zero if the earlier run did not save it.
   void load(StateReader &reader);
 
 private:
@@ -45,8 +44,8 @@ private:
   ContactReview contacts_;
   MissingPairs missing_pairs_;
   double largest_kinetic_ = 0., largest_internal_ = 0.,
-         largest_energy_ = 0.; ///< the last: of all that counts
-  double numerical_ = 0.;      ///< dissipated by implicit time integration until the last step
+         largest_energy_ = 0.; ///< largest_energy_: total
+  double numerical_ = 0.;      ///< dissipated by implicit time integration so far
 };
 
 } // namespace billet

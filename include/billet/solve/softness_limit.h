@@ -10,31 +10,31 @@
 
 namespace billet {
 
-/// By how much the springs of contact make its forces smaller, of pairs that limit that: estimated from what
-/// the last augmentation has changed; (L7) of doc/theory.md.
+/// Estimate of the part by which contact springs reduce the contact force, for pairs that limit it. It
+/// follows from the change by the last augmentation; (L7) of doc/theory.md.
 class SoftnessLimit {
 public:
-  /// `limits`: of each pair, whether it does.
+  /// `limits`: whether each pair limits its softness.
   explicit SoftnessLimit(const std::vector<bool> &limits);
 
-  /// Whether any pair limits it.
+  /// Whether any pair limits its softness.
   bool is_used() const;
 
-  /// Newton's method has converged in a step, and nothing has been augmented in it.
+  /// Begins after Newton's method has converged in a step, before any augmentation.
   void begin();
-  /// Of each pair, with these springs on all ranks: what is missing of its forces, as part of what is
-  /// allowed; 0 of pairs that do not limit it.
+  /// Returns, for each pair, the missing part of its forces over the allowed part; 0 for pairs without a
+  /// limit. `springs` are summed over all ranks.
   std::vector<double> excess(const std::vector<ContactSprings> &springs) const;
-  /// All pairs have been augmented, once, and are in equilibrium again. `changes`: of each pair, in normal
-  /// and tangential direction.
+  /// Change of a pair's force by an augmentation, in normal or tangential direction, once all pairs have been
+  /// augmented and are in equilibrium again.
   struct Change {
     double of_nodes = 0., in_all = 0.; ///< Σ |ΔF|; the largest of |Σ ΔF| and |Δ Σ |F|| [force]
   };
   void learn(const std::vector<ContactSprings> &before, const std::vector<std::array<Change, 2>> &changes);
-  /// The step has ended with these, or with none where no pair limits softness.
+  /// Accepts a step with these springs; they are empty if no pair limits softness.
   void commit(const std::vector<ContactSprings> &springs);
-  /// Of each pair: what the last augmentation still changed of its normal force in a step that ended before
-  /// the limit was reached, largest, over the largest force; 0 if all steps reached it.
+  /// Returns the largest change of each pair's normal force by the last augmentation of a step that ended
+  /// above the limit, over the largest force. It is 0 if all steps reached the limit.
   std::vector<double> unsettled() const;
 
   // For checkpoints:
@@ -43,8 +43,8 @@ public:
 
 private:
   struct Direction {
-    double counts = 1.;  ///< the part of what springs hold by which forces change if that is augmented
-    double changed = 0.; ///< by which the last augmentation of the step changed the force [force]
+    double counts = 1.;  ///< change of the force by an augmentation, over the force that springs hold
+    double changed = 0.; ///< change of the force by the last augmentation of the step [force]
 
     double missing(const ContactSprings::Direction &springs, double force) const;
     void learn(const ContactSprings::Direction &before, const Change &change);
@@ -52,7 +52,7 @@ private:
   struct Pair {
     bool limits = false;
     Direction normal, tangential;
-    double let_in = 0.;                        ///< of friction, by the slip that steps have left [force]
+    double let_in = 0.;                        ///< missing friction by the slip of all steps so far [force]
     double largest_force = 0., unsettled = 0.; ///< over the run [force]
   };
 

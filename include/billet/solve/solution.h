@@ -12,9 +12,9 @@
 
 namespace billet {
 
-/// Energies since time 0, on all ranks the same [energy].
+/// Energies since time 0, the same on all ranks [energy].
 struct EnergyLedger {
-  double initial = 0.; ///< what the scene starts with
+  double initial = 0.; ///< at the start of the scene
   double kinetic = 0.;
   double elastic = 0.;
   double plastic = 0.;
@@ -28,12 +28,12 @@ struct EnergyLedger {
   double total() const {
     return kinetic + elastic + plastic + contact + friction + viscous + hourglass + numerical;
   }
-  /// What elements have taken: stored, and dissipated by yielding.
+  /// Returns the energy in elements: stored, and dissipated by yielding.
   double of_elements() const { return elastic + plastic + hourglass; }
   double drift() const { return initial + external - total(); }
 };
 
-/// Where the scene stands at the end of an accepted step.
+/// State of the scene at the end of an accepted step.
 struct SolutionState {
   double time = 0.;
   Vector displacements; ///< ghosted
@@ -45,26 +45,26 @@ struct SolutionState {
   dealii::Tensor<1, 3> momentum, angular_momentum; ///< of dynamic scenes, about the origin
 };
 
-/// What output may ask of a scene that is being solved.
+/// Interface of output to a scene that is being solved.
 class Solution {
 public:
   virtual ~Solution() = default;
   virtual const SolutionState &state() const = 0;
-  /// The mesh that the state is on.
+  /// Returns the mesh of the state.
   virtual const Discretization &discretization() const = 0;
-  /// One entry for each owned element of the body, in the order of Discretization::elements().
+  /// Returns one entry for each owned element of the body, in the order of Discretization::elements().
   virtual std::vector<ElementSummary> summarize(std::size_t body) const = 0;
-  /// The same of the layers; empty if the body has two points through the thickness.
+  /// Returns the same for the layers; empty if the body has two points through the thickness.
   virtual std::vector<LayerSummaries> summarize_layers(std::size_t) const { return {}; }
-  /// Of every contact pair, tools first, the slave nodes on this rank.
+  /// Returns the slave nodes on this rank of every contact pair, tools first.
   virtual std::vector<std::vector<ContactNodeReport>> report_contacts() const = 0;
-  /// Doubles of history on all ranks: of elements, of contact.
+  /// Returns the doubles of history on all ranks: of elements, of contact.
   virtual std::array<std::size_t, 2> history_sizes() const = 0;
-  /// How it is solved, for the console.
+  /// Returns the solution method, for the console.
   virtual std::string method() const = 0;
-  /// Messages about the scene before the first step. Collective.
+  /// Returns messages about the scene before the first step. Collective.
   virtual DiagnosticList initial_diagnostics() const = 0;
-  /// Whether linear iterations are worth showing.
+  /// Whether the console shows linear iterations.
   virtual bool solves_iteratively() const { return false; }
 };
 

@@ -8,11 +8,11 @@
 
 namespace billet {
 
-/// ½ Σ p g A of each pair [energy]. Collective; the same on all ranks.
+/// Returns ½ Σ p g A of each pair [energy]. Collective; the same on all ranks.
 std::vector<double> energies_of_penetration(const std::vector<std::vector<ContactNodeReport>> &reports,
                                             MPI_Comm communicator);
 
-/// What the elements of each of these bodies have taken [energy]: stored, and dissipated by yielding.
+/// Returns the energy in the elements of each of these bodies [energy]: stored, and dissipated by yielding.
 /// Collective; the same on all ranks.
 std::vector<double> energies_of_bodies(const Solution &solution, const std::vector<std::size_t> &bodies,
                                        MPI_Comm communicator);

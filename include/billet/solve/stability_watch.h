@@ -13,17 +13,17 @@
 
 namespace billet {
 
-/// Says once of each elastic body when it is strained farther than its law is stable, theory (M7): where
-/// waves grow in it, what the body does is the mesh's. Looks into the middles of the elements; bodies that
-/// yield, whose elastic strains are small, are left out.
+/// Warns once for each elastic body that is strained beyond the stability of its law, (M7) of doc/theory.md.
+/// Ellipticity is lost then, and results depend on the mesh. It checks the centres of the elements. Bodies
+/// that yield, whose elastic strains are small, are left out.
 class StabilityWatch {
 public:
   StabilityWatch(const Scene &scene, const Discretization &discretization);
 
-  /// Messages at these (ghosted) displacements, one for each body that has lost its stability for the first
-  /// time. Collective.
+  /// Returns messages at these (ghosted) displacements, one for each body that has newly lost its stability.
+  /// Collective.
   DiagnosticList check(double time, const Vector &displacements);
-  /// Whether a body has been found so.
+  /// Whether any body has lost its stability.
   bool has_unstable_bodies() const { return has_unstable_bodies_; }
 
 private:
@@ -37,7 +37,7 @@ private:
     double stiffness; ///< over the shear modulus
     Stretches stretches;
   };
-  /// Of all ranks.
+  /// Finds the weakest element of all ranks.
   Weakest find_weakest(const Watched &watched, const Vector &displacements) const;
 
   const Discretization &discretization_;

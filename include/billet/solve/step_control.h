@@ -9,10 +9,11 @@
 
 namespace billet {
 
-/// Chooses the step: fixed, or by the iterations that the last one needed. Knows nothing of what is solved.
+/// Chooses the step: fixed, or by the number of iterations of the last one. It is independent of the problem
+/// that is solved.
 ///
-/// Fixed steps have the length that was asked for, save the last one before a stop or an output time that is
-/// no multiple of it away.
+/// Fixed steps have the given length. The last one before a stop or output time is shorter if that time is
+/// not a multiple of it.
 class StepControl {
 public:
   /// Steps also end at the `stops`, and at multiples of `interval`, unless it is 0.
@@ -21,42 +22,45 @@ public:
   double time() const { return time_; }
   bool is_finished() const { return time_ >= parameters_.end_time; }
 
-  /// Length of the step to try next from time(); ends exactly at the end time, at stops and at output times.
+  /// Returns the length of the next step from time(). The step ends exactly at the end time, at stops and at
+  /// output times.
   double next_step() const;
-  /// End of that step; exact where it is the end time or an output time.
+  /// Returns the end of that step; exact at the end time, at stops and at output times.
   double next_time() const;
 
-  /// `error`: that of the step's time integration, as part of what is allowed; it falls with the third power
-  /// of the step. 0: does not count.
+  /// Accepts the step. `error`: of the step's time integration, as part of the allowed error; it falls with
+  /// the third power of the step. 0: no control by the error.
   void accept(unsigned int n_iterations, double error = 0.);
 
-  /// Whether that step ends at a stop.
+  /// Whether the next step ends at a stop.
   bool ends_at_stop() const;
-  /// End of the step after that, if it is as long, and as far as stops and output times let it.
+  /// Returns the end of the step after the next, of the same length or as far as stops and output times
+  /// permit.
   double time_after_next() const;
-  /// Automatic steps: the next is no longer than this, nor shorter than the smallest one.
+  /// Automatic steps: limits the next step to this length, but not below the minimum step.
   void limit(double length);
-  /// Automatic steps: the next has this length.
+  /// Automatic steps: sets the length of the next step.
   void plan(double length);
 
-  /// Cuts the step. False if that is not allowed: steps are fixed, or it would fall below the smallest one.
+  /// Cuts the step. Returns false if that is not allowed: steps are fixed, or the step is already the minimum
+  /// step.
   bool reject();
 
   unsigned int n_steps() const { return n_steps_; }
   unsigned int n_cuts() const { return n_cuts_; }
 
   void save(StateWriter &writer) const;
-  /// Goes on as if nothing had happened, or, where the scene now wants other steps, from that time with its
-  /// initial step.
+  /// Resumes as if the run had not been interrupted. If the scene now has other step settings, it continues
+  /// from that time with its initial step.
   void load(const StateReader &reader);
-  /// Begins after so many steps at a time that another method has reached.
+  /// Begins after `n_steps` steps at a time that another method has reached.
   void begin(double time, unsigned int n_steps);
 
 private:
   double next_stop() const; ///< infinite after the last
   double target() const;
   double end_on_grid() const;
-  /// What the lengths of steps depend on.
+  /// Returns the settings that determine step lengths.
   std::vector<double> rules() const;
 
   parameters::TimeStepping parameters_;
@@ -64,7 +68,7 @@ private:
   std::vector<double> stops_; ///< ascending
   double time_ = 0.;
   double step_;
-  /// The n-th fixed step ends at n times the step from here, so that a thousand of them add no round-off.
+  /// The n-th fixed step ends at n times the step from here, so that many steps accumulate no round-off.
   double grid_start_ = 0.;
   unsigned int n_on_grid_ = 0;
   unsigned int n_steps_ = 0, n_cuts_ = 0;

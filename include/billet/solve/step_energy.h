@@ -6,33 +6,33 @@
 
 namespace billet {
 
-/// Judges static steps by the work that contact does from nowhere, (A4). Steps out of balance are cut; one
-/// that stays so is a jump of the solution.
+/// Judges static steps by the spurious work of contact, (A4). Steps out of energy balance are cut; a step
+/// whose imbalance persists is a jump of the solution.
 class StepEnergy {
 public:
-  /// Of a step [energy].
+  /// Works of a step [energy].
   struct Works {
-    double imbalance; ///< what contact takes, less what its springs store and friction dissipates
+    double imbalance; ///< work of contact, less the energy that springs store and friction dissipates
     double own;       ///< the larger of the absolute works of internal forces and of contact
     double before;    ///< largest work of the run so far
   };
   enum class Verdict { balanced, rejected, jump };
 
-  /// An imbalance above this part of all work, that of the step included, is rejected, ...
+  /// A step is rejected if its imbalance exceeds this part of all work, that of the step included, ...
   static constexpr double max_part = 0.15;
-  /// ... if it is also above this part of the step's own.
+  /// ... and also this part of the step's own work.
   static constexpr double max_part_of_own = 0.4;
-  /// Where there was less work before, as a part of the step's own, nothing is judged: bodies begin to touch,
-  /// and there is nothing yet that could be lost.
+  /// Minimum work before the step, as part of the step's own, for a judgement. Below it bodies begin to
+  /// touch, and there is no energy yet to be lost.
   static constexpr double min_before = 0.1;
-  /// An imbalance that cuts to this part of a rejected step leave as it is, anywhere within that step,
-  /// belongs to the solution.
+  /// Length, as part of the first rejected step, down to which steps are cut. An imbalance that remains then,
+  /// anywhere within that step, belongs to the solution.
   static constexpr double least_cut = 1. / 32.;
 
-  /// Part of all work, that of this step included; 0 without work.
+  /// Returns the imbalance as part of all work, that of this step included; 0 without work.
   static double part_of_all(const Works &works);
 
-  /// `floor`: works below that count as none. Of a step from time `t_n`.
+  /// Judges a step from time `t_n`. `floor`: works below it count as zero.
   Verdict judge(double t_n, double length, const Works &works, double floor);
 
   std::vector<double> save() const { return {rejected_until_, first_length_}; }

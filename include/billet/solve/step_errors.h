@@ -12,41 +12,41 @@
 
 namespace billet {
 
-/// Errors that the length of steps makes of forces, and the longest next step. ErrorControl says how errors
-/// depend on the length.
+/// Errors of forces by the length of steps, and the maximum length of the next step. ErrorControl describes
+/// how errors depend on the length.
 class StepErrors {
 public:
   struct Rules {
-    double tolerance = 0.; ///< part of the forces; 0: steps are left alone
+    double tolerance = 0.; ///< part of the forces; 0: steps are not controlled
     bool fade = false;     ///< errors of steps fade, else they add up
-    /// What grows at once stays so, as the pace of a tool under a force does once its body yields; else it
-    /// may have happened once, such as a node that begins to slip, and does not count for all steps.
+    /// Sudden growth of errors persists, as in the rate of a tool under a force whose body yields. Otherwise
+    /// it may be a single event, such as a node that begins to slip, and does not count for all steps.
     bool stays = false;
   };
   explicit StepErrors(const Rules &rules) : rules_(rules) {}
 
-  /// Adds an accepted step of length `h`; the number of forces at its end.
+  /// Adds an accepted step of length `h`. `n_forces`: the number of forces at its end.
   void accept(double h, std::size_t n_forces);
-  /// Whether a measurement is due; of a step of this length, after this course, it may be earlier. See
+  /// Whether a measurement is due. Before a step of length `h` it may be due earlier; see
   /// ErrorControl::wants_measurement().
   bool wants_measurement(const ForceCourse &course) const {
     return interval_.is_due() && course.force() > 0.;
   }
   bool wants_measurement(const ForceCourse &course, double h) const;
-  /// Adds a measurement, see ErrorControl::measure_steps().
+  /// Adds a measurement; see ErrorControl::measure_steps().
   void measure(const ForceCourse &course, double h, const ResultGroup &forces, const ResultGroup &of_one_step,
                double residuals);
-  /// Notes that there was none, see ErrorControl::miss_measurement().
+  /// Notes a missing measurement; see ErrorControl::miss_measurement().
   void miss(double h, bool failed);
   bool has_given_up() const { return n_failed_ > max_failed; }
 
-  /// Returns the longest step to take next.
+  /// Returns the maximum length of the next step.
   double longest_step() const { return longest_step_; }
   /// Returns the integral of the errors over time.
   double integral() const { return integral_; }
   unsigned int n_measurements() const { return n_measurements_; }
 
-  // For checkpoints: the numbers that are of this class among those of ErrorControl.
+  // For checkpoints: this class's numbers among those of ErrorControl.
   void save(std::vector<double> &numbers) const;
   void load(const std::vector<double> &numbers);
   void save_forces(StateWriter &writer) const;
@@ -55,41 +55,41 @@ public:
 private:
   static constexpr unsigned int max_failed = 5; ///< comparisons in a row
 
-  /// A difference of one step from two, as the slope c that it means for errors.
+  /// Slope c of the errors that follows from the difference between one step and two.
   struct Slope {
     double value, last;
-    double most;     ///< with all noise
+    double most;     ///< upper bound, with all noise
     bool is_first;   ///< of these forces
-    bool is_known;   ///< beside the noise
+    bool is_known;   ///< difference exceeds the noise
     ResultGroup now; ///< c of each force
   };
   Slope slope_of(double h, const ResultGroup &forces, const ResultGroup &of_one_step, double difference,
                  double noise) const;
-  /// Counts steps since the last measurement anew, and takes slopes from here on.
+  /// Restarts the count of steps since the last measurement, and uses these slopes from here on.
   void take(const Slope &slope, double h);
   void schedule(const ForceCourse &course, const Slope &slope, double h);
   void add_step(double h);
-  /// Returns the error that steps may add to the forces in a unit of time from now on.
+  /// Returns the maximum growth rate of the error of forces from now on.
   double allowed_rate(const ForceCourse &course) const;
-  /// Returns what steps of length `h` leave of the forces at the end, if each pair of them makes `slope`
+  /// Returns the error of the forces at the end by steps of length `h`, if each pair of them adds `slope`
   /// times 2 h².
   double left_at_the_end(const ForceCourse &course, double slope, double h) const;
   double rough_target() const { return rules_.fade ? rules_.tolerance : 2. * rules_.tolerance; }
-  /// After a measurement of steps of length `h`: whether their errors `matter` beside the target, and
-  /// `is_known` beside the noise.
+  /// Chooses the maximum length after a measurement with steps of length `h`. `matter`: errors are relevant
+  /// for the target; `is_known`: they exceed the noise.
   void choose_longest_step(const ForceCourse &course, double h, bool matter, bool is_known);
-  /// Returns how much longer than `h` steps may be.
+  /// Returns the factor by which steps may be longer than `h`.
   double allowed_stretch(const ForceCourse &course, double h) const;
 
   Rules rules_;
-  ResultGroup slopes_;     ///< c of each force from the last measurement on; empty before the first
-  double last_slope_ = 0.; ///< Σ|c|, as the last measurement was
+  ResultGroup slopes_;     ///< c of each force since the last measurement; empty before the first
+  double last_slope_ = 0.; ///< Σ|c| at the last measurement
   ResultGroup errors_;     ///< of each force, by all steps so far
   double last_error_ = 0., integral_ = 0.;
   double unmeasured_ = 0., unmeasured_span_ = 0.; ///< Σ h², Σ h of the steps since the last measurement
   double measured_step_ = 0.;                     ///< h of the last one
   double part_ = 0.;                              ///< difference of the last one, over h and the forces
-  bool is_little_ = false;                        ///< what steps make, as of the last measurement
+  bool is_little_ = false; ///< whether errors by steps are small, at the last measurement
   MeasurementInterval interval_{1};
   unsigned int n_measurements_ = 0;
   unsigned int n_failed_ = 0; ///< comparisons in a row

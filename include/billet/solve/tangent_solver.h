@@ -13,47 +13,47 @@
 
 namespace billet {
 
-/// The linear solver of a scene: a direct one, or an iterative one whose place a direct one takes for every
-/// matrix with which it stagnates.
+/// Linear solver of a scene: a direct one, or an iterative one that a direct one replaces for every matrix
+/// with which it stagnates.
 class TangentSolver {
 public:
-  /// `automatic` is resolved here. `matrix` must outlive the solver.
+  /// Resolves `automatic`. `matrix` must outlive the solver.
   TangentSolver(const parameters::Solver &settings, bool symmetric, const Matrix &matrix,
                 MPI_Comm communicator);
 
-  /// To be called before the matrix goes, or gets another pattern; ...
+  /// Releases the matrix. Call it before the matrix is destroyed or gets another pattern, ...
   void release();
-  /// ... after that, the next one.
+  /// ... then set the next one.
   void set_matrix(const Matrix &matrix);
 
-  /// Whether the next matrices are nearly singular: a direct solver, if there is an iterative one, does
-  /// those.
+  /// Sets whether the next matrices are nearly singular: a direct solver then replaces an iterative one.
   void expect_nearly_singular(const bool is) { is_nearly_singular_ = is; }
   bool is_iterative() const { return iterative_ != nullptr; }
-  /// Only of use where it is iterative; see IterativeSolver.
+  /// For an iterative solver only; see IterativeSolver.
   void set_geometry(NodalGeometry geometry);
   void start_contact(const std::vector<int> &dofs);
 
-  /// Prepares solves with the matrix as it is now. False, as from solve(), on all ranks.
+  /// Prepares solves with the present matrix. Returns false on failure, like solve(), on all ranks.
   bool factorize();
-  /// |b − A x| <= relative_tolerance |b|
+  /// Solves with |b − A x| <= relative_tolerance |b|.
   bool solve(const Vector &b, Vector &x, double relative_tolerance);
 
   const std::string &name() const { return name_; }
   const std::string &failure() const { return failure_; }
-  /// Of an iterative solver, since the last call.
+  /// Returns the iterations of an iterative solver since the last call.
   unsigned int take_iterations();
-  /// Messages since the last call: how much memory an iterative solver takes, that a direct one had to help.
+  /// Returns messages since the last call: the memory of an iterative solver, and its replacement by a direct
+  /// one.
   DiagnosticList take_diagnostics();
-  /// That the matrix factorised last is ill-conditioned; once.
+  /// Returns a warning if the matrix factorised last is ill-conditioned; once.
   DiagnosticList check_condition();
 
 private:
   bool factorize_directly();
   bool fall_back();
-  /// Of the matrix just factorised, by two solves.
+  /// Estimates the condition of the matrix just factorised, by two solves.
   void estimate_condition();
-  /// |A| |x|/|b|: no more than the condition of the matrix, and for free.
+  /// Updates the condition by |A| |x|/|b|, a lower bound without additional cost.
   void watch_condition(const Vector &b, const Vector &x);
 
   DirectMethod direct_method_;
@@ -65,11 +65,11 @@ private:
   bool is_direct_now_;
   bool is_nearly_singular_ = false;
   unsigned int n_failures_ = 0; ///< of the iterative solver in succession
-  unsigned int pause_ = 0;      ///< matrices for which it is not tried
+  unsigned int pause_ = 0;      ///< remaining matrices for which it is not tried
   bool has_reported_memory_ = false, is_ill_conditioned_ = false;
   unsigned int n_factorized_ = 0; ///< directly
   double norm_ = 0.;              ///< |A|, as factorised directly
-  double condition_ = 0.;         ///< at least, of the same
+  double condition_ = 0.;         ///< lower bound, of the same matrix
   std::string name_, failure_;
   DiagnosticList diagnostics_;
   HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},

@@ -7,14 +7,14 @@ NodalQuantity contact_quantity();
 
 namespace {
 
-/// Nodal contact fields, three to a vector of the displacement's dofs. Nodes that no pair names have gap 0
+/// Nodal contact fields, three in each vector of displacement dofs. Nodes without a contact pair have gap 0
 /// and status −1.
 std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution) {
   std::array<Vector, 3> owned;
   for (auto &vector : owned)
     vector = discretization.make_owned_vector();
   Vector area_sums = discretization.make_additive_vector();
-  // The dofs of a node follow each other, and have one owner.
+  // The dofs of a node are consecutive and have one owner.
   for (const auto i : discretization.owned_dofs())
     if ((i - *discretization.owned_dofs().begin()) % 3 != 1)
       owned[1](i) = -1.;
@@ -24,7 +24,7 @@ std::array<Vector, 3> collect_contact_fields(const Discretization &discretizatio
       area_sums.add(1, &node.dofs[1], &node.area);
       if (!discretization.owned_dofs().is_element(node.dofs[0]))
         continue;
-      // Of several pairs at a node the one with the smallest gap is shown.
+      // If several pairs share a node, the one with the smallest gap is shown.
       const bool is_shown = owned[1](node.dofs[0]) >= 0.;
       if (is_shown && owned[0](node.dofs[1]) <= node.gap)
         continue;

@@ -10,7 +10,7 @@ HistoryQuantity body_pair_loads_quantity();
 
 namespace {
 
-/// A name of the scene as part of a column's name.
+/// Returns a name of the scene in the form allowed in a column's name.
 std::string column_name(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');

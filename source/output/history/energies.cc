@@ -16,7 +16,7 @@ bool is_implicit_dynamics(const Scene &scene) { return is_dynamic(scene) && !is_
 bool has_hourglass_modes(const Scene &scene) {
   return is_explicit(scene) || scene.capabilities().stabilisation;
 }
-/// Whether viscous forces hold bodies of a static scene until contact does.
+/// Whether viscous forces stabilise bodies of a static scene until contact supports them.
 bool has_stabilised_bodies(const Scene &scene) {
   const auto &bodies = scene.parameters().bodies;
   return std::any_of(bodies.begin(), bodies.end(),

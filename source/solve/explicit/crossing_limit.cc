@@ -7,7 +7,7 @@
 namespace billet {
 
 CrossingLimit::Coming CrossingLimit::at_start(const double stable_step) const {
-  // No node has gone anywhere yet.
+  // No node has moved yet.
   Coming coming{parts_.forces.crossings(), stable_step, false};
   const NodalVectors &v = parts_.motion.velocities();
   for (const auto &contact : parts_.contacts)
@@ -15,7 +15,7 @@ CrossingLimit::Coming CrossingLimit::at_start(const double stable_step) const {
   const bool tools_move = parts_.tools.move_within(coming.step);
   const bool moves = tools_move || std::any_of(v.begin(), v.end(), [](const double c) { return c != 0.; });
   const double near = parts_.forces.max_stiffness(); // bounds on what facets would do
-  // The first step shows how fast facets, or tools, come nearer.
+  // Only the first step shows the speed of approaching facets or tools.
   coming.is_unknown = (!parts_.contacts.of_bodies().empty() || tools_move) &&
                       dealii::Utilities::MPI::max(near > 0. ? 1 : 0, parts_.communicator()) *
                               dealii::Utilities::MPI::max(moves ? 1 : 0, parts_.communicator()) >
@@ -39,7 +39,7 @@ void CrossingLimit::update(const double stable_step, const double energy) {
   if (!(springs > 0.))
     return;
   double fastest = coming.crossings.way / coming.step;
-  if (is_at_start) // bodies that slide along a tool are not at rest, whatever round-off makes of v n
+  if (is_at_start) // bodies that slide along a tool are not at rest, whatever the round-off of v n
     for (unsigned int node = 0; node < parts_.nodes.size(); ++node)
       fastest = std::max(fastest, get_vector(parts_.motion.velocities().data(), node).norm());
   const double speed = dealii::Utilities::MPI::max(fastest, parts_.communicator());

@@ -8,9 +8,9 @@
 namespace billet {
 
 void ExplicitClock::plan(const double event, const double allowed) {
-  // What a change of the step by a part p costs goes with p (ω Δt)²: short steps may grow faster.
+  // The error of a step change by a part p scales with p (ω Δt)²: short steps may grow faster.
   constexpr double growth = 0.02, max_growth = 2., short_step = 0.9, long_step = 0.99;
-  constexpr double rounding = 1e-9; // a remainder that is so much too long is one step
+  constexpr double rounding = 1e-9; // a remainder that exceeds a step by this part is one step
   step_before_ = step_;
   const double length = step_ / allowed;
   const double longest =
@@ -21,7 +21,7 @@ void ExplicitClock::plan(const double event, const double allowed) {
   const double fresh = remaining / n;
   is_growing_ = step_ < (is_growing_ ? long_step : short_step) * allowed;
   const bool is_planned = n_planned_ > 0 && event_ == event && step_ <= allowed;
-  // Near the event, n steps may have to be shorter than those planned: then these are kept.
+  // Near the event, new steps may be shorter than the planned ones: then the planned ones are kept.
   if (is_planned && !(is_growing_ && fresh > step_)) {
     --n_planned_;
     return;

@@ -46,7 +46,7 @@ void ExplicitDynamics::raise_penalties() {
 }
 
 void ExplicitDynamics::finish_step() {
-  raise_penalties(); // what is given to springs shows in the next ledger, as that of this time is written
+  raise_penalties(); // energy added to springs shows in the next ledger: this one is written
   parts_.motion.move(parts_.clock.step());
   parts_.tools.move(parts_.clock);
   ledger_.add_works(parts_.motion.velocities(), 0.5 * parts_.clock.step());
@@ -97,7 +97,7 @@ void ExplicitDynamics::save(StateWriter &writer) const {
 RestartReport ExplicitDynamics::load(StateReader &reader) {
   const NodalRows rows(parts_.nodes);
   RestartReport report;
-  // Other tools or pairs change nothing in how the rest resumes.
+  // Other tools or pairs do not affect the restart of the rest.
   const bool is_exact =
       reader.read_text("scheme") == "explicit" && parts_.elements.has_same_formulations(reader);
   report.is_exact = is_exact;
@@ -122,7 +122,7 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
 }
 
 void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) {
-  // Contact was committed with the forces at the time before. The step is 0 where that is now.
+  // Contact was committed with the last forces. The step is 0 if they are those of the present time.
   const NodalVectors u_before = parts_.motion.displacements_before(step_length());
   const std::vector<Placement> placements = parts_.tools.placements_before();
   for (auto &contact : parts_.contacts)

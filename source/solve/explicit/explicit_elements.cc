@@ -27,7 +27,7 @@ InstructionSet instruction_set_of(const parameters::ExplicitDynamics::Instructio
   return InstructionSet::automatic;
 }
 
-/// Returns what the scene says of a body's elements.
+/// Returns the formulation of a body's elements.
 ExplicitFormulation formulation_of(const parameters::Scene &scene, const parameters::Body &body) {
   const auto &dynamics = scene.explicit_dynamics;
   ExplicitFormulation formulation;

@@ -49,7 +49,7 @@ void ExplicitForces::find_touched_nodes(const Scene &scene) {
       has_bounds_ = has_bounds_ || load.load.limits_steps();
     }
   const NodalVectors is_touched = mark_boundaries(nodes_, scene.bodies().size()); // all else acts there
-  const bool may_be_loaded = has_loads || !scene.tools().empty(); // tools fade when they are removed
+  const bool may_be_loaded = has_loads || !scene.tools().empty(); // forces of removed tools fade
   for (unsigned int node = 0; node < nodes_.size(); ++node) {
     const bool touched = is_touched[std::size_t{nodal_stride} * node] > 0.;
     if (has_accelerations || (may_be_loaded && touched))
@@ -65,7 +65,7 @@ std::string ExplicitForces::add_contact_forces(const ExplicitClock &clock, const
   std::string passage;
   tools.clear_loads();
   const std::vector<Placement> before = tools.placements_before(), now = tools.placements_now();
-  // Overlaps that are allowed do not fade in explicit scenes: they have the times of the start.
+  // Allowed overlaps do not fade in explicit scenes: they use the times of the start.
   const ContactStep step{0., 0., clock.since_forces(), before, now};
   for (auto &contact : contacts) {
     contact.start_step(step);
@@ -98,7 +98,7 @@ ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, cons
   } catch (const SolutionFailure &) { // of this rank
     failure = std::current_exception();
   }
-  // Ranks talk to each other in it, also where one has failed.
+  // Contact communicates between ranks, also if one has failed.
   if (const std::string passage = add_contact_forces(clock, motion, contacts, tools, works);
       !failure && !passage.empty())
     failure = std::make_exception_ptr(clock.failure(passage));

@@ -11,7 +11,7 @@ using dealii::Tensor;
 
 namespace {
 
-/// Places of what is summed over all ranks.
+/// Indices of the sums over all ranks.
 enum Sum {
   kinetic,
   elastic,
@@ -112,10 +112,10 @@ void ExplicitLedger::update(SolutionState &state) {
   }
   if (parts_.clock.is_at_start())
     energies.initial = energies.total() - energies.external;
-  // What is there counts half only: energy that came from nowhere must not hide itself.
+  // The present energy counts half only, so that spurious energy does not hide itself.
   const double energy = std::max(0.5 * energies.total(), std::abs(energies.initial + energies.external));
   max_energy_ = std::max(max_energy_, energy);
-  if (is_due()) // steps must not depend on when else somebody looks
+  if (is_due()) // steps must not depend on other updates
     max_energy_when_due_ = std::max(max_energy_when_due_, energy);
 }
 
@@ -168,7 +168,7 @@ void ExplicitLedger::save(StateWriter &writer, EnergyLedger energies) const {
 }
 
 EnergyLedger ExplicitLedger::load(const StateReader &reader, const bool is_exact) {
-  // What the ledger has so far; the rest follows from the state.
+  // The ledger resumes these sums; the rest follows from the state.
   const EnergyLedger energies = to_energies(reader.read("energies"));
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(parts_.communicator());
   const bool is_same_partition =

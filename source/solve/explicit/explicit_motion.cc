@@ -21,7 +21,7 @@ void ExplicitMotion::begin(const Scene &scene) {
           }
     });
   });
-  // Where planes contradict each other it shows here, if it does at one of these times.
+  // Contradictory planes are detected here, if they contradict each other at one of these times.
   const Supports supports(scene, nodes_.discretization());
   constexpr unsigned int n_looks = 16;
   check_before_start([&] {
@@ -98,7 +98,7 @@ void ExplicitMotion::save(StateWriter &writer, const NodalRows &rows, const doub
   rows.save(writer, "displacements", vectors_of(u_));
   rows.save(writer, "velocities after", vectors_of(v_));
   rows.save(writer, "velocities before", vectors_of(v_before_));
-  // Histories are those of the last forces; another method resumes from what is of the same time.
+  // Histories belong to the last forces; another method resumes from the state of that time.
   rows.save(writer, "displacements before", [&](const unsigned int node) {
     return get_vector(u_.data(), node) - step * get_vector(v_.data(), node);
   });

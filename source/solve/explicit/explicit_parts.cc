@@ -11,7 +11,7 @@ ExplicitParts::ExplicitParts(const Scene &scene_in, const Discretization &discre
       forces(scene, nodes, elements, settings().contact_resolution),
       masses(nodes, elements, settings().scaled_step / settings().safety_factor), tools(scene, nodes) {
   motion.begin(scene);
-  if (!scene.parameters().restart.is_wanted()) // it begins with deformed bodies
+  if (!scene.parameters().restart.is_wanted()) // a restart begins with deformed bodies
     for (auto &contact : contacts.of_bodies())
       if (contact.settings().overlap.closed_gap > 0.) {
         contact.update(motion.displacements());

@@ -20,7 +20,8 @@ void ExplicitPenalties::raise(const Solution &solution, double &external_work) {
       continue;
     const auto [normal, tangential] = factors[p];
     parts_.contacts[p].scale_penalties(normal, tangential);
-    // What compressed springs hold more is given to them. Of friction the force stays, and springs hold less.
+    // Compressed springs receive the energy that stiffer ones store. The force of friction stays, and its
+    // springs store less.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       external_work +=
           (normal - 1.) * energies.of_pairs[p] - (1. - 1. / tangential) * energies.sticking[p].stored;
@@ -29,7 +30,7 @@ void ExplicitPenalties::raise(const Solution &solution, double &external_work) {
 
 DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   DiagnosticList messages = control_.take_diagnostics();
-  // Of all ranks: the largest displacement, and for each pair how deep it is, in facet sizes and as length.
+  // Maxima over all ranks: the displacement, and for each pair the penetration, in facet sizes and as length.
   std::vector<double> maxima{parts_.motion.max_displacement()};
   for (const auto &contact : parts_.contacts) {
     const Penetration deepest = contact.penetration();

@@ -64,7 +64,7 @@ void ExplicitTools::remove(const std::size_t tool, Contacts &contacts, double &e
       contact.add_forces(*fading_forces_[tool], ignored);
       contact.remove_tool();
     }
-  // What its penalty springs held goes with it, and what it has of its own, which all ranks know.
+  // The energy of its penalty springs is removed with it, and its kinetic energy, which all ranks know.
   external_work -= loads_[tool].stored_energy;
   if (dealii::Utilities::MPI::this_mpi_process(communicator()) == 0)
     external_work -= tools_[tool].kinetic_energy();

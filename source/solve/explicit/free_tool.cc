@@ -54,7 +54,7 @@ dealii::Tensor<1, 3> FreeTool::angular_momentum() const {
 }
 
 double FreeTool::motion_work(const ContactLoad &local) const {
-  // The offset's share is work between tool and bodies, of which the tool's kinetic energy keeps account.
+  // The offset's share is work between tool and bodies, which the tool's kinetic energy contains.
   const double turn = now_.rotation_angle - before_.rotation_angle;
   double work =
       local.force * (now_.translation - before_.translation) + local.moment * tool_.rotation_axis() * turn;

@@ -20,7 +20,8 @@ constexpr const char *flat_element_advice =
 
 bool StableStep::update(const StepBounds &own, const double of_tools, const MPI_Comm communicator) {
   // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
-  // Each over all ranks before they are put together: else the step would depend on which rank has what.
+  // Each bound is reduced over all ranks before they are combined: else the step would depend on the
+  // partition.
   std::array<double, 3> bounds{own.element_step, -own.frequency_square, -own.damping_rate};
   MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 3, MPI_DOUBLE, MPI_MIN, communicator);
   value_ = bounds[0];
@@ -36,7 +37,7 @@ bool StableStep::update(const StepBounds &own, const double of_tools, const MPI_
 }
 
 double StableStep::allowed(const double crossing_step) const {
-  constexpr double shortest = 0.25; // part of the stable step, for what comes through surfaces
+  constexpr double shortest = 0.25; // part of the stable step, for nodes that come through surfaces
   const double stable = usual();
   return std::min(stable, std::max(factor_ * crossing_step, shortest * stable));
 }

@@ -14,21 +14,21 @@ namespace billet {
 
 namespace {
 
-/// What augmentations are left with, one after the other, as part of what is asked for.
+/// Record of the errors after successive augmentations, over the tolerance.
 class Pace {
 public:
   void add(const double error) { errors_.push_back(error); }
 
-  /// What each of the last augmentations left of the error, in the mean.
+  /// Returns the mean ratio of the errors after and before each of the last augmentations.
   double ratio() const {
     return std::pow(errors_.back() / errors_[errors_.size() - 1 - window], 1. / window);
   }
-  /// Whether, at this pace, the error will be above 1 after `most` augmentations.
+  /// Whether, at this rate, the error will be above 1 after `most` augmentations.
   bool is_hopeless(const unsigned int most) const {
     const auto n = static_cast<unsigned int>(errors_.size()) - 1;
     return n >= 2 * window && std::log(errors_.back()) + (most - n) * std::log(ratio()) > 0.;
   }
-  /// So many more it would take; the error has to fall.
+  /// Returns the number of further augmentations until convergence; the error has to fall.
   double to_go() const { return std::ceil(-std::log(errors_.back()) / std::log(ratio())); }
 
 private:
@@ -40,22 +40,23 @@ private:
 
 /// Limits of augmentation, as factors unless they say otherwise.
 struct Augmentation::Limits {
-  /// Augmentations for softness alone, which fails no step: it is reported at the end.
+  /// Maximum number of augmentations for softness alone. Remaining softness fails no step, but is reported at
+  /// the end.
   static constexpr unsigned int max_for_softness = 6;
-  /// An augmentation that leaves more than this of an error: residuals leave gaps, too, and have to be
-  /// smaller by `accuracy`, down to `min_accuracy`.
+  /// If an augmentation leaves more than `slow_error` of the error, residuals may cause the gaps: their
+  /// tolerance is reduced by `accuracy`, down to `min_accuracy`.
   static constexpr double slow_error = 0.5, accuracy = 0.1, min_accuracy = 0.01;
   /// An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's. A
   /// contact that leaves more than `slow` becomes stiffer, so that `wanted` is left (Bertsekas, Constrained
   /// Optimization, 1982, sec. 2.2.5).
   static constexpr double slow = 0.25, wanted = 0.1;
-  /// Where softness is what counts. Stiff springs between facets that do not fit hold more than their mean
-  /// gaps: pairs of bodies are as stiff only where an augmentation adds `nearly_all` that springs hold to the
-  /// force and the error is above `much`, as where bodies are confined.
+  /// Limits for softness. Stiff springs between facets that do not fit carry more force than their mean gaps.
+  /// Therefore pairs of bodies become that stiff only in confined bodies: the error is above `much`, and an
+  /// augmentation adds `nearly_all` of the spring force.
   static constexpr double nearly_all = 0.98, much = 100., more_of_tools = 100., more_of_confined = 1e4;
-  /// Where bodies hardly give way springs keep this part of what they hold, and as much is added to the
-  /// force. Beside a force that is larger than what they hold by more than `min_held` that tells nothing:
-  /// friction may be what is augmented.
+  /// If bodies hardly yield, springs keep the part `kept` of their force, and as much is added to the contact
+  /// force. If springs hold less than `min_held` of the force, this is not significant: friction may be
+  /// augmented instead.
   static constexpr double min_held = 0.05, kept = 0.9;
   /// Change of the force, as part of the largest, up to which a pair is settled.
   static constexpr double settled = 5e-3;
@@ -259,7 +260,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   }
   series.before = demands.of_contacts;
   report.append(solver_.iterate(offsets, displacements));
-  if (!report.converged && series.soft && is_of_softness) { // as it was before
+  if (!report.converged && series.soft && is_of_softness) { // restore the former state
     for (std::size_t i = 0; i < series.stiffer.size(); ++i)
       if (series.stiffer[i] != 1.)
         contacts[i].stiffen(1. / series.stiffer[i]);
@@ -268,7 +269,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
     offsets = series.soft_offsets;
     const NewtonReport again = solver_.iterate(offsets, displacements);
     report.append(again);
-    // What found no end in a short step finds none in a shorter one.
+    // If this does not converge, a shorter step does not help either.
     report.hardest = std::max(series.hardest, again.hardest);
     return false;
   }

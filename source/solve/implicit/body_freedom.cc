@@ -32,7 +32,7 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
   for (const auto &contact : problem.contacts())
     contact.add_resistances(body, resistances);
 
-  // Those of all ranks, in the same order on each, so that all find the same.
+  // Gather the resistances of all ranks in the same order on each, so that all find the same mode.
   std::vector<double> numbers;
   for (const auto &[position, direction, sense] : resistances) {
     numbers.insert(numbers.end(), position.begin_raw(), position.end_raw());
@@ -48,7 +48,7 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
                              static_cast<Resistance::Sense>(static_cast<int>(x[6]))});
       box.add(resistances.back().position);
     }
-  // Of what holds the body: where that is but a point, turns about it are free.
+  // Size of the set of resisting points: if there is only one point, rotations about it are free.
   const double size = resistances.empty()
                           ? 1.
                           : std::max((box.high - box.low).norm(), 1e-6 * problem.discretization().radius());
@@ -91,7 +91,7 @@ std::string describe_freedom(const ImplicitProblem &problem, const std::size_t b
 bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport &report) {
   const StepState &step = problem.step();
   const double radius = problem.discretization().radius(), diameter = 2. * radius;
-  // What the scene prescribes, in the step and since the start.
+  // Motion that the scene prescribes, in the step and since the start.
   double driven = 0., driven_so_far = 0.;
   for (const auto &tool : problem.scene().tools()) {
     const Placement start = tool.placement(0.), before = tool.placement(problem.state().time),

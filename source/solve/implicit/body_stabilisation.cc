@@ -50,7 +50,7 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
 
 namespace {
 
-/// Σ ∫ N_a dV of the undeformed elements at their nodes, in each of the three directions. Collective.
+/// Returns Σ ∫ N_a dV of the undeformed elements at their nodes, in each of the three directions. Collective.
 Vector nodal_volumes(const Discretization &discretization, const std::size_t body) {
   Vector sum = discretization.make_additive_vector();
   for (const auto &element : discretization.elements(body)) {

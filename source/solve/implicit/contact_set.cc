@@ -43,7 +43,7 @@ double ContactSet::find_penetration() const {
 }
 
 double ContactSet::find_spring_round_off() const {
-  constexpr double last_bits = 3.; // times what the last bit of a position makes
+  constexpr double last_bits = 3.; // multiple of the effect of a position's last bit
   double force = 0.;
   for (const auto &contact : *this)
     force = std::max(force, contact.largest_spring() * (reach_ + contact.surface_reach()));

@@ -162,7 +162,7 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
   const std::size_t n = unknown_.size();
   if (n == 0)
     return true;
-  constexpr double closer = 1e-2; // since a tool may have far to go where the bodies' residual is small
+  constexpr double closer = 1e-2; // a tool may have to move far while the bodies' residual is small
   std::vector<Vector> Y(n, discretization_.make_owned_vector());
   dealii::FullMatrix<double> S(border_.block);
   dealii::Vector<double> rhs(n), solution(n);
@@ -176,7 +176,7 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
     rhs(i) = r_s[i] - border_.rows[i] * du;
     if (border_.block(i, i) != 0.)
       continue;
-    // It touches nothing, and moves on until it does.
+    // A tool without contact moves until it touches.
     const double way = distance_to_touch(unknown_[i]);
     if (!std::isfinite(way)) {
       failure_ = "tool '" + scene_.tools()[unknown_[i]].name() +

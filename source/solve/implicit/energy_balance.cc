@@ -67,7 +67,7 @@ bool EnergyBalance::contact_makes_energy() const {
 
 void EnergyBalance::update_largest_energy() {
   const EnergyLedger &energies = problem_.state().energies;
-  // As it is shown: what is there counts half, so that energy from nowhere does not hide itself.
+  // As in the output: the present energy counts half, so that spurious energy does not hide itself.
   largest_energy_ = std::max(
       {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
 }
@@ -214,7 +214,7 @@ bool DynamicBalance::rejects(const double t, NewtonReport &report) {
   const ContactLoss loss = dynamic_loss(t);
   report.makes_energy =
       !motion_.damps_contact() && contact_balance_ + loss.total < -Limits::may_make * largest;
-  // So long a step that bodies meet in it, rather than at its end.
+  // The step is so long that bodies meet within it rather than at its end.
   const bool takes_too_much =
       taken_by_contact(loss) - loss.friction > Limits::may_take * largest && paths_.may_be_cut(t);
   if (!report.makes_energy && !takes_too_much)
@@ -238,7 +238,7 @@ void DynamicBalance::commit(const double t) {
     contact_losses_.add(ContactLosses::crossings, taken);
   contact_balance_ += loss.total - taken;
   energies.numerical += taken;
-  // Areas that change take energy at one time and give it back at another.
+  // Areas that change take energy at one time and return it at another.
   const double returned = contact_losses_.give_back(std::max(0., -contact_balance_));
   contact_balance_ += returned;
   energies.numerical -= returned;

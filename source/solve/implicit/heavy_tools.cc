@@ -71,8 +71,8 @@ void HeavyTools::commit(const std::size_t tool, const double offset, const doubl
   const double acceleration = accelerate(heavy, offset, step);
   heavy.rate = weights.increment * way + weights.velocity * rate_n +
                weights.acceleration * start_acceleration(heavy, step);
-  // The tools' works contain what it exerts, of which its kinetic energy keeps account; its load is the
-  // scene's.
+  // The works of tools contain the exerted force, which the kinetic energy accounts for; the load is
+  // external.
   const double mean_exerted = step.damps_contact ? exerted : 0.5 * (heavy.exerted + exerted);
   const double work = (0.5 * (heavy.load + load) - mean_exerted) * way;
   energies.external += work;
@@ -121,7 +121,7 @@ void HeavyTools::load(const std::size_t tool, const StateReader &reader, const b
   HeavyTool &heavy = tools_[tool];
   if (heavy.inertia == 0.)
     return;
-  if (reader.read("flags").at(1) != 0.) { // gone
+  if (reader.read("flags").at(1) != 0.) { // removed
     heavy = HeavyTool();
     return;
   }

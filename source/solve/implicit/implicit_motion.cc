@@ -69,7 +69,7 @@ void ImplicitMotion::set_initial_velocities() {
 
 namespace {
 
-/// x -> CᵀMC x of the dofs that are free, C the homogeneous constraints.
+/// Mass matrix on free dofs, x -> CᵀMC x, C the homogeneous constraints.
 struct CondensedMass {
   const Inertia &inertia;
   const Supports &supports;
@@ -103,7 +103,7 @@ Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
   const double size = rhs.l2_norm();
   if (size == 0.)
     return result;
-  // The mass over its row sums has eigenvalues from 1/27 to 1 in bricks: some thirty iterations.
+  // The mass over its row sums has eigenvalues from 1/27 to 1 in bricks: about thirty iterations.
   constexpr double relative_tolerance = 1e-12;
   constexpr unsigned int most_iterations = 1000;
   dealii::SolverControl control(most_iterations, relative_tolerance * size, false, false);
@@ -112,7 +112,7 @@ Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
   try {
     solver.solve(CondensedMass{inertia_, supports_, scratch}, result, rhs, LumpedMass{lumped_});
   } catch (const dealii::SolverControl::NoConvergence &) {
-    // By round-off, in bodies whose densities differ by very much: what is missing is of that size.
+    // Round-off in bodies of very different densities prevents convergence; the error is of that size.
   }
   supports_.homogeneous().distribute(result);
   return result;
@@ -175,7 +175,7 @@ void ImplicitMotion::start_step(const double t_n, const double t, const Vector &
   u_n_ = displacements;
   tools_.start_step(offsets);
   held_.start_step(t_n, t);
-  // Ten times what the last bit of each displacement, or offset, makes.
+  // Ten times the effect of the last bit of each displacement or offset.
   const double last_bit = 10. * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_);
   const double n_nodes = static_cast<double>(discretization_.dof_handler().n_dofs()) / 3.;
   round_off_force_ = last_bit * inertia_.total() / std::sqrt(n_nodes) *
@@ -236,8 +236,8 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
 
 void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
                             const double /*touching*/, EnergyLedger &energies) {
-  // With p = M Δv and the mean forces F̄, what the nodes' motions v̄·p + F̄·Δu do not cancel out is the
-  // supports' work where they prescribe the motion, and elsewhere what the integrator takes.
+  // With p = M Δv and the mean forces F̄, the part of v̄·p + F̄·Δu on prescribed motions is the supports'
+  // work. The rest, with opposite sign, is the dissipation of the integrator.
   Vector change = trial_.velocity, mean_velocity = trial_.velocity;
   change -= start_.velocity;
   mean_velocity += start_.velocity;

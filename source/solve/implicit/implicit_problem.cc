@@ -11,8 +11,8 @@ namespace billet {
 
 namespace {
 
-/// Makes the motion of a dynamic scene; null of a static one. Throws InputError where prescribed
-/// displacements contradict each other.
+/// Makes the motion of a dynamic scene; null for a static one. Throws InputError if prescribed displacements
+/// contradict each other.
 std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretization &discretization,
                                             const Supports &supports) {
   check_before_start([&] {
@@ -24,7 +24,7 @@ std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretiza
   return nullptr;
 }
 
-/// A hundred times the force that the last bit of a displacement of the scene's size makes.
+/// Returns a hundred times the force by the last bit of a displacement of the scene's size.
 double find_round_off_force(const Scene &scene, const Discretization &discretization) {
   constexpr double last_bits = 100.;
   double stiffest = 0.;
@@ -43,7 +43,7 @@ ImplicitParts::ImplicitParts(const Scene &scene, const Discretization &discretiz
       tools_(scene, discretization, supports_, contacts_, scheme()),
       removal_(scene, discretization, contacts_), stabilisation_(scene, discretization),
       tangent_(scene, discretization, supports_, contacts_) {
-  if (contacts_.of_bodies().empty()) // else when it is known who touches whom
+  if (contacts_.of_bodies().empty()) // else once the contacts are known
     tangent_.build();
 }
 
@@ -118,7 +118,7 @@ bool ImplicitProblem::compute_tangent(const Vector &x) {
 
 StatusChanges ImplicitProblem::find_status_changes() const {
   StatusChanges changes;
-  if (linearised_.empty()) // nothing can touch, or there has been no tangent
+  if (linearised_.empty()) // no contact is possible, or there has been no tangent
     return changes;
   const std::vector<std::vector<SlaveForce>> now = contacts_.slave_forces();
   for (std::size_t i = 0; i < now.size(); ++i)
@@ -167,7 +167,7 @@ bool ImplicitProblem::solve_tangent(const Vector &residual, Vector &dx, const do
     std::copy(residual.begin() + n_displacements, residual.end(), r_s.begin());
   if (!r_s.empty())
     r_s = dealii::Utilities::MPI::broadcast(communicator(), r_s, 0);
-  if (!solve_bordered(r_u, r_s, -1., relative_tolerance, du, ds)) // what Newton subtracts
+  if (!solve_bordered(r_u, r_s, -1., relative_tolerance, du, ds)) // Newton's method subtracts it
     return false;
   std::copy(du.begin(), du.end(), dx.begin());
   if (dx.locally_owned_size() > n_displacements)
@@ -186,7 +186,7 @@ double ImplicitProblem::max_step_length(const Vector &x, const Vector &direction
   set_trial(end);
   const double part = contacts_.find_free_part(
       {from, step_.ghosted, tools_from, tools_.placements(step_.time), false}, obstacle_);
-  constexpr double least = 1e-3; // so short a correction is none
+  constexpr double least = 1e-3; // shorter corrections are useless
   return part < least ? 0. : part;
 }
 

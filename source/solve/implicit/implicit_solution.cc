@@ -64,7 +64,7 @@ void ImplicitSolution::repeat(const double t, const double previous_step, Newton
     append(report.diagnostics, rules_->raise_penalties());
     report.append_anew(attempt(t, previous_step));
   }
-  if (report.makes_energy) { // once more, so that it does not
+  if (report.makes_energy) { // repeat with damped contact
     problem_.scheme().damp_contact(problem_.step().start);
     report.append_anew(attempt(t, previous_step));
   }
@@ -93,14 +93,14 @@ NewtonReport ImplicitSolution::step(const double t, const double previous_step) 
   rules_->check_next_step();
   DiagnosticList messages;
   problem_.scheme().choose_contact_damping(problem_.step().start);
-  // What stalls with stiff penalties may converge by way of softer ones.
+  // Iterations that stall with high penalties may converge by continuation from lower ones.
   solver_.accept_stalled(!continuation_.is_possible());
   NewtonReport report = attempt(t, previous_step);
   repeat(t, previous_step, report);
   recover(t, previous_step, report, messages);
   measurement_.withdraw();
   if (!report.converged) {
-    rules_->predictor().drop_probe(); // it may have led astray
+    rules_->predictor().drop_probe(); // it may be a poor guess
     explain_failure(report);
   }
   TangentSolver &linear = problem_.tangent().solver();
@@ -138,7 +138,7 @@ void ImplicitSolution::review(NewtonReport &report) {
 
 ImplicitSolution::Probe ImplicitSolution::probe(const double t, const double previous_step) {
   Probe probe;
-  if (!rules_->has_next_step()) // the step itself tells
+  if (!rules_->has_next_step()) // the step itself reports it
     return probe;
   problem_.scheme().choose_contact_damping(problem_.step().start);
   solver_.set_probing(true);
@@ -159,7 +159,7 @@ ImplicitSolution::Probe ImplicitSolution::probe(const double t, const double pre
 void ImplicitSolution::commit(const double t, NewtonReport &report) {
   StepState &step = problem_.step();
   ForceScales &scales = problem_.scales();
-  constexpr double of_force = 1e-3; // that forces leave as a measure for what is small when they go
+  constexpr double of_force = 1e-3; // of the forces: lower limit of the reference value after they vanish
   round_off_.commit(t, report);
   penetration_ = problem_.contacts().find_penetration();
   append(report.diagnostics, paths_.check_motion(t));

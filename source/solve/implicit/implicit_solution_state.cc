@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What an implicit solution gives to a checkpoint, and how it resumes from one.
+// Checkpoints of implicit solutions, and restarts from them.
 #include "billet/errors.h"
 #include "billet/solve/implicit/implicit_solution.h"
 
@@ -59,7 +59,7 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   checkpoint_.load_contacts(reader, keys);
   checkpoint_.update_contacts(reader, report.is_exact);
   problem_.scales().spring_round_off =
-      problem_.contacts().find_spring_round_off(); // of penalties as they are
+      problem_.contacts().find_spring_round_off(); // with the present penalties
   if (is_own)
     load_own(reader, nodes, report.is_exact);
   if (!report.is_exact)
@@ -109,7 +109,7 @@ void ImplicitSolution::balance(RestartReport &report) {
   for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
     for (const ContactLoad &load : *of)
       state.energies.contact += load.stored_energy;
-  // What has gone with the interruption is no drift.
+  // Energy lost by the interruption is not drift.
   EnergyLedger &energies = state.energies;
   const double drift = energies.drift();
   const auto now = problem_.internal().compute_energies(state.displacements);

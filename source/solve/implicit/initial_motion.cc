@@ -45,7 +45,7 @@ void InitialMotion::accelerate() {
          accelerations = problem_.discretization().make_owned_vector();
   problem_.supports().condense(rhs);
   if (tangent.solver().is_iterative()) {
-    tangent.solver().start_contact({}); // there is none in the mass
+    tangent.solver().start_contact({}); // the mass matrix has no contact
     tangent.set_geometry(problem_.step().trial.displacements);
   }
   if (!tangent.solver().factorize() || !tangent.solve(rhs, tolerance, accelerations)) {
@@ -83,7 +83,7 @@ void InitialMotion::load(StateReader &reader, RestartReport &report) {
   accelerate();
   const double drift = state.energies.drift();
   motion_.update_state(state);
-  state.energies.initial += drift - state.energies.drift(); // velocities that begin are no drift
+  state.energies.initial += drift - state.energies.drift(); // energy of initial velocities is not drift
 }
 
 } // namespace billet

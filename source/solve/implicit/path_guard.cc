@@ -74,7 +74,7 @@ bool PathGuard::skips_motion(const double t, NewtonReport &report) const {
 }
 
 DiagnosticList PathGuard::check_motion(const double t) const {
-  if (may_be_cut(t)) // and was not
+  if (may_be_cut(t)) // but was not cut
     return {};
   const std::string unseen = motions_.find_unseen(problem_.state().time, t);
   if (unseen.empty())

@@ -58,8 +58,8 @@ std::vector<double> PenaltyRaises::find_factors() const {
       stepping.control == parameters::TimeStepping::Control::automatic &&
       problem_.step().time - problem_.state().time < Limits::short_step * stepping.initial_step;
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    // A penalty that the scene sets stays while it can; the warnings tell what it makes softer. It cannot
-    // where nodes are about to go deeper than contact follows them.
+    // A penalty of the scene is kept while possible; warnings report its softness. It has to rise if nodes
+    // are about to go deeper than contact follows them.
     const PairSettings &pair = contacts[i].settings();
     const bool is_too_much =
         !pair.has_tolerance() && factors[i] > (pair.input->has_own_penalty && !is_short ? Limits::deep : 1.);
@@ -143,7 +143,8 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
       continue;
     const double normal = factors[i].normal, tangential = factors[i].tangential;
     contacts[i].stiffen_under_load(normal, tangential);
-    // With the same force a stiffer spring holds less: the rest stays in the penetration that is allowed now.
+    // A stiffer spring with the same force stores less energy: the rest stays in the penetration that is now
+    // allowed.
     const double lost =
         (1. - 1. / normal) * energies.of_pairs[i] + (1. - 1. / tangential) * energies.sticking[i].stored;
     books_.add(i, -lost);

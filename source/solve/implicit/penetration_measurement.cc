@@ -8,7 +8,7 @@ namespace billet {
 
 namespace {
 
-/// The largest difference of a group, as part of it.
+/// Returns the largest difference of a group, as part of it.
 double difference(const StepResults::Groups &a, const StepResults::Groups &b) {
   double largest = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
@@ -72,10 +72,10 @@ void PenetrationMeasurement::begin_with_augmentation() {
 }
 
 void PenetrationMeasurement::measure(const Vector &accepted, const double accuracy, NewtonReport &report) {
-  if (measured_ && measured_->with.empty()) // of no use any more
+  if (measured_ && measured_->with.empty()) // discarded
     return;
   if (!measured_ && (!(problem_.force_scale() > 0.) || !(problem_.contacts().find_penetration() > 0.))) {
-    measured_ = OfPenetration(); // nothing touches
+    measured_ = OfPenetration(); // no contact
     return;
   }
   double left = 0.;

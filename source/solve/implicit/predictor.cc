@@ -108,8 +108,8 @@ bool Predictor::follow_probe(const double t) {
 
 bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   // K Δu = −∂R/∂t Δt at the last state. The change of the prescribed displacements is lifted to the
-  // right-hand side, so that it spreads through the bodies, where putting it on the boundary nodes alone
-  // would crush the elements beside them.
+  // right-hand side, so that it spreads through the bodies. On the boundary nodes alone it would crush the
+  // elements beside them.
   StepState &step = problem_.step();
   DrivenTools &tools = problem_.tools();
   bool supports_move = false;

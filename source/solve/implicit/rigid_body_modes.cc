@@ -28,7 +28,7 @@ void RigidBodyModes::add_supports(RigidBodySupport &support) const {
 template <class AddContact> void RigidBodyModes::add_supporting_points(const AddContact &add) const {
   const DrivenTools &tools = problem_.tools();
   for (const auto &contact : problem_.contacts()) {
-    // A tool whose travel is unknown gives way.
+    // A tool whose travel is unknown does not resist.
     std::optional<std::size_t> unknown;
     RigidContact::ToolRate rate;
     dealii::Tensor<1, 3> centre;
@@ -141,7 +141,7 @@ void RigidBodyModes::hold_unloaded_bodies() {
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
     is_unloaded.push_back(forces_n_[body] < Limits::unloaded * largest_forces_[body] &&
                           !problem_.stabilisation().acts_on(body));
-  // One after the other: those that hang together are free together.
+  // One after the other: connected bodies are free together.
   for (std::size_t n = std::count(is_unloaded.begin(), is_unloaded.end(), true); n > 0; --n) {
     const RigidBodySupport::Result lifted = find_support(is_unloaded);
     if (lifted.n_free <= support_.n_free || !hold_if_let_go(*lifted.free))

@@ -60,7 +60,7 @@ NewtonReport StepAttempt::make(const double t, const double previous_step, const
   report = is_direct ? p_.solver.iterate(x.offsets, x.displacements)
                      : p_.continuation.iterate(x.offsets, x.displacements);
   if (linear_step.force > 0.)
-    report.iterations.insert(report.iterations.begin(), linear_step); // it costs what an iteration costs
+    report.iterations.insert(report.iterations.begin(), linear_step); // its cost is that of an iteration
   if (is_direct)
     report.hardest = report.iterations.size();
   p_.augmentation.augment(report, x.offsets, x.displacements);
@@ -85,13 +85,14 @@ void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) 
   problem.tools().choose_unknown(pressing);
   report.append(p_.solver.iterate(x.offsets, x.displacements));
   p_.augmentation.augment(report, x.offsets, x.displacements);
-  if (has_measured) // with the tool where it is no more
+  if (has_measured) // it holds for the former position of the tool
     p_.measurement.spoil();
 }
 
 void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
-  // The line search may have looked further since: the histories have to be those of the accepted state.
+  // The line search may have evaluated other states since: the histories have to be those of the accepted
+  // state.
   Vector accepted = problem.tools().pack(x.displacements, x.offsets);
   Vector residual(accepted);
   problem.compute_residual(accepted, residual);
@@ -111,7 +112,7 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
 void StepAttempt::judge(const double t, NewtonReport &report) {
   if (p_.solver.is_probing())
     return;
-  // Each sets report.converged to false where it is true.
+  // Each sets report.converged to false if it is true.
   static_cast<void>(p_.round_off.rejects(t, report) || p_.rules.balance().is_inaccurate(t, report) ||
                     p_.paths.goes_through_thin_tool(report) || p_.paths.goes_through(true, report) ||
                     p_.paths.turns_too_far(t, report) || p_.rules.rejects(t, report));

@@ -58,7 +58,7 @@ std::string StepDiagnosis::describe_residual() {
     return "";
   const MPI_Comm communicator = problem_.communicator();
   const dealii::IndexSet &owned = problem_.discretization().owned_dofs();
-  // The largest nodal force that is out of balance, where, and of which body.
+  // The largest nodal residual, its position, and its body.
   std::array<double, 5> mine{};
   for (std::size_t body = 0; body < problem_.discretization().n_bodies(); ++body)
     for (const auto &element : problem_.discretization().elements(body))

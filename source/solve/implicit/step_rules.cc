@@ -20,11 +20,11 @@ ToolRemoval::Removal StepRules::remove_tools(const double t) {
   ToolRemoval::Removal removal = problem_.removal().remove_due(t);
   SolutionState &state = problem_.state();
   for (const std::size_t tool : removal.tools) {
-    // What its penalty springs held leaves with it.
+    // The energy of its penalty springs is removed with it.
     state.energies.external -= state.tool_loads[tool].stored_energy;
     state.energies.contact -= state.tool_loads[tool].stored_energy;
     predictor().lose_pace();
-    problem_.step().start.contact -= problem_.removal().forces(tool); // it is contact no more
+    problem_.step().start.contact -= problem_.removal().forces(tool); // it is no longer contact
   }
   return removal;
 }
@@ -87,7 +87,7 @@ void StaticRules::finish_load(StateReader & /*reader*/, const double release_tim
 
 void DynamicRules::start(const Solution &solution) {
   initial_.start();
-  penalties_.control(solution); // learns of the motion at the start, and raises nothing yet
+  penalties_.control(solution); // records the motion at the start, and raises nothing yet
 }
 
 bool DynamicRules::rejects(const double t, NewtonReport &report) {
@@ -120,7 +120,7 @@ void DynamicRules::save(StateWriter &writer) const {
 void DynamicRules::load(StateReader &reader, bool /*is_exact*/) {
   balance_.load(reader);
   if (reader.number("damps contact") != 0.)
-    motion_.damp_contact(problem_.step().start); // the next step begins with that anew
+    motion_.damp_contact(problem_.step().start); // the next step begins with it
   penalties_.load(reader);
 }
 

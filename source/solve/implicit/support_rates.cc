@@ -38,7 +38,7 @@ SupportRates::Rates SupportRates::find(const double t, const double step) const 
   Rates rates{discretization_.make_owned_vector(), discretization_.make_owned_vector()};
   if (!scene_.capabilities().moving_supports)
     return rates;
-  // A parabola through three times within the run, about t where that is possible.
+  // A parabola through three times within the run, centred at t if possible.
   const double end = scene_.parameters().time_stepping.end_time, h = std::min(step, 0.5 * end);
   const double middle = std::clamp(t, h, end - h);
   const Vector before = change(middle - h, middle);

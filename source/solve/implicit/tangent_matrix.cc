@@ -81,7 +81,7 @@ bool TangentMatrix::take_exact() {
   kind_ = ContactTangent::exact;
   for (auto &contact : contacts_)
     contact.set_tangent(kind_);
-  if (linear_) { // else it is made when it is known who touches whom
+  if (linear_) { // else it is built once the contacts are known
     linear_->release();
     linear_.reset();
     build();

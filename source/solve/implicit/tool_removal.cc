@@ -56,7 +56,7 @@ ToolRemoval::Removal ToolRemoval::remove_due(const double t) {
 void ToolRemoval::save(const std::size_t tool, StateWriter &writer, const OwnedNodes &nodes) const {
   if (!forces_[tool])
     return;
-  // The force on the nodes is less than the residual by its sign.
+  // The force on the nodes is the residual with opposite sign.
   std::vector<std::uint64_t> keys;
   std::vector<double> forces;
   for (std::size_t n = 0; n < nodes.keys.size(); ++n) {

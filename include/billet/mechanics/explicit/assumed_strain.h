@@ -6,8 +6,8 @@
 #include "billet/mechanics/explicit/mean_gradient.h"
 #include "billet/mechanics/strain_modes.h"
 
-// Eight points under assumed strains, (B1) to (B7) of doc/theory.md: j_q = Y_q J̄ in the place of ∂x/∂ξ. The
-// law sees j_q up to a factor, and det J̄.
+// Eight points with assumed strains, (B1) to (B7) of doc/theory.md: j_q = Y_q J̄ replaces ∂x/∂ξ. The law
+// receives j_q up to a factor, and det J̄.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -28,7 +28,7 @@ BILLET_INLINE void load_constants(const Number *constants, const Number fourth, 
   result.fourth = broadcast(fourth);
 }
 
-/// Of the fourth mode, (B5).
+/// Computes the share of the fourth mode, (B5).
 inline Number compute_fourth(const Material &material) {
   const Number K = material.bulk, G = material.shear;
   const Number nu = (3._r * K - 2._r * G) / (6._r * K + 2._r * G);
@@ -36,7 +36,7 @@ inline Number compute_fourth(const Material &material) {
   return square_root(2._r * (1._r + nu) / (3._r * (1._r + 2._r / 3._r * theta * theta)));
 }
 
-/// Modes less what the mean gradient makes of them: b̂_1, b̂_2, b̂_3, ĉ.
+/// Computes the modes minus the contribution of the mean gradient: b̂_1, b̂_2, b̂_3, ĉ.
 BILLET_INLINE void compute_hourglass(const Modes &modes, const Real columns[3][3], const Number *constants,
                                      Real hourglass[4][3]) {
   for (unsigned int m = 0; m < 4; ++m) {
@@ -50,7 +50,7 @@ BILLET_INLINE void compute_hourglass(const Modes &modes, const Real columns[3][3
   }
 }
 
-/// What the modes say of a brick, and the strains that follow, by (B7).
+/// Frame of a brick and its strains by (B7), from the modes.
 template <class T> struct Brick {
   strain_modes::Frame<T> frame;
   T hourglass[4][3];
@@ -58,7 +58,7 @@ template <class T> struct Brick {
   strain_modes::Strains<T> strains;
 };
 
-/// The frame's columns and the hourglass vectors are set.
+/// Completes a brick whose frame's columns and hourglass vectors are set.
 template <class T, class Invert, class Root>
 BILLET_INLINE void complete(const StrainConstants &constants, const Invert &invert, const Root &root,
                             Brick<T> &brick) {
@@ -72,16 +72,16 @@ BILLET_INLINE void complete(const StrainConstants &constants, Brick<Real> &brick
       constants, [](const Real x) { return 1._r / x; }, [](const Real x) { return square_root(x); }, brick);
 }
 
-/// What a step changes, as small as the step.
+/// Changes in a step, without cancellation error.
 struct BrickChange {
-  Real columns[3][3], duals[3][3]; ///< duals[k] of the beginning become those now
-  Real beginning[3][3];            ///< duals
+  Real columns[3][3], duals[3][3]; ///< changes of columns and duals
+  Real beginning[3][3];            ///< duals at the beginning of the step
   strain_modes::Strains<Real> strains;
-  Real determinant; ///< float: its change
+  Real determinant; ///< change of the determinant, in float only
   Mask inadmissible = {};
 };
 
-/// Of all numbers of an array.
+/// Copies the values of all numbers of an array.
 BILLET_INLINE void get_values(const Stepped<Real> &step, Real &value) { value = step.value; }
 template <class Step, class T, std::size_t n>
 BILLET_INLINE void get_values(const Step (&step)[n], T (&value)[n]) {
@@ -89,11 +89,11 @@ BILLET_INLINE void get_values(const Step (&step)[n], T (&value)[n]) {
     get_values(step[k], value[k]);
 }
 
-/// `now` and `change` from the columns and hourglass vectors of `now` and their changes.
+/// Completes `now` and `change` from the columns and hourglass vectors of `now` and their changes.
 BILLET_INLINE void complete(const StrainConstants &constants, const Real delta[4][3], Brick<Real> &now,
                             BrickChange &change) {
   if constexpr (is_single) {
-    // The difference of what is rounded would be lost.
+    // A difference of rounded numbers would lose its digits.
     using Both = Stepped<Real>;
     Brick<Both> both;
     for (unsigned int k = 0; k < 3; ++k)
@@ -158,7 +158,7 @@ BILLET_INLINE void complete(const StrainConstants &constants, const Real delta[4
   }
 }
 
-/// Of the points, a_a·(Y − 1) a_b.
+/// Strains at the points, a_a·(Y − 1) a_b.
 struct PointStrains {
   Real h[8][6];
 };
@@ -173,7 +173,7 @@ BILLET_INLINE void spread(const strain_modes::Strains<Real> &strains, PointStrai
       l[k] = gauss * strains.linear[k][r];
       b[k] = (gauss * gauss) * strains.bilinear[k][r];
     }
-    // Along ξ, of the modes 1 and η, ζ, ηζ; then along the two others.
+    // Along ξ, for the modes 1 and η, ζ, ηζ; then along the two others.
     for (unsigned int x = 0; x < 2; ++x) {
       const Real mean = x == 0 ? -l[0] : l[0];
       const Real eta = x == 0 ? l[1] - b[2] : l[1] + b[2], zeta = x == 0 ? l[2] - b[1] : l[2] + b[1];
@@ -186,15 +186,15 @@ BILLET_INLINE void spread(const strain_modes::Strains<Real> &strains, PointStrai
   }
 }
 
-/// What the points of an element add up to.
+/// Sums and maxima over the points of an element.
 struct AssumedSums {
   Watch watch;
   Real lambda[8];                          ///< λ_max of j⁻¹ j⁻ᵀ of the points
-  Mask inadmissible = {};                  ///< a point's j inside out, or not finite
+  Mask inadmissible = {};                  ///< a point's j is inverted or not finite
   Real distortion = {}, plastic_work = {}; ///< energies per volume, summed
 };
 
-/// result += Σ_a v_a h_ab, for all b.
+/// Adds Σ_a v_a h_ab to result[b] for all b.
 BILLET_INLINE void add_stretched(const Real v[3][3], const Real h[6], Real result[3][3]) {
   for (unsigned int b = 0; b < 3; ++b)
     for (unsigned int i = 0; i < 3; ++i)
@@ -202,7 +202,7 @@ BILLET_INLINE void add_stretched(const Real v[3][3], const Real h[6], Real resul
                       v[2][i] * h[symmetric_index[2][b]];
 }
 
-/// Columns of j = Y J̄ at a point.
+/// Computes the columns of j = Y J̄ at a point.
 BILLET_INLINE void compute_columns(const strain_modes::Frame<Real> &frame, const Real h[6], Map &map) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
@@ -211,7 +211,7 @@ BILLET_INLINE void compute_columns(const strain_modes::Frame<Real> &frame, const
   map.complete();
 }
 
-/// `tau` becomes dev τ of a point, `map` its j.
+/// Updates a point: `dev_tau` becomes its dev τ, `map` its j.
 template <class Law, bool is_plastic>
 BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunctions &functions,
                                         const strain_modes::Frame<Real> &frame, const BrickChange &change,
@@ -225,7 +225,7 @@ BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunc
         d[k][i] = change.columns[k][i];
     add_stretched(change.duals, h, d);
     add_stretched(change.beginning, h_change, d);
-    Map other; // in the middle of the step, or before it
+    Map other; // at mid-step, or before the step
     for (unsigned int k = 0; k < 3; ++k)
       for (unsigned int i = 0; i < 3; ++i)
         other.j[k][i] = map.j[k][i] - (is_rate_form<Law> ? 0.5_r : 1._r) * d[k][i];
@@ -244,12 +244,12 @@ BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunc
                                      history, dev_tau, sums.watch);
 }
 
-/// Adds what dev τ of a point does: to the sums, and `forces` = weight dev τ j⁻ᵀ, those of its columns.
+/// Adds the contribution of a point to the sums. Sets `forces` = weight dev τ j⁻ᵀ, those of its columns.
 template <bool is_plastic>
 BILLET_INLINE void add_assumed_point(const unsigned int q, const Real weight, const Real metric[6],
                                      const Real h[6], const Map &map, const Real dev_tau[6],
                                      AssumedSums &sums, Real forces[3][3]) {
-  // Y is positive definite: minors of a_a·Y a_b, of which the largest is det j det J̄.
+  // Condition that Y is positive definite: minors of a_a·Y a_b, of which the largest is det j det J̄.
   const Real c_11 = metric[0] + h[0], c_22 = metric[1] + h[1], c_12 = metric[3] + h[3];
   sums.inadmissible |=
       !(c_11 > 0._r && c_11 * c_22 > c_12 * c_12 && map.det > 0._r && map.det < finite_bound);
@@ -267,10 +267,10 @@ BILLET_INLINE void add_assumed_point(const unsigned int q, const Real weight, co
   sums.lambda[q] = bound_eigenvalue(bound) * (map.inverse_det * map.inverse_det);
 }
 
-/// Bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (X13), by the rows of its matrix.
+/// Returns a bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (X13), from the row sums of its matrix.
 BILLET_INLINE Real bound_points(const Real lambda[8]) {
   constexpr Number g = gauss, g2 = gauss * gauss, g3 = gauss * gauss * gauss;
-  Real m[8]; // moments, by their bits ξ, η, ζ
+  Real m[8]; // moments, indexed by the bits ξ, η, ζ
   for (unsigned int q = 0; q < 8; ++q)
     m[q] = lambda[q];
   hadamard(m);
@@ -288,7 +288,7 @@ BILLET_INLINE Real bound_points(const Real lambda[8]) {
   return 0.125_r * largest;
 }
 
-/// Sums over the points of the forces of their columns, per mode of the strains, and of their mean.
+/// Sums over the points of the forces of their columns: mean, and per mode of the strains.
 struct ColumnForces {
   Real mean[3][3], linear[3][3][3], bilinear[3][3][3];
 };
@@ -308,8 +308,9 @@ BILLET_INLINE void sum_points(const Real points[8][3][3], ColumnForces &sums) {
     }
 }
 
-/// Of j = a_b + Σ_a a^a h_ab per strain: `stress`, which works on h_ab, from the forces f_b of the columns,
-/// and what those do to the duals, a^k·(Σ_b h_ab f_b) to be added at [a][k].
+/// Computes the forces of one strain mode of j = a_b + Σ_a a^a h_ab. `stress`, work-conjugate to h_ab,
+/// follows from the forces f_b of the columns; their effect on the duals, a^k·(Σ_b h_ab f_b), is added at
+/// [a][k].
 BILLET_INLINE void add_strain_forces(const Real duals[3][3], const Real f[3][3], const Real h[6],
                                      Real stress[6], Real of_duals[3][3]) {
   Real t[3][3]; // a^k·f_b
@@ -324,7 +325,7 @@ BILLET_INLINE void add_strain_forces(const Real duals[3][3], const Real f[3][3],
                         h[symmetric_index[a][2]] * t[k][2];
 }
 
-/// Forces of the modes, from those of the points' columns.
+/// Computes the forces of the modes from those of the points' columns.
 BILLET_INLINE void compute_forces(const StrainConstants &strain_constants, const Brick<Real> &brick,
                                   const Real points[8][3][3], const Real pressure, const Number *constants,
                                   Modes &modal) {
@@ -398,7 +399,7 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
 
   const Real reference_volume = load(constants + mean_gradient::volume * n_lanes);
   const Real inverse_det = load(constants + mean_gradient::inverse_det * n_lanes);
-  const Real J = frame.determinant * inverse_det; // but for small changes
+  const Real J = frame.determinant * inverse_det; // inaccurate for small changes
   AssumedSums sums;
   VolumeChange volume;
   if constexpr (is_single)

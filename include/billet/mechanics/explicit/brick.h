@@ -5,19 +5,19 @@
 #include "billet/mechanics/explicit/laws.h"
 #include "billet/mechanics/explicit/nodes.h"
 
-// The trilinear brick by its modes,
+// The trilinear brick in terms of its modes,
 //   x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ.
 
 namespace billet::explicit_kernels {
 namespace {
 
-/// Vectors of the modes but for the mean: a_1, a_2, a_3, b_1, b_2, b_3, c. Of positions, or of the forces
-/// that belong to them.
+/// Vectors of the modes except the mean: a_1, a_2, a_3, b_1, b_2, b_3, c; for positions or for the conjugate
+/// forces.
 struct Modes {
   Real m[7][3];
 };
 
-/// Sums and differences over the three directions of eight values, in place.
+/// Computes sums and differences of eight values over the three directions, in place.
 BILLET_INLINE void hadamard(Real x[8]) {
   for (unsigned int step = 1; step < 8; step *= 2)
     for (unsigned int a = 0; a < 8; ++a)
@@ -41,15 +41,15 @@ BILLET_INLINE void compute_modes(const Real x[8][3], Modes &modes) {
   }
 }
 
-/// Positions and displacements of the step of a batch by their modes; the latter only where they are asked,
-/// in float always.
+/// Modes of the positions of a batch, and of its displacements in the step. The latter are set only on
+/// request, in float always.
 struct Motion {
   Modes x, delta;
 };
 
 #if BILLET_SINGLE
 
-/// Of scale p.
+/// Gathers the modes of `scale` p.
 BILLET_INLINE void gather_modes(const double *p, const double scale, const std::uint32_t *nodes,
                                 Modes &modes) {
   FirstNode first;
@@ -62,7 +62,7 @@ BILLET_INLINE void gather_modes(const double *p, const double scale, const std::
   compute_modes(x, modes);
 }
 
-/// `reference`: the modes of the reference positions among the constants.
+/// Gathers the motion; `reference` points at the modes of the reference positions among the constants.
 template <bool with_step>
 BILLET_INLINE void gather_motion(const Elements &, const Step &step, const std::uint32_t *nodes,
                                  const Number *reference, Motion &motion) {
@@ -97,7 +97,7 @@ BILLET_INLINE void gather_motion(const Elements &elements, const Step &step, con
 
 #endif
 
-/// `forces` belong to the modes.
+/// Scatters `forces`, those of the modes, to the nodes.
 BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes, const std::size_t n,
                                  const Step &step) {
   Real f[8][3];
@@ -106,7 +106,7 @@ BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes
     values[0] = Real{};
     for (unsigned int k = 0; k < 7; ++k)
       values[place_of_mode[k]] = 0.125_r * forces.m[k][i];
-    // The transpose: node a gets Σ_k ± value, with the sign of the mode at the node.
+    // The transpose: node a receives Σ_k ± value, with the sign of the mode at the node.
     for (unsigned int bit = 1; bit < 8; bit *= 2)
       for (unsigned int a = 0; a < 8; ++a)
         if ((a & bit) == 0) {
@@ -124,8 +124,8 @@ BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes
 #endif
 }
 
-/// Exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}: linear in the modes a1 and b1 of
-/// x, in a2 and b2 of y, in a3 and b3 of z.
+/// Returns the exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}: linear in the modes
+/// a1 and b1 of x, in a2 and b2 of y, in a3 and b3 of z.
 BILLET_INLINE Real compute_volume(const Modes &x, const Modes &y, const Modes &z) {
   Real a[3], b[3], t[3];
   cross(y.m[1], z.m[2], a);
@@ -137,22 +137,22 @@ BILLET_INLINE Real compute_volume(const Modes &x, const Modes &y, const Modes &z
   return 8._r * (dot(x.m[0], a) - (1._r / 3._r) * (dot(x.m[3], b) + dot(x.m[3], t)));
 }
 
-/// Volume at the modes `after` less that at `before`, from their difference: as small as that, to its last
-/// digits.
+/// Returns the volume at the modes `after` minus that at `before`. It uses their difference, so there is no
+/// cancellation error.
 BILLET_INLINE Real compute_volume_change(const Modes &before, const Modes &difference, const Modes &after) {
   return compute_volume(difference, after, after) +
          (compute_volume(before, difference, after) + compute_volume(before, before, difference));
 }
 
-/// ∂x/∂ξ_k at the four places where a line along ξ_k crosses the Gauss points: [k][place], bit 0 of the place
-/// for the first of the other two directions. Also the forces that belong to them.
+/// Columns ∂x/∂ξ_k at the four lines along ξ_k through the Gauss points: [k][line], bit 0 of the line for the
+/// first of the other two directions. Also used for the conjugate forces.
 struct Columns {
   Real c[3][4][3];
 };
 
 constexpr Number gauss = 0.57735026918962576451_r;
 
-/// Modes that vary along the other two directions, in their order (first: with the first one, second, both).
+/// Modes that vary along the first and the second of the other two directions.
 constexpr unsigned int varying[3][2] = {{5, 4}, {5, 3}, {4, 3}};
 
 BILLET_INLINE void compute_columns(const Modes &x, Columns &columns) {
@@ -169,7 +169,7 @@ BILLET_INLINE void compute_columns(const Modes &x, Columns &columns) {
     }
 }
 
-/// The transpose: forces of the columns to forces of the modes.
+/// Computes the forces of the modes from those of the columns, the transpose of compute_columns().
 BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
   for (unsigned int k = 3; k < 7; ++k)
     for (unsigned int i = 0; i < 3; ++i)
@@ -186,17 +186,18 @@ BILLET_INLINE void collect_columns(const Columns &forces, Modes &f) {
     }
 }
 
-/// Places of an eight-point element's constants. In float its reference modes follow.
+/// Offsets of an eight-point element's constants. In float its reference modes are included.
 namespace eight_point {
 constexpr unsigned int volume = 0, inverse_mass = 1, modes = 2, point_volumes = is_single ? 23 : 2;
 } // namespace eight_point
 
-/// Volume of an element now, ln J̄, the change in the step, and the sum before and after it.
+/// Current volume of an element, ln J̄, the change in the step, and the sum of the volumes before and after
+/// it.
 struct VolumeChange {
   Real now, logarithm_of_J, change, sum;
 };
 
-/// Float: from the change, J̄ − 1 adds up.
+/// Updates the volume in float: accumulates J̄ − 1 from the change.
 BILLET_INLINE VolumeChange add_volume(const Real change, const Real reference_volume, Number *history) {
   VolumeChange volume;
   const Real above_one = load(history + last::volume * n_lanes) + change / reference_volume;
@@ -208,7 +209,7 @@ BILLET_INLINE VolumeChange add_volume(const Real change, const Real reference_vo
   return volume;
 }
 
-/// Double: from the volume.
+/// Updates the volume in double: takes the change from the volumes.
 BILLET_INLINE VolumeChange compare_volume(const Real now, const Real J, Number *history) {
   VolumeChange volume;
   const Real before = load(history + last::volume * n_lanes);
@@ -220,15 +221,15 @@ BILLET_INLINE VolumeChange compare_volume(const Real now, const Real J, Number *
   return volume;
 }
 
-/// Bulk viscosity of a brick and its stable step.
+/// Bulk viscosity of a brick and its effect on the stable step.
 struct Damping {
   Real pressure; ///< positive in tension, Cauchy
-  Real work;     ///< of the mean of this and the last pressure in the change of volume
-  Real rate;     ///< of the damping, ∂pressure/∂d · d-weight, see bound_rate()
+  Real work;     ///< work of the mean of this and the last pressure in the change of volume
+  Real rate;     ///< rate of the damping, ∂pressure/∂d · d-weight, see bound_rate()
 };
 
-/// Characteristic length of the brick: L² = 4/(ρ Ω) with the Ω of the last call, which `history` has. Puts
-/// the pressure there.
+/// Computes the bulk viscosity. The characteristic length of the brick is L² = 4/(ρ Ω) with the Ω of the last
+/// call, which `history` stores. Also stores the pressure there.
 BILLET_INLINE Damping compute_viscosity(const Material &material, const VolumeChange &volume, Number *history,
                                         const Number inverse_dt) {
   const Real last_omega = load(history + last::omega * n_lanes);
@@ -249,17 +250,17 @@ BILLET_INLINE Damping compute_viscosity(const Material &material, const VolumeCh
   return damping;
 }
 
-/// Largest elastic stiffness per |∇v|², without stress.
+/// Returns the maximum elastic stiffness per |∇v|², without stress.
 inline Number max_modulus(const Material &material) {
   return 3._r * material.bulk > 2._r * material.shear ? 3._r * material.bulk : 2._r * material.shear;
 }
 
-/// 1/Δt where M − Δt C/2 − Δt² K/4 stays positive: K ≤ M ω², C ≤ M c.
+/// Returns the minimum 1/Δt for which M − Δt C/2 − Δt² K/4 stays positive: K ≤ M ω², C ≤ M c.
 BILLET_INLINE Real bound_rate(const Real omega_squared, const Real c) {
   return 0.5_r * (0.5_r * c + square_root(0.25_r * c * c + omega_squared));
 }
 
-/// Into the second-level cache: the first has no room for two batches and the work on a third.
+/// Prefetches into the second-level cache: the first has no room for two batches and the work on a third.
 template <class T> BILLET_INLINE void prefetch(const T *p, const std::size_t n) {
   for (std::size_t k = 0; k < n; k += 64 / sizeof(T))
     __builtin_prefetch(p + k, 0, 2);
@@ -285,12 +286,12 @@ BILLET_INLINE void prefetch(const Elements &elements, const Step &step, const st
   }
 }
 
-/// How many lanes of the batch that begins with element `first` are elements of their own.
+/// Returns the number of distinct elements in the batch that begins with element `first`.
 inline std::size_t count_elements(const Elements &elements, const std::size_t first) {
   return elements.n_elements - first < n_lanes ? elements.n_elements - first : n_lanes;
 }
 
-/// Of an element of each lane.
+/// Energies of one element per lane.
 struct Energies {
   Real elastic = {}, plastic = {}, viscous = {}, hourglass = {};
 };
@@ -304,7 +305,7 @@ struct Sum {
 #endif
   Wide lanes = {};
 
-  /// The lanes beyond n repeat an element.
+  /// Adds `more`; the lanes beyond n repeat an element and are ignored.
   void add(const std::size_t n, const Real more) {
 #if BILLET_LANES == 1
     lanes += n == 1 ? more : Real{};
@@ -350,15 +351,15 @@ struct Totals {
   }
 };
 
-/// ½ κ ln²J per reference volume, from κ ln J.
+/// Returns ½ κ ln²J, the energy per reference volume, from κ ln J.
 BILLET_INLINE Real compute_dilatation_energy(const Material &material, const Real mean_tau) {
   return mean_tau * mean_tau * (0.5_r / material.bulk);
 }
 
-/// Determinants beyond it are those of something that is not finite, or soon is not.
+/// Maximum determinant; larger ones come from numbers that are not finite, or are about to overflow.
 constexpr Number finite_bound = is_single ? 1e30_r : 1e300_r;
 
-/// The first bad lane of a batch becomes the result's element, if none was found before.
+/// Stores the first bad lane of a batch in the result, unless an earlier element failed.
 inline void note_failure(const Mask bad, const std::size_t first, Result &result) {
   for (std::size_t lane = 0; lane < n_lanes; ++lane)
     if (get_mask(bad, lane) && first + lane < result.inverted)

@@ -4,19 +4,19 @@
 
 #include "billet/mechanics/explicit/brick.h"
 
-// The mean-dilatation brick. The columns of j = ∂x/∂ξ at the eight points are twelve, four in each direction.
-// With Cauchy's σ = (w/det j) dev τ + p 1 the forces of a point's columns are σ cof j: since the p part
-// integrates to p ∂v/∂x, mean dilatation needs no gradients of its own.
+// The mean-dilatation brick. The eight points have twelve columns of j = ∂x/∂ξ, four in each direction. With
+// Cauchy's σ = (w/det j) dev τ + p 1 the forces of a point's columns are σ cof j. Since the p part integrates
+// to p ∂v/∂x, mean dilatation needs no gradients of its own.
 
 namespace billet::explicit_kernels {
 namespace {
 
-/// Where column k of point q is among its four.
+/// Returns the index of column k of point q among the four of its direction.
 constexpr unsigned int place_of_point(const unsigned int k, const unsigned int q) {
   return k == 0 ? q >> 1 : k == 1 ? (q & 1) | (q >> 1 & 2) : q & 3;
 }
 
-/// What the points of an element add up to.
+/// Sums and maxima over the points of an element.
 struct PointSums {
   Watch watch;
   Real lambda = {}; ///< largest λ_max of w j⁻¹ j⁻ᵀ, or with det j/J̄ for w where that is larger
@@ -24,20 +24,21 @@ struct PointSums {
   Real distortion = {}, plastic_work = {}; ///< energies
 };
 
-/// What an element's columns are at a point.
+/// Gets the columns of an element at a point.
 BILLET_INLINE void get_columns(const Columns &columns, const unsigned int q, Real j[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
       j[k][i] = columns.c[k][place_of_point(k, q)][i];
 }
 
-/// Of positions and the step's displacements, as Motion has them.
+/// Columns of positions and of the step's displacements, see Motion.
 struct MotionColumns {
   Columns x, delta;
 };
 
-/// Stress of a point from the law, dev τ; `map` is completed. Returns the factor that makes it Cauchy's times
-/// the Jacobian's weight: of the point's share of the volume, reference_volume/det j, or 1/J̄ for a rate form.
+/// Computes the stress dev τ of a point from the law, and completes `map`. Returns the factor that converts
+/// it to Cauchy's stress times the weight of the Jacobian: reference_volume/det j with the point's share of
+/// the volume, or 1/J̄ for a rate form.
 template <class Law, bool is_plastic>
 BILLET_INLINE Real compute_stress(const Material &material, const LaneFunctions &functions,
                                   const unsigned int q, const MotionColumns &columns, const Number *weights,
@@ -80,13 +81,13 @@ BILLET_INLINE Real compute_stress(const Material &material, const LaneFunctions 
   }
 }
 
-/// Forces of one point, added to those of its columns.
+/// Adds the forces of one point to those of its columns.
 template <class Law, bool is_plastic>
 BILLET_INLINE void add_point(const Material &material, const LaneFunctions &functions, const unsigned int q,
                              const MotionColumns &columns, const Number *weights, const Real pressure,
                              const Real inverse_mean_J, Number *history, Columns &forces, PointSums &sums) {
   Map map;
-  Real stress[6], volume; // the volume as the forces have it
+  Real stress[6], volume; // the volume consistent with the forces
   const Real factor = compute_stress<Law, is_plastic>(material, functions, q, columns, weights,
                                                       inverse_mean_J, history, map, stress, sums, volume);
   sums.inadmissible |= !(map.det > 0._r && map.det < finite_bound);

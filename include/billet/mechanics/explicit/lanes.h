@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A translation unit defines BILLET_LANES, how many elements it computes at once, and BILLET_SINGLE, whether
-// in float (1) or double (0), before it includes this.
+// Before it includes this file, a translation unit defines BILLET_LANES, the number of elements computed at
+// once, and BILLET_SINGLE, 1 for float or 0 for double.
 #ifndef BILLET_MECHANICS_EXPLICIT_LANES_H
 #define BILLET_MECHANICS_EXPLICIT_LANES_H
 
@@ -12,7 +12,7 @@
 
 #define BILLET_INLINE inline __attribute__((always_inline))
 
-// Everything here is in an unnamed namespace: each instruction set has its own, for each type of number.
+// Everything here is in an unnamed namespace: each instruction set and number type has its own copy.
 namespace billet::explicit_kernels {
 namespace {
 
@@ -27,7 +27,7 @@ using Elements = BasicElements<Number>;
 
 constexpr bool is_single = sizeof(Number) == 4;
 
-/// Literals of the type that is computed with.
+/// Literals of type Number.
 constexpr Number operator""_r(const long double x) { return static_cast<Number>(x); }
 
 /// Integers as wide as the numbers.
@@ -62,8 +62,7 @@ BILLET_INLINE void set(Real &x, const std::size_t lane, const Number value) { x[
 BILLET_INLINE bool get_mask(const Mask &m, const std::size_t lane) { return m[lane] != 0; }
 BILLET_INLINE void set_mask(Mask &m, const std::size_t lane) { m[lane] = -1; }
 
-// Of the register's width; lanes are numbers of 4 or 8 bytes. The type of the argument is a vector either
-// way.
+// Operations on full registers with lanes of 4 or 8 bytes. The argument is a vector in both cases.
 #if defined(__AVX512F__)
 using DoubleRegister = __m512d;
 using FloatRegister = __m512;
@@ -119,7 +118,7 @@ inline Number largest_lane(const Real x) {
   return largest;
 }
 
-/// 1/k and 1/k!.
+/// Coefficients 1/k and 1/k!.
 struct SeriesCoefficients {
   Number reciprocal[40] = {}, inverse_factorial[40] = {1._r};
   constexpr SeriesCoefficients() {
@@ -142,7 +141,7 @@ BILLET_INLINE Real from_bits(const Bits bits) {
   return x;
 }
 
-/// How the type keeps a number, and numbers that need it.
+/// Floating-point format of the type, and constants that depend on it.
 template <class T> struct FormatOf;
 template <> struct FormatOf<double> {
   static constexpr unsigned int n_fraction = 52; ///< bits
@@ -167,7 +166,7 @@ template <> struct FormatOf<float> {
 };
 using Format = FormatOf<Number>;
 
-/// k where x = 2ᵏ m with m from √½ to √2, and m.
+/// Splits x = 2ᵏ m with m in [√½, √2]. Returns k.
 BILLET_INLINE Real split(const Real x, Real &m) {
   constexpr Integer offset = Format::bias + 1;
   const Bits bits = to_bits(x);
@@ -176,7 +175,8 @@ BILLET_INLINE Real split(const Real x, Real &m) {
   return from_bits(k + Format::shift_bits) - Format::shift;
 }
 
-/// ln m = 2 artanh y, y = (m − 1)/(m + 1), |y| ≤ 0.172: what is left out is below 1e-17 of it (float: 2e-11).
+/// Returns ln m = 2 artanh y, y = (m − 1)/(m + 1), |y| ≤ 0.172. The relative truncation error is below 1e-17
+/// (float: 2e-11).
 BILLET_INLINE Real double_artanh(const Real y) {
   const Real z = y * y;
   Real sum = broadcast(series.reciprocal[2 * Format::n_artanh + 1]);
@@ -185,14 +185,14 @@ BILLET_INLINE Real double_artanh(const Real y) {
   return 2._r * y * sum;
 }
 
-/// ln x of positive x.
+/// Returns ln x for positive x.
 BILLET_INLINE Real logarithm(const Real x) {
   Real m;
   const Real exponent = split(x, m);
   return exponent * 0.693147180559945309417_r + double_artanh((m - 1._r) / (m + 1._r));
 }
 
-/// ln(1 + x) of x > −1, to the last digits of a small x.
+/// Returns ln(1 + x) for x > −1, without cancellation error for small x.
 BILLET_INLINE Real logarithm_of_one_plus(const Real x) {
   Real m;
   const Real exponent = split(1._r + x, m);
@@ -201,10 +201,10 @@ BILLET_INLINE Real logarithm_of_one_plus(const Real x) {
   return exponent * 0.693147180559945309417_r + double_artanh(above / (2._r + above));
 }
 
-/// exp x; beyond ±700 (float: ±80) that of it.
+/// Returns exp x; x is clipped to ±700 (float: ±80).
 BILLET_INLINE Real exponential(const Real x) {
   const Real bounded = min(max(x, broadcast(-Format::largest_exponent)), broadcast(Format::largest_exponent));
-  // x = k ln 2 + r, the logarithm in two parts; |r| ≤ 0.35, what is left out is below 1e-17 (float: 6e-9)
+  // x = k ln 2 + r, with ln 2 in two parts; |r| ≤ 0.35, the truncation error is below 1e-17 (float: 6e-9)
   const Real shifted = bounded * 1.44269504088896340736_r + Format::shift;
   const Real k = shifted - Format::shift;
   const Real r = (bounded - k * Format::ln_2_high) - k * Format::ln_2_low;
@@ -214,10 +214,10 @@ BILLET_INLINE Real exponential(const Real x) {
   return sum * from_bits((to_bits(shifted) << Format::n_fraction) + (Format::bias << Format::n_fraction));
 }
 
-/// x^{-1/3} of positive x.
+/// Returns x^{-1/3} for positive x.
 BILLET_INLINE Real inverse_cube_root(const Real x) {
-  // The guess divides the exponent by −3, fraction and all: i/3 = i/4 + i/16 + i/64 + ... It is good to 4 %;
-  // then y (1 + e/3 + 2 e²/9 + ...), e = 1 − x y³, with four terms and with two.
+  // The initial guess divides exponent and fraction by −3: i/3 = i/4 + i/16 + i/64 + ... Its error is at most
+  // 4 %. Two corrections y (1 + e/3 + 2 e²/9 + ...), e = 1 − x y³, follow, with four terms and with two.
   const Bits bits = to_bits(x);
   Bits third = (bits >> 2) + (bits >> 4);
   third += third >> 4;

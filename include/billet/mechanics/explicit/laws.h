@@ -4,9 +4,9 @@
 
 #include "billet/mechanics/explicit/lanes.h"
 
-// The laws at a point. `hourglass` is what a one-point element's stabilisation adds to the square of the
-// stress in the yield condition, 6 G W (X7); zero for eight points. Symmetric tensors are 11, 22, 33, 12,
-// 13, 23. Matrices are arrays of columns: m[k][i] is row i of column k.
+// Material laws at a point. `hourglass` is the term 6 G W (X7) that the stabilisation of a one-point element
+// adds to the squared stress in the yield condition; zero for eight points. Symmetric tensors have the order
+// 11, 22, 33, 12, 13, 23. Matrices are arrays of columns: m[k][i] is row i of column k.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -21,7 +21,7 @@ BILLET_INLINE void cross(const Real a[3], const Real b[3], Real c[3]) {
 }
 BILLET_INLINE Real dot(const Real a[3], const Real b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// A : B of symmetric tensors.
+/// Returns A : B of symmetric tensors.
 BILLET_INLINE Real contract(const Real a[6], const Real b[6]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2._r * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
@@ -31,7 +31,7 @@ BILLET_INLINE Real determinant(const Real a[6]) {
          a[4] * (a[3] * a[5] - a[1] * a[4]);
 }
 
-/// A², A symmetric.
+/// Computes A² of a symmetric A.
 BILLET_INLINE void square(const Real a[6], Real result[6]) {
   result[0] = a[0] * a[0] + a[3] * a[3] + a[4] * a[4];
   result[1] = a[3] * a[3] + a[1] * a[1] + a[5] * a[5];
@@ -41,14 +41,14 @@ BILLET_INLINE void square(const Real a[6], Real result[6]) {
   result[5] = a[5] * (a[1] + a[2]) + a[3] * a[4];
 }
 
-/// S v.
+/// Computes S v.
 BILLET_INLINE void multiply(const Real s[6], const Real v[3], Real result[3]) {
   for (unsigned int i = 0; i < 3; ++i)
     result[i] =
         s[symmetric_index[i][0]] * v[0] + s[symmetric_index[i][1]] * v[1] + s[symmetric_index[i][2]] * v[2];
 }
 
-/// M S Mᵀ, where columns m[k] are those of M.
+/// Computes M S Mᵀ; m[k] are the columns of M.
 BILLET_INLINE void push(const Real m[3][3], const Real s[6], Real result[6]) {
   Real ms[3][3]; // M S
   for (unsigned int k = 0; k < 3; ++k)
@@ -60,7 +60,7 @@ BILLET_INLINE void push(const Real m[3][3], const Real s[6], Real result[6]) {
                 ms[2][row_of[r]] * m[2][column_of[r]];
 }
 
-/// Mᵀ S M.
+/// Computes Mᵀ S M.
 BILLET_INLINE void pull(const Real m[3][3], const Real s[6], Real result[6]) {
   Real sm[3][3]; // S M
   for (unsigned int k = 0; k < 3; ++k)
@@ -69,7 +69,7 @@ BILLET_INLINE void pull(const Real m[3][3], const Real s[6], Real result[6]) {
     result[r] = dot(m[row_of[r]], sm[column_of[r]]);
 }
 
-/// The map from the element's own coordinates to space at a point, and its cofactors det j j⁻ᵀ.
+/// Map from the element's own coordinates to space at a point, and its cofactors det j j⁻ᵀ.
 struct Map {
   Real j[3][3], cofactor[3][3];
   Real det, inverse_det;
@@ -82,14 +82,15 @@ struct Map {
     inverse_det = 1._r / det;
   }
 
-  /// cofᵀ cof = det² j⁻¹ j⁻ᵀ.
+  /// Computes cofᵀ cof = det² j⁻¹ j⁻ᵀ.
   BILLET_INLINE void compute_metric(Real metric[6]) const {
     for (unsigned int r = 0; r < 6; ++r)
       metric[r] = dot(cofactor[row_of[r]], cofactor[column_of[r]]);
   }
 };
 
-/// Σ_m d_m ∂ξ_m/∂x of vectors d that belong to the element's directions, at a point; l[k][i] is L_ik.
+/// Computes Σ_m d_m ∂ξ_m/∂x at a point, for vectors d that belong to the element's directions; l[k][i] is
+/// L_ik.
 BILLET_INLINE void compute_gradient(const Map &map, const Real d[3][3], Real l[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
@@ -97,8 +98,8 @@ BILLET_INLINE void compute_gradient(const Map &map, const Real d[3][3], Real l[3
                 (d[0][i] * map.cofactor[0][k] + d[1][i] * map.cofactor[1][k] + d[2][i] * map.cofactor[2][k]);
 }
 
-/// M + Mᵀ + M Lᵀ: with M = L (1 + Y) what is added to Y when 1 + Y becomes (1 + L)(1 + Y)(1 + L)ᵀ. As small
-/// as L, to its last digits.
+/// Computes M + Mᵀ + M Lᵀ. With M = L (1 + Y) this is the change of Y when 1 + Y becomes (1 + L)(1 + Y)(1 +
+/// L)ᵀ, without cancellation error for small L.
 BILLET_INLINE void compute_change(const Real l[3][3], const Real m[3][3], Real change[6]) {
   for (unsigned int r = 0; r < 6; ++r) {
     const unsigned int i = row_of[r], j = column_of[r];
@@ -106,7 +107,7 @@ BILLET_INLINE void compute_change(const Real l[3][3], const Real m[3][3], Real c
   }
 }
 
-/// L S.
+/// Computes L S.
 BILLET_INLINE void multiply(const Real l[3][3], const Real s[6], Real m[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
@@ -114,7 +115,7 @@ BILLET_INLINE void multiply(const Real l[3][3], const Real s[6], Real m[3][3]) {
                 l[2][i] * s[symmetric_index[2][k]];
 }
 
-/// Y after a step of gradient L.
+/// Advances Y by a step with gradient L.
 BILLET_INLINE void advance_strain(const Real l[3][3], Real y[6]) {
   Real m[3][3], change[6];
   multiply(l, y, m);
@@ -126,22 +127,23 @@ BILLET_INLINE void advance_strain(const Real l[3][3], Real y[6]) {
     y[k] += change[k];
 }
 
-/// Largest eigenvalue of a symmetric matrix, from above: Gershgorin's circles.
+/// Returns an upper bound of the eigenvalues of a symmetric matrix, by Gershgorin's circles.
 BILLET_INLINE Real bound_eigenvalue(const Real a[6]) {
   const Real a3 = abs(a[3]), a4 = abs(a[4]), a5 = abs(a[5]);
   return max(max(a[0] + a3 + a4, a[1] + a3 + a5), a[2] + a4 + a5);
 }
 
-/// What a law leaves behind, besides stress and history. Energies are of the last point, per volume.
+/// Results of a law other than stress and history. Energies are those of the last point, per volume.
 struct Watch {
-  Real distortion = {};   ///< elastic energy, but for that of the volume
-  Real plastic_work = {}; ///< of the step: mean yield stress times the change of α
-  Real mises = {};        ///< largest stress in the yield condition (Kirchhoff) of the points
-  Real share = {};        ///< β of the last point: what the return has left of its trial stress
-  Mask failed = {};       ///< not admissible
+  Real distortion = {};   ///< elastic energy without the volumetric part
+  Real plastic_work = {}; ///< plastic work of the step: mean yield stress times the change of α
+  Real mises = {};        ///< maximum stress in the yield condition (Kirchhoff) over the points
+  Real share = {};        ///< β of the last point: factor of the return map on its trial stress
+  Mask failed = {};       ///< inadmissible
 };
 
-/// Slope of a hardening law that the kernels know, where the yield stress at α is known too: no exponential.
+/// Returns the slope of a hardening law that the kernels support. The yield stress at α is given, which saves
+/// an exponential.
 BILLET_INLINE Real compute_slope(const Material &material, const Real alpha, const Real yield_stress) {
   if (material.hardening_kind == HardeningKind::voce)
     return material.saturation_rate *
@@ -158,10 +160,10 @@ BILLET_INLINE Real compute_yield_stress(const Material &material, const Real alp
   return material.strength * exponential(material.exponent * logarithm(material.prestrain + alpha));
 }
 
-constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r; ///< of the yield stress
+constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r; ///< relative to the yield stress
 
-/// Δα > 0 of the lanes that yield, q − m Δα = σ_y(α + Δα); `yield_stress` becomes the new one. With a concave
-/// σ_y Newton's method approaches the root from one side.
+/// Solves q − m Δα = σ_y(α + Δα) for Δα > 0 in the lanes that yield; `yield_stress` becomes the new one. With
+/// a concave σ_y Newton's method approaches the root from one side.
 BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctions &functions,
                                      const Mask yields, const Real q, const Real m, const Real alpha,
                                      Real &yield_stress) {
@@ -187,11 +189,11 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
   return delta;
 }
 
-/// Places of a point's plastic numbers. In float α is the sum of two parts: steps add less than the last
-/// digit of the first.
+/// Offsets of a point's plastic data. In float α is the sum of two parts, since increments may be below the
+/// last digit of the first.
 constexpr unsigned int rest_of_alpha = 1, place_of_yield_stress = is_single ? 2 : 1;
 
-/// α grows.
+/// Adds an increment to α.
 BILLET_INLINE void accumulate(const Real delta, Number *history) {
   const Real alpha = load(history);
   if constexpr (!is_single) {
@@ -204,8 +206,8 @@ BILLET_INLINE void accumulate(const Real delta, Number *history) {
   store(history + rest_of_alpha * n_lanes, more - (sum - alpha));
 }
 
-/// Where the yield condition is exceeded α grows; returns β = (q − m Δα)/q, or 1. `history` points at α (and
-/// σ_y).
+/// Performs the return map: if the yield condition is exceeded, α increases. Returns β = (q − m Δα)/q, or 1.
+/// `history` points at α (and σ_y).
 template <bool is_plastic>
 BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
                               const Real m, Number *history, Mask &yields, Watch &watch) {
@@ -232,7 +234,7 @@ BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &fun
     watch.plastic_work = delta * (0.5_r * (before + yield));
   }
   accumulate(delta, history);
-  if constexpr (is_single) // the same, without the difference
+  if constexpr (is_single) // the same, without cancellation
     return select(yields, yield / q, broadcast(1._r));
   return select(yields, 1._r - m * delta / q, broadcast(1._r));
 }
@@ -241,7 +243,7 @@ BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &fun
 struct Polynomial {
   Real p2 = {}, p1 = {}, p0 = {};
 
-  /// p ← p X + c
+  /// Performs p ← p X + c.
   BILLET_INLINE void step(const Real i2, const Real i3, const Number c) {
     const Real top = p2;
     p2 = p1;
@@ -250,7 +252,7 @@ struct Polynomial {
   }
 };
 
-/// ln(1 + X) by `n` terms of its series.
+/// Returns ln(1 + X) by `n` terms of its series.
 template <unsigned int n> BILLET_INLINE Polynomial logarithm_series(const Real i2, const Real i3) {
   Polynomial p;
   p.p0 = broadcast((n % 2 == 0 ? -1._r : 1._r) * series.reciprocal[n]);
@@ -260,14 +262,14 @@ template <unsigned int n> BILLET_INLINE Polynomial logarithm_series(const Real i
   return p;
 }
 
-/// exp(x) and exp(X) by n terms beyond 1: 1 + X/1 (1 + X/2 (1 + ...)).
+/// Return exp(x) and exp(X) by n terms beyond 1: 1 + X/1 (1 + X/2 (1 + ...)).
 template <unsigned int n> BILLET_INLINE Real exponential_series(const Real x) {
   Real sum = broadcast(1._r);
   for (unsigned int k = n; k >= 1; --k)
     sum = 1._r + sum * x * series.reciprocal[k];
   return sum;
 }
-/// `first`: 1, or 0 for exp(X) − 1.
+/// `first` is 1, or 0 for exp(X) − 1.
 template <unsigned int n>
 BILLET_INLINE Polynomial exponential_series(const Real i2, const Real i3, const Number first) {
   Polynomial p;
@@ -277,16 +279,17 @@ BILLET_INLINE Polynomial exponential_series(const Real i2, const Real i3, const 
   return p;
 }
 
-// Eigenvalues of a traceless X are at most √(4 i2/3). Up to `small`, the strains of metals, few terms do; up
-// to `moderate` more; beyond that each lane is computed from its eigenvalues. In double nine terms leave out
-// 0.02⁹/10 of X, 24 0.2²⁴/25; in float six 0.05⁶/7 = 2e-9, 15 0.35¹⁵/16 = 9e-9.
+// Eigenvalues of a traceless X are at most √(4 i2/3). Up to `small_strain`, as in metals, few terms suffice;
+// up to `moderate_strain` more are needed; beyond that each lane is computed from its eigenvalues. The
+// truncation error relative to X in double is 0.02⁹/10 with nine terms, 0.2²⁴/25 with 24; in float it is
+// 0.05⁶/7 = 2e-9 with six, 0.35¹⁵/16 = 9e-9 with 15.
 constexpr Number small_strain = is_single ? 0.05_r : 0.02_r, moderate_strain = is_single ? 0.35_r : 0.2_r;
 constexpr Number small_i2 = 0.75_r * small_strain * small_strain,
                  moderate_i2 = 0.75_r * moderate_strain * moderate_strain;
 constexpr unsigned int n_small_logarithm = is_single ? 6 : 9, n_moderate_logarithm = is_single ? 15 : 24,
                        n_small_exponential = is_single ? 5 : 8, n_large_exponential = is_single ? 24 : 39;
 
-/// dev ln b and, in `mean`, tr ln(s b)/3, where X = s b − 1 with s = 3/tr b.
+/// Computes dev ln b and, in `mean`, tr ln(s b)/3, where X = s b − 1 with s = 3/tr b.
 BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real x[6], const Real i2,
                                      Real logarithm[6], Real &mean, Mask &failed) {
   const Real i3 = determinant(x);
@@ -315,7 +318,7 @@ BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real 
       }
 }
 
-/// Elastic strain at a point, as the history of float kernels has it: Y = b_e − 1 up to a factor of b_e.
+/// Elastic strain at a point, in the form of the history of float kernels: Y = b_e − 1 up to a factor of b_e.
 struct Strain {
   Real y[6];
 
@@ -329,7 +332,8 @@ struct Strain {
       store(history + k * n_lanes, y[k]);
   }
 
-  /// After a step of displacements d, which belong to the element's directions; `before` is the map there.
+  /// Advances the strain by a step of displacements d, which belong to the element's directions; `before` is
+  /// the map at the start of the step.
   BILLET_INLINE void advance(const Map &before, const Real d[3][3], const Number *history) {
     Real l[3][3];
     compute_gradient(before, d, l);
@@ -340,11 +344,12 @@ struct Strain {
   BILLET_INLINE Real mean() const { return (y[0] + y[1] + y[2]) * (1._r / 3._r); }
 };
 
-/// Hencky: dev τ = G dev ln b_e, which does not see a factor of b_e.
+/// Hencky's law: dev τ = G dev ln b_e, which does not depend on a factor of b_e.
 struct Hencky {
   static constexpr unsigned int n_tensor = 6;
 
-  /// `x`: 3 b_e/tr b_e − 1. Returns where it flows; β is in `watch`. `plastic` points at α.
+  /// Computes the response for `x` = 3 b_e/tr b_e − 1. Returns the lanes that yield; β is in `watch`.
+  /// `plastic` points at α.
   template <bool is_plastic>
   BILLET_INLINE static Mask respond(const Material &material, const LaneFunctions &functions, const Real x[6],
                                     const Real hourglass, Number *plastic, Real log_b[6], Real &mean,
@@ -366,7 +371,7 @@ struct Hencky {
     return yields;
   }
 
-  /// History H with b_e = j H jᵀ.
+  /// Updates the history H, with b_e = j H jᵀ.
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, const Map &map,
                                    const Real, const Real hourglass, Number *history, Real dev_tau[6],
@@ -385,7 +390,7 @@ struct Hencky {
       flow(map, yields, s, watch.share, log_b, mean, history);
   }
 
-  /// The same from the strain, which it puts into the history.
+  /// Updates from the strain, and stores the strain in the history.
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, Strain &strain,
                                    const Real hourglass, Number *history, Real dev_tau[6], Watch &watch) {
@@ -401,14 +406,14 @@ struct Hencky {
     strain.store_to(history);
   }
 
-  /// exp(Y) by few terms or many.
+  /// Returns exp(Y) by few terms or many.
   BILLET_INLINE static Polynomial exponentiate(const Real i2, const Real i3, const Number first,
                                                const bool is_small) {
     return __builtin_expect(is_small, 1) ? exponential_series<n_small_exponential>(i2, i3, first)
                                          : exponential_series<n_large_exponential>(i2, i3, first);
   }
 
-  /// H = j⁻¹ b_e j⁻ᵀ after the return: s b_e = exp(mean) exp(β dev ln b_e).
+  /// Sets H = j⁻¹ b_e j⁻ᵀ after the return map: s b_e = exp(mean) exp(β dev ln b_e).
   BILLET_INLINE static void flow(const Map &map, const Mask yields, const Real s, const Real beta,
                                  const Real log_b[6], const Real mean, Number *history) {
     Real y[6], y2[6], b[6];
@@ -429,7 +434,7 @@ struct Hencky {
       store(history + k * n_lanes, select(yields, h[k], load(history + k * n_lanes)));
   }
 
-  /// b_e = exp(β dev ln b_e).
+  /// Sets b_e = exp(β dev ln b_e) after the return map.
   BILLET_INLINE static void flow(const Mask yields, const Real beta, const Real log_b[6], Strain &strain) {
     Real y[6], y2[6];
     for (unsigned int k = 0; k < 6; ++k)
@@ -446,8 +451,8 @@ struct Hencky {
 struct NeoHookean {
   static constexpr unsigned int n_tensor = 6;
 
-  /// `dev_tau`: of the trial state, G dev b̄_e, becomes that after the return but for the factor β where there
-  /// is flow. Returns where there is; `own`: 3/2 dev τ : dev τ of the trial state.
+  /// Computes the response for `dev_tau` = G dev b̄_e of the trial state; the caller applies the factor β.
+  /// Returns the lanes that yield; `own` becomes 3/2 dev τ : dev τ of the trial state.
   template <bool is_plastic>
   BILLET_INLINE static Mask respond(const Material &material, const LaneFunctions &functions,
                                     const Real dev_tau[6], const Real mean_bar, const Real hourglass,
@@ -457,13 +462,13 @@ struct NeoHookean {
     Mask yields{};
     const Real beta = return_map<is_plastic>(material, functions, q, (3._r * material.shear) * mean_bar,
                                              plastic, yields, watch);
-    // The bound of the tangent takes 2 G; what tr b̄_e/3 adds to it is put into the stress.
+    // The bound of the tangent uses 2 G; the extra term from tr b̄_e/3 is added to the stress.
     watch.mises = max(watch.mises, beta * q + (material.shear * (2._r / 3._r)) * (mean_bar - 1._r));
     watch.share = beta;
     return yields;
   }
 
-  /// Where there is no flow.
+  /// Stores the energy if no lane yields.
   BILLET_INLINE static void store_energy(const Material &material, const Real dev_tau[6], const Real mean_bar,
                                          const Real own, Watch &watch) {
     const Number flexibility = 1._r / material.shear;
@@ -472,7 +477,7 @@ struct NeoHookean {
     watch.distortion = compute_distortion(material, mean_bar, i2, i3);
   }
 
-  /// History H with b̄_e = J^{-2/3} j H jᵀ.
+  /// Updates the history H, with b̄_e = J^{-2/3} j H jᵀ.
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, const Map &map,
                                    const Real J, const Real hourglass, Number *history, Real dev_tau[6],
@@ -498,7 +503,7 @@ struct NeoHookean {
       store_energy(material, dev_tau, mean_bar, own, watch);
   }
 
-  /// The same from the strain, which it puts into the history.
+  /// Updates from the strain, and stores the strain in the history.
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions, Strain &strain,
                                    const Real hourglass, Number *history, Real dev_tau[6], Watch &watch) {
@@ -524,15 +529,15 @@ struct NeoHookean {
     strain.store_to(history);
   }
 
-  /// ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x − i3, without the
-  /// difference of numbers next to 1.
+  /// Returns ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x − i3. This
+  /// avoids the difference of numbers close to 1.
   BILLET_INLINE static Real compute_distortion(const Material &material, const Real x, const Real i2,
                                                const Real i3) {
     return (1.5_r * material.shear) * (i2 * x - i3) / (x * (x + 1._r) + 1._r);
   }
 
-  /// b̄_e = dev τ/G + x 1 with the x that makes det b̄_e = 1: x³ − i2 x + i3 − 1 = 0. In H nothing but a
-  /// multiple of j⁻¹ j⁻ᵀ is added.
+  /// Sets b̄_e = dev τ/G + x 1 with the x for which det b̄_e = 1: x³ − i2 x + i3 − 1 = 0. In H this adds only a
+  /// multiple of j⁻¹ j⁻ᵀ.
   BILLET_INLINE static void flow(const Material &material, const Map &map, const Mask yields,
                                  const Real scale, const Real mean_bar, const Real beta,
                                  const Real dev_tau[6], Number *history, Watch &watch) {
@@ -555,7 +560,7 @@ struct NeoHookean {
     }
   }
 
-  /// b̄_e = dev τ/G + (1 + z) 1, the same with z: z (3 + z (3 + z)) − i2 (1 + z) + i3 = 0.
+  /// Sets b̄_e = dev τ/G + (1 + z) 1, the same with z: z (3 + z (3 + z)) − i2 (1 + z) + i3 = 0.
   BILLET_INLINE static void flow(const Material &material, const Mask yields, const Real dev_tau[6],
                                  Strain &strain, Watch &watch) {
     const Number flexibility = 1._r / material.shear;
@@ -574,8 +579,8 @@ struct NeoHookean {
   }
 };
 
-/// The rate form: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, ΔL = ∂Δu/∂x in the middle of the step, and
-/// R = (1 − W/2)⁻¹ (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
+/// Rate form: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, ΔL = ∂Δu/∂x at mid-step, and R = (1 − W/2)⁻¹ (1 + W/2), W
+/// = skew ΔL (Hughes & Winget 1980).
 struct Hypoelastic {
   static constexpr unsigned int n_tensor = 5;
 
@@ -629,7 +634,7 @@ struct Hypoelastic {
       r[i][m] += a * w[k]; // W_mi = w_k, W_im = −w_k
       r[m][i] -= a * w[k];
     }
-    if constexpr (is_single) { // r is R − 1: what a small rotation changes is small, to its last digits
+    if constexpr (is_single) { // r is R − 1: no cancellation error for small rotations
       Real m[3][3], change[6];
       multiply(r, s, m);
       compute_change(r, m, change);

@@ -4,13 +4,13 @@
 
 #include "billet/mechanics/explicit/brick.h"
 
-// The mean deformation gradient F̄ = (1/V) ∫ F dV of a brick, by J̄ = F̄ (a_1, a_2, a_3)_0, which is linear in
-// the modes.
+// Mean deformation gradient F̄ = (1/V) ∫ F dV of a brick, from J̄ = F̄ (a_1, a_2, a_3)_0, which is linear in the
+// modes.
 
 namespace billet::explicit_kernels {
 namespace {
 
-/// Columns of J̄.
+/// Computes the columns of J̄.
 BILLET_INLINE void compute_mean(const Modes &modes, const Number *constants, Real columns[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i) {
@@ -23,9 +23,9 @@ BILLET_INLINE void compute_mean(const Modes &modes, const Number *constants, Rea
 
 /// Maps of the mean deformation.
 struct MeanMotion {
-  Map now, before; ///< `before` the step, in float
-  Real d[3][3];    ///< columns of J̄ less those before the step, where they are asked
-  Real J;          ///< but for small changes
+  Map now, before; ///< `before` the step, in float only
+  Real d[3][3];    ///< columns of J̄ minus those before the step, on request
+  Real J;          ///< inaccurate for small changes
 };
 
 template <bool with_step>
@@ -43,7 +43,7 @@ BILLET_INLINE void compute_mean_motion(const Motion &motion, const Number *const
   }
 }
 
-/// det J̄ less that before the step, as small as the step.
+/// Returns det J̄ minus that before the step, without cancellation error.
 BILLET_INLINE Real compute_change(const MeanMotion &mean) {
   Real middle[3];
   cross(mean.d[1], mean.now.j[2], middle);

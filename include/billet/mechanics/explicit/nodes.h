@@ -4,7 +4,7 @@
 
 #include "billet/mechanics/explicit/lanes.h"
 
-// From nodal vectors, rows of four doubles, to lanes and back.
+// Conversion of nodal vectors, rows of four doubles, to lanes and back.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -16,7 +16,7 @@ using Row = double __attribute__((vector_size(32)));
 
 BILLET_INLINE Row load_row(const double *p) { return *reinterpret_cast<const Row *>(p); }
 
-/// x, y, z of four nodes from four rows (x, y, z, unused).
+/// Gets x, y, z of four nodes from four rows (x, y, z, unused).
 BILLET_INLINE void transpose(const Row a, const Row b, const Row c, const Row d, Row &x, Row &y, Row &z) {
   const Row t0 = __builtin_shufflevector(a, b, 0, 4, 2, 6), t1 = __builtin_shufflevector(a, b, 1, 5, 3, 7),
             t2 = __builtin_shufflevector(c, d, 0, 4, 2, 6), t3 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
@@ -25,7 +25,7 @@ BILLET_INLINE void transpose(const Row a, const Row b, const Row c, const Row d,
   z = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
 }
 
-/// The other way.
+/// Inverse of transpose().
 BILLET_INLINE void transpose_back(const Row x, const Row y, const Row z, Row row[4]) {
   const Row zero{};
   const Row t0 = __builtin_shufflevector(x, y, 0, 4, 2, 6), t1 = __builtin_shufflevector(x, y, 1, 5, 3, 7),
@@ -38,7 +38,7 @@ BILLET_INLINE void transpose_back(const Row x, const Row y, const Row z, Row row
 }
 #endif
 
-/// p (+ q, if given) of one node of each element.
+/// Gathers p (+ q, if `add`) of one node of each element.
 template <bool add>
 BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t *nodes, Real x[3]) {
 #if BILLET_LANES >= 4
@@ -66,7 +66,7 @@ BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t 
 #endif
 }
 
-/// Subtracts the forces of all nodes, element after element: elements of a batch may share nodes.
+/// Subtracts the forces of all nodes, one element after another, since elements of a batch may share nodes.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
                            double *forces) {
 #if BILLET_LANES >= 4
@@ -99,8 +99,8 @@ BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const
 
 #if BILLET_LANES == 1
 
-/// scale (p − q) of one node of each element, q the vectors of their first nodes, with the same scale: the
-/// difference in double, then rounded.
+/// Vector of an element's first node, multiplied by a scale. gather_from() returns differences from it,
+/// computed in double and then rounded.
 struct FirstNode {
   double vector[3];
 };
@@ -117,7 +117,7 @@ BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const do
     x[i] = static_cast<float>(scale * p[4 * std::size_t{nodes[0]} + i] - first.vector[i]);
 }
 
-/// Subtracts the forces of all nodes; the first node's are those that make their sum nothing, in double.
+/// Subtracts the forces of all nodes; the force of the first node balances the others, in double.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t,
                            const double unit, double *forces) {
   for (unsigned int i = 0; i < 3; ++i) {
@@ -151,7 +151,7 @@ BILLET_INLINE void scale_first(const double *p, const double scale, const std::u
     first.vector[lane] = scale * row_of_node(p, nodes[lane]);
 }
 
-/// Numbers i, j, k, l of each block of four lanes; of the second vector from `other` on.
+/// Returns the numbers i, j, k, l of each block of four lanes; those of the second vector start at `other`.
 template <int i, int j, int k, int l> BILLET_INLINE Real shuffle(const Real &a, const Real &b) {
 #if BILLET_LANES == 16
   return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8,
@@ -164,7 +164,7 @@ template <int i, int j, int k, int l> BILLET_INLINE Real shuffle(const Real &a, 
 }
 constexpr int other = n_lanes;
 
-/// x, y, z from four vectors of rows: of the elements k, k + 4, k + 8 and k + 12 in the k-th.
+/// Gets x, y, z from four vectors of rows; the k-th vector holds the elements k, k + 4, k + 8 and k + 12.
 BILLET_INLINE void transpose(const Real rows[4], Real x[3]) {
   const Real t0 = shuffle<0, other, 1, other + 1>(rows[0], rows[1]),
              t1 = shuffle<2, other + 2, 3, other + 3>(rows[0], rows[1]),
@@ -175,7 +175,7 @@ BILLET_INLINE void transpose(const Real rows[4], Real x[3]) {
   x[2] = shuffle<0, 1, other, other + 1>(t1, t3);
 }
 
-/// The other way.
+/// Inverse of transpose().
 BILLET_INLINE void transpose_back(const Real x[3], Real rows[4]) {
   const Real zero{};
   const Real t0 = shuffle<0, other, 1, other + 1>(x[0], x[1]),
@@ -188,7 +188,7 @@ BILLET_INLINE void transpose_back(const Real x[3], Real rows[4]) {
   rows[3] = shuffle<2, 3, other + 2, other + 3>(t1, t3);
 }
 
-/// Four rows, one above the other.
+/// Returns rows of four numbers, concatenated.
 BILLET_INLINE Real stack_rows(const FloatRow rows[n_lanes / 4]) {
 #if BILLET_LANES == 16
   __m512 x = _mm512_castps128_ps512(rows[0]);
@@ -215,7 +215,8 @@ BILLET_INLINE void unstack_rows(const Real &x, FloatRow rows[n_lanes / 4]) {
 #endif
 }
 
-/// scale p − the first node's, of one node of each element: the difference in double, then rounded.
+/// Gathers `scale` p of one node of each element minus the first node's vector: the difference in double,
+/// then rounded.
 BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const double scale,
                                const std::uint32_t *nodes, Real x[3]) {
   Real rows[4];
@@ -231,8 +232,8 @@ BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const do
   transpose(rows, x);
 }
 
-/// Subtracts the forces of all nodes, element after element: elements of a batch may share nodes. The first
-/// node's are those that make their sum nothing, in double.
+/// Subtracts the forces of all nodes, one element after another, since elements of a batch may share nodes.
+/// The force of the first node balances the others, in double.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
                            const double unit, double *forces) {
   FloatRow rows[8][4][n_lanes / 4];

@@ -5,9 +5,9 @@
 #include "billet/mechanics/explicit/mean_gradient.h"
 #include "billet/mechanics/hourglass_energy.h"
 
-// The one-point brick: stored energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F dV, plus that of
-// the deformation which F̄ does not see, ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄ (a_1, a_2, a_3)_0: zero
-// in linear fields, unchanged by rotations. doc/theory.md has the derivation.
+// The one-point brick. It stores the energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F dV, plus
+// that of the hourglass strains ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄ (a_1, a_2, a_3)_0. These are zero
+// in linear fields and invariant under rotations. doc/theory.md has the derivation.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -15,14 +15,16 @@ namespace {
 using HourglassModuli = hourglass::Moduli<Number>;
 using HourglassMetric = hourglass::Metric<Real>;
 
-/// Of a step's end before plastic flow: ĉ = J̄⁻¹ (b_1, b_2, b_3, c), ĥ, and what they store.
+/// Hourglass strains at the end of a step before plastic flow: ĉ = J̄⁻¹ (b_1, b_2, b_3, c), ĥ, their stresses
+/// and energy.
 struct HourglassTrial {
   Real c[4][3], h[4][3], s[4][3];
   HourglassMetric metric;
   Real density; ///< energy per reference volume
 };
 
-/// In float from the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2, b_3, c) − ΔJ̄ ĉ}, and so ĥ, which the history has.
+/// Computes the hourglass strains. In float they advance by the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2, b_3, c) − ΔJ̄
+/// ĉ}, and likewise ĥ, which the history stores.
 BILLET_INLINE void compute_hourglass(const HourglassModuli &moduli, const Motion &motion,
                                      const MeanMotion &mean, const Number *constants, Number *history,
                                      HourglassTrial &trial) {
@@ -55,8 +57,8 @@ BILLET_INLINE void compute_hourglass(const HourglassModuli &moduli, const Motion
   trial.density = hourglass::respond(moduli, trial.metric, trial.h, trial.s);
 }
 
-/// Plastic flow leaves the `share` of the hourglass strains' elastic part that it leaves of the point's
-/// stress, (X8): ĥ_0 takes the rest, where the history has that.
+/// Applies plastic flow: it scales the elastic part of the hourglass strains by the factor `share` of the
+/// point's stress, (X8). If the history stores ĥ_0, the remainder is added to it.
 BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial) {
   if (!any(share < 1._r))
     return;
@@ -74,7 +76,7 @@ BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial
     }
 }
 
-/// Forces of modes b and c, and those of J̄'s columns added to `mean_forces`.
+/// Adds the forces of the modes b and c, and those of J̄'s columns to `mean_forces`.
 BILLET_INLINE void add_hourglass(const Real volume, const HourglassTrial &hourglass, const Map &map,
                                  Modes &forces, Real mean_forces[3][3]) {
   const Real factor = volume * map.inverse_det;
@@ -90,9 +92,9 @@ BILLET_INLINE void add_hourglass(const Real volume, const HourglassTrial &hourgl
   }
 }
 
-/// (X12): the largest stiffness per volume of the columns, the modes b and c; `of_mean`: that of the mean
-/// gradient, `metric` and `eigenvalue`: J̄⁻¹ J̄⁻ᵀ and a bound of its eigenvalues, `modulus`: of the hourglass
-/// strains.
+/// Returns the bound (X12) of the stiffness per volume of the columns and of the modes b and c. `of_mean` is
+/// that of the mean gradient, `metric` and `eigenvalue` are J̄⁻¹ J̄⁻ᵀ and a bound of its eigenvalues, `modulus`
+/// is that of the hourglass strains.
 BILLET_INLINE Real bound_stiffness(const HourglassTrial &hourglass, const Real of_mean, const Real metric[6],
                                    const Real eigenvalue, const Real modulus) {
   const auto &own = hourglass.metric;
@@ -106,7 +108,7 @@ BILLET_INLINE Real bound_stiffness(const HourglassTrial &hourglass, const Real o
     bound = max(max(bound, twist * metric[m] + mi + mj), max(metric[i] + mi + ij, metric[j] + mj + ij));
     h2 += twist * (h[m] * h[m]) + h[i] * h[i] + h[j] * h[j];
   }
-  bound = max(bound, eigenvalue); // of the fourth mode
+  bound = max(bound, eigenvalue); // fourth mode
   for (unsigned int m = 0; m < 4; ++m)
     c2 += dot(hourglass.c[m], hourglass.c[m]);
   const Real c = square_root(c2), turning = square_root(h2 * bound * eigenvalue);

@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// The step in which nodes that come through surfaces make a small error of energy.
+/// Maximum step for which nodes that come through surfaces cause a small error of energy.
 class CrossingLimit {
 public:
   explicit CrossingLimit(const ExplicitParts &parts) : parts_(parts) {}
@@ -20,11 +20,11 @@ public:
   double value() const { return value_; }
 
 private:
-  /// What comes through surfaces, of this rank, in a step.
+  /// Nodes of this rank that come through surfaces in a step.
   struct Coming {
     Crossings crossings;
     double step;
-    bool is_unknown; ///< on all ranks alike: only the first step shows how fast it comes
+    bool is_unknown; ///< the same on all ranks: only the first step shows the speed
   };
   Coming at_start(double stable_step) const;
 

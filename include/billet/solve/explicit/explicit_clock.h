@@ -9,9 +9,8 @@
 
 namespace billet {
 
-/// Time of explicit dynamics, and the steps that lead to the next event. Energies are kept best by equal
-/// steps, and by steps that change slowly. Steps grow by 2 % at a time, faster while they are much shorter
-/// than they may be.
+/// Time of explicit dynamics, and the steps that lead to the next event. Equal or slowly changing steps
+/// conserve energy best. Steps grow by 2 % at a time, and faster while they are much shorter than allowed.
 class ExplicitClock {
 public:
   /// Failures name the scene's file.
@@ -29,26 +28,26 @@ public:
   double since_forces() const { return is_at_start() ? 0. : step_; }
 
   /// Chooses the step from time() on, at most `allowed`: a whole number of equal steps leads to `event`, as
-  /// long as they may stay equal. Throws SolutionFailure where time would not advance.
+  /// long as they may stay equal. Throws SolutionFailure if time would not advance.
   void plan(double event, double allowed);
   /// Moves to the end of the step.
   void advance();
 
-  /// Makes steps that were planned before lead to this event.
+  /// Makes steps that were planned earlier lead to this event.
   void plan_to(double event);
-  /// Starts at time t in place of 0.
+  /// Starts at time t instead of 0.
   void begin(const double t) { time_ = t; }
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns a failure at this time, of which `why` tells the reason.
+  /// Returns a failure at this time. `why`: its reason.
   SolutionFailure failure(const std::string &why) const;
 
 private:
   std::string file_name_;
   double time_ = 0., step_ = 0., step_before_ = 0.;
-  bool is_growing_ = false;                  ///< steps were much shorter than allowed, and are not yet long
-  double event_ = 0.;                        ///< to which the planned steps lead
+  bool is_growing_ = false;                  ///< steps were much shorter than allowed, and are still short
+  double event_ = 0.;                        ///< end of the planned steps
   unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
   double time_before_ = 0.;                  ///< time of the last forces, after advance()
 };

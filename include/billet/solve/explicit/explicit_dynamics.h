@@ -13,54 +13,54 @@ namespace billet {
 
 /// M a = F_ext + F_c − F_int by central differences with a lumped mass:
 ///   v_{n+½} = v_{n−½} + ½ (Δt_{n−1} + Δt_n) M⁻¹ F_n,   u_{n+1} = u_n + Δt_n v_{n+½}.
-/// A step has two parts. prepare_step() computes the forces at t_n and the velocities after it: then the
-/// state at t_n is complete. finish_step() moves on to t_{n+1}.
+/// A step has two parts. prepare_step() computes the forces at t_n and the velocities after it, which
+/// completes the state at t_n. finish_step() moves on to t_{n+1}.
 ///
 /// In a linear system with equal steps the sum of the energies of ExplicitLedger is constant to round-off.
 class ExplicitDynamics final : public Solution {
 public:
   ExplicitDynamics(const Scene &scene, const Discretization &discretization);
 
-  /// Forces at the current time, then a step that is stable and leads to `event`, see ExplicitClock; the
-  /// velocities after it. Throws SolutionFailure where the state is not admissible.
+  /// Computes the forces at the current time, a stable step that leads to `event` (see ExplicitClock), and
+  /// the velocities after the forces. Throws SolutionFailure if the state is not admissible.
   void prepare_step(double event);
   void finish_step();
-  /// Steps are this part of what the safety factor allows, from now on.
+  /// Multiplies all further steps by this factor, beside the safety factor.
   void shorten_steps(const double factor) { stable_step_.shorten(factor); }
 
   double time() const { return parts_.clock.time(); }
   double step_length() const { return parts_.clock.step(); }
-  /// What steps grow to as long as nothing comes through a surface.
+  /// Returns the maximum step while no node comes through a surface.
   double usual_step() const { return std::max(step_length(), stable_step_.usual()); }
   unsigned int n_steps() const { return parts_.clock.n_steps(); }
-  /// By mass scaling, on all ranks [mass].
+  /// Returns the mass that mass scaling adds, on all ranks [mass].
   double added_mass() const { return parts_.masses.added(); }
-  /// Of the bodies, without that, on all ranks [mass].
+  /// Returns the mass of the bodies without added mass, on all ranks [mass].
   double mass() const { return parts_.masses.of_bodies(); }
 
-  /// The energies are to be brought up to date whenever so many steps have been taken: steps depend on them.
+  /// Number of steps between updates of the energies, on which steps depend.
   static constexpr unsigned int steps_between_looks = ExplicitLedger::steps_between_updates;
-  /// After prepare_step(): brings energies, momenta and tools in the state up to date. Collective.
+  /// Updates energies, momenta and tools in the state, after prepare_step(). Collective.
   void update_ledger();
-  /// The same, and the fields. Collective.
+  /// Updates these and the fields. Collective.
   void update_state();
-  /// After prepare_step(): what the user should know of the penalties; lines. Collective.
+  /// Returns warnings about penalties, after prepare_step(). Collective.
   DiagnosticList check_penalties() { return penalties_.check(state_.energies); }
-  /// After prepare_step(): what makes steps much shorter than they would be without, contact or flat
-  /// elements; lines, each once. Collective.
+  /// Returns messages about causes of much shorter steps, contact or flat elements, each once, after
+  /// prepare_step(). Collective.
   DiagnosticList check_steps() const;
-  /// Whether it has said so of any pair, ever.
+  /// Whether check_penalties() has ever found a penalty too low.
   bool has_soft_penalties() const { return penalties_.has_soft_pairs(); }
-  /// Part of the largest energy so far by which the energies of the last update fail to balance, see
-  /// ExplicitLedger.
+  /// Returns the part of the largest energy so far by which the energies of the last update fail to balance;
+  /// see ExplicitLedger.
   double relative_drift() const { return ledger_.relative_drift(state_.energies, stable_step_.value()); }
 
-  /// After finish_step(): the state from which the next prepare_step() goes on.
+  /// Saves the state from which the next prepare_step() resumes, after finish_step().
   void save(StateWriter &writer) const;
-  /// Goes on from such a state, in place of the start at time 0: prepare_step() comes next. From another
-  /// method's, or another formulation's: its displacements, stresses and, if it has some, velocities.
+  /// Resumes from such a state instead of starting at time 0: prepare_step() comes next. From another method
+  /// or formulation it takes displacements, stresses and, if present, velocities.
   RestartReport load(StateReader &reader);
-  /// After load(): steps that were planned before lead to this event from now on.
+  /// Makes steps that were planned earlier lead to this event, after load().
   void plan_to(const double event) { parts_.clock.plan_to(event); }
 
   const SolutionState &state() const override { return state_; }
@@ -76,9 +76,9 @@ public:
   DiagnosticList initial_diagnostics() const override { return parts_.contacts.check_start(); }
 
 private:
-  /// Forces and bounds on the step at t_n. Any failure shows on all ranks.
+  /// Computes forces and bounds on the step at t_n. Throws any failure on all ranks.
   void compute_forces();
-  /// Now and then, with the forces at hand. Collective.
+  /// Raises penalties now and then, with the present forces. Collective.
   void raise_penalties();
   void load_contacts(StateReader &reader, const NodeKeys &keys);
 

@@ -15,12 +15,12 @@
 
 namespace billet {
 
-/// Works since time 0, of one rank [energy].
+/// Works since time 0 on one rank [energy].
 struct ExplicitWorks {
   double external = 0., plastic = 0., friction = 0., viscous = 0.;
 };
 
-/// The elements of all bodies on a rank, by central differences.
+/// Elements of all bodies on a rank, for central differences.
 class ExplicitElements {
 public:
   /// Throws InputError, on all ranks, for a formulation or an element that is not admissible. Collective.
@@ -34,23 +34,23 @@ public:
 
   /// Subtracts internal and viscous forces from those of `nodes`, advances histories by the time since the
   /// last forces, and adds to `works`. Returns the stable step of this rank's elements [time]. Throws
-  /// SolutionFailure, on this rank alone, where an element is inverted.
+  /// SolutionFailure, on this rank alone, if an element is inverted.
   double add_forces(const ExplicitBlock::Nodes &nodes, const ExplicitClock &clock, ExplicitWorks &works);
   /// Return energies of this rank at the last forces [energy].
   double elastic_energy() const { return elastic_energy_; }
   double hourglass_energy() const { return hourglass_energy_; }
 
   std::vector<ElementSummary> summarize(std::size_t body, const NodalVectors &displacements) const;
-  /// Returns the doubles of history on this rank.
+  /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 
-  // For checkpoints. Groups are those of bodies.
+  // For checkpoints, in the groups of bodies.
   void save(StateWriter &writer) const;
-  /// Whether the histories of the checkpoint are of the same formulations.
+  /// Whether the checkpoint's histories belong to the same formulations.
   bool has_same_formulations(StateReader &reader) const;
   void load(StateReader &reader);
-  /// Makes histories those that have the stresses of another formulation at these displacements, which it
-  /// takes in both forms (ghosted).
+  /// Sets histories that give the stresses of another formulation at these displacements, in both forms
+  /// (`ghosted`: with ghosts).
   void load_stresses(StateReader &reader, const NodalVectors &displacements, const Vector &ghosted);
 
 private:

@@ -13,36 +13,36 @@
 
 namespace billet {
 
-/// F_n = F_ext + F_c − F_int at the nodes of a rank, and the bounds on the step that follow from its parts.
+/// Forces F_n = F_ext + F_c − F_int at the nodes of a rank, and their bounds on the step.
 class ExplicitForces {
 public:
-  /// Accelerations act on the masses that the elements have now. Penalties count in bounds as they are
-  /// multiplied by the square of `contact_resolution`. Collective.
+  /// Accelerations act on the present masses of the elements. `contact_resolution`: the square of it
+  /// multiplies penalties in the bounds. Collective.
   ExplicitForces(const Scene &scene, const LocalNodes &nodes, const ExplicitElements &elements,
                  double contact_resolution);
 
-  /// The failure of this rank, or none.
+  /// Failure of this rank, or none.
   using Failure = std::exception_ptr;
-  /// Computes F_n and advances the histories of elements and contacts. Adds to `works`. Returns the failure
-  /// of this rank. Collective, also where a rank fails.
+  /// Computes F_n, advances the histories of elements and contacts, and adds to `works`. Returns the failure
+  /// of this rank. Collective, also if a rank fails.
   Failure compute(const ExplicitClock &clock, const ExplicitMotion &motion, ExplicitElements &elements,
                   Contacts &contacts, ExplicitTools &tools, ExplicitWorks &works);
 
   /// Returns F_n, of all ranks; zero once the nodes have been kicked [force].
   NodalVectors &values() { return forces_; }
-  /// Returns the part of F_n by loads and removed tools, of this rank, which is zero but at loaded_nodes().
+  /// Returns the part of F_n by loads and removed tools on this rank. It is zero except at loaded_nodes().
   const NodalVectors &external() const { return external_; }
   const std::vector<unsigned int> &loaded_nodes() const { return loaded_nodes_; }
-  /// Returns nodes that come through surfaces, of this rank, at t_n.
+  /// Returns the nodes of this rank that come through surfaces at t_n.
   const Crossings &crossings() const { return crossings_; }
-  /// Returns what bounds the step, of this rank, at the last forces. A rank that failed has a negative step.
+  /// Returns the bounds on the step on this rank at the last forces. A rank that failed has a negative step.
   StepBounds bounds(const std::vector<double> &inverse_masses) const;
   /// Returns the largest bound on the stiffness of contacts and springs at a node [force/length].
   double max_stiffness() const;
 
 private:
   void find_touched_nodes(const Scene &scene);
-  /// Returns why nodes of this rank have gone through a tool; empty if none has. Collective.
+  /// Returns why nodes of this rank have passed through a tool; empty if none has. Collective.
   std::string add_contact_forces(const ExplicitClock &clock, const ExplicitMotion &motion, Contacts &contacts,
                                  ExplicitTools &tools, ExplicitWorks &works);
 
@@ -50,7 +50,7 @@ private:
   ExternalLoads loads_;
   double bound_factor_; ///< of contacts
   NodalVectors forces_, external_;
-  NodalVectors bounds_; ///< beside the elements' own: of stiffness, of damping; zero but at bounded_nodes_
+  NodalVectors bounds_; ///< of stiffness and damping beside the elements' own; zero except at bounded_nodes_
   std::vector<unsigned int> loaded_nodes_, bounded_nodes_; ///< of this rank; of all ranks
   bool has_bounds_ = false;                                ///< contacts, springs or dashpots on any rank
   double element_step_ = 0.;

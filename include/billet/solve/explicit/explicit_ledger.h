@@ -9,27 +9,27 @@
 
 namespace billet {
 
-/// Energies, works and momenta of an explicit scene, and how well they balance. Energies are those that the
-/// scheme keeps: kinetic ½ v_{n−½}·M v_{n+½}, works by the trapezoidal rule.
+/// Energies, works and momenta of an explicit scene, and their balance. Energies are those that the scheme
+/// conserves: kinetic ½ v_{n−½}·M v_{n+½}, works by the trapezoidal rule.
 class ExplicitLedger {
 public:
   explicit ExplicitLedger(const ExplicitParts &parts) : parts_(parts) {}
 
-  /// The ledger is to be updated whenever so many steps have been taken: steps depend on it.
+  /// Number of steps between updates of the ledger, on which steps depend.
   static constexpr unsigned int steps_between_updates = 100;
   bool is_due() const { return parts_.clock.n_steps() % steps_between_updates == 0; }
 
-  /// Returns works of this rank, to which others add theirs.
+  /// Returns the works of this rank, to which others add.
   ExplicitWorks &works() { return works_; }
-  /// Adds what loads, supports and tools do in the half step at velocities `v` that is `half` long.
+  /// Adds the works of loads, supports and tools in a half step of length `half` at velocities `v`.
   void add_works(const NodalVectors &v, double half);
 
-  /// Brings energies, momenta, loads and placements of `state` up to date. Collective.
+  /// Updates energies, momenta, loads and placements of `state`. Collective.
   void update(SolutionState &state);
   /// Returns the largest energy so far at steps when an update was due.
   double max_energy_when_due() const { return max_energy_when_due_; }
-  /// Returns the part of the largest energy so far by which `energies` fail to balance; of min_energy(),
-  /// while that is larger.
+  /// Returns the part of the largest energy so far by which `energies` fail to balance. If min_energy() is
+  /// larger, it is the reference.
   double relative_drift(const EnergyLedger &energies, double stable_step) const;
 
   /// `energies`: those of the last update. Collective.
@@ -38,13 +38,14 @@ public:
   EnergyLedger load(const StateReader &reader, bool is_exact);
 
 private:
-  /// Returns sums of this rank, and sets extent_ to its largest coordinate.
+  /// Returns sums over this rank, and sets extent_ to its largest coordinate.
   std::vector<double> sum_own();
   void add_tools(SolutionState &state) const;
   double kinetic_energy() const;
-  /// Below this, the round-off of positions alone makes energies fail to balance by the allowed part. With
-  /// coordinates up to R they are known to ε R; an error of that size in the fastest oscillation, ω = 2/Δt of
-  /// the bound Δt on the step, of amplitude a makes up 2 ε R/a of its energy, ½ m ω² a² at most.
+  /// Returns the energy below which round-off of positions alone violates the balance by the allowed part.
+  /// With coordinates up to R, round-off of positions is ε R. The fastest oscillation has ω = 2/Δt for the
+  /// bound Δt on the step. With amplitude a its energy is at most ½ m ω² a², of which round-off is the part 2
+  /// ε R/a.
   double min_energy(double stable_step) const;
 
   const ExplicitParts &parts_;

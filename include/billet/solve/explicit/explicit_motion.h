@@ -12,13 +12,13 @@
 
 namespace billet {
 
-/// Displacements and velocities of the nodes of a rank, and what supports do to them:
+/// Displacements and velocities of the nodes of a rank, with the constraints of supports:
 ///   v_{n+½} = v_{n−½} + ½ (Δt_{n−1} + Δt_n) M⁻¹ F_n,   u_{n+1} = u_n + Δt_n v_{n+½}.
 class ExplicitMotion {
 public:
   ExplicitMotion(const Scene &scene, const LocalNodes &nodes);
 
-  /// Sets the motion at time 0. Throws InputError where initial velocities or supports are not admissible.
+  /// Sets the motion at time 0. Throws InputError if initial velocities or supports are not admissible.
   /// Collective.
   void begin(const Scene &scene);
 
@@ -30,27 +30,27 @@ public:
   const NodalVectors &velocities_before() const { return v_before_; }
   /// Returns the mean of both, after kick().
   NodalVectors mean_velocities() const;
-  /// Returns the displacements at the start of the step that ends now and took `step`.
+  /// Returns the displacements at the start of the step that ends now and had the length `step`.
   NodalVectors displacements_before(double step) const;
   /// Returns the largest displacement of a node of this rank [length].
   double max_displacement() const;
 
-  /// Returns the held nodes, and the forces of supports on them, on all their ranks the same [force]. Forces
-  /// of other nodes are 0.
+  /// Returns the constrained nodes, and the forces of supports on them, the same on all their ranks [force].
+  /// Forces of other nodes are 0.
   const std::vector<unsigned int> &held_nodes() const { return held_.nodes(); }
   const NodalVectors &support_forces() const { return supports_; }
 
-  /// Changes velocities by `forces`, which it sets to 0. A failure of supports shows at the next forces, see
-  /// check().
+  /// Changes velocities by `forces`, which it sets to 0. A failure of supports is reported at the next
+  /// forces; see check().
   void kick(const ExplicitClock &clock, const NodalMasses &masses, NodalVectors &forces);
-  /// Throws SolutionFailure where supports have failed on this rank in the last kick.
+  /// Throws SolutionFailure if supports have failed on this rank in the last kick.
   void check() const {
     if (failure_)
       std::rethrow_exception(failure_);
   }
   void move(double step);
 
-  /// `step`: that from the last forces to now.
+  /// `step`: from the last forces to now.
   void save(StateWriter &writer, const NodalRows &rows, double step) const;
   void load(const StateReader &reader, const NodalRows &rows);
   /// Reads the displacements and, if there are some, the velocities of another method.

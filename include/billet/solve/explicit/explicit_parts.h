@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// What an explicit scene consists of; each part is made from those before it.
+/// Parts of an explicit scene; each is made from those before it.
 struct ExplicitParts {
   /// Throws InputError, on all ranks, for a scene that is not admissible. Collective.
   ExplicitParts(const Scene &scene, const Discretization &discretization);

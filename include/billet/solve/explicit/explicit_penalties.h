@@ -8,17 +8,16 @@
 
 namespace billet {
 
-/// Penalties of explicit scenes: raises those that are left to the program, and warns of those that are too
-/// low.
+/// Penalties of explicit scenes: raises automatic ones, and warns of those that are too low.
 class ExplicitPenalties {
 public:
   /// Collective.
   explicit ExplicitPenalties(ExplicitParts &parts);
 
-  /// Whether there is a pair that leaves its penalty to the program.
+  /// Whether there is a pair with an automatic penalty.
   bool are_controlled() const { return control_.is_used(); }
-  /// Raises penalties where penetrations take too much of the deformation. `solution` has the energies of
-  /// this time; energy that is given to springs is added to `external_work`. Collective.
+  /// Raises penalties if penetration is too large a part of the deformation. `solution` has the energies of
+  /// this time. Energy that the raise adds to springs is added to `external_work`. Collective.
   void raise(const Solution &solution, double &external_work);
   /// Returns messages about penalties, at the last forces. Collective.
   DiagnosticList check(const EnergyLedger &energies);

@@ -13,44 +13,44 @@
 
 namespace billet {
 
-/// All tools of an explicit scene: how they move, what they do to the bodies, and their removal. The forces
-/// of a removed tool fade over its release time.
+/// All tools of an explicit scene: their motion, their loads on the bodies, and their removal. The forces of
+/// a removed tool fade over its release time.
 class ExplicitTools {
 public:
   ExplicitTools(const Scene &scene, const LocalNodes &nodes);
 
   std::size_t size() const { return tools_.size(); }
   const FreeTool &operator[](const std::size_t tool) const { return tools_[tool]; }
-  /// Whether a tool goes somewhere within this time from the start on.
+  /// Whether any tool moves within this time from the start.
   bool move_within(double time) const;
-  /// Return placements at the start of the step that ends now, and now.
+  /// Return the placements at the start of the step that ends now, and at its end.
   std::vector<Placement> placements_before() const { return placements(&FreeTool::before); }
   std::vector<Placement> placements_now() const { return placements(&FreeTool::now); }
 
   /// Sets all loads to 0, before forces are computed.
   void clear_loads();
-  /// Adds what a contact with a tool does, on this rank.
+  /// Adds the load of a contact with a tool, on this rank.
   void add_load(const ContactInterface &contact, std::size_t tool, const ContactLoad &load);
-  /// Returns the loads on the bodies at t_n, of this rank.
+  /// Returns the load on the bodies at t_n, on this rank.
   const ContactLoad &load(const std::size_t tool) const { return loads_[tool]; }
-  /// Returns what the masses of free tools add to ω² of the contacts [1/time²]. Collective.
+  /// Returns the addition of the free tools' masses to ω² of the contacts [1/time²]. Collective.
   double max_frequency_square() const;
 
-  /// Removes tools that are due from their contacts and adds to `forces`, at these nodes, what is left of
-  /// those that tools had. Their energies leave `external_work`.
+  /// Removes tools that are due from their contacts. Adds the remaining part of removed tools' forces to
+  /// `forces` at these nodes. Their energies leave `external_work`.
   void remove_due(double t, Contacts &contacts, const std::vector<unsigned int> &nodes, NodalVectors &forces,
                   double &external_work);
-  /// Changes velocities of free tools. Collective.
+  /// Changes the velocities of free tools. Collective.
   void kick(const ExplicitClock &clock);
   /// Moves the tools through the step.
   void move(const ExplicitClock &clock);
-  /// Adds works in one half of a step, of this rank, at time t [energy].
+  /// Adds works in one half of a step on this rank, at time t [energy].
   void add_works(double t, double &external_work) const;
 
-  // For checkpoints. Groups are those of tools.
+  // For checkpoints, in the groups of tools.
   /// Forces of removed tools act at these nodes. Collective.
   void save(StateWriter &writer, const NodalRows &rows, const std::vector<unsigned int> &nodes) const;
-  /// `is_exact`: of the same method; tools that the checkpoint has not begin at time t.
+  /// `is_exact`: of the same method. Tools that the checkpoint does not contain begin at time t.
   void load(StateReader &reader, const NodalRows &rows, bool is_exact, double t);
 
 private:
@@ -67,7 +67,7 @@ private:
   std::vector<ContactLoad> loads_; ///< at t_n, of this rank
   std::vector<double> stiffness_;  ///< against free tools, of this rank
   bool has_free_tools_;
-  std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools, of this rank, as they were
+  std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools at removal, of this rank
   HeldMemory memory_{Capability::driven_tools};
 };
 

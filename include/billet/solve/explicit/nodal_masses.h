@@ -8,17 +8,17 @@
 
 namespace billet {
 
-/// Lumped masses of the nodes of a rank, those that mass scaling adds included.
+/// Lumped masses of the nodes of a rank, including mass scaling.
 class NodalMasses {
 public:
-  /// Scales the elements' masses so that none has a shorter stable step than `min_step` [time]; not at all if
-  /// that is 0. Collective.
+  /// Scales the elements' masses so that none has a shorter stable step than `min_step` [time]; no scaling if
+  /// it is 0. Collective.
   NodalMasses(const LocalNodes &nodes, ExplicitElements &elements, double min_step);
 
-  /// Returns one mass a node, on all its ranks the same [mass].
+  /// Returns one mass for each node, the same on all its ranks [mass].
   const std::vector<double> &values() const { return values_; }
   const std::vector<double> &inverse() const { return inverse_; }
-  /// Returns the mass of the bodies, on all ranks, without that added [mass].
+  /// Returns the mass of the bodies, on all ranks, without added mass [mass].
   double of_bodies() const { return of_bodies_; }
   /// Returns the mass that mass scaling adds, on all ranks [mass].
   double added() const { return added_; }

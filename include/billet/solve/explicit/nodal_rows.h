@@ -12,7 +12,7 @@
 
 namespace billet {
 
-/// Nodal vectors in a checkpoint: rows of three numbers under keys that no partition changes.
+/// Nodal vectors in a checkpoint: rows of three numbers under keys that do not depend on the partition.
 class NodalRows {
 public:
   explicit NodalRows(const LocalNodes &nodes);
@@ -21,7 +21,7 @@ public:
   /// Returns the keys of all nodes of this rank.
   const std::vector<std::uint64_t> &of_nodes() const { return of_nodes_; }
 
-  /// Writes value_of(node), which has three components, of each node for which this rank speaks.
+  /// Writes value_of(node), which has three components, for each node that this rank owns.
   template <class ValueOf>
   void save(StateWriter &writer, const std::string &name, const ValueOf &value_of) const {
     std::vector<std::uint64_t> owned;

@@ -11,29 +11,29 @@
 
 namespace billet {
 
-/// The augmented Lagrangian of contacts: tractions are augmented and iterated anew until all pairs have what
-/// they ask for, a 'Penetration tolerance' or a limit of softness.
+/// Augmented Lagrangian method for contacts: tractions are augmented and iterated anew until all pairs meet
+/// their 'Penetration tolerance' or their limit of softness.
 class Augmentation {
 public:
   Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver, PenetrationMeasurement &measurement);
 
-  /// Augments from the state of `report`, and continues it. Collective.
+  /// Augments from the state of `report`, to which it appends. Collective.
   void augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements);
 
-  /// Tractions are augmented where penetrations are above so many times what pairs ask for.
+  /// Sets the factor of the pairs' tolerances above which tractions are augmented.
   void allow_penetration(const double factor) { penetration_allowed_ = factor; }
-  /// What augmentation leaves above that is an error to be reported, and fails no step.
+  /// Accepts steps whose remaining penetration exceeds the tolerance: it counts as an error to be reported.
   void may_leave_penetration() { may_leave_penetration_ = true; }
-  /// Makes penalties of augmented contacts that are stiffer than 10 E/h as stiff as that, with a message on
-  /// each; false if there is none. Collective.
+  /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value, with a message on each.
+  /// Returns false if there is none. Collective.
   bool soften_contacts(DiagnosticList &messages);
 
-  /// What is learnt of softness; a probe puts it back.
+  /// Returns the state of the softness estimate, which a probe restores.
   const SoftnessLimit &softness() const { return softness_; }
   void set_softness(const SoftnessLimit &softness) { softness_ = softness; }
   /// Accepts the step. Collective.
   void commit() { softness_.commit(contact_springs()); }
-  /// Messages at the end about pairs whose augmentation was given up while it changed forces.
+  /// Returns messages at the end about pairs whose augmentation ended while it still changed forces.
   DiagnosticList finish() const;
 
   void save(StateWriter &writer) const;
@@ -41,29 +41,30 @@ public:
 
 private:
   struct Limits;
-  /// A series of augmentations.
+  /// Series of augmentations.
   struct Series;
-  /// Of each contact: by how much it is farther from what its pair asks for than it may be, as `errors`; or
-  /// softer than it may be, SoftnessLimit. At the trial state. Collective.
+  /// For each contact, the error of its augmentation over its tolerance, or its softness over the limit of
+  /// SoftnessLimit. At the trial state. Collective.
   struct Demands {
     std::vector<double> of_contacts;
-    double by_tolerances = 0., largest = 0.; ///< of all
+    double by_tolerances = 0., largest = 0.; ///< over all contacts
   };
   Demands find_demands(const std::vector<ContactSprings> &springs) const;
-  /// Of each contact; of none if no pair limits softness. Collective.
+  /// Returns the springs of each contact; empty if no pair limits softness. Collective.
   std::vector<ContactSprings> contact_springs() const;
-  /// What an augmentation has changed of the forces of each contact. Collective.
+  /// Returns the changes of the forces of each contact by an augmentation. Collective.
   std::vector<std::array<SoftnessLimit::Change, 2>>
   changes_of(const std::vector<ContactSprings> &before, const std::vector<ContactSprings> &after) const;
-  /// Makes the penalties of contacts stiffer whose errors, above 1, fell by little since `before`. `added` is
-  /// what the last augmentation added to the normal force, as part of what springs held. Collective. Returns
-  /// the factors, all 1 if none is.
+  /// Raises the penalties of contacts whose errors are above 1 and fell little since `before`. `added`: the
+  /// increase of the normal force by the last augmentation, over the force that springs held. Collective.
+  /// Returns the factors, all 1 if none is raised.
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &before,
                                             const std::vector<double> &errors,
                                             const std::vector<double> &added);
-  /// Fails the step since augmentations do not come to what pairs ask for.
+  /// Fails the step because augmentation does not converge to the pairs' tolerances.
   void give_up(const Series &series, unsigned int n, double error, NewtonReport &report) const;
-  /// Augments once and iterates; where that fails for softness alone, goes back. Returns whether to go on.
+  /// Augments once and iterates. If that fails and only softness required it, restores the former state.
+  /// Returns whether to continue.
   bool augment_once(Series &series, const Demands &demands, bool is_of_softness, NewtonReport &report,
                     std::vector<double> &offsets, Vector &displacements);
   void learn(Series &series);

@@ -10,19 +10,19 @@
 
 namespace billet {
 
-/// Finds a rigid motion of the body that supports and contacts do not hold, if there is one. Collective.
+/// Finds a rigid-body mode of the body that supports and contacts do not resist, if there is one. Collective.
 std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, std::size_t body);
 
-/// Throws InputError where a body, of those that are not stabilised, has one at the start.
+/// Throws InputError if a body without stabilisation has such a mode at the start.
 void check_freedom(const ImplicitProblem &problem);
 
-/// Returns why the run ends if a body has one without the tools of these names; else an empty text.
+/// Returns why the run ends if a body has such a mode without the tools of these names; else an empty text.
 /// Collective.
 std::string describe_freedom(const ImplicitProblem &problem, std::size_t body,
                              const std::set<std::string> &removed);
 
-/// Whether the trial state moves farther than tools and supports explain, in the step or in the run; then the
-/// step fails. Of static scenes. Collective.
+/// Whether the trial state moves farther, in the step or in the run, than tools and supports explain; then
+/// the step fails. For static scenes. Collective.
 bool moves_too_far(const ImplicitProblem &problem, double t, NewtonReport &report);
 
 } // namespace billet

@@ -13,12 +13,12 @@
 
 namespace billet {
 
-/// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports hold.
+/// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports constrain.
 struct RigidBodies {
   /// Collective.
   RigidBodies(const Scene &scene, const Discretization &discretization);
 
-  /// Whether supports alone hold all bodies; then there is nothing else here.
+  /// Whether supports alone resist all rigid-body modes; then the other members are empty.
   bool are_held() const { return frames.empty(); }
 
   struct SupportedNode {
@@ -30,15 +30,16 @@ struct RigidBodies {
   std::vector<SupportedNode> supported_nodes; ///< on this rank
 };
 
-/// Viscous forces that hold bodies of static scenes until contact does; see ContactStabilisation.
+/// Viscous forces that stabilise bodies of static scenes until contact supports them; see
+/// ContactStabilisation.
 class BodyStabilisation {
 public:
   BodyStabilisation(const Scene &scene, const Discretization &discretization)
       : scene_(scene), discretization_(discretization) {}
-  /// Prepares it for the bodies that supports do not hold. Collective.
+  /// Prepares the forces for bodies that supports do not hold. Collective.
   void prepare(const RigidBodies &bodies);
 
-  /// Of scenes whose supports do not hold all bodies, else null.
+  /// Returns the forces; null if supports hold all bodies.
   const ContactStabilisation *get() const { return stabilisation_.get(); }
   bool acts() const { return stabilisation_ != nullptr && stabilisation_->acts(); }
   bool acts_on(const std::size_t body) const {
@@ -47,16 +48,17 @@ public:
   void hold(const std::size_t body) { stabilisation_->hold(body); }
 
   void start_step(double duration);
-  /// Adds the forces, of which the residual of an unloaded body is no small part, either. Returns what they
-  /// are small against [force]. Collective.
+  /// Adds the forces to the residual. Returns their reference value for residuals [force]. Collective.
   double add_forces(const StepState &step, Vector &residual) const;
   void add_tangent(const TangentSystem &system) const;
-  /// Accepts the step: fades the forces on bodies that are not free. Returns their work. Collective.
+  /// Accepts the step: fades the forces on bodies that are not free. Returns the work of the forces.
+  /// Collective.
   double commit(const StepState &step, const std::vector<bool> &is_free, double driven_work);
 
-  /// Messages before the run about bodies that need none.
+  /// Returns messages before the run about bodies that need no stabilisation.
   DiagnosticList check_needless() const;
-  /// Messages at the end of the run. `forces`: the largest norm of the nodal forces there. Collective.
+  /// Returns messages at the end of the run. `forces`: the largest norm of the nodal forces there.
+  /// Collective.
   DiagnosticList finish(double time, double largest_energy, double forces,
                         const RigidBodySupport::Result &support_by_contact) const;
 

@@ -10,13 +10,13 @@
 
 namespace billet {
 
-/// All contacts of an implicit scene, and what they are on all ranks together. Values of each contact stand
-/// in the order of Contacts.
+/// All contacts of an implicit scene, with values over all ranks. Values of each contact are in the order of
+/// Contacts.
 class ContactSet : public Contacts {
 public:
   ContactSet(const Scene &scene, const Discretization &discretization);
 
-  /// Collects get(contact) of each contact, the largest or the smallest of all ranks. Collective.
+  /// Collects get(contact) of each contact, the maximum or the minimum over all ranks. Collective.
   template <class Get> std::vector<double> collect_max(const Get &get) const {
     std::vector<double> values = collect(get);
     dealii::Utilities::MPI::max(values, communicator_, values);
@@ -27,7 +27,7 @@ public:
     dealii::Utilities::MPI::min(values, communicator_, values);
     return values;
   }
-  /// The largest of all contacts and ranks; 0 if all are below. Collective.
+  /// Returns the maximum over all contacts and ranks, at least 0. Collective.
   template <class Get> double max(const Get &get) const {
     double largest = 0.;
     for (const double value : collect(get))
@@ -41,26 +41,27 @@ public:
   void restart();
   void take_back_augmentation();
 
-  /// Error of the augmentation of each contact, as part of what its pair asks for. Collective.
+  /// Returns the error of the augmentation of each contact, over its pair's tolerance. Collective.
   std::vector<double> augmentation_errors() const;
-  /// The largest of them, and the penetration in pairs without a tolerance, as part of 1e-5 facets.
-  /// Collective.
+  /// Returns the largest of these errors, or the penetration in pairs without a tolerance in units of 1e-5
+  /// facets, if that is larger. Collective.
   double find_penetration() const;
-  /// Force that round-off in positions makes of the stiffest penalty. Collective.
+  /// Returns the force that round-off of positions causes in the stiffest penalty. Collective.
   double find_spring_round_off() const;
-  /// By how many times penalties may become stiffer until they are 10 E/h. Collective.
+  /// Returns the factors up to which penalties are 10 E/h. Collective.
   std::vector<double> stiffening_left() const;
-  /// Names of the pairs whose penalties make most of the round-off. Collective.
+  /// Returns the names of the pairs whose penalties cause most of the round-off. Collective.
   std::string stiffest_pairs() const;
   std::vector<std::vector<SlaveForce>> slave_forces() const;
-  /// Energy in the springs of each contact. Collective.
+  /// Returns the energy in the springs of each contact. Collective.
   std::vector<double> stored_energies() const;
-  /// Works of all contacts in the step, before commit(); `weight` as in RigidContact. Collective.
+  /// Returns the works of all contacts in the step, before commit(); `weight` as in RigidContact. Collective.
   StepWorks compute_step_works(double weight) const;
-  /// Load that the contacts of a tool exert. Collective.
+  /// Returns the load that the contacts of a tool exert. Collective.
   ContactLoad compute_load(std::size_t tool) const;
 
-  /// Part of the motion in which no node goes through anything; `obstacle` says who would. Collective.
+  /// Returns the part of the motion in which no node passes through anything. `obstacle`: set to a
+  /// description of the first passage. Collective.
   double find_free_part(const ContactPath &path, std::string &obstacle) const;
 
 private:

@@ -10,8 +10,8 @@ namespace billet {
 
 class ImplicitMotion;
 
-/// The balance of energy of steps: rejects those that contact, or the elements, make too large an error in,
-/// and books what the trapezoidal rule misses. Of static and of dynamic scenes there is one each.
+/// Energy balance of steps: rejects steps with too large an error by contact or elements, and records the
+/// error of the trapezoidal rule. There is one class each for static and dynamic scenes.
 class EnergyBalance {
 public:
   explicit EnergyBalance(ImplicitProblem &problem) : problem_(problem) {}
@@ -19,22 +19,24 @@ public:
   EnergyBalance(const EnergyBalance &) = delete;
   EnergyBalance &operator=(const EnergyBalance &) = delete;
 
-  /// Computes the energies of the trial state. Whether the error of the step's time integration is too large;
-  /// then the step fails. Collective.
+  /// Computes the energies of the trial state. Returns whether the error of the step's time integration is
+  /// too large; then the step fails. Collective.
   virtual bool is_inaccurate(double t, NewtonReport &report);
-  /// Whether contact makes or loses so much energy that the step fails. Collective.
+  /// Whether contact generates or loses so much energy that the step fails. Collective.
   virtual bool rejects(double t, NewtonReport &report) = 0;
-  /// Books what contact and elements have made or lost in the step, before its other works. Collective.
+  /// Records the energy that contact and elements have generated or lost in the step, before its other works.
+  /// Collective.
   virtual void commit(double t) = 0;
-  /// Messages after a step; at the end of the run.
+  /// Return messages after a step, and at the end of the run.
   virtual DiagnosticList check() { return {}; }
   virtual DiagnosticList finish() const { return {}; }
 
-  /// Of the last step that was tried: as part of what is allowed, see ImplicitMotion::step_error().
+  /// Returns the error of the last step that was tried, over the allowed error; see
+  /// ImplicitMotion::step_error().
   virtual double time_error() const { return 0.; }
-  /// Whether contact between bodies makes most of what the energies fail to balance by.
+  /// Whether contact between bodies causes most of the imbalance of the energies.
   bool contact_makes_energy() const;
-  /// So far [energy].
+  /// Returns the largest energy so far [energy].
   double largest_energy() const { return largest_energy_; }
   void update_largest_energy();
   const InternalForces::Energies &trial_energies() const { return trial_energies_; }
@@ -43,29 +45,29 @@ public:
   virtual void load(const StateReader &reader);
 
 protected:
-  /// What contact takes in a step, less what springs then store and friction dissipates; < 0: it makes
-  /// energy.
+  /// Work of contact in a step, less the energy that springs then store and friction dissipates; < 0: contact
+  /// generates energy.
   struct ContactLoss {
     double total = 0.;
-    double friction = 0.; ///< of that, by the springs of friction
+    double friction = 0.; ///< part of it by the springs of friction
   };
-  /// Of the step at its end; `works` of StepWorks count, too. Collective.
+  /// Returns the loss of the step at its end, with `works` of StepWorks. Collective.
   ContactLoss contact_loss(double t, double works) const;
-  /// What the work of the elements' forces in the step, by the trapezoidal rule, misses of their energy.
+  /// Change of the elements' energy in the step, less the work of their forces by the trapezoidal rule.
   struct ElementImbalance {
-    double by_yielding; ///< as far as plastic flow explains it [energy]
+    double by_yielding; ///< up to the plastic dissipation [energy]
     double unexplained; ///< [energy]
   };
   ElementImbalance element_imbalance() const;
 
   ImplicitProblem &problem_;
-  /// What contact has taken and not yet given back, of static scenes in all steps that are no jumps.
+  /// Energy that contact has taken and not yet returned; in static scenes, of all steps except jumps.
   double contact_balance_ = 0.;
   InternalForces::Energies trial_energies_;
   double largest_energy_ = 0.;
 };
 
-/// Of static scenes: a step in which contact loses much is cut, unless the bodies jump.
+/// Balance of static scenes: a step in which contact loses much energy is cut, unless the bodies jump.
 class StaticBalance final : public EnergyBalance {
 public:
   using EnergyBalance::EnergyBalance;
@@ -80,8 +82,8 @@ private:
   StepEnergy step_energy_;
 };
 
-/// Of implicit dynamics: errors of time integration, and contact that makes energy, which is damped, or takes
-/// too much at once.
+/// Balance of implicit dynamics: rejects errors of time integration, and contact that takes too much energy
+/// at once. Contact that generates energy is damped.
 class DynamicBalance final : public EnergyBalance {
 public:
   DynamicBalance(ImplicitProblem &problem, const PathGuard &paths, ImplicitMotion &motion)
@@ -95,25 +97,25 @@ public:
   void load(const StateReader &reader) override;
 
 private:
-  /// Parts of the largest energy.
+  /// Limits, as parts of the largest energy.
   struct Limits {
-    /// That contact may make, and give back of what it took; and that it may take in a step, but for
-    /// friction.
+    /// Maximum energy that contact may generate, and return of what it took; and that it may take in a step,
+    /// except friction.
     static constexpr double may_make = 0.005, may_take = 0.01;
-    /// Of elements, (I8): in the run; of what is left of that in a step; and in a step always.
+    /// Limits of the elements' imbalance, (I8): in the run; of the rest of that in a step; and in any step.
     static constexpr double of_run = 0.02, of_rest = 0.05, always = 1e-4;
   };
   ContactLoss dynamic_loss(double t) const;
   double largest_energy_of_trial() const;
-  /// As part of what is allowed, (I8).
+  /// Returns the imbalance over the allowed one, (I8).
   double energy_error(double imbalance) const;
-  /// What of that is lost for good.
+  /// Returns the part of the loss that is permanent.
   double taken_by_contact(const ContactLoss &loss) const;
 
   const PathGuard &paths_;
   ImplicitMotion &motion_;
   double time_error_ = 0.;
-  /// What the work of the elements' forces misses of their energy, in the step and so far.
+  /// Unexplained ElementImbalance, of the step and so far.
   double trial_imbalance_ = 0., element_balance_ = 0.;
   ContactLosses contact_losses_;
 };

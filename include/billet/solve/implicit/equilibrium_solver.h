@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Newton's method from a guess of a step, with the tolerances that the scene, the accuracy that is asked for
-/// and the purpose of the step call for.
+/// Newton's method from the first guess of a step. The scene, the required accuracy and the purpose of the
+/// step determine its tolerances.
 class EquilibriumSolver {
 public:
   explicit EquilibriumSolver(ImplicitProblem &problem) : problem_(problem) {}
@@ -17,18 +17,18 @@ public:
   /// Iterates from these displacements and offsets of the tools, and overwrites them. Collective.
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
 
-  /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
+  /// Returns the factor of the tolerances of residuals and their work; in (0, 1].
   double accuracy() const { return accuracy_; }
   void set_accuracy(const double factor) { accuracy_ = factor; }
   /// Whether iterations that stall near balance converge.
   bool accepts_stalled() const { return accepts_stalled_; }
   void accept_stalled(const bool accepts) { accepts_stalled_ = accepts; }
-  /// Whether the step is tried for a measurement, and not taken.
+  /// Whether the step is a probe, which is not accepted.
   bool is_probing() const { return is_probing_; }
   void set_probing(const bool is_probing) { is_probing_ = is_probing; }
 
 private:
-  /// Iterations of a probe: what it tells is not worth more.
+  /// Maximum number of iterations of a probe, which limits its cost.
   static constexpr unsigned int max_iterations_of_probe = 8;
 
   ImplicitProblem &problem_;

@@ -13,16 +13,16 @@
 namespace billet {
 
 /// Implicit dynamics: velocities and accelerations of the bodies and of tools with a mass, their inertia, and
-/// loads. Of the sum of all forces F(u_{n+1}) it makes
+/// loads. From the sum of all forces F(u_{n+1}) it computes
 ///   R = F_{n+1} + α_f/(1 − α_f) F_n + M [(1 − α_m) a_{n+1} + α_m a_n]/(1 − α_f),
-/// see TimeIntegrator, whatever they are: a further force needs nothing here. The state at the start of the
-/// step changes on commit() only.
+/// see TimeIntegrator. New kinds of forces need no change here. The state at the start of the step changes on
+/// commit() only.
 ///
 /// Where supports move, velocity and acceleration along their normals are those of the prescribed
-/// displacement, by differences over a step: from (I2) they would swing between steps for ever.
+/// displacement, by differences over a step. With (I2) they would oscillate between steps permanently.
 class ImplicitMotion final : public ImplicitScheme {
 public:
-  /// At time 0, with the initial velocities. Throws InputError.
+  /// Starts at time 0, with the initial velocities. Throws InputError.
   ImplicitMotion(const Scene &scene, const Discretization &discretization, const Supports &supports);
 
   std::string name() const override { return "implicit dynamics"; }
@@ -33,32 +33,33 @@ public:
 
   // At the start, and where forces jump, M a = −F has to be solved:
   void add_mass(const TangentSystem &system) const { inertia_.add_tangent(1., system); }
-  /// −F − M a of the accelerations that supports prescribe.
+  /// Returns −F − M a for the accelerations that supports prescribe.
   Vector driving_forces(const Vector &forces) const;
-  /// The solution, on constrained dofs as well as the homogeneous constraints have it.
+  /// Sets the solution of these equations. On constrained dofs it satisfies the homogeneous constraints.
   void set_accelerations(const Vector &accelerations);
 
-  /// Once damped by (I4), steps stay so until contacts have opened.
+  /// Continues damping by (I4), once it is on, until contacts have opened.
   void choose_contact_damping(const ForceState &start) override;
-  /// The next steps are those of (I4), in which contact can only take energy.
+  /// Makes the next steps those of (I4), in which contact cannot generate energy.
   void damp_contact(const ForceState &start) override;
   bool damps_contact() const { return damping_.is_on; }
   double contact_weight() const override { return damping_.is_on ? integrator_.contact() : 1.; }
   double contact_before() const override { return damping_.is_on ? 0. : 0.5; }
-  /// With (I4), before step_error() and commit(): −F_c at the end of the step. Collective.
+  /// Sets −F_c at the end of the step, with (I4), before step_error() and commit(). Collective.
   void finish_contact(const Vector &contact_forces);
 
   void start_step(double t_n, double t, const Vector &displacements,
                   const std::vector<double> &offsets) override;
-  /// Adds what they change by at constant acceleration.
+  /// Adds the changes of displacements and offsets at constant acceleration.
   void extrapolate(Vector &displacements, std::vector<double> &offsets) const;
   double add_loads(double t, const Vector &displacements, Vector &residual) override;
-  /// After add_loads(). Nothing at the start of the run.
+  /// Completes the residual after add_loads(); adds no inertia at the start of the run.
   double complete(const Vector &contact, Vector &residual) const override;
-  /// The system's constraints are homogeneous: accelerations of held nodes do not depend on u.
+  /// Adds the tangent. The system's constraints are homogeneous: accelerations of constrained nodes do not
+  /// depend on u.
   void add_tangent(double t, const TangentSystem &system) const override;
-  /// Error of the step's time integration as part of what is allowed, at the last add_loads(); 0 if nothing
-  /// is asked for.
+  /// Returns the error of the step's time integration over the allowed one, at the last add_loads(); 0
+  /// without an 'Error tolerance'.
   double step_error(const Vector &displacements) const;
 
   HeavyTools &tools() { return tools_; }
@@ -73,7 +74,7 @@ public:
   }
   double remove_tool(const std::size_t tool) override { return tools_.remove(tool); }
 
-  /// The state of the last add_loads() becomes the start of the next step.
+  /// Makes the state of the last add_loads() the start of the next step.
   void commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
               double touching, EnergyLedger &energies) override;
   void update_state(SolutionState &state) const override;
@@ -81,7 +82,7 @@ public:
   void save(StateWriter &writer, const OwnedNodes &nodes) const override;
   void load(const StateReader &reader, const OwnedNodes &nodes);
   void save_tool(const std::size_t tool, StateWriter &writer) const override { tools_.save(tool, writer); }
-  /// In place of load(), at time t of another method's state: with its velocities, if it has some, else the
+  /// Replaces load() at time t of another method's state. Takes its velocities if it has some, else the
   /// initial ones.
   void begin(const StateReader &reader, const OwnedNodes &nodes, double t);
 
@@ -89,21 +90,21 @@ private:
   struct Rates {
     Vector velocity, acceleration;
   };
-  /// Steps of (I4), in which the accelerations at their end are a*.
+  /// State of steps by (I4), in which the accelerations at their end are a*.
   struct ContactDamping {
     bool is_on = false;
     Vector end;      ///< c at the end of the step
-    Vector start;    ///< a_n, without what contact adds
-    Vector forces_n; ///< F_n of the residual: all forces, or with (I4) without contact
+    Vector start;    ///< a_n without contact
+    Vector forces_n; ///< F_n of the residual: all forces; with (I4), without contact
   };
   void set_initial_velocities();
   void set_rates(const Vector &displacements);
   HeavyTools::Step tool_step() const { return {integrator_, step_, damping_.is_on}; }
-  /// a_n, or with (I4) that of the other forces.
+  /// Returns a_n; with (I4), that of the other forces.
   const Vector &start_accelerations() const { return damping_.is_on ? damping_.start : start_.acceleration; }
-  /// Those at the end of the step, all in all.
+  /// Returns the accelerations at the end of the step, including contact.
   Vector end_accelerations() const;
-  /// c = −M⁻¹ F of these forces. Collective.
+  /// Returns c = −M⁻¹ F of these forces. Collective.
   Vector accelerations_by(const Vector &forces) const;
   Vector ghosted(const Vector &owned) const;
 

@@ -17,7 +17,7 @@
 
 namespace billet {
 
-/// Forces of an implicit scene, what they act on, and the tangent that they are assembled to; built once.
+/// Forces of an implicit scene, the objects that they act on, and the tangent matrix; built once.
 class ImplicitParts {
 public:
   ImplicitParts(const Scene &scene, const Discretization &discretization);
@@ -34,7 +34,7 @@ public:
   const ContactSet &contacts() const { return contacts_; }
   ImplicitScheme &scheme() { return motion_ ? *motion_ : statics_; }
   const ImplicitScheme &scheme() const { return motion_ ? *motion_ : statics_; }
-  /// Null in statics.
+  /// Returns the motion; null in statics.
   ImplicitMotion *motion() { return motion_.get(); }
   DrivenTools &tools() { return tools_; }
   const DrivenTools &tools() const { return tools_; }
@@ -54,7 +54,7 @@ protected:
   InternalForces internal_;
   ContactSet contacts_;
   ImplicitScheme statics_;
-  std::unique_ptr<ImplicitMotion> motion_; ///< none in statics
+  std::unique_ptr<ImplicitMotion> motion_; ///< null in statics
   DrivenTools tools_;
   ToolRemoval removal_;
   ReleasedForces released_;
@@ -62,9 +62,8 @@ protected:
   TangentMatrix tangent_;
 };
 
-/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem: the sum
-/// of its parts, and the derivative of that. The state at the start of the step is never written to by
-/// evaluations.
+/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem.
+/// Evaluations never change the state at the start of the step.
 class ImplicitProblem final : public ImplicitParts, public NonlinearProblem {
 public:
   ImplicitProblem(const Scene &scene, const Discretization &discretization);
@@ -73,18 +72,18 @@ public:
   const StepState &step() const { return step_; }
   ForceScales &scales() { return scales_; }
   const ForceScales &scales() const { return scales_; }
-  /// At the end of the last accepted step.
+  /// Returns the state at the end of the last accepted step.
   SolutionState &state() { return state_; }
   const SolutionState &state() const { return state_; }
 
-  /// Places the tools where they are at `t`; residuals and tangents are those of the step that ends there.
+  /// Places the tools at time `t`; residuals and tangents are those of the step that ends there.
   void start_step(double t);
-  /// Begins a step of no length at the last accepted state; tools stay there.
+  /// Begins a step of zero length at the last accepted state; tools stay in place.
   void start_at_rest();
   /// Computes all forces at the start of the step. Collective.
   void evaluate_start();
-  /// The unknowns, displacements and offsets of driven tools, at the start of the step and in the trial
-  /// state.
+  /// Return the unknowns, displacements and offsets of driven tools, at the start of the step and in the
+  /// trial state.
   Vector unknowns() const { return tools_.pack(step_.start.displacements, tools_.start_offsets()); }
   Vector trial_unknowns() const { return tools_.pack(step_.trial.displacements, tools_.offsets()); }
   void set_trial(const Vector &x);
@@ -106,8 +105,8 @@ public:
   bool solve_bordered(const Vector &r_u, const std::vector<double> &r_s, double sense,
                       double relative_tolerance, Vector &du, std::vector<double> &ds);
   bool on_all_ranks(bool success) const;
-  /// Part of the motion from the start of the step to the trial state in which no node goes through
-  /// anything; then obstacle() says what is in the way. Collective.
+  /// Returns the part of the motion from the start of the step to the trial state in which no node passes
+  /// through anything. If it is below 1, obstacle() describes the passage. Collective.
   double find_free_part(bool is_thorough);
   const std::string &obstacle() const { return obstacle_; }
   void clear_obstacle() { obstacle_.clear(); }
@@ -121,7 +120,7 @@ private:
   SolutionState state_;
   Vector raw_internal_, raw_contact_;               ///< additive
   std::vector<std::vector<SlaveForce>> linearised_; ///< of the contacts at the last tangent
-  StatusChanges status_changes_;                    ///< between that and the last residual
+  StatusChanges status_changes_;                    ///< between the last tangent and the last residual
   std::string obstacle_;
 };
 

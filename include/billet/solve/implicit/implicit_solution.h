@@ -15,56 +15,57 @@
 
 namespace billet {
 
-/// Solution of a static scene, or one of implicit dynamics, step by step: attempts a step, recovers where
-/// that fails, and commits it on acceptance. There is nothing to undo on failure, since the state at the
-/// start of a step is never written to.
+/// Solution of a static or an implicit dynamic scene, step by step: attempts a step, recovers from failures,
+/// and commits the step on acceptance. A failure needs no undo, since the state at the start of a step never
+/// changes before.
 class ImplicitSolution final : public Solution {
 public:
   ImplicitSolution(const Scene &scene, const Discretization &discretization);
 
   /// Tries the step from the current time to `t`. On convergence the new state is committed. `previous_step`
-  /// is the length of the last accepted step if its increment may be continued, 0 else. Throws
-  /// SolutionFailure, on all ranks, where the removal of tools has left a body free.
+  /// is the length of the last accepted step if its increment may be continued, else 0. Throws
+  /// SolutionFailure, on all ranks, if the removal of tools has left a body free.
   NewtonReport step(double t, double previous_step);
 
   using Results = StepResults::Groups;
-  /// At the last accepted step. Their number is that of result_names().
+  /// Returns the results at the last accepted step. Their number is that of result_names().
   Results results() const { return StepResults(problem_).accepted(); }
   std::vector<std::string> result_names() const { return StepResults(problem_).names(); }
 
-  /// A step that is tried and not taken.
+  /// Step that is tried but not accepted.
   struct Probe {
     NewtonReport newton;
     Results results; ///< at its end
   };
-  /// Tries the step to `t`, and leaves the state as it is. The next steps up to `t` begin their iterations
-  /// from what it found.
+  /// Tries the step to `t`, and leaves the state unchanged. The next steps up to `t` begin their iterations
+  /// from its solution.
   Probe probe(double t, double previous_step);
 
-  /// The next step measures what penetrations make of the results, if it is accepted; see
+  /// Makes the next step, if it is accepted, measure the error of the results by penetration; see
   /// PenetrationMeasurement::ask().
   void measure_penetration(const double allowed = std::numeric_limits<double>::infinity()) {
     measurement_.ask(allowed);
   }
-  /// Of the last accepted step; once.
+  /// Returns the measurement of the last accepted step; once.
   std::optional<OfPenetration> take_measurement() { return measurement_.take(); }
-  /// Of the last accepted step: the deepest, as part of the 'Penetration tolerance', or of 1e-5 facets in
-  /// pairs without one.
+  /// Returns the deepest penetration of the last accepted step, over the 'Penetration tolerance', or over
+  /// 1e-5 facets in pairs without one.
   double penetration() const { return penetration_; }
-  /// Tractions are augmented where penetrations are above so many times what pairs ask for. What augmentation
-  /// leaves above that is an error to be reported, and fails no step.
+  /// Sets the factor of the pairs' tolerances above which tractions are augmented. A remaining penetration
+  /// above that is an error to be reported, and fails no step.
   void set_penetration_allowed(const double factor) {
     augmentation_.allow_penetration(factor);
     augmentation_.may_leave_penetration();
   }
-  /// Residuals, and their work, have to be this part of what the solver's tolerances allow; in (0, 1].
+  /// Sets the factor of the tolerances of residuals and their work; in (0, 1].
   void set_accuracy(const double factor) { solver_.set_accuracy(factor); }
-  /// Where steps with another contact tangent fail; see TangentMatrix::take_exact(). Collective.
+  /// Switches to the exact contact tangent after failed steps; see TangentMatrix::take_exact(). Collective.
   bool take_exact_tangent() { return problem_.tangent().take_exact(); }
 
-  /// Of the last step that was tried, in dynamic scenes: see ImplicitMotion::step_error().
+  /// Returns the time error of the last step that was tried, in dynamic scenes; see
+  /// ImplicitMotion::step_error().
   double time_error() const { return rules_->balance().time_error(); }
-  /// Of all bodies, in dynamic scenes.
+  /// Returns the mass of all bodies, in dynamic scenes.
   double mass() const { return problem_.scheme().mass(); }
 
   const SolutionState &state() const override { return problem_.state(); }
@@ -83,32 +84,32 @@ public:
   DiagnosticList initial_diagnostics() const override;
   bool solves_iteratively() const override { return problem_.tangent().solver().is_iterative(); }
 
-  /// Messages at the end of the run: about bodies that were stabilised, contact that has lost or made energy
-  /// all in all, round-off of penalties, and augmentation that was given up. Collective.
+  /// Returns messages at the end of the run. They concern stabilised bodies, contact that has lost or
+  /// generated energy in total, round-off of penalties, and augmentation that was given up. Collective.
   DiagnosticList finish() const;
 
-  /// The equation that steps solve.
+  /// Returns the equation of the steps.
   ImplicitProblem &equation() { return problem_; }
   const ImplicitProblem &equation() const { return problem_; }
-  /// See PenaltyWatch::has_soft_pairs().
+  /// Returns PenaltyWatch::has_soft_pairs().
   bool has_soft_penalties() const { return books_.has_soft_pairs(); }
-  /// Whether contact between bodies makes most of what the energies of a dynamic scene fail to balance by.
+  /// Whether contact between bodies causes most of the imbalance of the energies of a dynamic scene.
   bool contact_makes_energy() const { return rules_->balance().contact_makes_energy(); }
 
-  /// The state at the end of the last accepted step.
+  /// Saves the state at the end of the last accepted step.
   void save(StateWriter &writer) const;
-  /// Resumes from such a state, in place of the start at time 0, or from that of another method: its
-  /// displacements and stresses, and, in dynamic scenes, its velocities. Where a static scene has other tools
-  /// or pairs, or the state comes from elsewhere, what is out of balance fades over `release_time`, or, if
-  /// that is 0, until the end time. In dynamic ones it accelerates the bodies.
+  /// Resumes from such a state, instead of starting at time 0. From the state of another method it takes
+  /// displacements and stresses, and, in dynamic scenes, velocities. A static scene that has other tools or
+  /// pairs, or a state from elsewhere, is out of balance. The imbalance fades over `release_time`, or, if
+  /// that is 0, until the end time. In dynamic scenes it accelerates the bodies.
   RestartReport load(StateReader &reader, double release_time);
 
 private:
   /// Attempts the step, and commits it if it has converged.
   NewtonReport attempt(double t, double previous_step, StepAttempt::Way way = StepAttempt::Way::direct);
-  /// Repeats a step that asks for it: with penalties that are raised, and with contact damped.
+  /// Repeats a step that requires it: with raised penalties, and with damped contact.
   void repeat(double t, double previous_step, NewtonReport &report);
-  /// Attempts a step that has failed once more, with softer penalties, and as near to balance as it comes.
+  /// Repeats a failed step with lower penalties, and accepts a stalled solution if necessary.
   void recover(double t, double previous_step, NewtonReport &report, DiagnosticList &messages);
   void explain_failure(NewtonReport &report);
   /// Adds the messages after an accepted step.
@@ -119,7 +120,7 @@ private:
 
   // Of save() and load(), in implicit_solution_state.cc:
   void load_own(StateReader &reader, const OwnedNodes &nodes, bool is_exact);
-  /// All forces at the state as it is: those of supports and tools, and what is out of balance.
+  /// Computes all forces at the present state: those of supports and tools, and the imbalance.
   void balance(RestartReport &report);
 
   ImplicitProblem problem_;

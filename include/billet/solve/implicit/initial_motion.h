@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// Accelerations where a motion begins, and where forces jump: M a = −F.
+/// Accelerations at the start of a motion, and after jumps of forces: M a = −F.
 class InitialMotion {
 public:
   InitialMotion(ImplicitProblem &problem, ImplicitMotion &motion) : problem_(problem), motion_(motion) {}
@@ -14,13 +14,13 @@ public:
   /// Starts the run at time 0: forces, accelerations and energies. Throws InputError or SolutionFailure.
   /// Collective.
   void start();
-  /// Finds the accelerations of the forces at the start of the step. Throws SolutionFailure. Collective.
+  /// Computes the accelerations by the forces at the start of the step. Throws SolutionFailure. Collective.
   void accelerate();
-  /// Takes the motion from a checkpoint, or begins it from another method's state. Collective.
+  /// Reads the motion from a checkpoint, or begins it from another method's state. Collective.
   void load(StateReader &reader, RestartReport &report);
 
 private:
-  /// Relative, of the accelerations.
+  /// Relative tolerance of the accelerations.
   static constexpr double tolerance = 1e-10;
 
   ImplicitProblem &problem_;

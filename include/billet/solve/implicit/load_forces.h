@@ -10,7 +10,7 @@
 
 namespace billet {
 
-/// Forces of the loads of a dynamic scene on owned dofs, at the start and at the end of a step.
+/// Forces of the loads of a dynamic scene on owned dofs, at the start and the end of a step.
 class LoadForces {
 public:
   LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
@@ -19,11 +19,11 @@ public:
   /// Subtracts the forces at these displacements and velocities from the residual. Returns their norm.
   /// Collective.
   double subtract(double t, const Vector &displacements, const Vector &velocities, Vector &residual);
-  /// After that: adds the derivatives; `damping_factor` as TimeIntegrator's.
+  /// Adds the derivatives, after subtract(); `damping_factor` as TimeIntegrator's.
   void add_tangent(double t, double damping_factor, const TangentSystem &system) const;
-  /// The forces of the last subtract() are those at the start of the step.
+  /// Makes the forces of the last subtract() those at the start of the step.
   void start() { forces_n_ = forces_; }
-  /// The same after a step. Returns their work, by the trapezoidal rule.
+  /// Does the same after a step. Returns the work of the forces, by the trapezoidal rule.
   double commit(const Vector &increment);
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const;
@@ -34,7 +34,7 @@ private:
 
   const Discretization &discretization_;
   const LocalNodes &nodes_;
-  std::unique_ptr<ExternalLoads> loads_; ///< none where there are none
+  std::unique_ptr<ExternalLoads> loads_; ///< null without loads
   Vector forces_n_, forces_;             ///< F
   NodalVectors displaced_, rates_;       ///< at the last subtract()
 };

@@ -11,7 +11,7 @@
 
 namespace billet {
 
-/// Error of the time integration of a step, root mean square over the mass, as part of what is allowed.
+/// Error of the time integration of a step, root mean square over the mass, over the allowed error.
 class MotionError {
 public:
   /// `lumped`: row sums of the mass. Collective.
@@ -19,10 +19,11 @@ public:
               const Inertia &inertia, const Vector &lumped);
 
   bool is_wanted() const { return parameters_.error_tolerance > 0.; }
-  /// Factor of the tolerances of iterations: where the user wants smaller errors of steps than by default
-  /// what iterations leave must not be as large as these.
+  /// Returns the factor of the tolerances of iterations. If the scene requires smaller errors of steps than
+  /// the default, the iterations' errors must be smaller, too.
   double wanted_accuracy() const;
-  /// Of an error that is this factor times `change`, at these displacements. Collective.
+  /// Returns the error that is `factor` times `change`, at these displacements, over the allowed one.
+  /// Collective.
   double of_step(double factor, const Vector &change, const Vector &displacements) const;
   /// Accepts these displacements. Collective.
   void commit(const Vector &displacements);
@@ -33,23 +34,23 @@ public:
 private:
   struct Limits {
     static constexpr double default_tolerance = 1e-3;
-    /// Least displacement to resolve, of the scene's radius: at the start nothing has moved yet.
+    /// Minimum displacement to resolve, as part of the scene's radius: at the start nothing has moved yet.
     static constexpr double min_displacement = 1e-6;
   };
   struct BodyAxis {
     std::size_t body;
     unsigned int axis;
   };
-  /// Of a body, about the mean of the field over its mass.
+  /// Spread of a field in a body about its mean over the mass.
   struct Spread {
     double square; ///< Σ m x²
     double mass;
   };
   std::vector<Spread> spread_of_bodies(const Vector &field) const;
   double mean_size(const Vector &field) const;
-  /// What the error tolerance is a part of, (I7): the displacements, root mean square over the mass. How far
-  /// bodies have gone together counts up to the largest one's radius of gyration: a long flight makes the
-  /// impact at its end no larger.
+  /// Returns the reference of the error tolerance, (I7): the displacements, root mean square over the mass.
+  /// The common motion of bodies counts up to the largest radius of gyration: a long flight does not enlarge
+  /// the impact at its end.
   double displacement_to_resolve(const Vector &displacements) const;
 
   const Discretization &discretization_;

@@ -8,33 +8,34 @@
 
 namespace billet {
 
-/// Recovery of a static step in which Newton's method fails with stiff penalties: softer ones lead to them.
-/// In dynamics inertia, and shorter steps, do the same.
+/// Recovery of a static step in which Newton's method fails with high penalties: continuation from lower
+/// ones. In dynamics, inertia and shorter steps have the same effect.
 class PenaltyContinuation {
 public:
   PenaltyContinuation(ImplicitProblem &problem, EquilibriumSolver &solver)
       : problem_(problem), solver_(solver) {}
 
-  /// Whether penalties are above 10 E/h, so that softer ones may lead to them. Collective.
+  /// Whether penalties are above 10 E/h, so that lower ones may lead to them. Collective.
   bool is_possible() const;
-  /// As EquilibriumSolver::iterate(), with penalties of 10 E/h first, which then grow to what they are.
+  /// Iterates like EquilibriumSolver::iterate(), with penalties of 10 E/h first, which then rise to their
+  /// values.
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
-  /// Warning that a step needed that. Collective.
+  /// Returns a warning that a step needed continuation. Collective.
   Diagnostic describe() const;
 
 private:
-  /// How penalties grow, in octaves, factors of 2.
+  /// Growth of penalties, in octaves, factors of 2.
   struct Limits {
     static constexpr int first_stride = 3;
     static constexpr unsigned int max_retreats = 4; ///< to strides of one octave
   };
-  /// By how many octaves the penalties of a contact are stiffer than 10 E/h.
+  /// Number of octaves by which the penalties of a contact exceed 10 E/h.
   struct Octaves {
     int normal = 0, tangential = 0;
   };
-  /// Of each contact. Collective.
+  /// Returns the octaves of each contact. Collective.
   std::vector<Octaves> octaves_above_enough() const;
-  /// Changes penalties that are `softer` octaves below what they are, to be `octaves` below.
+  /// Changes penalties from `softer` octaves below their values to `octaves` below them.
   void soften(const std::vector<Octaves> &above, int softer, int octaves);
 
   ImplicitProblem &problem_;

@@ -10,25 +10,25 @@
 
 namespace billet {
 
-/// Books and checks of what the springs of contacts hold.
+/// Energies of contact springs and checks of their penetration.
 class SpringBooks {
 public:
   explicit SpringBooks(ImplicitProblem &problem);
 
   /// Sets the energy of a contact with a tool at the end of a step.
   void set(const std::size_t contact, const double energy) { of_tools_[contact] = energy; }
-  /// Books a change of what the springs of a contact hold [energy].
+  /// Records a change of the energy in the springs of a contact [energy].
   void add(std::size_t contact, double change);
-  /// Messages about penalties that are too soft for what presses, after a step. Collective.
+  /// Returns warnings about penalties that are too low, after a step. Collective.
   DiagnosticList check();
-  /// See PenaltyWatch::has_soft_pairs().
+  /// Returns PenaltyWatch::has_soft_pairs().
   bool has_soft_pairs() const { return watch_.has_soft_pairs(); }
 
   void save(StateWriter &writer) const { watch_.save(writer); }
   void load(const StateReader &reader) { watch_.load(reader); }
 
 private:
-  /// Where the energy in the springs of a contact is kept.
+  /// Returns the record of the energy in the springs of a contact.
   double &energy(std::size_t contact);
   void check_pair(const std::string &name, Penetration deepest, double moved, double stored_energy,
                   DiagnosticList &messages);
@@ -38,37 +38,37 @@ private:
   PenaltyWatch watch_;
 };
 
-/// Raises penalties of static steps that let nodes in too deep; then the step is repeated.
+/// Raises penalties of static steps with too large penetration; then the step is repeated.
 class PenaltyRaises {
 public:
   PenaltyRaises(ImplicitProblem &problem, SpringBooks &books) : problem_(problem), books_(books) {}
 
-  /// Whether nodes penetrate too deep at the end of the step, so that it has to be repeated. Collective.
+  /// Whether penetration is too large at the end of the step, so that it has to be repeated. Collective.
   bool is_needed(NewtonReport &report);
-  /// Raises the penalties at the start of the step: springs that are compressed there are given the energy
-  /// that stiffer ones hold, and start the step with their forces. Collective.
+  /// Raises the penalties at the start of the step. Compressed springs receive the energy that stiffer ones
+  /// store, and start the step with their forces. Collective.
   DiagnosticList raise();
 
 private:
   struct Limits {
     static constexpr double min_raise = 2., max_raise = 8.;
-    /// Contact follows nodes to 0.4 of a facet, four times what default penalties allow. A penalty that the
-    /// scene sets stays below this multiple of what is little enough.
+    /// Contact follows nodes to 0.4 of a facet, four times the penetration that default penalties allow. A
+    /// penalty of the scene is kept up to this multiple of the allowed penetration.
     static constexpr double deep = 3.6;
-    /// Part of the first step below which a step cannot become much shorter.
+    /// Part of the first step below which a step counts as short: it can hardly be cut further.
     static constexpr double short_step = 0.01;
   };
-  /// Of each contact by how much its penalty should be raised; 1 is not at all. Collective.
+  /// Returns the factor by which the penalty of each contact should rise; 1 means unchanged. Collective.
   std::vector<double> find_factors() const;
   DiagnosticList describe() const;
 
   ImplicitProblem &problem_;
   SpringBooks &books_;
-  std::vector<double> factors_; ///< that the last is_needed() found
+  std::vector<double> factors_; ///< result of the last is_needed()
 };
 
-/// Raises penalties of dynamic scenes after a step, whose contacts are as they were accepted, so that a
-/// checkpoint knows them raised.
+/// Raises penalties of dynamic scenes after a step. The contacts are then in their accepted state, so that a
+/// checkpoint contains the raised penalties.
 class DynamicPenalties {
 public:
   DynamicPenalties(ImplicitProblem &problem, SpringBooks &books)

@@ -13,18 +13,18 @@
 
 namespace billet {
 
-/// What errors are parts of, each group by itself: the forces of the tools and of pairs of bodies, or,
-/// without either or with pairs of a body with itself only, whose forces cancel out, the norm of the forces
-/// of supports; then, of each tool that a force or a moment drives, which leave its own force no error, how
-/// far that has taken it.
+/// Groups of results whose errors are estimated. The first contains the forces of the tools and of pairs of
+/// bodies. If there are none, or only pairs of a body with itself, whose forces cancel out, it is the norm of
+/// the support forces. For each driven tool, whose own force has no error, a further group contains its
+/// travel.
 class StepResults {
 public:
   using Groups = std::vector<ResultGroup>;
 
   explicit StepResults(const ImplicitProblem &problem) : problem_(problem) {}
-  /// "forces", "travel of 'die'": of each group.
+  /// Returns the name of each group: "forces", "travel of 'die'".
   std::vector<std::string> names() const;
-  /// At the last accepted step, and at the trial state.
+  /// Return the groups at the last accepted step, and at the trial state.
   Groups accepted() const;
   Groups of_trial() const;
 
@@ -35,54 +35,55 @@ private:
   const ImplicitProblem &problem_;
 };
 
-/// What penetrations make of the results at the end of a step.
+/// Effect of penetration on the results at the end of a step.
 struct OfPenetration {
   double penetration = 0.;           ///< the deepest, see ContactSet::find_penetration(), before augmentation
-  StepResults::Groups with, without; ///< or empty: not found
+  StepResults::Groups with, without; ///< empty: not found
   double residual = 0.;              ///< of `without`, as part of the forces
-  unsigned int n_iterations = 0;     ///< that it took besides those of the step
+  unsigned int n_iterations = 0;     ///< beside those of the step
 };
 
-/// Measures that where it is asked for. Where tractions are not augmented in the step anyway, one or a few
-/// iterations more do it, and are taken back.
+/// Measures the effect of penetration on request. If tractions are not augmented in the step anyway, one or a
+/// few additional iterations are made and taken back.
 class PenetrationMeasurement {
 public:
   explicit PenetrationMeasurement(ImplicitProblem &problem) : problem_(problem), results_(problem) {}
 
-  /// The next step measures. If penetrations make more than this part of a result, that step already augments
+  /// Makes the next step measure. If penetration changes a result by more than this part, that step augments
   /// tractions until no more than that is left.
   void ask(const double allowed = std::numeric_limits<double>::infinity()) {
     is_wanted_ = true;
     allowed_ = allowed;
   }
   bool is_wanted() const { return is_wanted_; }
-  /// What is tried next may be no step to measure in.
+  /// Withdraws the request: the next attempt may be unsuitable.
   void withdraw() { is_wanted_ = false; }
-  /// Before an attempt of a step.
+  /// Begins an attempt of a step.
   void begin() { measured_.reset(); }
   bool has_begun() const { return measured_.has_value(); }
-  /// Before the first augmentation of a step.
+  /// Begins the measurement before the first augmentation of a step.
   void begin_with_augmentation();
-  /// What was measured is of no use: the step ends otherwise.
+  /// Discards the measurement, because the state of the step has changed since.
   void spoil() { measured_ = OfPenetration(); }
-  /// Completes what augmentations in the step have begun to measure, or makes it, from the state `accepted`
-  /// of a step that has converged. Adds its iterations. `accuracy`: see EquilibriumSolver. Collective.
+  /// Completes the measurement by the step's augmentations, or makes one from the converged state `accepted`.
+  /// Appends its iterations to the report. `accuracy`: see EquilibriumSolver. Collective.
   void measure(const Vector &accepted, double accuracy, NewtonReport &report);
-  /// Factor of what pairs ask for up to which penetrations are allowed, if they make too much; else 0.
+  /// Returns the factor of the pairs' tolerances up to which penetration is allowed, if its effect is too
+  /// large; else 0.
   double find_allowed() const;
-  /// Of the last accepted step; once.
+  /// Returns the measurement of the last accepted step; once.
   std::optional<OfPenetration> take() { return std::exchange(measured_, {}); }
 
 private:
   struct Limits {
     static constexpr unsigned int max_iterations = 4;
-    /// Part of the difference that residuals may be: it is known to some digits then.
+    /// Maximum residual as part of the difference, so that some digits of it are known.
     static constexpr double accuracy = 0.05;
-    /// Part of penetrations that one augmentation leaves, at most: what is left goes on like that, as a
-    /// geometric series.
+    /// Maximum part of penetration that one augmentation leaves; the rest is extrapolated as a geometric
+    /// series.
     static constexpr double max_left = 0.8;
   };
-  /// Augments once and iterates. Returns the part of the penetrations that is left; 0 if nothing was found.
+  /// Augments once and iterates. Returns the remaining part of the penetration; 0 if nothing was found.
   double augment_once(const Vector &accepted, double accuracy, NewtonReport &report);
 
   ImplicitProblem &problem_;

@@ -11,8 +11,8 @@ namespace billet {
 
 class ImplicitMotion;
 
-/// First guess of a step, as the trial state: where nothing drives the bodies the last state, else what is
-/// known of the motion, else one linear step.
+/// First guess of a step, as the trial state. It is the last state if nothing drives the bodies, else an
+/// extrapolation of known motion, else one linear step.
 class Predictor {
 public:
   explicit Predictor(ImplicitProblem &problem) : problem_(problem) {}
@@ -20,22 +20,23 @@ public:
   Predictor(const Predictor &) = delete;
   Predictor &operator=(const Predictor &) = delete;
 
-  /// Guesses the end of the step to t without a solution. False where nothing that is known fits.
-  /// `previous_step`: length of the last step if its increment may be continued, 0 else.
+  /// Guesses the end of the step to t without a linear solution. Returns false if no known motion fits.
+  /// `previous_step`: length of the last step if its increment may be continued, else 0.
   virtual bool guess(double t, double previous_step);
-  /// Whether another guess is to be tried where nodes would go through something: follow_tangent() knows
+  /// Whether another guess is to be tried if nodes would pass through something: follow_tangent() includes
   /// contact.
   virtual bool has_alternative() const { return true; }
-  /// Solves one linear step from the last state, into which the motion of tools and supports is put. False
-  /// where it has no solution. Collective.
+  /// Solves one linear step from the last state with the motion of tools and supports. Returns false if there
+  /// is no solution. Collective.
   bool follow_tangent(double t, NewtonIteration &iteration);
 
-  /// A tool stopped or left at the end of the last step: the last increment says nothing of the next.
+  /// Notes that a tool stopped or was removed at the end of the last step: the last increment cannot be
+  /// continued.
   void lose_pace() { has_lost_pace_ = true; }
   void commit() { has_lost_pace_ = false; }
   bool has_lost_pace() const { return has_lost_pace_; }
 
-  /// Keeps the trial state as what a probe to t has found: the steps up to t begin from it, in part.
+  /// Keeps the trial state as the solution of a probe to t: the steps up to t begin from a part of it.
   void keep_probe(double t);
   void drop_probe() { probe_.reset(); }
 
@@ -47,12 +48,12 @@ protected:
   ImplicitProblem &problem_;
 
 private:
-  /// Limits of what is continued.
+  /// Limits of continued motion.
   struct Limits {
-    /// Jump of a tool's or support's motion beside that motion: above, the last increment says little, and
-    /// supports that do not move evenly would crush the elements beside them.
+    /// Maximum jump in the motion of tools or supports, as part of that motion. Above it the last increment
+    /// is a poor guess, and unevenly moving supports would crush the elements beside them.
     static constexpr double max_jump = 0.1;
-    /// Relative tolerance of the linear step where the solver is iterative: the iterations mend the rest.
+    /// Relative tolerance of the linear step if the solver is iterative: the iterations correct the rest.
     static constexpr double linear_tolerance = 1e-3;
     /// Slack of the yield condition in the linear step, see HenckyPlasticity::update().
     static constexpr double yield_slack = 1e-9;
@@ -62,14 +63,14 @@ private:
     Vector displacements;
     std::vector<double> offsets;
   };
-  /// False where something drives the bodies on.
+  /// Keeps the last state. Returns false if anything drives the bodies.
   bool stay_at_rest(double t);
-  /// False where tools or supports change their pace.
+  /// Continues the last increment. Returns false if tools or supports change their rate.
   bool continue_increment(double t, double previous_step);
   bool follow_probe(double t);
-  /// Puts the supports' values at t into the trial state. False if that jumps.
+  /// Sets the supports' values at t in the trial state. Returns false if that causes a jump.
   bool fit_to_supports(double t);
-  /// Whether the motion of a tool does not go on at the pace of the last step.
+  /// Whether the motion of a tool departs from the rate of the last step.
   bool tool_jumps(const Tool &tool, double t, double previous_step) const;
 
   bool has_lost_pace_ = false;
@@ -81,7 +82,7 @@ class MotionPredictor final : public Predictor {
 public:
   MotionPredictor(ImplicitProblem &problem, const ImplicitMotion &motion)
       : Predictor(problem), motion_(motion) {}
-  /// False where the motion leads farther from balance than to stay.
+  /// Returns false if the guess is farther from balance than the last state.
   bool guess(double t, double previous_step) override;
   bool has_alternative() const override { return false; }
 

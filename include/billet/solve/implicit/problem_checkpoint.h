@@ -15,17 +15,17 @@ public:
   void save_bodies(StateWriter &writer) const;
   void save_tools(StateWriter &writer, const OwnedNodes &nodes) const;
   void save_contacts(StateWriter &writer, const NodeKeys &keys) const;
-  /// Loads histories at the displacements of the state; the report is no more exact where a body was of
-  /// another formulation, from which it takes its stresses.
+  /// Loads histories at the displacements of the state. If a body had another formulation, it takes the
+  /// stresses from that, and the report is no longer exact.
   void load_bodies(StateReader &reader, RestartReport &report);
   void load_tools(StateReader &reader, const OwnedNodes &nodes);
   void load_contacts(StateReader &reader, const NodeKeys &keys);
-  /// Finds what touches what at the state, and makes a matrix for it.
+  /// Finds the contacts of the state, and builds a matrix for them.
   void update_contacts(StateReader &reader, bool is_exact);
 
 private:
   void save_body(std::size_t body, StateWriter &writer) const;
-  /// False where the formulation was another one.
+  /// Returns false if the formulation was another one.
   bool load_body(std::size_t body, StateReader &reader);
 
   ImplicitProblem &problem_;

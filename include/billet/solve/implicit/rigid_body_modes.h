@@ -11,26 +11,27 @@
 namespace billet {
 
 /// Rigid-body modes of the bodies of a static scene: whether supports and contact resist them at the end of a
-/// step. Bodies that contact lets go are stabilised; a step that loses a body otherwise fails.
+/// step. Bodies that lose contact without a force are stabilised; any other loss of support fails the step.
 class RigidBodyModes {
 public:
-  /// Prepares the problem's stabilisation, too. Collective.
+  /// Prepares the problem's stabilisation as well. Collective.
   explicit RigidBodyModes(ImplicitProblem &problem);
 
-  /// Whether a body loses its support, or bodies move too far. Throws SolutionFailure, on all ranks, where
-  /// the time at which a body is lost is known well enough. Collective.
+  /// Whether a body loses its support, or bodies move too far. Throws SolutionFailure, on all ranks, if the
+  /// time of the loss is known accurately enough. Collective.
   bool rejects(double t, NewtonReport &report);
-  /// Accepts the step: books the work of the stabilisation. Collective.
+  /// Accepts the step: records the work of the stabilisation. Collective.
   void commit();
-  /// After a resumption with other contacts: finds what resists now. Collective.
+  /// Finds the support after a restart with other contacts. Collective.
   void begin();
 
-  /// Of a failed step: bodies that slid on all that they touched at the end of the last one.
+  /// Returns a text about the body that slid on all its contacts at the end of the last step, for a failed
+  /// step.
   std::string describe_sliding() const;
-  /// Of a step that failed for this reason: the loss of a body for which one that went further failed, if it
-  /// did; else an empty text.
+  /// Returns a text about the loss of a body for which a longer step failed; empty if there was none, or
+  /// `failure` is this loss.
   std::string describe_loss(const std::string &failure) const;
-  /// Messages about stabilised bodies at the end of the run. Collective.
+  /// Returns messages about stabilised bodies at the end of the run. Collective.
   DiagnosticList finish(double largest_energy) const;
 
   void save(StateWriter &writer) const;
@@ -38,10 +39,10 @@ public:
 
 private:
   struct Limits {
-    /// Part of the largest step below which the time of a loss is known well enough.
+    /// Part of the largest step below which the time of a loss is known accurately enough.
     static constexpr double short_step = 1e-3;
-    /// Parts of the largest forces so far: that contact bears on a body that it lets go, and on one that it
-    /// touches without a force.
+    /// Parts of the largest forces so far below which contact has lost a body, and below which it touches a
+    /// body without a force.
     static constexpr double little = 0.01, unloaded = 1e-5;
   };
   struct Loss {
@@ -50,30 +51,31 @@ private:
   };
   /// Fails the step that loses this mode.
   bool lose(const RigidBodySupport::Mode &mode, double t, NewtonReport &report);
-  /// What holds the bodies beside contact, at the trial state.
+  /// Returns the supports of the bodies except contact, at the trial state.
   RigidBodySupport hold_bodies() const;
-  /// The same with contact. Collective.
+  /// Finds the modes with contact. Collective.
   RigidBodySupport::Result find_support(const std::vector<bool> &unloaded_bodies = {}) const;
   template <class AddContact> void add_supporting_points(const AddContact &add) const;
   void add_supports(RigidBodySupport &support) const;
-  /// What supports and contact resist at the trial state, contact of stabilised bodies in one sense only.
+  /// Finds the modes that supports and contact resist at the trial state. Contact of stabilised bodies
+  /// resists in one direction only.
   RigidBodySupport::Result find_support_by_contact() const;
-  /// A mode that only points resist which slip, or nearly do. Collective.
+  /// Finds a mode that only points resist which slip, or nearly do. Collective.
   std::optional<RigidBodySupport::Mode> find_sliding_soon() const;
   /// Σ |f| of the nodes of contacts, by body [force]. Collective.
   std::vector<double> contact_forces_on_bodies() const;
-  /// A body that is free to move so is held by viscous forces from now on if contact bore next to nothing at
-  /// the end of the last step. Returns whether it is.
+  /// Stabilises the free body of this mode from now on, if contact bore next to no force at the end of the
+  /// last step. Returns whether the body is stabilised.
   bool hold_if_let_go(const RigidBodySupport::Mode &mode);
-  /// The same with bodies that others touch without a force, at the end of this step. Collective.
+  /// Does the same for bodies that others touch without a force, at the end of this step. Collective.
   void hold_unloaded_bodies();
   void report_let_go(double t, NewtonReport &report);
 
   ImplicitProblem &problem_;
   RigidBodies bodies_;
-  std::vector<double> forces_n_, largest_forces_; ///< on bodies at the end of the last step; so far
-  Loss loss_; ///< the earliest of a body that a step failed for; explains what steps before it fail for
-  std::vector<RigidBodySupport::Mode> let_go_;  ///< bodies that this step has begun to hold
+  std::vector<double> forces_n_, largest_forces_; ///< on bodies at the end of the last step; maxima so far
+  Loss loss_; ///< earliest loss for which a step failed; it explains failures of earlier steps
+  std::vector<RigidBodySupport::Mode> let_go_;  ///< modes of bodies that this step has begun to stabilise
   RigidBodySupport::Result support_;            ///< at the end of the last accepted step
   RigidBodySupport::Result support_by_contact_; ///< the same, while bodies are stabilised
 };

@@ -9,25 +9,26 @@
 
 namespace billet {
 
-/// Judges what round-off leaves of the forces: of displacements, and of positions where penalties are stiff.
+/// Judges the effect of round-off on the forces: of displacements, and of positions if penalties are high.
 class RoundOffGuard {
 public:
   explicit RoundOffGuard(const ImplicitProblem &problem) : problem_(problem) {}
 
-  /// Whether a step that has converged has to fail, since contact's round-off leaves too much of the forces
-  /// in it, as in those before it, or in the last of the run.
+  /// Whether a converged step has to fail because round-off of contact is too large a part of the forces. It
+  /// fails after several such steps in succession, or at the end of the run.
   bool rejects(double t, NewtonReport &report) const;
-  /// Whether round-off of contacts may be as large as what is left in a failed step. Collective.
+  /// Whether round-off of contacts may explain the residual of a failed step. Collective.
   bool may_explain(const NewtonReport &report) const;
-  /// Reason of a step that is lost in round-off, which leaves this part of the forces. Collective.
+  /// Returns the failure message of a step in which round-off is this part of the forces. Collective.
   std::string describe(double part) const;
   /// Accepts the step to t.
   void commit(double t, const NewtonReport &report);
 
-  /// A message if the step was accepted with this part of the forces, more than the tolerance, since
-  /// round-off lets it come no nearer. `accuracy`: see EquilibriumSolver.
+  /// Returns a message if round-off limited the accepted residual to this part of the forces, above the
+  /// tolerance. `accuracy`: see EquilibriumSolver.
   DiagnosticList check(double part, double accuracy) const;
-  /// At the end: what round-off of contact's penalties is beside the largest forces of the run.
+  /// Returns a message at the end about round-off of contact penalties, relative to the largest forces of the
+  /// run.
   DiagnosticList finish() const;
 
   void save(StateWriter &writer) const { writer.write("round-off", watch_.save()); }
@@ -35,10 +36,10 @@ public:
 
 private:
   struct Limits {
-    /// Steps in succession that may be lost: where loads begin, and nodes lie on a tool but for their last
-    /// bit, forces are small, and grow soon.
+    /// Maximum number of successive steps limited by round-off. When loads begin, or nodes lie on a tool to
+    /// the last bit, forces are small and soon grow.
     static constexpr unsigned int max_lost_steps = 3;
-    /// What is left beside the round-off of springs, as solve_newton() has it.
+    /// Maximum residual over the round-off of springs, as in solve_newton().
     static constexpr double by_much = 10.;
     /// Part of the round-off of bodies below which they have no other forces.
     static constexpr double unloaded = 0.1;
@@ -46,7 +47,7 @@ private:
 
   const ImplicitProblem &problem_;
   RoundOffWatch watch_;
-  unsigned int n_lost_ = 0; ///< of the last accepted steps, those that are lost in round-off
+  unsigned int n_lost_ = 0; ///< number of the last accepted steps that round-off limited
 };
 
 } // namespace billet

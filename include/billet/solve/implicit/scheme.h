@@ -12,8 +12,9 @@
 
 namespace billet {
 
-/// What time adds to the sum of all forces in a step: inertia, loads and the weights of a time integrator.
-/// This class is statics: weights are one, and inertia is none. ImplicitMotion is implicit dynamics.
+/// Contributions of time to the sum of all forces in a step: inertia, loads and the weights of a time
+/// integrator. This class is for statics: weights are one, and inertia is zero. ImplicitMotion is implicit
+/// dynamics.
 class ImplicitScheme {
 public:
   ImplicitScheme() = default;
@@ -21,34 +22,34 @@ public:
   ImplicitScheme(const ImplicitScheme &) = delete;
   ImplicitScheme &operator=(const ImplicitScheme &) = delete;
 
-  /// Name in checkpoints.
+  /// Returns the name in checkpoints.
   virtual std::string name() const { return "quasi-static"; }
-  /// Whether inertia resists motions that neither supports nor contact do.
+  /// Whether inertia resists motions that neither supports nor contact resist.
   virtual bool has_inertia() const { return false; }
-  /// Of all bodies. Collective.
+  /// Returns the mass of all bodies. Collective.
   virtual double mass() const { return 0.; }
-  /// Factor of the iterations' tolerances.
+  /// Returns the factor of the iterations' tolerances.
   virtual double wanted_accuracy() const { return 1.; }
-  /// Residual that round-off in inertia makes [force].
+  /// Returns the residual by round-off in inertia [force].
   virtual double round_off_force() const { return 0.; }
 
-  /// Weight of contact's forces, and of their tangent, in the residual.
+  /// Returns the weight of contact forces, and of their tangent, in the residual.
   virtual double contact_weight() const { return 1.; }
-  /// Weight of contact's forces at the start of the step in their mean.
+  /// Returns the weight of contact forces at the start of the step in their mean.
   virtual double contact_before() const { return 0.5; }
   /// Begins a step from these forces: chooses whether contact is damped in it. Collective.
   virtual void choose_contact_damping(const ForceState &) {}
-  /// Damps contact in the step that begins from these forces, so that it makes no energy. Collective.
+  /// Damps contact in the step that begins from these forces, so that it generates no energy. Collective.
   virtual void damp_contact(const ForceState &) {}
 
   /// Begins the step from t_n to t, from these displacements and offsets of the tools.
   virtual void start_step(double /*t_n*/, double /*t*/, const Vector & /*displacements*/,
                           const std::vector<double> & /*offsets*/) {}
-  /// Adds the loads' −F at the end of the step. Returns their norm. Collective.
+  /// Subtracts the loads at the end of the step from the residual. Returns their norm. Collective.
   virtual double add_loads(double /*t*/, const Vector & /*displacements*/, Vector & /*residual*/) {
     return 0.;
   }
-  /// Completes the sum of all forces, in which contact has this part, to the residual. Returns the norm of
+  /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the norm of
   /// the inertia forces.
   virtual double complete(const Vector & /*contact*/, Vector & /*residual*/) const { return 0.; }
   /// Adds the derivatives of loads and inertia.
@@ -63,8 +64,8 @@ public:
   /// Removes a tool. Returns its kinetic energy.
   virtual double remove_tool(std::size_t /*tool*/) { return 0.; }
 
-  /// Accepts the step, with its increment and mean forces, and books their works. `touching` is the work of
-  /// springs that touch, see StepWorks.
+  /// Accepts the step, with its increment and mean forces, and records their works. `touching` is the work of
+  /// springs in contact, see StepWorks.
   virtual void commit(const Vector & /*displacements*/, const Vector &increment, const Vector &mean_forces,
                       const double touching, EnergyLedger &energies) {
     energies.external += mean_forces * increment + touching;
@@ -72,7 +73,7 @@ public:
   /// Sets velocities, kinetic energy and momenta.
   virtual void update_state(SolutionState &) const {}
 
-  /// Saves the state at the start of the step; that of a tool into the tool's group.
+  /// Saves the state at the start of the step, and that of a tool to the tool's group.
   virtual void save(StateWriter &, const OwnedNodes &) const {}
   virtual void save_tool(std::size_t /*tool*/, StateWriter &) const {}
 };

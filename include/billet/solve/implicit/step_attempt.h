@@ -11,11 +11,11 @@
 
 namespace billet {
 
-/// One attempt of a step: first guess, Newton's method, augmentation, tools that stop, and the judgement of
-/// the state that has converged. Commits nothing.
+/// One attempt of a step: first guess, Newton's method, augmentation, tools that stop, and checks of the
+/// converged state. It commits nothing.
 class StepAttempt {
 public:
-  /// What an attempt is made with.
+  /// Components that an attempt uses.
   struct Parts {
     ImplicitProblem &problem;
     EquilibriumSolver &solver;
@@ -28,11 +28,11 @@ public:
   };
   explicit StepAttempt(const Parts &parts) : p_(parts) {}
 
-  /// How Newton's method comes to the end of the step: straight, or led by softer penalties.
+  /// Path of Newton's method to the end of the step: direct, or by continuation from lower penalties.
   enum class Way { direct, by_softer_penalties };
   /// Tries the step to `t`. `previous_step`: see ImplicitSolution::step(). Collective.
   NewtonReport make(double t, double previous_step, Way way = Way::direct);
-  /// Tools that have reached their stop force in a step that has converged.
+  /// Returns the tools that have reached their stop force in a converged step.
   const std::vector<std::size_t> &stopping() const { return stopping_; }
 
 private:
@@ -42,14 +42,14 @@ private:
     std::vector<double> offsets;
   };
   void begin(double t);
-  /// Makes the trial state the first guess. False, with the reason, where there is none that is admissible.
-  /// `linear_step`: what it took; of no force if it took no solution.
+  /// Makes the trial state the first guess. Returns false, with the reason in the report, if no guess is
+  /// admissible. `linear_step`: its linear solution; its force is 0 if there was none.
   bool find_guess(double t, double previous_step, NewtonIteration &linear_step, NewtonReport &report);
-  /// A tool that has gone too far is drawn back to where it presses with its stop force.
+  /// Moves a tool that has gone too far back to where it exerts its stop force.
   void stop_tools(double t, Unknowns &x, NewtonReport &report);
-  /// Evaluates the accepted state, and measures its penetration if that is asked for.
+  /// Evaluates the accepted state, and measures its penetration on request.
   void evaluate(Unknowns &x, NewtonReport &report);
-  /// Fails the step where its state is not to be accepted.
+  /// Fails the step if its state is not acceptable.
   void judge(double t, NewtonReport &report);
 
   Parts p_;

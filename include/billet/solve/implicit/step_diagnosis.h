@@ -9,23 +9,24 @@
 
 namespace billet {
 
-/// Explains where and why a step failed, or stalled.
+/// Explains failed and stalled steps.
 class StepDiagnosis {
 public:
   explicit StepDiagnosis(ImplicitProblem &problem) : problem_(problem) {}
 
-  /// At the end of a step: finds tools whose load friction bears, and that slip nearly all over. Collective.
+  /// Finds tools whose load friction bears and that slip on nearly their whole contact, at the end of a step.
+  /// Collective.
   void commit();
-  /// Reasons of a failed step: nodes that cycle, tools that slipped. Collective.
+  /// Returns reasons of a failed step: nodes that cycle, tools in full sliding. Collective.
   std::string describe_contacts() const;
-  /// Where the residual of a failed step is largest. Collective.
+  /// Returns the location of the largest residual of a failed step. Collective.
   std::string describe_residual();
-  /// The warning about a step that was accepted although its iterations stalled.
+  /// Returns the warning about a step that was accepted although its iterations stalled.
   Diagnostic describe_stall(const NewtonReport &report) const;
 
 private:
   struct Limits {
-    /// Part of what touches that slips, and of the load that pressure bears.
+    /// Slipping part of the contact, and part of the load that pressure bears.
     static constexpr double nearly_all = 0.9, by_pressure = 0.5;
   };
   std::string describe_slipping_tools() const;

@@ -13,8 +13,8 @@
 
 namespace billet {
 
-/// What a scheme demands of steps, beside the equation that it solves: how they begin, which are rejected,
-/// and what follows them. Of static and of dynamic scenes there is one each.
+/// Rules of a scheme for steps, beside its equation: how they begin, which are rejected, and what follows
+/// them. There is one class each for static and dynamic scenes.
 class StepRules {
 public:
   StepRules(ImplicitProblem &problem, const PathGuard &paths, SpringBooks &books)
@@ -28,40 +28,41 @@ public:
   const Predictor &predictor() const { return const_cast<StepRules &>(*this).predictor(); }
   const EnergyBalance &balance() const { return const_cast<StepRules &>(*this).balance(); }
 
-  /// Checks the contacts at time 0; throws InputError. Starts the run there. Collective.
+  /// Check the contacts at time 0, with InputError, and start the run there. Collective.
   virtual void check_start() {}
   virtual void start(const Solution &) {}
-  /// Throws SolutionFailure, on all ranks, if there is no step after the last one.
+  /// Throws SolutionFailure, on all ranks, if no step can follow the last one.
   virtual void check_next_step() const {}
   virtual bool has_next_step() const { return true; }
 
-  /// Whether a step that has converged fails. Collective.
+  /// Whether a converged step fails. Collective.
   virtual bool rejects(double t, NewtonReport &report) = 0;
-  /// Whether penalties that are softened may mend a step that failed for a reason that is known. Steps of
-  /// motion that have converged, and are too long, need shorter ones.
+  /// Whether lower penalties may help a step that failed for a known reason. In dynamics, converged steps
+  /// that are too long need shorter ones.
   virtual bool may_mend_explained() const = 0;
-  /// Raises penalties where a step has asked for it. Collective.
+  /// Raises penalties if a step requires it. Collective.
   virtual DiagnosticList raise_penalties() { return {}; }
-  /// What a failed step, for this reason, may have to do with the state before it.
+  /// Return texts on the state before a step that failed for this reason, if it may explain the failure.
   virtual std::string describe_sliding() const { return ""; }
   virtual std::string describe_loss(const std::string &) const { return ""; }
 
-  /// Accepts the step: before the start of the next one moves, ...
+  /// Accepts the step before the start of the next one changes, ...
   virtual void commit(double t) { balance().commit(t); }
-  /// ... and after all is booked: tools leave at t. Collective.
+  /// ... and closes it after all works are recorded: removes tools at t. Collective.
   virtual void close_step(double t) = 0;
-  /// After that. Collective.
+  /// Returns messages after close_step(). Collective.
   virtual DiagnosticList after_step(const Solution &) { return {}; }
 
-  /// Messages about stabilised bodies at the end of the run. Collective.
+  /// Returns messages about stabilised bodies at the end of the run. Collective.
   virtual DiagnosticList check_stabilisation() const { return {}; }
 
   virtual void save(StateWriter &writer) const = 0;
-  /// From the same scheme.
+  /// Loads the state of the same scheme.
   virtual void load(StateReader &reader, bool is_exact) = 0;
-  /// Where forces are out of balance after a resumption, as this residual.
+  /// Takes over forces that are out of balance after a restart, as this residual.
   virtual void hold_imbalance(const Vector & /*residual*/) {}
-  /// After all else is loaded. `release_time`: see ImplicitSolution::load(). Collective.
+  /// Completes a restart after everything else is loaded. `release_time`: see ImplicitSolution::load().
+  /// Collective.
   virtual void finish_load(StateReader &reader, double release_time, RestartReport &report) = 0;
 
 protected:
@@ -73,7 +74,7 @@ protected:
   SpringBooks &books_;
 };
 
-/// Makes those of the scheme.
+/// Makes the rules of the problem's scheme.
 std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathGuard &paths,
                                            SpringBooks &books);
 
@@ -108,7 +109,7 @@ private:
   StaticBalance balance_;
   RigidBodyModes modes_;
   PenaltyRaises raises_;
-  std::string free_body_; ///< why there is no next step: tools were removed that a body needs
+  std::string free_body_; ///< why no step can follow: removed tools supported this body
 };
 
 class DynamicRules final : public StepRules {

@@ -16,7 +16,7 @@ public:
   };
   const Rates &at_start() const { return start_; }
   const Rates &at_end() const { return end_; }
-  /// Change of the prescribed displacements in the step.
+  /// Returns the change of the prescribed displacements in the step.
   const Vector &change() const { return change_; }
 
   /// Starts at time t; `step` is the length over which differences are taken.
@@ -25,7 +25,7 @@ public:
   /// Replaces the components that supports prescribe.
   void prescribe(const Vector &held, Vector &rate) const;
   void commit() { start_ = end_; }
-  /// Takes rates at the start of the step that were saved.
+  /// Sets saved rates at the start of the step.
   void set_start(const Rates &rates) { start_ = end_ = rates; }
 
 private:

@@ -11,7 +11,7 @@
 
 namespace billet {
 
-/// The matrix of the tangent and its linear solver. Its pattern follows what contact between bodies couples.
+/// Tangent matrix and its linear solver. Its pattern follows the couplings by contact between bodies.
 class TangentMatrix {
 public:
   TangentMatrix(const Scene &scene, const Discretization &discretization, const Supports &supports,
@@ -19,10 +19,10 @@ public:
       : scene_(scene), discretization_(discretization), supports_(supports), contacts_(contacts),
         kind_(scene.contact_tangent()) {}
 
-  /// Builds matrix and solver for the contacts as they are, or, after a restart, as they were when it was
-  /// built last. Collective.
+  /// Builds matrix and solver for the present contacts, or, after a restart, for the contacts at the last
+  /// build. Collective.
   void build(bool couplings_are_known = false);
-  /// Builds them anew if contact couples what it did not before. Collective.
+  /// Builds them anew if contact has new couplings. Collective.
   void follow_couplings();
   bool is_built() const { return linear_ != nullptr; }
 
@@ -31,19 +31,19 @@ public:
   const TangentSolver &solver() const { return *linear_; }
   ContactTangent kind() const { return kind_; }
   bool is_kind_of_scene() const { return kind_ == scene_.contact_tangent(); }
-  /// From here on the contact tangent is the exact one, of an unsymmetric matrix. False, and nothing is done,
-  /// where it is exact already, or nothing can touch. Collective.
+  /// Switches to the exact contact tangent, with an unsymmetric matrix. Returns false without a change if it
+  /// is exact already, or no contact is possible. Collective.
   bool take_exact();
 
-  /// Solves K x = b, with x as homogeneous constraints have it. Collective.
+  /// Solves K x = b; x satisfies the homogeneous constraints. Collective.
   bool solve(const Vector &b, double relative_tolerance, Vector &x);
-  /// Tells an iterative solver where the nodes are at these displacements.
+  /// Passes the positions of the nodes at these displacements to an iterative solver.
   void set_geometry(const Vector &displacements);
-  /// Announces to an iterative solver that the matrix holds all but contact between bodies.
+  /// Announces to an iterative solver that the matrix holds everything except contact between bodies.
   void start_contact();
 
 private:
-  /// Owned dofs, by local number, of all nodes on which other bodies act.
+  /// Returns the owned dofs, by local number, of all nodes in contact with other bodies.
   std::vector<int> touching_dofs() const;
 
   const Scene &scene_;
@@ -52,7 +52,7 @@ private:
   ContactSet &contacts_;
   ContactTangent kind_;
   Matrix matrix_;
-  NodalGeometry undeformed_; ///< where the linear solver is iterative
+  NodalGeometry undeformed_; ///< if the linear solver is iterative
   std::unique_ptr<TangentSolver> linear_;
 };
 

@@ -13,34 +13,33 @@
 
 namespace billet {
 
-/// Tools that leave the scene at a time: the forces by which they held the bodies fade over their release
-/// time.
+/// Removal of tools at given times: the forces by which they held the bodies fade over their release time.
 class ToolRemoval {
 public:
   ToolRemoval(const Scene &scene, const Discretization &discretization, ContactSet &contacts)
       : scene_(scene), discretization_(discretization), contacts_(contacts), forces_(scene.tools().size()) {}
 
   bool is_removed(const std::size_t tool) const { return forces_[tool] != nullptr; }
-  /// Part of its forces that is left at t.
+  /// Returns the part of its forces that is left at t.
   double fading(double t, std::size_t tool) const;
-  /// Whether the forces of any tool are others at t than at t_n.
+  /// Whether the remaining forces of any tool differ between t and t_n.
   bool changes(double t_n, double t) const;
-  /// Adds the forces that are left at t.
+  /// Adds the remaining forces at t.
   void add_forces(double t, Vector &residual) const;
-  /// Work that they do from t_n to t.
+  /// Returns their work from t_n to t.
   double work(double t_n, double t, const Vector &increment) const;
 
-  /// What leaves at a time.
+  /// Tools that are removed at a time.
   struct Removal {
     std::vector<std::size_t> tools;
     std::map<std::size_t, std::set<std::string>> let_go; ///< names of the tools that each body loses
   };
   /// Removes the tools that are due at t from their contacts. Collective.
   Removal remove_due(double t);
-  /// Residual of a removed tool's forces, as they were.
+  /// Returns the residual of a removed tool's forces at the removal.
   const Vector &forces(const std::size_t tool) const { return *forces_[tool]; }
 
-  // Into and from the group of a tool:
+  // To and from the group of a tool:
   void save(std::size_t tool, StateWriter &writer, const OwnedNodes &nodes) const;
   void load(std::size_t tool, StateReader &reader, const OwnedNodes &nodes);
 
@@ -51,29 +50,29 @@ private:
   std::vector<std::unique_ptr<Vector>> forces_; ///< by tool
 };
 
-/// Forces that are out of balance where a run resumes from another scheme's state, or with other tools. They
+/// Forces that are out of balance when a run resumes from another scheme's state, or with other tools. They
 /// fade to zero.
 class ReleasedForces {
 public:
   bool are_there() const { return forces_ != nullptr; }
-  /// Part of them that is left at t.
+  /// Returns the part of them that is left at t.
   double left(double t) const;
   double end() const { return end_; }
-  /// The residual at time t begins to fade.
+  /// Makes the residual at time t the forces that fade.
   void hold(const Vector &residual, double t);
   void clear() { forces_.reset(); }
   void fade_until(const double end) { end_ = end; }
   double begin() const { return begin_; }
-  /// Subtracts the residual that is left at t.
+  /// Subtracts the remaining residual at t.
   void add_forces(double t, Vector &residual) const;
-  /// Work that they take from t_n to t; negative of what they do.
+  /// Returns the work that they take from t_n to t, the negative of the work that they do.
   double work(double t_n, double t, const Vector &increment) const;
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const;
   void load(StateReader &reader, const OwnedNodes &nodes, const Discretization &discretization);
 
 private:
-  std::unique_ptr<Vector> forces_; ///< residual at the start, on dofs that are free; or none
+  std::unique_ptr<Vector> forces_; ///< residual at the start, on free dofs; or null
   double begin_ = 0., end_ = 0.;
 };
 
