@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace billet {
@@ -96,10 +97,10 @@ PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const 
     const double unit = pair.penalty_is_factor ? of_factor : 1.;
     penalties.of_nodes.push_back({unit * pair.normal_penalty, unit * pair.tangential_penalty});
     const double enough = enough_penalty * of_factor / unit;
-    penalties.max_stiffening = std::min(penalties.max_stiffening, enough / pair.normal_penalty);
+    ContactPenalties::Limits &limits = penalties.max_stiffening;
+    limits.normal = std::min(limits.normal, enough / pair.normal_penalty);
     if (pair.has_friction())
-      penalties.max_tangential_stiffening =
-          std::min(penalties.max_tangential_stiffening, enough / pair.tangential_penalty);
+      limits.tangential = std::min(limits.tangential, enough / pair.tangential_penalty);
   }
   return penalties;
 }

@@ -13,7 +13,7 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
                            const std::vector<ContactStiffness> &stiffness, const std::vector<double> &sizes)
     : parts_(communicator, settings, std::move(node_keys), std::move(facets), stiffness, sizes),
       evaluation_(make_slave_evaluation(parts_)), tangents_(make_slave_tangents(parts_)), couplings_(parts_),
-      measures_(parts_), works_(parts_), bounds_(parts_) {}
+      measures_(parts_), penalties_(parts_, measures_), works_(parts_), bounds_(parts_) {}
 
 void FacetContact::update_surfaces(const Positions &positions_n, const Positions &positions) {
   ContactSurfaces &surfaces = parts_.surfaces;
@@ -123,40 +123,7 @@ double FacetContact::allow_initial_depths() {
 
 void FacetContact::restart() {
   parts_.restless.restart();
-  take_back_augmentation();
-}
-
-void FacetContact::take_back_augmentation() {
-  parts_.offsets.augmentation.restart();
-  if (parts_.friction)
-    parts_.friction->restart();
-}
-
-void FacetContact::augment() {
-  if (parts_.friction) // uses the offsets so far
-    parts_.friction->augment();
-  parts_.offsets.augmentation.augment(parts_.slaves.size(), [&](const std::size_t s) {
-    const SlaveState &state = parts_.touching[s];
-    return state.presses() ? std::optional<double>(state.contact.gap) : std::nullopt;
-  });
-}
-
-void FacetContact::scale_penalties(const double normal, const double tangential) {
-  parts_.penalties.scale(normal, tangential);
-  parts_.offsets.augmentation.scale(normal);
-}
-
-void FacetContact::stiffen_under_load(const double normal, const double tangential) {
-  scale_penalties(normal, tangential);
-  parts_.offsets.depths.start(parts_.slaves.size());
-  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
-    SlaveState &state = parts_.touching[s];
-    if (!state.has_pressure())
-      continue;
-    parts_.offsets.depths.add(s, -((1. - 1. / normal) * state.contact.gap));
-    state.contact.gap /= normal;
-    parts_.start.divide_depth(s, normal);
-  }
+  penalties_.take_back_augmentation();
 }
 
 std::vector<std::uint64_t> FacetContact::slave_keys() const {
@@ -177,7 +144,7 @@ void FacetContact::save(StateWriter &writer) const {
              has_depths = any(!offsets.depths.is_empty());
   writer.write("start", {parts_.start.has_started() ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0.,
                          offsets.depths.allowed_part()});
-  writer.write("stiffening", {stiffening(), tangential_stiffening()});
+  writer.write("stiffening", {penalties_.stiffening(), penalties_.tangential_stiffening()});
   parts_.start.save(writer, keys);
   if (parts_.edges)
     parts_.edges->save(writer, dealii::Utilities::MPI::this_mpi_process(communicator));
@@ -203,7 +170,8 @@ void FacetContact::load(const StateReader &reader) {
   offsets.depths.set_allowed_part(start.at(3), start.at(3));
   if (reader.has("stiffening")) {
     const std::vector<double> factors = reader.read("stiffening");
-    scale_penalties(factors.at(0) / stiffening(), factors.at(1) / tangential_stiffening());
+    penalties_.scale(factors.at(0) / penalties_.stiffening(),
+                     factors.at(1) / penalties_.tangential_stiffening());
   }
   std::optional<std::vector<double>> multipliers, depths;
   if (is_augmented)

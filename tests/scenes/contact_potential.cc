@@ -81,7 +81,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
           contact.update(moved);
-          return contact.compute_load().stored_energy;
+          return contact.measures().compute_load().stored_energy;
         },
         1e-4);
     error.add(std::abs(power + slope) / scale);

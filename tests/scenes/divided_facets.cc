@@ -86,7 +86,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
   const ContactLoad load = block.press();
   Tensor<1, 3> sum, moment;
   bool are_nodes_free = true;
-  for (const auto &report : block.contact.report())
+  for (const auto &report : block.contact.measures().report())
     are_nodes_free = are_nodes_free && report.gap > 0.;
   double scale = 0.;
   for (unsigned int node = 0; node < nodes.size(); ++node) {
@@ -115,7 +115,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
           block.contact.update(moved);
-          return block.contact.compute_load().stored_energy;
+          return block.contact.measures().compute_load().stored_energy;
         },
         1e-6);
     error.add(std::abs(power + slope) / scale);

@@ -3,7 +3,6 @@
 #define BILLET_CONTACT_CONTACT_PENALTIES_H
 
 #include "billet/contact/contact_load.h"
-#include "billet/scene/scene.h"
 
 #include <limits>
 
@@ -49,14 +48,14 @@ public:
   virtual double max_spring() const = 0;
 
 protected:
-  ContactPenalties(const PairSettings &settings, const Limits &limits)
-      : tolerance_(settings.penetration_tolerance.value_or(0.)), limits_(limits) {}
+  /// `tolerance` is PairSettings::penetration_tolerance, 0 without one.
+  ContactPenalties(const double tolerance, const Limits &limits) : tolerance_(tolerance), limits_(limits) {}
 
 private:
   /// Returns the maximum gap of a node that presses, and elastic slip of one that sticks [facet sizes].
   virtual double augmentation_gap() const = 0;
 
-  double tolerance_; ///< of the penetration [facet sizes]; 0 without one
+  double tolerance_; ///< [facet sizes]
   Limits limits_;
 };
 

@@ -2,6 +2,7 @@
 #ifndef BILLET_CONTACT_FACET_CONTACT_SETTINGS_H
 #define BILLET_CONTACT_FACET_CONTACT_SETTINGS_H
 
+#include "billet/contact/contact_penalties.h"
 #include "billet/contact/facet_choice.h"
 #include "billet/friction/friction_law.h"
 #include "billet/geometry/bilinear_facet.h"
@@ -60,6 +61,8 @@ struct FacetContactSettings {
   /// Maximum number of changes of facet or status of a node in one step's iterations. A node that exceeds it
   /// stays with its facet as long as it touches that. 0: no limit, and no counting.
   unsigned int most_changes = 0;
+  double penetration_tolerance = 0.;       ///< of ContactPenalties; 0: none [facet sizes]
+  ContactPenalties::Limits max_stiffening; ///< of the given penalties
 
   bool has_friction() const { return friction != nullptr; }
   bool has_self_contact() const { return partners == FacetSearch::Partners::other_surfaces_and_self; }

@@ -2,7 +2,7 @@
 #ifndef BILLET_SOLVE_PENALTY_CONTROL_H
 #define BILLET_SOLVE_PENALTY_CONTROL_H
 
-#include "billet/contact/traction.h"
+#include "billet/contact/contact_penalties.h"
 #include "billet/diagnostics.h"
 #include "billet/scene/scene.h"
 #include "billet/solve/load_paths.h"
@@ -52,10 +52,9 @@ public:
     EnergyLedger all;
     std::vector<StickSoftness> sticking; ///< of pairs
   };
-  /// Returns the factors by which the penalties of a contact, with a tool or between bodies, may still rise.
-  /// Collective.
-  template <class Contact> Factors room_of(const Contact &contact, const MPI_Comm communicator) const {
-    const std::vector<double> left{contact.stiffening_left(), contact.tangential_stiffening_left()};
+  /// Returns the factors by which the penalties of a contact may still rise. Collective.
+  Factors room_of(const ContactPenalties &penalties, const MPI_Comm communicator) const {
+    const std::vector<double> left{penalties.stiffening_left(), penalties.tangential_stiffening_left()};
     std::vector<double> least(left.size());
     dealii::Utilities::MPI::min(left, communicator, least);
     return {most_in_all * least[0], most_in_all * least[1]};

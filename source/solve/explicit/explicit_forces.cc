@@ -70,8 +70,8 @@ std::string ExplicitForces::add_contact_forces(const ExplicitClock &clock, const
   for (auto &contact : contacts) {
     contact.start_step(step);
     contact.update(motion.displacements());
-    if (passage.empty() && contact.lets_nodes_through())
-      passage = contact.describe_passage();
+    if (passage.empty() && contact.checks().lets_nodes_through())
+      passage = contact.checks().describe_passage();
     const ContactLoad load = contact.add_forces(forces_, bounds_);
     if (const auto &tool = contact.rigid_tool())
       tools.add_load(contact, *tool, load);

@@ -107,7 +107,7 @@ void ExplicitLedger::update(SolutionState &state) {
   }
   add_tools(state);
   for (std::size_t i = 0; i < parts_.contacts.of_bodies().size(); ++i) {
-    state.body_pair_loads[i] = parts_.contacts.of_bodies()[i].compute_load();
+    state.body_pair_loads[i] = parts_.contacts.of_bodies()[i].measures().compute_load();
     energies.contact += state.body_pair_loads[i].stored_energy;
   }
   if (parts_.clock.is_at_start())

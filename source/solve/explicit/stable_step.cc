@@ -63,7 +63,7 @@ DiagnosticList StableStep::check(const double t, const Contacts &contacts,
   DiagnosticList messages;
   if (value_ < much_shorter * of_elements_) {
     std::vector<double> room = // by pair, on all ranks
-        contacts.collect([](const auto &contact) { return contact.stiffening_left(); });
+        contacts.collect([](const auto &contact) { return contact.penalties().stiffening_left(); });
     dealii::Utilities::MPI::min(room, communicator, room);
     const auto stiffest = std::min_element(room.begin(), room.end());
     const auto i = static_cast<std::size_t>(stiffest - room.begin());

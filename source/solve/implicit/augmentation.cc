@@ -97,7 +97,7 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
     factors[i] = whole_octaves(
         left < 1. ? std::min(room[i], left / (1. - left) * (1. - Limits::wanted) / Limits::wanted) : room[i]);
     is_stiffer = true;
-    contacts[i].stiffen(factors[i]);
+    contacts[i].penalties().scale(factors[i], factors[i]);
   }
   if (is_stiffer)
     problem_.scales().spring_round_off = contacts.find_spring_round_off();
@@ -112,7 +112,7 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
     if (!(room[i] < 1.) || !contacts[i].settings().is_augmented())
       continue;
     const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
-    contacts[i].stiffen(factor);
+    contacts[i].penalties().scale(factor, factor);
     has_softened = true;
     std::ostringstream text;
     text << "The penalty was reduced to " << penalty
@@ -147,7 +147,8 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
 std::vector<ContactSprings> Augmentation::contact_springs() const {
   if (!softness_.is_used())
     return {};
-  auto springs = problem_.contacts().collect([](const auto &contact) { return contact.compute_springs(); });
+  auto springs =
+      problem_.contacts().collect([](const auto &contact) { return contact.penalties().compute_springs(); });
   std::vector<double> sums;
   for (const auto &[normal, tangential] : springs)
     sums.insert(sums.end(), {normal.force, normal.held, tangential.force, tangential.held});
@@ -251,7 +252,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   ContactSet &contacts = problem_.contacts();
   for (auto &contact : contacts)
     if (contact.settings().is_augmented())
-      contact.augment();
+      contact.penalties().augment();
   if (!series.before.empty()) {
     const std::vector<double> factors =
         stiffen_slow_contacts(series.before, demands.of_contacts, series.added);
@@ -263,7 +264,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   if (!report.converged && series.soft && is_of_softness) { // restore the former state
     for (std::size_t i = 0; i < series.stiffer.size(); ++i)
       if (series.stiffer[i] != 1.)
-        contacts[i].stiffen(1. / series.stiffer[i]);
+        contacts[i].penalties().scale(1. / series.stiffer[i], 1. / series.stiffer[i]);
     contacts.take_back_augmentation();
     displacements = *series.soft;
     offsets = series.soft_offsets;

@@ -30,7 +30,7 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
         resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
   }
   for (const auto &contact : problem.contacts())
-    contact.add_resistances(body, resistances);
+    contact.measures().add_resistances(body, resistances);
 
   // Gather the resistances of all ranks in the same order on each, so that all find the same mode.
   std::vector<double> numbers;

@@ -220,7 +220,7 @@ void ImplicitSolution::commit_loads(const double t) {
   state.energies.contact = 0.;
   auto body_pair_load = state.body_pair_loads.begin();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ContactLoad load = contacts[i].compute_load();
+    const ContactLoad load = contacts[i].measures().compute_load();
     if (const auto &tool = contacts[i].rigid_tool()) {
       state.tool_loads[*tool] += load;
       books_.set(i, load.stored_energy);

@@ -29,8 +29,9 @@ bool PathGuard::may_be_cut(const double t) const {
 
 bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
   for (const auto &contact : problem_.contacts())
-    if (contact.may_let_nodes_through() && !problem_.on_all_ranks(!contact.lets_nodes_through()))
-      return fail(report, contact.describe_passage());
+    if (contact.checks().may_let_nodes_through() &&
+        !problem_.on_all_ranks(!contact.checks().lets_nodes_through()))
+      return fail(report, contact.checks().describe_passage());
   return false;
 }
 
@@ -85,8 +86,8 @@ DiagnosticList PathGuard::check_motion(const double t) const {
 bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
   if (!may_be_cut(t))
     return false;
-  const double largest =
-      problem_.contacts().max([](const auto &contact) { return contact.closing_of_new_contacts(); });
+  const double largest = problem_.contacts().max(
+      [](const auto &contact) { return contact.measures().closing_of_new_contacts(); });
   if (!(largest > Limits::max_closing))
     return false;
   std::ostringstream text;

@@ -11,8 +11,9 @@ namespace billet {
 std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above_enough() const {
   const ContactSet &contacts = problem_.contacts();
   const std::vector<double> normal = contacts.stiffening_left(),
-                            tangential = contacts.collect_min(
-                                [](const auto &contact) { return contact.tangential_stiffening_left(); });
+                            tangential = contacts.collect_min([](const auto &contact) {
+                              return contact.penalties().tangential_stiffening_left();
+                            });
   const auto octaves = [](const double left) {
     return left < 1. ? static_cast<int>(std::lround(-std::log2(left))) : 0;
   };
@@ -37,7 +38,7 @@ void PenaltyContinuation::soften(const std::vector<Octaves> &above, const int so
   };
   ContactSet &contacts = problem_.contacts();
   for (std::size_t i = 0; i < above.size(); ++i)
-    contacts[i].scale_penalties(change(above[i].normal), change(above[i].tangential));
+    contacts[i].penalties().scale(change(above[i].normal), change(above[i].tangential));
   contacts.restart();
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
 }

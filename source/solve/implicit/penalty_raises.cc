@@ -42,8 +42,8 @@ DiagnosticList SpringBooks::check() {
     if (const auto &tool = contact.rigid_tool())
       moved = std::max(moved, largest_motion(problem_.scene().tools()[*tool].placement(0.),
                                              state.placements[*tool], problem_.discretization().radius()));
-    check_pair(contact.name(), contact.penetration(), moved, energy(i), messages);
-    append(messages, contact.check_step());
+    check_pair(contact.name(), contact.measures().penetration(), moved, energy(i), messages);
+    append(messages, contact.checks().check_step());
   }
   return messages;
 }
@@ -51,7 +51,7 @@ DiagnosticList SpringBooks::check() {
 std::vector<double> PenaltyRaises::find_factors() const {
   const ContactSet &contacts = problem_.contacts();
   std::vector<double> factors =
-      contacts.collect_max([](const auto &contact) { return contact.excessive_penetration(); });
+      contacts.collect_max([](const auto &contact) { return contact.measures().excessive_penetration(); });
   const std::vector<double> room = contacts.stiffening_left();
   const auto &stepping = problem_.parameters().time_stepping;
   const bool is_short =
@@ -86,7 +86,7 @@ DiagnosticList PenaltyRaises::raise() {
   const std::vector<double> before = contacts.stored_energies();
   for (std::size_t i = 0; i < factors_.size(); ++i)
     if (factors_[i] > 1.)
-      contacts[i].stiffen(factors_[i]);
+      contacts[i].penalties().scale(factors_[i], factors_[i]);
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
   problem_.evaluate_start();
   const std::vector<double> after = contacts.stored_energies();
@@ -111,7 +111,7 @@ DiagnosticList PenaltyRaises::describe() const {
       continue;
     const ContactInterface &contact = problem_.contacts()[i];
     const parameters::ContactPair &input = *contact.settings().input;
-    const double penalty = input.normal_penalty * contact.stiffening();
+    const double penalty = input.normal_penalty * contact.penalties().stiffening();
     const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
     std::ostringstream text;
     text.precision(3);
@@ -133,8 +133,8 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
   const MPI_Comm communicator = problem_.communicator();
   const PenaltyControl::Energies energies =
       control_.measure(solution, problem_.scene().bodies().size(), problem_.state().time, communicator);
-  const auto room =
-      contacts.collect([&](const auto &contact) { return control_.room_of(contact, communicator); });
+  const auto room = contacts.collect(
+      [&](const auto &contact) { return control_.room_of(contact.penalties(), communicator); });
   const std::vector<PenaltyControl::Factors> factors = control_.raises(energies, room);
   if (std::none_of(factors.begin(), factors.end(), [](const auto &factor) { return factor.raises(); }))
     return {};
@@ -142,7 +142,7 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
     if (!factors[i].raises())
       continue;
     const double normal = factors[i].normal, tangential = factors[i].tangential;
-    contacts[i].stiffen_under_load(normal, tangential);
+    contacts[i].penalties().scale_under_load(normal, tangential);
     // A stiffer spring with the same force stores less energy: the rest stays in the penetration that is now
     // allowed.
     const double lost =

@@ -100,7 +100,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
   double left = 0.;
   measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
   for (auto &contact : problem_.contacts())
-    contact.augment();
+    contact.penalties().augment();
   const parameters::Solver &solver = problem_.parameters().solver;
   bool is_admissible = problem_.compute_residual(x, residual), is_accurate = false;
   while (is_admissible && !is_accurate && measured_->n_iterations < Limits::max_iterations) {

@@ -40,7 +40,7 @@ template <class AddContact> void RigidBodyModes::add_supporting_points(const Add
         centre = tools.place(*tool, problem_.step().time, tools.offsets()[*tool]).moved_centre();
       }
     }
-    contact.visit_supporting(
+    contact.measures().visit_supporting(
         [&](const SupportingPoint &point, const std::size_t body, const std::size_t other) {
           RigidBodySupport::Side on;
           if (!contact.rigid_tool())
@@ -116,7 +116,7 @@ std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
   std::vector<double> forces(problem_.scene().bodies().size(), 0.);
   const auto sum = [](const auto &contact) {
     double total = 0.;
-    for (const auto &node : contact.slave_forces())
+    for (const auto &node : contact.measures().slave_forces())
       total += node.force.norm();
     return total;
   };

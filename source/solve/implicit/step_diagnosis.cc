@@ -47,7 +47,7 @@ std::string StepDiagnosis::describe_slipping_tools() const {
 std::string StepDiagnosis::describe_contacts() const {
   std::string text;
   for (const auto &contact : problem_.contacts())
-    text += contact.describe_restless();
+    text += contact.checks().describe_restless();
   return text + describe_slipping_tools();
 }
 

@@ -35,15 +35,15 @@ void TangentMatrix::build(const bool couplings_are_known) {
   dealii::IndexSet written = discretization_.relevant_dofs();
   for (auto &contact : contacts_) {
     if (!couplings_are_known)
-      contact.find_couplings();
-    contact.add_foreign_dofs(written);
+      contact.couplings().find();
+    contact.couplings().add_foreign_dofs(written);
   }
   SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
   for (const auto &contact : contacts_)
-    contact.add_couplings(pattern);
+    contact.couplings().add_entries(pattern);
   pattern.compress();
   if (linear_) {
     linear_->release();
@@ -69,7 +69,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
 void TangentMatrix::follow_couplings() {
   bool is_known = linear_ != nullptr;
   for (const auto &contact : contacts_)
-    is_known = is_known && !contact.has_new_couplings();
+    is_known = is_known && !contact.couplings().has_new();
   if (!contacts_.of_bodies().empty() &&
       dealii::Utilities::MPI::min(is_known ? 1 : 0, discretization_.communicator()) == 0)
     build();
