@@ -34,7 +34,7 @@ Contacts::Contacts(const Scene &scene, const LocalNodes &nodes) : n_tools_(scene
 }
 
 void Contacts::list_all() {
-  RigidContact::introduce(of_tools_);
+  RigidContact::link_neighbours(of_tools_);
   for (auto &contact : of_tools_)
     all_.push_back(&contact);
   for (auto &contact : of_bodies_)

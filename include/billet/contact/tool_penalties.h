@@ -13,7 +13,8 @@ class ToolPenalties final : public ContactPenalties {
 public:
   /// The parts must outlive this object.
   explicit ToolPenalties(RigidContactParts &parts)
-      : ContactPenalties(parts.pair, {parts.slaves.max_stiffening, parts.slaves.max_tangential_stiffening}),
+      : ContactPenalties(parts.pair.penetration_tolerance.value_or(0.),
+                         {parts.slaves.max_stiffening, parts.slaves.max_tangential_stiffening}),
         parts_(parts) {}
 
   void augment() override;

@@ -52,7 +52,8 @@ bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
                  state.placements[tool].rotation_angle);
     if (problem_.removal().is_removed(tool) || !contact.settings().has_friction() ||
         angle <= Limits::max_turn * (1. + Limits::rounding) ||
-        !(state.tool_loads[tool].area > 0. || !problem_.on_all_ranks(!contact.has_touching_nodes())))
+        !(state.tool_loads[tool].area > 0. ||
+          !problem_.on_all_ranks(!contact.measures().has_touching_nodes())))
       continue;
     std::ostringstream text;
     text.precision(3);

@@ -30,7 +30,7 @@ template <class AddContact> void RigidBodyModes::add_supporting_points(const Add
   for (const auto &contact : problem_.contacts()) {
     // A tool whose travel is unknown does not resist.
     std::optional<std::size_t> unknown;
-    RigidContact::ToolRate rate;
+    ToolRate rate;
     dealii::Tensor<1, 3> centre;
     if (const auto &tool = contact.rigid_tool()) {
       const auto found = std::find(tools.unknown().begin(), tools.unknown().end(), *tool);

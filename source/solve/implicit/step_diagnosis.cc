@@ -16,12 +16,12 @@ void StepDiagnosis::commit() {
     std::vector<double> sums(3);
     for (const auto &contact : problem_.contacts().of_tools())
       if (contact.tool() == tool && contact.settings().has_friction()) {
-        const RigidContact::Grip grip = contact.grip(
-            which.control() == Tool::Control::moment ? RigidContact::ToolRate{{}, which.rotation_axis()}
-                                                     : RigidContact::ToolRate{which.force_direction(), {}});
-        sums[0] += grip.touching;
-        sums[1] += grip.slipping;
-        sums[2] += grip.power_of_pressure;
+        const ToolDrive::Sliding sliding = contact.drive().measure_sliding(
+            which.control() == Tool::Control::moment ? ToolRate{{}, which.rotation_axis()}
+                                                     : ToolRate{which.force_direction(), {}});
+        sums[0] += sliding.touching;
+        sums[1] += sliding.slipping;
+        sums[2] += sliding.power_of_pressure;
       }
     dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
     if (sums[0] > 0. && sums[1] >= Limits::nearly_all * sums[0] &&
@@ -85,7 +85,7 @@ std::string StepDiagnosis::describe_residual() {
        << worst[2] << ", " << worst[3] << ")";
   const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
   for (const auto &contact : problem_.contacts().of_tools())
-    if (!problem_.on_all_ranks(!contact.has_node_on_border(position))) {
+    if (!problem_.on_all_ranks(!contact.checks().has_node_on_edge(position))) {
       text << ", which lies on the edge of tool '" << problem_.scene().tools()[contact.tool()].name()
            << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
               "part of a facet, or give its edge a fillet";

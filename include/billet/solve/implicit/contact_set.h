@@ -55,7 +55,7 @@ public:
   std::vector<std::vector<SlaveForce>> slave_forces() const;
   /// Returns the energy in the springs of each contact. Collective.
   std::vector<double> stored_energies() const;
-  /// Returns the works of all contacts in the step, before commit(); `weight` as in RigidContact. Collective.
+  /// Returns the works of all contacts in the step, before commit(); `weight` as in ContactMeasures. Collective.
   StepWorks compute_step_works(double weight) const;
   /// Returns the load that the contacts of a tool exert. Collective.
   ContactLoad compute_load(std::size_t tool) const;
