@@ -17,6 +17,16 @@ namespace {
 // diameters of the scene.
 constexpr double max_step = 1., max_path = 10.;
 
+/// Whether supports constrain a dof. A hanging node, which depends on dofs of other nodes, moves as they do.
+bool is_held(const Constraints &constraints, const DofIndex dof) {
+  if (!constraints.is_constrained(dof))
+    return false;
+  const auto *entries = constraints.get_constraint_entries(dof);
+  return entries == nullptr || std::all_of(entries->begin(), entries->end(), [dof](const auto &entry) {
+           return entry.first / 3 == dof / 3; // the dofs of a node are consecutive
+         });
+}
+
 } // namespace
 
 std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const std::size_t body) {
@@ -104,7 +114,7 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   const Constraints &held = problem.supports().homogeneous();
   for (const DofIndex dof : problem.discretization().owned_dofs()) {
     const double now = step.trial.displacements(dof), change = now - step.start.displacements(dof);
-    if (held.is_constrained(dof)) {
+    if (is_held(held, dof)) {
       largest[0] = std::max(largest[0], std::abs(change));
       largest[1] = std::max({largest[1], std::abs(now), std::abs(step.start.displacements(dof))});
     }
