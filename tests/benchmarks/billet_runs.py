@@ -12,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
+from billet_tools.kept import hash_of_file  # noqa: E402
 from billet_tools.output import read_rows  # noqa: E402
 from billet_tools.program import Measured, command_of  # noqa: E402
 from billet_tools.records import read_records  # noqa: E402
@@ -163,15 +164,25 @@ def curve_error(run, reference):
     return integral([abs(f - g) for f, g in zip(forces, exact)]) / integral([abs(g) for g in exact])
 
 
-def arguments(name):
-    """Command line of a benchmark; the same for all, so that `all` can pass it on."""
+def arguments(name, has_scenes=False):
+    """Command line of a benchmark; the same for all, so that `all` can pass it on. Those that run scenes by
+    themselves take some of them, too."""
     parser = argparse.ArgumentParser(prog=f"scripts/benchmarks {name}")
     parser.add_argument(
         "--quick", action="store_true", help="leave out what takes long, where something does"
     )
     parser.add_argument("--large", action="store_true", help="add a larger mesh, where there is one")
     parser.add_argument("--ranks", type=int, default=1, help="processes to run billet on (1)")
+    if has_scenes:
+        parser.add_argument(
+            "--only", nargs="+", metavar="SCENE", help="measure these scenes anew, and keep the rows of others"
+        )
     return parser.parse_args()
+
+
+def program_hash():
+    """Names the program that is measured by the start of its hash."""
+    return hash_of_file(Path(PROGRAM))[:8]
 
 
 def publish(name, title, options, *parts):

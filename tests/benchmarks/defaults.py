@@ -2,19 +2,20 @@
 """How far the defaults are off: every shipped scene without any numerical parameter, beside a mesh twice as
 fine with small steps and tight contact."""
 
+import csv
 import math
 import re
 import subprocess
 
 # finds billet_tools, too
-from billet_runs import PROGRAM, ROOT, arguments, number, percent, publish, read_scene, table
+from billet_runs import PROGRAM, ROOT, arguments, number, percent, program_hash, publish, read_scene, table
 from billet_tools.scene import read_entries
 from billet_tools.trade.knobs import make_mesh
 from billet_tools.text import first_sentence
 from billet_tools.scene import Scene
 from curve_runs import CurveRun, error, impulses, with_curves, write_csv
 
-options = arguments("defaults")
+options = arguments("defaults", has_scenes=True)
 LIMIT = 0.03  # of the force
 
 # What is physics, or output, in the sections that are numerical otherwise.
@@ -115,13 +116,24 @@ def tight(entries, depth):
     }
 
 
-parameters = subprocess.run(
-    [PROGRAM, "--print-parameters"], check=True, capture_output=True, text=True
-).stdout
-rows, csv_rows, within, told, missed = [], [], [], [], []
-for path in sorted((ROOT / "prm").glob("*.prm")):
-    if options.quick and path.stem not in ("billet_upsetting", "ring_crush", "patch_test"):
-        continue
+HEAD = [
+    "scene",
+    "finished",
+    "elements",
+    "reference_finished",
+    "reference_elements",
+    "work",
+    "cpu_seconds",
+    "reference_cpu_seconds",
+    "error",
+    "warnings",
+    "stopped",
+    "program",
+]
+
+
+def measure(path, parameters):
+    """Runs a scene by its defaults and beside its reference: a row of defaults.csv."""
     entries = read_entries(path)
     bare = numerical(entries)
     if path.stem in ENDS:
@@ -142,50 +154,71 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
         seen, right = (with_curves(of, impulses(of)) for of in (run, exact))
     off = error(seen, right) if run.finished and exact.finished else math.nan
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
-    verdict = (
-        "no reference"
-        if run.finished and not exact.finished
-        else (
-            "stops: " + first_sentence(run.failure)
-            if not run.finished
-            else "within"
-            if off <= LIMIT
-            else "told"
-            if warnings
-            else "missed"
-        )
+    values = (
+        path.stem,
+        run.finished,
+        run.elements,
+        exact.finished,
+        exact.elements,
+        run.work,
+        f"{run.seconds:.4g}",
+        f"{exact.seconds:.4g}",
+        f"{off:.4g}",
+        " ".join(warnings),
+        "" if run.finished else first_sentence(run.failure),
+        program_hash(),
     )
-    {"within": within, "told": told}.get(verdict, missed).append(path.stem)
-    changed = (["until " + f"{ENDS[path.stem]:g}"] if path.stem in ENDS else []) + (
-        ["coarser"] if coarser else ["same mesh"] if path.stem in SAME else []
-    )
-    rows.append(
-        [
-            path.stem + (f" ({', '.join(changed)})" if changed else ""),
-            run.elements,
-            exact.elements,
-            run.work,
-            number(run.seconds),
-            number(exact.seconds),
-            percent(off),
-            verdict,
-            ", ".join(f"`{w}`" for w in warnings),
-        ]
-    )
-    csv_rows.append(
-        [
-            path.stem,
-            run.finished,
-            run.elements,
-            exact.finished,
-            exact.elements,
-            run.work,
-            f"{run.seconds:.4g}",
-            f"{exact.seconds:.4g}",
-            f"{off:.4g}",
-            " ".join(warnings),
-        ]
-    )
+    return dict(zip(HEAD, map(str, values)))
+
+
+def verdict(row):
+    """Judges a row: within the limit, told by a warning, or missed."""
+    if row["finished"] != "True":
+        return "stops: " + row["stopped"]
+    if row["reference_finished"] != "True":
+        return "no reference"
+    if float(row["error"]) <= LIMIT:
+        return "within"
+    return "told" if row["warnings"] else "missed"
+
+
+def table_row(row):
+    """Returns the cells of the page's table."""
+    scene = row["scene"]
+    changed = [f"until {ENDS[scene]:g}"] if scene in ENDS else []
+    changed += ["coarser"] if scene in COARSER else ["same mesh"] if scene in SAME else []
+    return [
+        scene + (f" ({', '.join(changed)})" if changed else ""),
+        row["elements"],
+        row["reference_elements"],
+        row["work"],
+        number(float(row["cpu_seconds"])),
+        number(float(row["reference_cpu_seconds"])),
+        percent(float(row["error"])),
+        verdict(row),
+        ", ".join(f"`{w}`" for w in row["warnings"].split()),
+        f"`{row['program']}`",
+    ]
+
+
+parameters = subprocess.run(
+    [PROGRAM, "--print-parameters"], check=True, capture_output=True, text=True
+).stdout
+with open(ROOT / "doc/results/defaults.csv", newline="") as file:
+    kept = {row["scene"]: row for row in csv.DictReader(file)}
+chosen = ("billet_upsetting", "ring_crush", "patch_test") if options.quick else options.only
+rows = []
+for path in sorted((ROOT / "prm").glob("*.prm")):
+    if not chosen or path.stem in chosen:
+        rows.append(measure(path, parameters))
+    elif options.only:
+        rows.append(kept[path.stem])
+    else:
+        continue
+    print(*table_row(rows[-1]), sep=" | ", flush=True)
+verdicts = {row["scene"]: verdict(row) for row in rows}
+within, told = ([scene for scene, of in verdicts.items() if of == what] for what in ("within", "told"))
+missed = [scene for scene in verdicts if scene not in within + told]
 
 publish(
     "defaults",
@@ -203,7 +236,8 @@ publish(
         " plates, by the size of the facet between them. So what the finer mesh leaves is not in it: a third"
         " again where the order is two, as much again where it is one. A run counts as told if it warns of"
         " anything, whether or not that is the reason. *coarser*: a coarser mesh beside the scene's own;"
-        " *same mesh*: a uniform stress, which any mesh has. Each run once."
+        " *same mesh*: a uniform stress, which any mesh has. *program*: the start of its hash. Each"
+        " run once."
     ),
     f"{len(within)} of {len(rows)} are within {100 * LIMIT:g} %; of the others {len(told)} say so by a"
     " warning"
@@ -221,24 +255,10 @@ publish(
             "error",
             "",
             "warnings",
+            "program",
         ],
-        rows,
+        list(map(table_row, rows)),
     ),
 )
 if not options.quick:
-    write_csv(
-        "defaults",
-        [
-            "scene",
-            "finished",
-            "elements",
-            "reference_finished",
-            "reference_elements",
-            "work",
-            "cpu_seconds",
-            "reference_cpu_seconds",
-            "error",
-            "warnings",
-        ],
-        csv_rows,
-    )
+    write_csv("defaults", HEAD, [row.values() for row in rows])
