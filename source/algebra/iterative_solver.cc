@@ -332,7 +332,7 @@ bool IterativeSolver::renew() {
   if (multigrid_->is_ready())
     return true;
   multigrid_.reset();
-  failure_ = "multigrid could not be set up";
+  failure_ = "the set-up of multigrid failed";
   return false;
 }
 
@@ -395,8 +395,8 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
   }
   std::ostringstream text;
   text.precision(2);
-  text << name() << " left " << relative_residual_ << " of the right-hand side after "
-       << most_iterations - left << " iterations, allowed was " << relative_tolerance;
+  text << name() << " leaves " << relative_residual_ << " of the right-hand side after "
+       << most_iterations - left << " iterations; allowed is " << relative_tolerance;
   failure_ = text.str();
   return false;
 }

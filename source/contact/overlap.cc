@@ -401,15 +401,16 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   if (deepest.depth <= allowed)
     return;
   std::ostringstream message;
-  message << bodies.input->origin << ": the " << (is_one_body ? "body starts " : "bodies start ")
-          << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
+  message << bodies.input->origin << ": the "
+          << (is_one_body ? "body starts with a penetration of " : "bodies start with a penetration of ")
+          << deepest.depth << " (" << deepest.depth / size << " facet sizes) in "
           << (is_one_body ? "itself" : "each other") << ", deepest at (" << deepest.position[0] << ", "
           << deepest.position[1] << ", " << deepest.position[2] << "); ";
   if (bodies.overlap.is_allowed)
-    message << "contact is found until a depth of " << found << ", "
+    message << "contact detects a penetration of up to " << found << ", "
             << (is_by_overlaps ? "half of the smallest facet or two walls" : "a tenth of the smallest facet")
-            << ": place them less deep, and move them by 'Supports'"
-            << (is_by_overlaps ? "" : ", or take 'Facets = overlap'");
+            << ". Reduce the overlap, and move the bodies by 'Supports'"
+            << (is_by_overlaps ? "" : ", or use 'Facets = overlap'");
   else
     message << "allowed are " << bodies.input->allowed_penetration.value
             << " facet sizes ('Allowed initial penetration')";

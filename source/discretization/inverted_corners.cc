@@ -64,7 +64,7 @@ DiagnosticList find(const Scene &scene, const Discretization &discretization, co
       continue;
     std::ostringstream text;
     text << n << (n == 1. ? " element is" : " elements are")
-         << " inside out at a corner; the worst has a Jacobian of " << worst[1] << " times its "
+         << " inverted at a corner; the worst has a Jacobian of " << worst[1] << " times its "
          << (displacements != nullptr ? "undeformed volume" : "volume") << " there";
     diagnostics.push_back(Diagnostic(kind, text.str())
                               .body(scene.bodies()[b].name)

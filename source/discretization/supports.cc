@@ -160,9 +160,9 @@ Constraints Supports::at_time(const double t) const {
       if (std::abs(sum) > 1e-8 * discretization_.radius()) {
         std::ostringstream message;
         message << redundancy.terms.front().hold->origin << ": at time " << t << " the node at ("
-                << redundancy.position << ") is held by " << redundancy.holds
-                << ", and they contradict each other by " << std::abs(sum)
-                << ". Allowed are prescribed displacements that agree where their boundaries meet";
+                << redundancy.position << ") has prescribed displacements by " << redundancy.holds
+                << ", which contradict each other by " << std::abs(sum)
+                << "; allowed are prescribed displacements that agree where their boundaries meet";
         throw SolutionFailure(message.str()); // becomes an InputError at the start
       }
     }

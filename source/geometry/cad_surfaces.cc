@@ -330,7 +330,7 @@ SurfacePatches make(const TypeInput &input) {
 #else
 
 SurfacePatches make(const TypeInput &input) {
-  input.reject("Shape", "another shape: the deal.II that this program is built with has no OpenCASCADE");
+  input.reject("Shape", "another shape, since the deal.II of this program has no OpenCASCADE");
   return {};
 }
 
@@ -339,20 +339,20 @@ SurfacePatches make(const TypeInput &input) {
 } // namespace
 
 SurfaceType cad_type() {
-  return {
-      "CAD",
-      "Faces from a CAD file, STEP or IGES, as they are there. Wants a deal.II with OpenCASCADE.",
-      {{"File", "", Kind::text,
-        "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
-       {"Scale", "1", Kind::number,
-        "> 0. The file's lengths, in millimetres, times this are lengths of the scene."},
-       {"Translation", "0, 0, 0", Kind::text, "Where the file's origin is. [length]"},
-       {"Faces", "", Kind::text,
-        "Numbers of the faces that are meant, separated by commas, 1 for the first one in the file; empty: "
-        "all."},
-       {"Side", "outside", Kind::choice,
-        "outside|inside: Where the bodies are; outside: where the faces' normals point, out of a solid."}},
-      make};
+  return {"CAD",
+          "Faces of a CAD file, STEP or IGES. Requires deal.II with OpenCASCADE.",
+          {{"File", "", Kind::text,
+            "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
+           {"Scale", "1", Kind::number,
+            "> 0. Factor from the file's lengths, in millimetres, to lengths of the scene."},
+           {"Translation", "0, 0, 0", Kind::text, "Position of the file's origin. [length]"},
+           {"Faces", "", Kind::text,
+            "Numbers of the faces to use, separated by commas; the first face of the file has number 1. "
+            "Empty: all."},
+           {"Side", "outside", Kind::choice,
+            "outside|inside: Side of the bodies. The normals of the faces, out of a solid, point to the "
+            "outside."}},
+          make};
 }
 
 } // namespace billet

@@ -47,7 +47,7 @@ std::array<CurveSketch, 4> joined(std::array<CurveSketch, 4> round, const double
     if (round[i].kind == Kind::point && round[j].kind == Kind::point)
       throw std::invalid_argument("curves " + std::to_string(std::min(i, j) + 1) + " and " +
                                   std::to_string(std::max(i, j) + 1) +
-                                  ", which are neighbours, have both shrunk to a point");
+                                  ", which are neighbours, are both points");
     // A point moves as a whole; the previous curve meets it within the tolerance.
     start = end;
   }

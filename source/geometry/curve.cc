@@ -93,7 +93,7 @@ Curve::Curve(const CurveSketch &sketch) {
   for (std::size_t i = 1; i < points.size(); ++i)
     if ((points[i] - points[i - 1]).norm() <= 1e-9 * size || size == 0.)
       throw std::invalid_argument("two points coincide at " + print(points[i]) +
-                                  " (a side that has shrunk to a point is 'point: x, y, z')");
+                                  " (a side that shrinks to a point is 'point: x, y, z')");
   switch (sketch.kind) {
   case Kind::point:
     spans_.push_back({0., points[0], {}, {}, {}});

@@ -35,7 +35,7 @@ void Plane::draw(const PictureRegion &region, SurfacePicture &picture) const {
 namespace {
 
 const TypeParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
-                                     "Normal out of the tool, towards the bodies."};
+                                     "Normal of the tool, towards the bodies."};
 
 /// Returns a line along x with the normal y; closed if it begins on the axis of revolution.
 Profile flat_profile(const double from, const double to, const bool is_closed = false) {
@@ -57,12 +57,12 @@ SurfaceType plane_type() {
 SurfaceType rectangle_type() {
   return {"rectangle",
           "A rectangle.",
-          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
+          {{"Centre", "0, 0, 0", Kind::text, "Centre of the rectangle. [length]"},
            normal_parameter,
            {"Direction", "1, 0, 0", Kind::text,
-            "Of the sides that have the length; its part along the normal is left out."},
-           {"Length", "1", Kind::number, "> 0, its size. [length]"},
-           {"Width", "1", Kind::number, "> 0, of the other sides. [length]"}},
+            "Direction of the sides of this length. Its component along the normal does not count."},
+           {"Length", "1", Kind::number, "> 0. Length of two sides. [length]"},
+           {"Width", "1", Kind::number, "> 0. Length of the other sides. [length]"}},
           [](const TypeInput &input) {
             const auto normal = input.direction("Normal"), direction = input.direction("Direction");
             if (dealii::cross_product_3d(normal, direction).norm() < 1e-6)
@@ -79,11 +79,11 @@ SurfaceType rectangle_type() {
 
 SurfaceType disc_type() {
   return {"disc", "A disc or a ring, or a sector of one.",
-          with_sector({{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
+          with_sector({{"Centre", "0, 0, 0", Kind::text, "Centre of the disc. [length]"},
                        {"Normal", "0, 0, 1", Kind::text,
-                        "Normal out of the tool, towards the bodies; the axis that a sector goes round."},
-                       {"Radius", "1", Kind::number, "> 0, its size. [length]"},
-                       {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}}),
+                        "Normal of the tool, towards the bodies, which is the axis of a sector."},
+                       {"Radius", "1", Kind::number, "> 0. Radius of the disc. [length]"},
+                       {"Inner radius", "0", Kind::number, ">= 0. Radius of the hole. [length]"}}),
           [](const TypeInput &input) {
             const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");
             if (inner >= radius)

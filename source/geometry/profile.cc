@@ -305,7 +305,7 @@ Segment round_off(Segment &before, Segment &after, const double radius) {
   }
   if (!found)
     throw std::invalid_argument("the fillet of radius " + std::to_string(radius) + " at " + print(corner) +
-                                " does not fit between its neighbours");
+                                " does not fit between the neighbouring corners");
   const auto shorten = [](Segment &segment, const Point &start, const Point &end) {
     if (segment.is_arc) {
       const double turned =

@@ -154,7 +154,7 @@ void FieldWriter::write(const Solution &solution) {
       data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator_);
     }
   } catch (const std::exception &) { // deal.II throws various types
-    failure = folder_ + "/" + snapshot.fields + " cannot be written: is the disk full?";
+    failure = folder_ + "/" + snapshot.fields + " cannot be written. Check whether the disk is full";
   }
   fail_together(communicator_, [&failure] {
     if (!failure.empty())
@@ -247,7 +247,7 @@ void FieldWriter::write_tools(const Solution &solution, const std::string &name)
   out << "\n</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   out.close();
   if (!out)
-    throw SolutionFailure(folder_ + "/" + name + " cannot be written: is the disk full?");
+    throw SolutionFailure(folder_ + "/" + name + " cannot be written. Check whether the disk is full");
 }
 
 void FieldWriter::write_index() const {

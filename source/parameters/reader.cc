@@ -17,7 +17,7 @@ namespace billet {
 namespace {
 
 constexpr auto within_reach =
-    "0, or a size from 1e-60 to 1e60: products of others leave the range of the machine's numbers";
+    "0, or a size from 1e-60 to 1e60: products of other numbers exceed the range of the machine";
 
 bool is_beyond_reach(const double value) {
   return std::abs(value) > largest_number || (value != 0. && std::abs(value) < smallest_number);
@@ -42,7 +42,7 @@ std::string Reader::origin(const std::string &key) const {
 std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }
 
 void Reader::reject(const std::string &key, const std::string &allowed) const {
-  throw InputError(origin(key) + ": found '" + prm_.get(key) + "', allowed is " + allowed);
+  throw InputError(origin(key) + " is '" + prm_.get(key) + "'; allowed is " + allowed);
 }
 
 std::string Reader::text(const std::string &key) const { return prm_.get(key); }

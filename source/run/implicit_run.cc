@@ -124,8 +124,8 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
     may_go_on = problem_.take_exact_tangent();
     if (may_go_on)
       output.report(Diagnostic(diagnostic::exact_tangent,
-                               "Newton's method failed with this 'Contact tangent'; from here on it is "
-                               "the exact one, with an unsymmetric matrix")
+                               "Newton's method failed with this 'Contact tangent'; the run "
+                               "uses the exact one from here on, with an unsymmetric matrix")
                         .time(from));
   }
   if (may_go_on)

@@ -107,25 +107,26 @@ bool RunOutput::write_checkpoint(const double time, const std::function<void(Sta
     });
   });
   if (!failure.empty())
-    diagnostics_.report(
-        Diagnostic(
-            diagnostic::checkpoint_failed,
-            "No checkpoint was written: " + failure +
-                (checkpoints_.last().empty() ? "" : " The last one, " + checkpoints_.last() + ", stays"))
-            .time(time));
+    diagnostics_.report(Diagnostic(diagnostic::checkpoint_failed,
+                                   "The program cannot write a checkpoint: " + failure +
+                                       (checkpoints_.last().empty()
+                                            ? ""
+                                            : ". The last complete one, " + checkpoints_.last() + ", remains"))
+                            .time(time));
   return failure.empty();
 }
 
 ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bool has_checkpoint) const {
   std::ostringstream message;
-  message << scene_.parameters().file_name << ": stopped by " << signals_.name() << " at time " << time
+  message << scene_.parameters().file_name << ": " << signals_.name() << " stops the run at time " << time
           << " after " << n_steps << " steps";
   const std::string what = message.str();
   if (!has_checkpoint)
-    throw SolutionFailure(what + ", and no checkpoint could be written" +
-                          (checkpoints_.last().empty() ? "" : "; the last one is " + checkpoints_.last()));
+    throw SolutionFailure(
+        what + ", and the program cannot write a checkpoint" +
+        (checkpoints_.last().empty() ? "" : "; the last complete one is " + checkpoints_.last()));
   if (is_first_)
-    std::cerr << "billet: " << what << ". To resume: billet --restart " << checkpoints_.last() << " "
+    std::cerr << "billet: " << what << ". Resume by: billet --restart " << checkpoints_.last() << " "
               << scene_.parameters().file_name << std::endl;
   return ExitCode::stopped;
 }

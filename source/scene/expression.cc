@@ -101,7 +101,7 @@ Expression::Expression(const std::string &text, const Variables variables,
     std::string allowed = variables == Variables::time ? "t, pi" : "x, y, z, t, pi";
     for (const auto &amplitude : amplitudes_)
       allowed += ", " + amplitude.name;
-    throw InputError(origin + ": found '" + text + "', allowed is a muParser expression of " + allowed);
+    throw InputError(origin + " contains '" + text + "'; allowed is a muParser expression of " + allowed);
   }
 }
 

@@ -152,10 +152,10 @@ void check_yield_stress(const Body &body, DiagnosticList &diagnostics) {
   const double stress = flow != nullptr ? flow->stress(0.) : 0.;
   const double part = stress / body.young_modulus;
   if (stress > 0. && !(part > least && part < most))
-    diagnostics.push_back(
-        Diagnostic(diagnostic::implausible_yield_stress, ratio("Yield stress / Young's modulus is", part))
-            .body(body.name)
-            .measure("yield stress / Young's modulus", part));
+    diagnostics.push_back(Diagnostic(diagnostic::implausible_yield_stress,
+                                     ratio("The ratio of yield stress to Young's modulus is", part))
+                              .body(body.name)
+                              .measure("yield stress / Young's modulus", part));
 }
 
 void check_friction(const parameters::ContactPair &pair, DiagnosticList &diagnostics) {
@@ -163,7 +163,7 @@ void check_friction(const parameters::ContactPair &pair, DiagnosticList &diagnos
   const double coefficient = pair.friction != nullptr ? pair.friction->coefficient() : 0.;
   if (coefficient > most)
     diagnostics.push_back(
-        Diagnostic(diagnostic::implausible_friction, ratio("Friction coefficient is", coefficient))
+        Diagnostic(diagnostic::implausible_friction, ratio("The friction coefficient is", coefficient))
             .pair(pair.name)
             .measure("friction coefficient", coefficient));
 }
@@ -175,7 +175,7 @@ void check_number_of_steps(const Scene &scene, const Start &start, DiagnosticLis
   const double n_steps = scene.parameters().time_stepping.end_time / step;
   if (n_steps > too_many_steps)
     diagnostics.push_back(
-        Diagnostic(diagnostic::many_steps, ratio("Explicit steps of the run: about", n_steps))
+        Diagnostic(diagnostic::many_steps, ratio("The estimated number of explicit steps is", n_steps))
             .value("steps", n_steps));
 }
 
@@ -185,7 +185,8 @@ void check_motion(const Scene &scene, const Tool &tool, const double size, Diagn
   const double part = course.travel / size;
   if (part > far || (part > 0. && part < hardly))
     diagnostics.push_back(
-        Diagnostic(diagnostic::implausible_travel, ratio("Travel of the tool / size of all bodies is", part))
+        Diagnostic(diagnostic::implausible_travel,
+                   ratio("The ratio of the tool's travel to the size of all bodies is", part))
             .tool(tool.name())
             .measure("travel / size", part));
   if (course.turn > 2. * pi * turns)
@@ -214,7 +215,7 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
       borne = std::max(borne, borne_force(scene.bodies()[pair.body], start.sections[pair.body]));
   if (borne > 0. && force > many_times_borne * borne)
     diagnostics.push_back(Diagnostic(diagnostic::implausible_force,
-                                     ratio("The given force of the tool is", force) + ", which is " +
+                                     ratio("The prescribed force of the tool is", force) + ", which is " +
                                          ratio("", force / borne).substr(1) +
                                          " times what the largest section of the body bears as it yields")
                               .tool(tool.name())
@@ -234,32 +235,34 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
     if (start.speeds[b] > fast * wave)
       diagnostics.push_back(
           Diagnostic(diagnostic::implausible_speed,
-                     ratio("Initial speed / speed of elastic waves is", start.speeds[b] / wave))
+                     ratio("The ratio of initial speed to elastic wave speed is", start.speeds[b] / wave))
               .body(body.name)
               .measure("speed / wave speed", start.speeds[b] / wave));
     const double crossing = start.sizes[b] / wave;
     if (steps.end_time < crossing)
-      diagnostics.push_back(Diagnostic(diagnostic::run_shorter_than_wave,
-                                       ratio("'End time' / time of an elastic wave through the body is",
-                                             steps.end_time / crossing))
-                                .body(body.name)
-                                .value("end time / crossing time", steps.end_time / crossing));
+      diagnostics.push_back(
+          Diagnostic(diagnostic::run_shorter_than_wave,
+                     ratio("The ratio of 'End time' to the time of an elastic wave through the body is",
+                           steps.end_time / crossing))
+              .body(body.name)
+              .value("end time / crossing time", steps.end_time / crossing));
     if (!scene.parameters().is_explicit() && steps.control == parameters::TimeStepping::Control::fixed &&
         start.speeds[b] > 0. && scene.capabilities().contact && steps.initial_step > coarse * crossing)
-      diagnostics.push_back(Diagnostic(diagnostic::step_longer_than_period,
-                                       ratio("Step / time of an elastic wave through the body is",
-                                             steps.initial_step / crossing))
-                                .body(body.name)
-                                .value("step / crossing time", steps.initial_step / crossing));
+      diagnostics.push_back(
+          Diagnostic(diagnostic::step_longer_than_period,
+                     ratio("The ratio of the step to the time of an elastic wave through the body is",
+                           steps.initial_step / crossing))
+              .body(body.name)
+              .value("step / crossing time", steps.initial_step / crossing));
   }
   for (const Tool &tool : scene.tools()) {
     const double speed = follow(tool, steps.end_time).speed;
     if (speed > fast * fastest_wave)
-      diagnostics.push_back(
-          Diagnostic(diagnostic::implausible_speed,
-                     ratio("Speed of the tool / speed of elastic waves is", speed / fastest_wave))
-              .tool(tool.name())
-              .measure("speed / wave speed", speed / fastest_wave));
+      diagnostics.push_back(Diagnostic(diagnostic::implausible_speed,
+                                       ratio("The ratio of the tool's speed to the elastic wave speed is",
+                                             speed / fastest_wave))
+                                .tool(tool.name())
+                                .measure("speed / wave speed", speed / fastest_wave));
   }
 }
 
@@ -291,9 +294,9 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     if (start.depths[p] > deep)
       diagnostics.push_back(
-          Diagnostic(diagnostic::starts_behind_tool,
-                     ratio("At the start nodes lie behind the surface of the tool by facet sizes of",
-                           start.depths[p]))
+          Diagnostic(
+              diagnostic::starts_behind_tool,
+              ratio("The initial penetration of nodes into the tool, in facet sizes, is", start.depths[p]))
               .pair(scene.pairs()[p].name)
               .tool(scene.tools()[scene.pairs()[p].tool].name())
               .measure("depth [facet sizes]", start.depths[p]));
@@ -378,9 +381,9 @@ DiagnosticList check_bricks(const Scene &scene) {
       continue;
     std::ostringstream text;
     text.precision(3);
-    text << "A body " << part.slenderness << " times as long as thick has " << part.mean_layers
-         << (part.mean_layers == 1. ? " brick" : " bricks") << " through its thickness, " << part.mean_aspect
-         << " times as long as high";
+    text << "The body is " << part.slenderness << " times as long as thick, and has " << part.mean_layers
+         << (part.mean_layers == 1. ? " brick" : " bricks") << " through its thickness, which are "
+         << part.mean_aspect << " times as long as high";
     diagnostics.push_back(Diagnostic(diagnostic::bricks_may_lock, text.str())
                               .body(body.name)
                               .value("layers", part.mean_layers)

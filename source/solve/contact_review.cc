@@ -205,9 +205,9 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
     text << "Penetration takes " << (part > all ? "more than 99" : print_part(part))
          << " % of the deformation along the load path of " << names << ": ";
     if (part > all)
-      text << "the bodies hardly deform, and forces and displacements are those of the penalties alone";
+      text << "the bodies hardly deform, and the penalties alone determine forces and displacements";
     else
-      text << "forces of driven tools and supports are about that much too small, or displacements under "
+      text << "forces of driven tools and supports are too small by about that part, or displacements under "
               "given loads "
            << 1. / (1. - part) << " times too large";
     Diagnostic message(diagnostic::contact_too_soft, text.str());
@@ -225,13 +225,13 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
                      [&](const Pair &pair) { return is_of_tool(pair) && pair.has_touched; })) {
       const Tool &tool = scene_.tools()[t];
       std::ostringstream text;
-      text << "No step ended with a force on the tool";
+      text << "No step ends with a force on the tool";
       const bool is_removed = std::isfinite(tool.removal_time());
       if (is_removed)
-        text << " before it was removed at time " << tool.removal_time();
+        text << " before its removal at time " << tool.removal_time();
       Diagnostic message(diagnostic::tool_without_force, text.str());
       if (is_removed)
-        message.advice("Check its position and motion; if it is to act before, reduce 'Initial step' so that "
+        message.advice("Check its position and motion; if it acts earlier, reduce 'Initial step' so that "
                        "steps end earlier");
       diagnostics.push_back(message.tool(tool.name()));
     }
@@ -248,13 +248,14 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
         });
     if (!pair.has_touched && !pair.is_self_contact && !has_idle_tool)
       diagnostics.push_back(
-          Diagnostic(diagnostic::pair_never_touched, "The pair had no contact").pair(pair.name));
+          Diagnostic(diagnostic::pair_never_touched, "The pair has no contact in the whole run")
+              .pair(pair.name));
     const ForceSpread &spread = pair.spread;
     if (spread.has_few_nodes()) {
       std::ostringstream text;
       text.precision(2);
-      text << "At its largest, the force is spread as over " << spread.effective_nodes()
-           << " nodes, mirror images included";
+      text << "At the maximum of the force, it acts on the equivalent of " << spread.effective_nodes()
+           << " nodes, including mirror images";
       diagnostics.push_back(Diagnostic(diagnostic::few_contact_nodes, text.str())
                                 .pair(pair.name)
                                 .time(pair.time)
@@ -263,8 +264,8 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
     if (pair.largest_of_edges > pair.largest_force) {
       std::ostringstream text;
       text.precision(3);
-      text << "Edges that cross carry up to " << pair.largest_of_edges
-           << ", with two nodes on each side, and all nodes on facets at most " << pair.largest_force;
+      text << "Crossing edges carry up to " << pair.largest_of_edges
+           << ", with two nodes on each side; all nodes on facets carry at most " << pair.largest_force;
       diagnostics.push_back(
           Diagnostic(diagnostic::few_contact_nodes, text.str()).pair(pair.name).value("nodes", 2.));
     }
@@ -283,7 +284,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
     if (!is_told[p] && part > allowed && lost > counts * pair.largest_force) {
       std::ostringstream text;
       text.precision(3);
-      text << "Tangential springs are soft beside the bodies: friction that sticks is too small by up to "
+      text << "The tangential penalty is too low: friction forces while sticking are too small by up to "
            << 100. * part << " %";
       diagnostics.push_back(Diagnostic(diagnostic::tangential_penalty_too_low, text.str())
                                 .pair(pair.name)

@@ -226,11 +226,10 @@ DiagnosticList ErrorWatch::check(const StepControl &control) const {
                                         [](const ErrorControl &errors) { return errors.has_given_up(); });
   DiagnosticList messages;
   if (has_given_up)
-    messages.push_back(
-        Diagnostic(diagnostic::comparison_failed,
-                   "The error of the steps is unknown from here on: steps of twice the length, "
-                   "with which they are compared, do not converge")
-            .time(control.time()));
+    messages.push_back(Diagnostic(diagnostic::comparison_failed,
+                                  "There is no error estimate of the steps from here on, since the steps of "
+                                  "twice the length for comparison do not converge")
+                           .time(control.time()));
   constexpr double very_many = 2000.;
   if (control.is_finished() || !(control.next_step() > 0.) || probe_length_ > 0.)
     return messages;
@@ -239,8 +238,8 @@ DiagnosticList ErrorWatch::check(const StepControl &control) const {
     return messages;
   std::ostringstream text;
   text.precision(2);
-  text << "The error that is allowed needs steps of " << control.next_step() << " now; at that length "
-       << to_come << " more of them are to come";
+  text << "The allowed error requires steps of " << control.next_step()
+       << " now; at that length the run needs " << to_come << " more";
   messages.push_back(Diagnostic(diagnostic::target_error_expensive, text.str())
                          .time(control.time())
                          .measure("steps to come", to_come));

@@ -71,11 +71,10 @@ DiagnosticList InertiaWatch::judge(const double largest_energy) const {
       continue;
     std::ostringstream text;
     text.precision(3);
-    text
-        << "Masses at the nodes have " << ratio
-        << " times the kinetic energy of the bricks between them: the motion changes from brick to brick, as "
-           "where a bar of one brick across twists. Periods are too long by up to "
-        << 100. * (std::sqrt(ratio) - 1.) << " %";
+    text << "Lumped masses have " << ratio
+         << " times the kinetic energy of the bricks: the motion varies from brick to brick, as in torsion "
+            "of a bar with one brick across. Periods are too long by up to "
+         << 100. * (std::sqrt(ratio) - 1.) << " %";
     diagnostics.push_back(Diagnostic(diagnostic::lumped_inertia, text.str())
                               .body(scene_.bodies()[b].name)
                               .measure("ratio", ratio));

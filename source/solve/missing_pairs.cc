@@ -452,9 +452,9 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
     text.precision(3);
     text << "Body '" << body << "' and " << other;
     if (couple.has_pair)
-      text << " are " << deepest.depth << " deep in each other at faces that no contact pair of theirs names";
+      text << " penetrate by " << deepest.depth << " at faces that no contact pair of theirs names";
     else
-      text << " share no contact pair, and are " << deepest.depth << " deep in each other";
+      text << " share no contact pair, and penetrate by " << deepest.depth;
     diagnostics.push_back(Diagnostic(diagnostic::missing_pair, text.str())
                               .body(body)
                               .at(deepest.position)
@@ -475,7 +475,7 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
         const std::string &body = scene_.bodies()[couple.body].name;
         diagnostics.push_back(
             Diagnostic(diagnostic::missing_pair,
-                       "Body '" + body + "' goes into itself, and has no contact pair with itself")
+                       "Body '" + body + "' penetrates itself, and has no contact pair with itself")
                 .body(body)
                 .at(*position)
                 .time(state.time));

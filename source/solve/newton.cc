@@ -57,15 +57,15 @@ public:
       if (!accepts_stalled_)
         report_.failure = "after " + std::to_string(n) + " iterations the residual no longer falls";
     } else if (n >= settings_.most_iterations) {
-      report_.failure = "no convergence in " + std::to_string(n) + " iterations";
+      report_.failure = "Newton's method does not converge in " + std::to_string(n) + " iterations";
       verdict = NewtonVerdict::failed;
     } else if (n >= 3 * window_ && has_stalled(n)) { // later, drift is a small part of the way it has made
       report_.failure =
-          "given up after " + std::to_string(n) + " iterations, since the residual no longer falls";
+          "the solver stops after " + std::to_string(n) + " iterations, since the residual no longer falls";
       verdict = NewtonVerdict::failed;
     } else if (is_hopeless(n) && !may_still_settle(n)) {
-      report_.failure = "given up after " + std::to_string(n) + " iterations, since at their pace " +
-                        std::to_string(settings_.most_iterations) + " will not do";
+      report_.failure = "the solver stops after " + std::to_string(n) + " iterations, since at their rate " +
+                        std::to_string(settings_.most_iterations) + " iterations are too few";
       verdict = NewtonVerdict::failed;
     }
     if (report_.is_stalled || verdict == NewtonVerdict::failed)
@@ -73,7 +73,7 @@ public:
     if (verdict == NewtonVerdict::failed && std::isfinite(norm) && go_round(report_.iterations)) {
       report_.goes_round = true;
       report_.failure = "after " + std::to_string(n) +
-                        " iterations they go to and fro between the same states, of which none is in balance";
+                        " iterations they cycle between the same states, and none is in equilibrium";
     }
     // Residuals slightly above the estimate are also due to round-off.
     constexpr double by_much = 10.;
@@ -235,7 +235,7 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
       },
       x);
   if (end == NewtonEnd::not_admissible_at_start) {
-    report.failure = "the step's first guess is not admissible (det F <= 0 or not a number)";
+    report.failure = "the step's initial guess is not admissible (det F <= 0 or not a number)";
     return report;
   }
   report.converged = end == NewtonEnd::converged;

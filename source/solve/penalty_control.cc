@@ -85,7 +85,7 @@ void PenaltyControl::describe(const std::string &penalty, const std::size_t pair
                               const double factor, const double room, const std::string &reason) {
   std::ostringstream text;
   text.precision(3);
-  text << "The " << penalty << " of the pair is raised to "
+  text << "The " << penalty << " of the pair rises to "
        << enough_penalty * most_in_all / room * std::min(factor, room) << " E/h, since " << reason;
   const bool is_enough = factor < room;
   diagnostics_.push_back(
@@ -93,9 +93,10 @@ void PenaltyControl::describe(const std::string &penalty, const std::size_t pair
           .pair(pairs_[pair].name)
           .time(time)
           .value("factor", factor)
-          .advice(std::string(is_enough
-                                  ? "Nothing has to be done."
-                                  : "It rises no farther: see what the end of the run says of the pair.") +
+          .advice(std::string(
+                      is_enough
+                          ? "No action is necessary."
+                          : "It rises no further: check the messages about the pair at the end of the run.") +
                   " Time steps may be shorter from now on; 'Penetration tolerance = 0' keeps the penalty"));
 }
 
@@ -108,7 +109,7 @@ double PenaltyControl::tangential_raise(const std::size_t pair, const Energies &
   const double raise = std::min({part / aim_in_friction, most_at_once, room});
   std::ostringstream reason;
   reason.precision(3);
-  reason << "friction that sticks lacks up to " << percent * part << " %";
+  reason << "friction forces while sticking are too small by up to " << percent * part << " %";
   describe("tangential penalty", pair, energies.time, raise, room, reason.str());
   return raise;
 }

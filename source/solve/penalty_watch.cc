@@ -34,9 +34,9 @@ DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, c
   text << "Nodes penetrate by " << deepest.of_facet << " facet sizes";
   if (takes_motion)
     text << ", " << std::round(100. * std::min(1., deepest.length / largest))
-         << " % of the largest displacement so far";
+         << " % of the maximum displacement so far";
   else if (takes_work)
-    text << "; the penalty holds " << std::round(100. * part_of_work) << " % of the work done so far";
+    text << "; the penalty stores " << std::round(100. * part_of_work) << " % of the work done so far";
   return {Diagnostic(diagnostic::penalty_too_low, text.str())
               .pair(pair)
               .time(time)

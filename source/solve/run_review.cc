@@ -59,8 +59,8 @@ DiagnosticList RunReview::finish() const {
   if (const double size = std::abs(numerical_); size > much * largest_energy_) {
     std::ostringstream text;
     text.precision(3);
-    text << "Time integration has " << (numerical_ > 0. ? "dissipated " : "made ")
-         << 100. * size / largest_energy_ << " % of the largest energy";
+    text << "Time integration " << (numerical_ > 0. ? "dissipates " : "creates ")
+         << 100. * size / largest_energy_ << " % of the maximum energy";
     diagnostics.push_back(Diagnostic(diagnostic::numerical_dissipation, text.str())
                               .measure("part of the largest energy", size / largest_energy_));
   }

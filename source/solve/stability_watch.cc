@@ -51,8 +51,8 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
     watched.is_unstable = has_unstable_bodies_ = true;
     std::ostringstream text;
     text.precision(2);
-    text << "The law has lost its ellipticity at principal stretches of " << stretches[2] << ", "
-         << stretches[1] << " and " << stretches[0] << "; results depend on the mesh";
+    text << "The law loses its ellipticity at principal stretches of " << stretches[2] << ", " << stretches[1]
+         << " and " << stretches[0] << "; results depend on the mesh";
     messages.push_back(
         Diagnostic(diagnostic::unstable_law, text.str())
             .body(watched.name)

@@ -63,7 +63,7 @@ int main() {
     EnergyWatch watch(EnergyWatch::Balance::is_told), other(EnergyWatch::Balance::is_told);
     check("and of laws",
           tells(watch.check(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::unstable_law)),
-                "lost its ellipticity") &&
+                "loses its ellipticity") &&
               tells(other.check(0.3, flight(0.8, 0.4), because(EnergyWatch::Cause::inexact_dissipation)),
                     "'Elasticity = Hencky'"));
     unsigned int n_asked = 0;
@@ -79,7 +79,7 @@ int main() {
     check("less than the scene allows does not end the run",
           watch.check(0.3, flight(0.8, 0.4)).empty() && watch.imbalance().empty());
     check("more does", watch.check(0.4, flight(1., 0.4)).empty() &&
-                           tells(watch.imbalance(), "by 40 % of the largest so far, allowed are 30 % "
+                           tells(watch.imbalance(), "by 40 % of the maximum so far; allowed are 30 % "
                                                     "('Maximum energy drift'): the steps do not resolve"));
   }
   {

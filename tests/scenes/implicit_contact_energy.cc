@@ -47,7 +47,7 @@ Run run(parameters::Scene scene, const double penalty, const double friction = 0
       if (&message.kind() == &diagnostic::contact_dissipates) {
         result.is_told = true;
         result.names_impacts =
-            message.what().find("% by impacts within a step") < message.what().find(" % by nodes");
+            message.what().find("% by damped impacts within a step") < message.what().find(" % by nodes");
       }
   });
   result.is_damped = energies.numerical > 1e-4 * energies.initial;

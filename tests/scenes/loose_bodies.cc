@@ -136,7 +136,7 @@ int main(int argc, char *argv[]) {
         was_told_before = was_told_before || (is_told && run.control.time() < 0.6);
       });
     } catch (const SolutionFailure &failure) {
-      is_told = std::string(failure.what()).find("is unsupported") != std::string::npos;
+      is_told = std::string(failure.what()).find("has no support at time") != std::string::npos;
     }
     check_here("bodies that lose their contacts afterwards: as without viscous forces",
                is_told && !was_told_before && run.control.time() > 0.6 &&

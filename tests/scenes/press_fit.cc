@@ -151,7 +151,8 @@ void test_ramp() {
   try {
     SceneRun(scene).finish();
   } catch (const InputError &error) {
-    is_refused = std::string(error.what()).find("contact is found until a depth of") != std::string::npos;
+    is_refused =
+        std::string(error.what()).find("contact detects a penetration of up to") != std::string::npos;
   }
   check("too deep for contact to be found: refused", is_refused);
 }

@@ -37,7 +37,7 @@ int main(int argc, char *argv[]) {
     const NewtonReport report =
         tried.problem.step(tried.control.time() + (step % 2 == 0 ? 1.45 : 0.45), step == 0 ? 0. : 0.05);
     failed = failed && !report.converged;
-    first_guess = first_guess || report.failure.find("first guess is not admissible") != std::string::npos;
+    first_guess = first_guess || report.failure.find("initial guess is not admissible") != std::string::npos;
     correction = correction || report.failure.find("correction leads to inadmissible") != std::string::npos;
     iterations = iterations || report.failure.find("iterations") != std::string::npos;
     untried.advance();

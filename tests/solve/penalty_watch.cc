@@ -39,7 +39,7 @@ int main() {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     const std::string text = look(watch, 1e-3, 4e-3);
     check("half of the motion is told, however small",
-          tells(text, "sizes, 50 % of the largest displacement"));
+          tells(text, "sizes, 50 % of the maximum displacement"));
   }
   {
     // A flat body moves aside by much more than it is high.
@@ -48,7 +48,8 @@ int main() {
       return text_of(at.check("pair", 0.5, {1e-3, 2e-3}, 1., part_of_work));
     };
     check("a tenth of the work is no matter", look_at(watch, 0.1).empty() && !watch.has_soft_pairs());
-    check("half of it is told", tells(look_at(watch, 0.5), "the penalty holds 50 % of the work done so far"));
+    check("half of it is told",
+          tells(look_at(watch, 0.5), "the penalty stores 50 % of the work done so far"));
     check("in a blow it is not", look_at(sudden, 0.5).empty() && !sudden.has_soft_pairs());
   }
   {
@@ -62,7 +63,7 @@ int main() {
     check("one that is deeper is not told, but noticed",
           !watch.has_soft_pairs() && look(watch, 0.05, 0.1).empty() && watch.has_soft_pairs());
     check("a deep node is no matter for a moment", look(watch, 0.2, 0.4).empty());
-    check("what stays deep is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
+    check("what stays deep is told", tells(look(watch, 0.2, 0.4), "100 % of the maximum displacement"));
     check("and what takes energy at once", !watch.check("other", 0.5, {0.2, 0.4}, 4., 0.02).empty());
   }
   {

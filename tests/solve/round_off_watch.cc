@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Round-off of contact is told where it takes a part of the largest forces of a run, not of a light first
+// Round-off of contact is told where it takes a part of the maximum forces of a run, not of a light first
 // step.
 #include "billet/solve/round_off_watch.h"
 #include "billet/diagnostic_kinds.h"
@@ -28,7 +28,7 @@ int main() {
   RoundOffWatch watch;
   watch.add(0.1, 1e-6, 1e-8);
   check("a run that ends with the first touch",
-        tells(watch.finish(tolerance, false), round_off_limits_forces, "may be 1e+02 of the largest forces"));
+        tells(watch.finish(tolerance, false), round_off_limits_forces, "may be 1e+02 of the maximum forces"));
   watch.add(0.2, 1e-6, 1.);
   check("a light first touch is no matter", watch.finish(tolerance, false).empty());
   watch.add(0.3, 1e-6, 1e-8);

@@ -32,9 +32,8 @@ void ExplicitClock::plan(const double event, const double allowed) {
   if (!(time_ + step_ > time_) || !(n < 1e15)) {
     std::ostringstream why;
     why << "the stable step, " << longest
-        << ", is too short for the clock: is an element nearly flat, a density tiny or a penalty huge? 'Mass "
-           "scaling "
-           "step' makes it longer";
+        << ", is below the resolution of the time. Check for nearly flat elements, low densities and high "
+           "penalties; 'Mass scaling step' increases it";
     throw failure(why.str());
   }
 }

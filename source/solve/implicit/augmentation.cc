@@ -115,8 +115,8 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
     contacts[i].penalties().scale(factor, factor);
     has_softened = true;
     std::ostringstream text;
-    text << "The penalty was reduced to " << penalty
-         << " E/h, since Newton's method failed; augmentation makes up for that";
+    text << "The penalty is reduced to " << penalty
+         << " E/h, since Newton's method failed; augmentation enforces the constraint";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(contacts[i].name())
                            .time(problem_.step().time)
@@ -193,17 +193,17 @@ Augmentation::changes_of(const std::vector<ContactSprings> &before,
 void Augmentation::give_up(const Series &series, const unsigned int n, const double error,
                            NewtonReport &report) const {
   std::ostringstream message;
-  message << "after " << n << " augmentations contact is still " << error
-          << " times its 'Penetration tolerance' from what it should be";
+  message << "after " << n << " augmentations the penetration or elastic slip is still " << error
+          << " times the 'Penetration tolerance' from its target";
   const unsigned int most = problem_.parameters().solver.most_augmentations;
   if (n < most && series.pace.ratio() < 1.)
-    message << ", and at their pace, each leaves " << series.pace.ratio() << " of that, it would take "
+    message << ". At the present rate of " << series.pace.ratio() << " for each augmentation, it would take "
             << series.pace.to_go() << " more";
   else if (n < most)
-    message << ", and they no longer lessen it";
-  message << ": try a larger penalty or 'Penetration tolerance', "
+    message << ", and no longer falls";
+  message << ". Try a larger penalty or 'Penetration tolerance', "
           << (problem_.scheme().has_inertia()
-                  ? "or none: nodes that have come in would have to stop within a step"
+                  ? "or no tolerance: in dynamics it requires penetrating nodes to stop within a step"
                   : "or a larger 'Maximum augmentations'");
   report.converged = false;
   report.failure = message.str();
@@ -303,8 +303,8 @@ DiagnosticList Augmentation::finish() const {
       continue;
     std::ostringstream text;
     text.precision(2);
-    text << "Augmentation was given up while it still changed the force by " << percent * unsettled[i]
-         << " % of the largest: facets of the two sides do not fit, or a sharp edge bears";
+    text << "Augmentation stops while it still changes the force by " << percent * unsettled[i]
+         << " % of the maximum. Facets of the two sides do not match, or a sharp edge carries the force";
     messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
                            .pair(problem_.contacts()[i].name())
                            .measure("change / force", unsettled[i]));

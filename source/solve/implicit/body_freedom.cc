@@ -71,10 +71,10 @@ void check_freedom(const ImplicitProblem &problem) {
             problem.stabilisation().acts_on(body) ? std::nullopt : find_freedom(problem, body))
       throw InputError(
           problem.scene().parameters().bodies[body].origin +
-          ": the body is without support: at the start neither supports, nor symmetry planes, "
-          "nor tools or bodies that it touches hold its rigid motion with " +
+          ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
+          "bodies in contact constrain its rigid-body mode with " +
           print(*motion) +
-          ". Allowed in a static scene: none that is free; hold it, or let it touch at the start");
+          ". A static scene allows no free mode. Add a support, or let the body touch at the start");
 }
 
 std::string describe_freedom(const ImplicitProblem &problem, const std::size_t body,
@@ -86,15 +86,12 @@ std::string describe_freedom(const ImplicitProblem &problem, const std::size_t b
   message << problem.scene().parameters().file_name << ": at time " << problem.state().time << ", without ";
   for (const auto &name : removed)
     message << "tool '" << name << "', ";
-  message
-      << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
-      << problem.scene().bodies()[body].name
-      << "' is left without support: neither supports, nor symmetry planes, nor tools that it touches hold "
-         "its rigid motion with "
-      << print(*motion)
-      << ". Hold it there by a support or a symmetry plane, or let a tool stay. What was computed until "
-         "time "
-      << problem.state().time << " is in '" << problem.scene().parameters().output.folder.value << "'.";
+  message << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
+          << problem.scene().bodies()[body].name
+          << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
+             "rigid-body mode with "
+          << print(*motion) << ". Add a support or a symmetry plane, or keep a tool. Results until time "
+          << problem.state().time << " is in '" << problem.scene().parameters().output.folder.value << "'.";
   return message.str();
 }
 
@@ -129,23 +126,22 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   const auto fail = [&](const std::string &what) {
     report.converged = false;
     report.is_explained = true;
-    report.failure = what + ". A quasi-static solution does not move like this: look for a body that nothing "
-                            "holds, for units and for penalties; use 'Scheme = implicit dynamics' for free "
-                            "motion, or smaller steps";
+    report.failure = what + ". Quasi-static solutions do not move this far. Check supports, units and "
+                            "penalties; use 'Scheme = implicit dynamics' for free motion, or smaller steps";
     return true;
   };
   std::ostringstream text;
   text.precision(3);
   if (largest[2] > max_step * diameter + 2. * driven) {
     text << "the step to time " << t << " moves a node by " << largest[2] << ", which is "
-         << largest[2] / diameter << " times the diameter of the scene, while tools and supports move by "
-         << driven << "; allowed is " << max_step << " diameter more than twice that";
+         << largest[2] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
+         << "; allowed is " << max_step << " diameters more than twice that";
     return fail(text.str());
   }
   if (largest[3] > max_path * diameter + 2. * driven_so_far) {
     text << "at time " << t << " a node has moved by " << largest[3] << ", which is " << largest[3] / diameter
          << " times the diameter of the scene; allowed are " << max_path
-         << " diameters more than twice the way of tools and supports";
+         << " diameters more than twice the path of tools and supports";
     return fail(text.str());
   }
   return false;

@@ -180,7 +180,8 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
     const double way = distance_to_touch(unknown_[i]);
     if (!std::isfinite(way)) {
       failure_ = "tool '" + scene_.tools()[unknown_[i]].name() +
-                 "' has a force or moment, but nothing that it touches, or could come to touch, resists it";
+                 "' has a force or moment, but no body in contact, or within reach, resists it. Check its "
+                 "direction and position";
       return false;
     }
     S(i, i) = 1.;

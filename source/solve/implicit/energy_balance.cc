@@ -106,21 +106,21 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
   const double percent = 100. * StepEnergy::part_of_all(works);
   std::ostringstream text;
   text.precision(3);
-  text << "contact " << (works.imbalance > 0. ? "loses" : "makes") << " energy in the step to time " << t
+  text << "contact " << (works.imbalance > 0. ? "loses" : "creates") << " energy in the step to time " << t
        << ": " << percent << " % of all work so far";
   if (verdict == StepEnergy::Verdict::jump) {
     trial_contact_loss_ = 0.;
-    report.diagnostics.push_back(Diagnostic(diagnostic::energy_imbalance, text.str())
-                                     .time(t)
-                                     .measure("part of all work [%]", percent)
-                                     .advice("Smaller steps do not change this: the bodies jump, as when one "
-                                             "slips off another, or have passed through each other. Check "
-                                             "the field output at this time; 'Scheme = implicit dynamics' "
-                                             "resolves jumps"));
+    report.diagnostics.push_back(
+        Diagnostic(diagnostic::energy_imbalance, text.str())
+            .time(t)
+            .measure("part of all work [%]", percent)
+            .advice("Smaller steps do not change this. The solution jumps to another branch, as when one "
+                    "body slips off another, or bodies pass through each other. Check the field output at "
+                    "this time; 'Scheme = implicit dynamics' resolves jumps"));
     return false;
   }
   text << ", more than the allowed " << 100. * StepEnergy::max_part
-       << " %. The solution jumped to another branch, or bodies passed through each other. Reduce 'Maximum "
+       << " %. The solution jumps to another branch, or bodies pass through each other. Reduce 'Maximum "
           "step' or the penalty, or use a finer mesh where they touch";
   report.converged = false;
   report.is_explained = true;
@@ -141,13 +141,13 @@ DiagnosticList StaticBalance::finish() const {
   const double percent = 100. * contact_balance_ / largest_energy_;
   std::ostringstream text;
   text.precision(3);
-  text << "In the whole run contact " << (percent > 0. ? "has lost " : "has made ") << std::abs(percent)
+  text << "Over the whole run contact " << (percent > 0. ? "loses " : "creates ") << std::abs(percent)
        << " % of all work";
   return {Diagnostic(diagnostic::energy_imbalance, text.str())
               .time(problem_.state().time)
               .measure("part of all work [%]", percent)
-              .advice("Forces of contact do not fit its motion: reduce 'Maximum step', or use a finer mesh "
-                      "where bodies touch, and check in the field output that they touch where they should")};
+              .advice("Contact forces do not match the motion. Reduce 'Maximum step', or use a finer mesh "
+                      "where bodies touch; check the contact in the field output")};
 }
 
 void StaticBalance::save(StateWriter &writer) const {
@@ -178,15 +178,15 @@ bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
   time_error_ = motion_.step_error(problem_.step().trial.displacements);
   std::ostringstream message;
   message.precision(3);
-  message << "the error of the step's time integration is " << time_error_
+  message << "the time integration error of the step is " << time_error_
           << " times the 'Error tolerance'. Try a smaller 'Minimum step' or a larger 'Error tolerance'";
   trial_imbalance_ = element_imbalance().unexplained;
   if (paths_.may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);
     if (error > std::max(1., time_error_)) {
       message.str("");
-      message << "the work of the elements' forces in the step differs from their energy by " << error
-              << " times what is allowed. Try a smaller 'Minimum step'";
+      message << "the work of the internal forces in the step differs from their energy by " << error
+              << " times the allowed error. Try a smaller 'Minimum step'";
     }
     time_error_ = std::max(time_error_, error);
   }
@@ -222,7 +222,7 @@ bool DynamicBalance::rejects(const double t, NewtonReport &report) {
   report.converged = false;
   report.is_explained = takes_too_much;
   report.failure =
-      std::string("contact ") + (report.makes_energy ? "makes" : "takes") + " energy in the step";
+      std::string("contact ") + (report.makes_energy ? "creates" : "removes") + " energy in the step";
   return true;
 }
 

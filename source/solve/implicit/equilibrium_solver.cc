@@ -19,7 +19,7 @@ NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &di
   if (!problem_.tools().failure().empty() && !report.converged)
     report.failure = problem_.tools().failure();
   else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())
-    report.failure = "the correction is useless: " + problem_.obstacle();
+    report.failure = "the correction is not admissible: " + problem_.obstacle();
   problem_.set_trial(x);
   displacements = problem_.step().trial.displacements;
   offsets = problem_.tools().offsets();

@@ -10,7 +10,7 @@ namespace billet {
 
 namespace {
 
-constexpr const char *goes_unseen = " goes to and fro, or around, within the step";
+constexpr const char *goes_unseen = " reverses, or turns fully, within the step";
 
 bool fail(NewtonReport &report, const std::string &failure) {
   report.converged = false;
@@ -38,9 +38,8 @@ bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
 bool PathGuard::goes_through(const bool is_thorough, NewtonReport &report) {
   if (problem_.find_free_part(is_thorough) == 1.)
     return false;
-  return fail(report, problem_.obstacle() +
-                          ", or deeper into it than contact follows them. Try a smaller 'Minimum step', a "
-                          "larger 'Normal penalty' or smaller facets");
+  return fail(report, problem_.obstacle() + ", or penetrate more than contact can track. Try a smaller "
+                                            "'Minimum step', a larger 'Normal penalty' or smaller facets");
 }
 
 bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
@@ -58,7 +57,7 @@ bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
     std::ostringstream text;
     text.precision(3);
     text << "tool '" << problem_.scene().tools()[tool].name() << "' turns by " << angle * 180. / M_PI
-         << " degrees in the step, and friction needs steps of at most " << Limits::max_turn * 180. / M_PI
+         << " degrees in the step, but friction allows at most " << Limits::max_turn * 180. / M_PI
          << ". Try a smaller "
          << (problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed
                  ? "'Initial step'"
@@ -93,7 +92,7 @@ bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
     return false;
   std::ostringstream text;
   text.precision(3);
-  text << "nodes close by " << largest << " facet sizes in the step in which they touch, allowed are "
+  text << "nodes approach by " << largest << " facet sizes in the step of first contact; allowed are "
        << Limits::max_closing;
   return fail(report, text.str());
 }

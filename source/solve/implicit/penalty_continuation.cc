@@ -86,7 +86,7 @@ Diagnostic PenaltyContinuation::describe() const {
                                                   "iterations, because of the penalty of contact pair " +
                                                       problem_.contacts().stiffest_pairs())
       .time(problem_.step().time)
-      .advice("Reduce 'Normal penalty', with a 'Penetration tolerance' where that is too low");
+      .advice("Reduce 'Normal penalty', with a 'Penetration tolerance' if penetration is then too large");
 }
 
 } // namespace billet

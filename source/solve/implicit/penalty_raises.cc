@@ -76,7 +76,7 @@ bool PenaltyRaises::is_needed(NewtonReport &report) {
     return false;
   report.converged = false;
   report.penetrates = true;
-  report.failure = "nodes penetrate too deep";
+  report.failure = "the penetration of nodes is too large";
   return true;
 }
 
@@ -115,8 +115,8 @@ DiagnosticList PenaltyRaises::describe() const {
     const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
     std::ostringstream text;
     text.precision(3);
-    text << "The penalty of the pair was raised " << factors_[i] << " times, to " << penalty
-         << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
+    text << "The penalty of the pair rises by a factor of " << factors_[i] << ", to " << penalty
+         << (is_factor ? " E/h" : "") << ", since the penetration of nodes is too large";
     messages.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
                            .pair(input.name)
                            .time(problem_.state().time)

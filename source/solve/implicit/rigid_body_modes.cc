@@ -155,25 +155,23 @@ std::string RigidBodyModes::describe_sliding() const {
     return "";
   std::ostringstream text;
   text << "; at the end of the last step body '" << problem_.scene().bodies()[support_.sliding->body].name
-       << "' slides, or nearly does, on all that it touches along its rigid-body mode with "
+       << "' is in full sliding, or close to it, along its rigid-body mode with "
        << print(support_.sliding->motion)
-       << ": friction has reached its limit, and cannot resist more. Hold the body, press it harder, or "
-          "increase friction";
+       << ". Friction is at its limit. Add a support, more pressure or more friction";
   return text.str();
 }
 
 bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
   const bool is_held = hold_if_let_go(mode);
   std::ostringstream text;
-  text << "body '" << problem_.scene().bodies()[mode.body].name << "' is unsupported at time " << t
+  text << "body '" << problem_.scene().bodies()[mode.body].name << "' has no support at time " << t
        << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
-       << " has opened, or slides at the limit of friction. Hold the body by a support or a symmetry "
-          "plane, let a tool or body touch it longer, or increase friction; use 'Scheme = implicit "
-          "dynamics' if it is to move freely";
+       << " opens, or slides at the limit of friction. Add a support or a symmetry plane, keep a contact "
+          "longer, or increase friction; use 'Scheme = implicit dynamics' for free motion";
   const parameters::Scene &parameters = problem_.parameters();
   if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.largest_step)
-    throw SolutionFailure(parameters.file_name + ": " + text.str() +
-                          ". What was computed until then is in '" + parameters.output.folder.value + "'");
+    throw SolutionFailure(parameters.file_name + ": " + text.str() + ". Results until then are in '" +
+                          parameters.output.folder.value + "'");
   loss_ = {t, text.str()};
   report.converged = false;
   report.failure = text.str();
@@ -208,8 +206,8 @@ void RigidBodyModes::report_let_go(const double t, NewtonReport &report) {
     report.diagnostics.push_back(
         Diagnostic(
             diagnostic::unsupported_body,
-            "Nothing presses body '" + name +
-                "' any more, and neither supports nor symmetry planes resist its rigid-body mode with " +
+            "No contact presses on body '" + name +
+                "' any more, and neither supports nor symmetry planes constrain its rigid-body mode with " +
                 print(mode.motion) + ": viscous forces hold it from now on")
             .body(name)
             .time(t));
@@ -233,7 +231,7 @@ void RigidBodyModes::begin() {
 
 std::string RigidBodyModes::describe_loss(const std::string &failure) const {
   return problem_.state().time < loss_.time && failure != loss_.text
-             ? "; a step that goes further failed since " + loss_.text
+             ? "; a longer step failed since " + loss_.text
              : "";
 }
 

@@ -36,9 +36,9 @@ std::string StepDiagnosis::describe_slipping_tools() const {
     const Tool &which = problem_.scene().tools()[tool];
     const bool turns = which.control() == Tool::Control::moment;
     text << "; at the end of the last step tool '" << which.name()
-         << "' slips on nearly all that it touches: friction has reached its limit, and cannot bear a "
+         << "' is in full sliding: friction is at its limit, and cannot bear a "
          << (turns ? "moment" : "force") << " of " << which.load(problem_.step().time)
-         << ". Try a smaller one, more pressure or friction, or move the tool by its "
+         << ". Try a smaller load, more pressure or friction, or move the tool by its "
          << (turns ? "'Rotation angle'" : "'Translation'");
   }
   return text.str();
@@ -87,18 +87,16 @@ std::string StepDiagnosis::describe_residual() {
   for (const auto &contact : problem_.contacts().of_tools())
     if (!problem_.on_all_ranks(!contact.checks().has_node_on_edge(position))) {
       text << ", which lies on the edge of tool '" << problem_.scene().tools()[contact.tool()].name()
-           << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
-              "part of a facet, or give its edge a fillet";
+           << "', where contact chatters (open/closed). Try a tool that is larger or smaller by a part of a "
+              "facet, or a fillet at its edge";
       break;
     }
   return text.str();
 }
 
 Diagnostic StepDiagnosis::describe_stall(const NewtonReport &report) const {
-  Diagnostic diagnostic(
-      diagnostic::stalled_step,
-      "A step was accepted although Newton's method no longer came nearer to equilibrium: " +
-          report.criteria);
+  Diagnostic diagnostic(diagnostic::stalled_step,
+                        "The step is accepted although the residual no longer falls: " + report.criteria);
   return diagnostic.time(problem_.step().time)
       .measure("residual", report.measures.force)
       .value("energy", report.measures.energy)
