@@ -51,9 +51,9 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   settings.search_margin = std::max(pair_.search_margin * surfaces_.find_smallest_size(communicator),
                                     2. * pair_.overlap.closed_gap);
   settings.limits.zone = pair_.smoothing;
-  constexpr unsigned int most_changes = 8;
+  constexpr unsigned int max_changes = 8;
   if (!scene.parameters().is_explicit())
-    settings.most_changes = most_changes;
+    settings.max_changes = max_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   const PairPenalties penalties = compute_penalties(scene, pair_, surfaces_, communicator);
@@ -67,7 +67,7 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   checks_ = std::make_unique<BodyChecks>(pair_, *contact_, communicator);
   if (!scene.parameters().is_explicit())
     paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, surfaces_.keys, surfaces_.facets,
-                                          surfaces_.depths);
+                                          surfaces_.penetrations);
 }
 
 BodyContact::~BodyContact() = default;
@@ -193,11 +193,11 @@ void BodyContact::allow_overlap() {
     return;
   // A node's mean gap over overlapping facets hides larger penetrations in parts of them. Repetition reduces
   // these until none remain.
-  constexpr unsigned int most_times = 200;
+  constexpr unsigned int max_times = 200;
   constexpr double none = 1e-10; // facet sizes
   const MPI_Comm communicator = nodes_.discretization().communicator();
-  for (unsigned int i = 0; i < most_times; ++i) {
-    if (dealii::Utilities::MPI::max(contact_->allow_initial_depths(), communicator) <= none)
+  for (unsigned int i = 0; i < max_times; ++i) {
+    if (dealii::Utilities::MPI::max(contact_->allow_initial_penetrations(), communicator) <= none)
       return;
     evaluate(0.);
   }

@@ -18,12 +18,12 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
 void FacetContact::update_surfaces(const Positions &positions_n, const Positions &positions) {
   ContactSurfaces &surfaces = parts_.surfaces;
   if (surfaces.update(positions_n, positions)) {
-    std::optional<double> depth;
+    std::optional<double> penetration;
     if (parts_.edges)
-      depth = parts_.settings.edge_depth;
+      penetration = parts_.settings.edge_penetration;
     else if (parts_.overlaps)
-      depth = FacetOverlaps::depth;
-    surfaces.rebuild(parts_.slaves.list(), depth);
+      penetration = FacetOverlaps::penetration;
+    surfaces.rebuild(parts_.slaves.list(), penetration);
     if (parts_.overlaps)
       parts_.overlaps->rebuild(surfaces, parts_.settings.has_self_contact(), parts_.settings.two_pass);
     if (parts_.edges)
@@ -99,24 +99,24 @@ void FacetContact::close_initial_gaps(const Positions &positions, const double w
   Positions ignored(parts_.surfaces.exchange().n_own_nodes());
   // The mean gap of overlaps is known only for facets that overlap; they are therefore lowered.
   const double lowered = parts_.overlaps ? within : 0.;
-  parts_.offsets.depths.assign(parts_.slaves.size(), -lowered);
+  parts_.offsets.penetrations.assign(parts_.slaves.size(), -lowered);
   add_forces(positions, positions, 0., ignored);
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];
     const bool is_before = state.touched.exists() || state.is_near;
     const double gap = is_before ? state.contact.gap + lowered : 0.;
-    parts_.offsets.depths.set(s, gap > 0. && gap <= within ? -gap : 0.);
+    parts_.offsets.penetrations.set(s, gap > 0. && gap <= within ? -gap : 0.);
   }
 }
 
-double FacetContact::allow_initial_depths() {
-  parts_.offsets.depths.start(parts_.slaves.size());
+double FacetContact::allow_initial_penetrations() {
+  parts_.offsets.penetrations.start(parts_.slaves.size());
   double deepest = 0.;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s]; state.presses()) {
-      const double depth = std::max(0., -state.contact.gap);
-      parts_.offsets.depths.add(s, depth);
-      deepest = std::max(deepest, depth / parts_.slaves.facet_size(s));
+      const double penetration = std::max(0., -state.contact.gap);
+      parts_.offsets.penetrations.add(s, penetration);
+      deepest = std::max(deepest, penetration / parts_.slaves.facet_size(s));
     }
   return deepest;
 }
@@ -141,18 +141,18 @@ void FacetContact::save(StateWriter &writer) const {
     return dealii::Utilities::MPI::max(has_some ? 1 : 0, communicator) == 1;
   };
   const bool is_augmented = any(!offsets.augmentation.was_empty()),
-             has_depths = any(!offsets.depths.is_empty());
-  writer.write("start", {parts_.start.has_started() ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0.,
-                         offsets.depths.allowed_part()});
+             has_penetrations = any(!offsets.penetrations.is_empty());
+  writer.write("start", {parts_.start.has_started() ? 1. : 0., is_augmented ? 1. : 0.,
+                         has_penetrations ? 1. : 0., offsets.penetrations.allowed_part()});
   writer.write("stiffening", {penalties_.stiffening(), penalties_.tangential_stiffening()});
   parts_.start.save(writer, keys);
   if (parts_.edges)
     parts_.edges->save(writer, dealii::Utilities::MPI::this_mpi_process(communicator));
-  if (is_augmented || has_depths) {
+  if (is_augmented || has_penetrations) {
     std::vector<double> rows;
     RowWriter row(rows);
     for (std::size_t s = 0; s < keys.size(); ++s)
-      row.number(offsets.augmentation.at_start(s)).number(offsets.depths[s]);
+      row.number(offsets.augmentation.at_start(s)).number(offsets.penetrations[s]);
     writer.write_rows("lifts", 2, keys, rows);
   }
   if (parts_.friction)
@@ -162,34 +162,34 @@ void FacetContact::save(StateWriter &writer) const {
 void FacetContact::load(const StateReader &reader) {
   const std::vector<std::uint64_t> keys = slave_keys();
   const std::vector<double> start = reader.read("start");
-  const bool is_augmented = start.at(1) != 0., has_depths = start.at(2) != 0.;
+  const bool is_augmented = start.at(1) != 0., has_penetrations = start.at(2) != 0.;
   parts_.start.load(reader, keys, start.at(0) != 0.);
   if (parts_.edges)
     parts_.edges->load(reader);
   GapOffsets &offsets = parts_.offsets;
-  offsets.depths.set_allowed_part(start.at(3), start.at(3));
+  offsets.penetrations.set_allowed_part(start.at(3), start.at(3));
   if (reader.has("stiffening")) {
     const std::vector<double> factors = reader.read("stiffening");
     penalties_.scale(factors.at(0) / penalties_.stiffening(),
                      factors.at(1) / penalties_.tangential_stiffening());
   }
-  std::optional<std::vector<double>> multipliers, depths;
+  std::optional<std::vector<double>> multipliers, penetrations;
   if (is_augmented)
     multipliers.emplace(keys.size());
-  if (has_depths)
-    depths.emplace(keys.size());
-  if (is_augmented || has_depths) {
+  if (has_penetrations)
+    penetrations.emplace(keys.size());
+  if (is_augmented || has_penetrations) {
     std::vector<bool> is_known; // slaves may be new if the pair had one pass before
     const std::vector<double> rows = reader.read_rows("lifts", 2, keys, &is_known);
     for (std::size_t s = 0; s < keys.size(); ++s) {
       if (is_augmented)
         (*multipliers)[s] = rows[2 * s];
-      if (has_depths)
-        (*depths)[s] = rows[2 * s + 1];
+      if (has_penetrations)
+        (*penetrations)[s] = rows[2 * s + 1];
     }
   }
   offsets.augmentation.set(std::move(multipliers));
-  offsets.depths.set(std::move(depths));
+  offsets.penetrations.set(std::move(penetrations));
   if (parts_.friction)
     parts_.friction->load(reader, keys);
 }

@@ -14,22 +14,22 @@ Penetration FacetMeasures::penetration() const {
 }
 
 double FacetMeasures::excessive_penetration() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s]; state.has_pressure())
-      largest = std::max(largest, parts_.touching.penetration_of(s) /
+      maximum = std::max(maximum, parts_.touching.penetration_of(s) /
                                       parts_.surfaces.facet(state.touched.facet).reach);
-  return largest;
+  return maximum;
 }
 
 double FacetMeasures::closing_of_new_contacts() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s];
         state.has_pressure() && !(parts_.start.pressed(s).pressure > 0.))
-      largest = std::max(largest, -(parts_.touching.motion_of(s).displacement * state.contact.normal) /
+      maximum = std::max(maximum, -(parts_.touching.motion_of(s).displacement * state.contact.normal) /
                                       parts_.slaves.facet_size(s));
-  return largest;
+  return maximum;
 }
 
 std::vector<SlaveForce> FacetMeasures::slave_forces() const {

@@ -48,24 +48,24 @@ void FacetPenalties::scale(const double normal, const double tangential) {
 
 void FacetPenalties::scale_under_load(const double normal, const double tangential) {
   scale(normal, tangential);
-  parts_.offsets.depths.start(parts_.slaves.size());
+  parts_.offsets.penetrations.start(parts_.slaves.size());
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     SlaveState &state = parts_.touching[s];
     if (!state.has_pressure())
       continue;
-    parts_.offsets.depths.add(s, -((1. - 1. / normal) * state.contact.gap));
+    parts_.offsets.penetrations.add(s, -((1. - 1. / normal) * state.contact.gap));
     state.contact.gap /= normal;
-    parts_.start.divide_depth(s, normal);
+    parts_.start.divide_penetration(s, normal);
   }
 }
 
 double FacetPenalties::max_spring() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t s = 0; s < parts_.slaves.size(); ++s)
-    largest = std::max(
-        largest, std::max(parts_.penalties[s].normal, parts_.friction ? parts_.penalties[s].tangential : 0.) *
+    maximum = std::max(
+        maximum, std::max(parts_.penalties[s].normal, parts_.friction ? parts_.penalties[s].tangential : 0.) *
                      parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s));
-  return largest;
+  return maximum;
 }
 
 double FacetPenalties::augmentation_gap() const {

@@ -22,7 +22,7 @@ void PressureRecord::record(const std::vector<ToolContactState> &states,
   entries_.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     entries_[i].pressure = states[i].pressure;
-    entries_[i].depth = pressed_depth(states[i], nodes[i]);
+    entries_[i].penetration = pressed_depth(states[i], nodes[i]);
     entries_[i].normal = dealii::transpose(placement.rotation) * states[i].normal;
     entries_[i].position = placement.to_tool(states[i].position);
   }
@@ -35,7 +35,7 @@ void PressureRecord::save(StateWriter &writer, const SlaveSurface::Range &range)
   RowWriter row(rows);
   for (std::size_t i = range.begin; i < range.end; ++i)
     row.number(entries_[i].pressure)
-        .number(entries_[i].depth)
+        .number(entries_[i].penetration)
         .vector(entries_[i].normal)
         .vector(entries_[i].position);
   range.write(writer, "pressed", row_width, rows);
@@ -46,7 +46,7 @@ void PressureRecord::load(const StateReader &reader, const SlaveSurface::Range &
     return;
   range.read(reader, "pressed", row_width, [&](const std::size_t i, RowReader &row) {
     entries_[i].pressure = row.number();
-    entries_[i].depth = row.number();
+    entries_[i].penetration = row.number();
     row.vector(entries_[i].normal);
     row.vector(entries_[i].position);
   });

@@ -38,7 +38,7 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
     states[i].position = slaves.nodes[i].reference;
     states[i].gap = slaves.nodes[i].gap_n = projection.gap;
     if (allows(projection)) {
-      slaves.nodes[i].initial_depth = -projection.gap;
+      slaves.nodes[i].initial_penetration = -projection.gap;
       states[i].gap = slaves.nodes[i].gap_n = 0.;
     }
     slaves.nodes[i].patch = projection.patch;
@@ -120,11 +120,11 @@ void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1,
     const auto projection = tool.surface().project(on_tool);
     states[i] = ToolContactState();
     states[i].position = position;
-    slaves.nodes[i].multiplier_offset = slaves.nodes[i].multiplier_offset_n = slaves.nodes[i].initial_depth =
-        0.;
+    slaves.nodes[i].multiplier_offset = slaves.nodes[i].multiplier_offset_n =
+        slaves.nodes[i].initial_penetration = 0.;
     slaves.nodes[i].is_behind = false;
     if (allows(projection))
-      slaves.nodes[i].initial_depth = -projection.gap;
+      slaves.nodes[i].initial_penetration = -projection.gap;
     states[i].gap = slaves.nodes[i].gap_n = projection.gap - step.gap_offset(slaves.nodes[i]);
     slaves.nodes[i].patch = projection.patch;
     if (friction)

@@ -32,7 +32,10 @@ void save_nodes(const RigidContactParts &parts, const SlaveSurface::Range &range
   RowWriter row(gaps);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const ContactPoint &node = parts.slaves.nodes[i];
-    row.number(node.gap_n).number(node.patch).number(node.multiplier_offset_n).number(node.initial_depth);
+    row.number(node.gap_n)
+        .number(node.patch)
+        .number(node.multiplier_offset_n)
+        .number(node.initial_penetration);
   }
   range.write(writer, "gaps", gap_width, gaps);
   if (parts.friction)
@@ -58,7 +61,7 @@ void load_nodes(const StateReader &reader, const SlaveSurface::Range &range, Rig
     node.gap_n = row.number();
     node.patch = static_cast<unsigned int>(row.number());
     node.multiplier_offset = node.multiplier_offset_n = row.number();
-    node.initial_depth = row.number();
+    node.initial_penetration = row.number();
   });
   if (parts.has_inertia)
     MissedEdge::load(reader, parts.slaves.nodes, range);

@@ -63,18 +63,18 @@ ToolDrive::Sliding ToolDrive::measure_sliding(const ToolRate &rate) const {
 }
 
 double ToolDrive::distance_to_touch(const Tensor<1, 3> &direction) const {
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   if (parts_.step.is_removed)
-    return least;
+    return minimum;
   const Placement &placement = parts_.step.placement;
   for (std::size_t i = 0; i < parts_.slaves.nodes.size(); ++i) {
     const auto projection = parts_.step.surface.project(placement.to_tool(parts_.states[i].position),
                                                         parts_.slaves.nodes[i].patch);
     const double approach = placement.rotation * projection.normal * direction;
     if (projection.exists && approach > 1e-6)
-      least = std::min(least, projection.gap / approach);
+      minimum = std::min(minimum, projection.gap / approach);
   }
-  return least;
+  return minimum;
 }
 
 } // namespace billet

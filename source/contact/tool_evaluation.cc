@@ -70,19 +70,19 @@ template <class Node> bool ToolEvaluationOf<Node>::is_far(DividedFacet &divided)
     return false;
   // Gaps are distances: no gap in the facet is less than that of the nearest corner minus the distance to it.
   std::array<const ToolContactState *, 4> corners{};
-  double least = std::numeric_limits<double>::infinity(), approach = 0., size = 0.;
+  double minimum = std::numeric_limits<double>::infinity(), approach = 0., size = 0.;
   for (unsigned int a = 0; a < 4; ++a) {
     const ContactPoint &node = slaves_.nodes[divided.corners[a]];
     corners[a] = &states_[divided.corners[a]];
     if (corners[a]->is_behind)
       return false;
-    least = std::min(least, corners[a]->gap);
+    minimum = std::min(minimum, corners[a]->gap);
     approach = std::max(approach, node.gap_n - corners[a]->gap);
     size = std::max(size, node.size);
   }
   const double way = 0.5 * std::max((corners[3]->position - corners[0]->position).norm(),
                                     (corners[2]->position - corners[1]->position).norm());
-  const double gap = least - way;
+  const double gap = minimum - way;
   if (!(gap > near_gap * size + near_steps * approach))
     return false;
   for (std::size_t i = divided.first_point; i < divided.first_point + divided.n_points; ++i) {

@@ -29,10 +29,10 @@ ToolForces::CornerSprings ToolForces::stretch(ContactFacet &facet, const CornerS
         facet.shallow_areas[a] = SpringEnergy::no_area; // set below
       result.energies[a] = energy.on_current_area;
       const double stiffness = parts_.slaves.nodes[facet.nodes[a]].stiffness.normal;
-      result.depth = std::max(result.depth, 2. * energy.total / stiffness);
+      result.penetration = std::max(result.penetration, 2. * energy.total / stiffness);
       result.hardening = std::max(result.hardening, bounds_.stiffness_ahead(facet.nodes[a]) / stiffness);
     }
-  result.depth = std::sqrt(result.depth);
+  result.penetration = std::sqrt(result.penetration);
   return result;
 }
 
@@ -66,7 +66,7 @@ void ToolForces::add_facet(ContactFacet &facet, NodalVectors &forces, NodalVecto
     return;
   const CornerSprings stretched = stretch(facet, states);
   const CornerForces corners = resist(states, stretched.energies);
-  const double depth = stretched.depth;
+  const double penetration = stretched.penetration;
   for (unsigned int b = 0; b < 4; ++b) {
     const std::size_t i = facet.nodes[b];
     const ContactPoint &node = parts_.slaves.nodes[i];
@@ -79,8 +79,8 @@ void ToolForces::add_facet(ContactFacet &facet, NodalVectors &forces, NodalVecto
     load.force += force;
     load.moment +=
         dealii::cross_product_3d(states[b]->position - parts_.step.placement.moved_centre(), force);
-    add_bound(stretched.hardening * node.stiffness.normal * std::min(depth, depth_on_current_areas(node)) *
-              (node.spacing + depth));
+    add_bound(stretched.hardening * node.stiffness.normal *
+              std::min(penetration, penetration_on_current_areas(node)) * (node.spacing + penetration));
     if (states[b]->status != ContactStatus::open) {
       if (facet.shallow_areas[b] == SpringEnergy::no_area)
         facet.shallow_areas[b] = corners.areas[b];

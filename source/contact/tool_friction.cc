@@ -107,7 +107,7 @@ void ToolFriction::release(const std::size_t i, const ContactPoint &node, const 
     };
     const double part = !is_static_ || !pressures_.is_known()
                             ? 1.
-                            : part_before_leaving(pressures_[i].depth, along(history_n.frame.n));
+                            : part_before_leaving(pressures_[i].penetration, along(history_n.frame.n));
     state.friction = compute_friction_account(
         {history_n.tangential, {}, {along(history_n.frame.q), along(history_n.frame.r)}, false, part},
         rule_of(node));

@@ -27,26 +27,26 @@ Penetration ToolMeasures::penetration() const {
 }
 
 double ToolMeasures::excessive_penetration() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t i = 0; i < parts_.states.size(); ++i)
     if (const ContactPoint &node = parts_.slaves.nodes[i]; parts_.is_pressed_fully(i))
-      largest = std::max(largest, std::abs(parts_.states[i].gap + node.multiplier_offset) / node.reach);
-  return largest;
+      maximum = std::max(maximum, std::abs(parts_.states[i].gap + node.multiplier_offset) / node.reach);
+  return maximum;
 }
 
 double ToolMeasures::closing_of_new_contacts() const {
-  double largest = 0.;
+  double maximum = 0.;
   if (!parts_.pressures.is_known())
-    return largest;
+    return maximum;
   for (std::size_t i = 0; i < parts_.states.size(); ++i) {
     const ToolContactState &state = parts_.states[i];
     const PressureRecord::Entry &before = parts_.pressures[i];
     if (state.pressure > 0. && !(before.pressure > 0.))
-      largest = std::max(largest, state.normal *
+      maximum = std::max(maximum, state.normal *
                                       (parts_.step.placement.to_space(before.position) - state.position) /
                                       parts_.slaves.nodes[i].size);
   }
-  return largest;
+  return maximum;
 }
 
 bool ToolMeasures::has_touching_nodes() const {
@@ -140,7 +140,7 @@ void ToolMeasures::average_over_points(const ToolSprings<is_explicit> &springs,
                                        std::vector<ContactNodeReport> &reports) const {
   const SlaveSurface &slaves = parts_.slaves;
   struct Sums {
-    double force = 0., slipping = 0., depth = 0., curvature = 0.;
+    double force = 0., slipping = 0., penetration = 0., curvature = 0.;
     Tensor<1, 3> traction;
   };
   std::vector<Sums> sums(slaves.n_mesh_nodes);
@@ -153,8 +153,8 @@ void ToolMeasures::average_over_points(const ToolSprings<is_explicit> &springs,
     slaves.for_each_parent(i, [&](const unsigned int parent, const double weight) {
       const double force = weight * area * state.pressure;
       sums[parent].force += force;
-      sums[parent].depth =
-          std::max(sums[parent].depth, std::abs(state.gap + slaves.nodes[i].multiplier_offset));
+      sums[parent].penetration =
+          std::max(sums[parent].penetration, std::abs(state.gap + slaves.nodes[i].multiplier_offset));
       sums[parent].curvature = std::max(sums[parent].curvature, max_curvature(state.turning));
       sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
       sums[parent].traction += weight * area * state.traction;
@@ -165,7 +165,7 @@ void ToolMeasures::average_over_points(const ToolSprings<is_explicit> &springs,
       continue;
     reports[i].pressure = sums[i].force / reports[i].area;
     reports[i].traction = sums[i].traction / reports[i].area;
-    reports[i].penetration = sums[i].depth;
+    reports[i].penetration = sums[i].penetration;
     reports[i].curvature = sums[i].curvature;
     // A tool that is thin compared with the facets counts as a radius of half its thickness.
     if (parts_.thin_tool && parts_.thin_tool->thickness() < 0.5 * slaves.nodes[i].size)

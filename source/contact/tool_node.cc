@@ -28,13 +28,14 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
                      !parts_.neighbours.is_near(position, node.size, placement.rotation * projection.normal);
   EdgeFading fading{};
   if (fades) {
-    RigidSurface::Border border = surface.border(on_tool, projection.patch, width);
-    projection = {true, border.normal, border.gap, border.turning, projection.patch};
-    border.normal = placement.rotation * border.normal;
-    border.outward = placement.rotation * border.outward;
-    border.spreading = placement.rotation * border.spreading * dealii::transpose(placement.rotation);
-    border.turning = placement.rotation * border.turning * dealii::transpose(placement.rotation);
-    fading = compute_edge_fading(border, width, node.spring(), border.gap - parts_.step.gap_offset(node));
+    RigidSurface::EdgePoint edge_point = surface.edge_point(on_tool, projection.patch, width);
+    projection = {true, edge_point.normal, edge_point.gap, edge_point.turning, projection.patch};
+    edge_point.normal = placement.rotation * edge_point.normal;
+    edge_point.outward = placement.rotation * edge_point.outward;
+    edge_point.spreading = placement.rotation * edge_point.spreading * dealii::transpose(placement.rotation);
+    edge_point.turning = placement.rotation * edge_point.turning * dealii::transpose(placement.rotation);
+    fading =
+        compute_edge_fading(edge_point, width, node.spring(), edge_point.gap - parts_.step.gap_offset(node));
     state.share = fading.share;
     state.fading_stiffness = fading.stiffness;
   }

@@ -49,19 +49,19 @@ void ToolPenalties::scale_under_load(const double normal, const double tangentia
     ToolContactState &state = parts_.states[i];
     if (node.is_fixed || !(state.pressure > 0.))
       continue;
-    node.initial_depth -= (1. - 1. / normal) * state.gap;
+    node.initial_penetration -= (1. - 1. / normal) * state.gap;
     state.gap /= normal;
     node.gap_n /= normal;
-    parts_.pressures.divide_depth(i, normal);
+    parts_.pressures.divide_penetration(i, normal);
   }
 }
 
 double ToolPenalties::max_spring() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (const auto &node : parts_.slaves.nodes)
-    largest =
-        std::max(largest, std::max(node.stiffness.normal, node.stiffness.tangential) * node.size * node.size);
-  return largest;
+    maximum =
+        std::max(maximum, std::max(node.stiffness.normal, node.stiffness.tangential) * node.size * node.size);
+  return maximum;
 }
 
 double ToolPenalties::augmentation_gap() const {

@@ -125,7 +125,7 @@ bool ToolWorks::has_moved() const {
     const bool presses = parts_.states[i].pressure > 0.;
     if (presses != (parts_.pressures[i].pressure > 0.) ||
         (presses && parts_.step.allowed_part != parts_.step.allowed_part_n &&
-         parts_.slaves.nodes[i].initial_depth > 0.))
+         parts_.slaves.nodes[i].initial_penetration > 0.))
       return true;
   }
   return false;
@@ -143,11 +143,12 @@ void ToolWorks::add_pressure_works(const double weight, StepWorks &works) const 
     const PressureRecord::Entry &before = parts_.pressures[i];
     if (!(state.pressure > 0.) && !(before.pressure > 0.))
       continue;
-    const double ramp_depth =
-        (parts_.step.allowed_part_n - parts_.step.allowed_part) * parts_.slaves.nodes[i].initial_depth;
-    const double closing = ramp_depth - normal_of(i) * (state.position - placement.to_space(before.position));
-    works.add(before.pressure * areas[i], state.pressure * areas[i], before.depth,
-              pressed_depth(state, parts_.slaves.nodes[i]), closing, ramp_depth, weight);
+    const double ramp_penetration =
+        (parts_.step.allowed_part_n - parts_.step.allowed_part) * parts_.slaves.nodes[i].initial_penetration;
+    const double closing =
+        ramp_penetration - normal_of(i) * (state.position - placement.to_space(before.position));
+    works.add(before.pressure * areas[i], state.pressure * areas[i], before.penetration,
+              pressed_depth(state, parts_.slaves.nodes[i]), closing, ramp_penetration, weight);
   }
 }
 

@@ -212,8 +212,8 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
   std::vector<SupportTrack> all;
   unsigned int n_lines = 0;
   for (const Prescription &prescription : prescriptions_) {
-    const bool goes_on = !all.empty() && all.back().position_ == prescription.position && n_lines < 3;
-    if (!goes_on) {
+    const bool continues = !all.empty() && all.back().position_ == prescription.position && n_lines < 3;
+    if (!continues) {
       all.emplace_back();
       all.back().position_ = prescription.position;
       n_lines = 0;

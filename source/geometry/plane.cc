@@ -23,13 +23,13 @@ BoundingBox Plane::bounding_box() const {
   return box;
 }
 
-void Plane::draw(const PictureRegion &region, SurfacePicture &picture) const {
+void Plane::draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const {
   const auto foot = closest_point(region.centre).position;
   const Frame frame = Frame::from_normal(normal_);
-  const auto first = static_cast<unsigned int>(picture.points.size());
+  const auto first = static_cast<unsigned int>(surface_mesh.points.size());
   for (const auto &corner : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}})
-    picture.points.push_back(foot + region.radius * (corner[0] * frame.q + corner[1] * frame.r));
-  picture.facets.push_back({first, first + 1, first + 2, first + 3});
+    surface_mesh.points.push_back(foot + region.radius * (corner[0] * frame.q + corner[1] * frame.r));
+  surface_mesh.facets.push_back({first, first + 1, first + 2, first + 3});
 }
 
 namespace {

@@ -167,7 +167,7 @@ TriangleEdges::TriangleEdges(const TriangleMesh &mesh) : of_facet(mesh.facets.si
         describe_edge(mesh, against.points));
 }
 
-std::string TriangleEdges::describe_border(const TriangleMesh &mesh) const {
+std::string TriangleEdges::describe_open_edges(const TriangleMesh &mesh) const {
   std::size_t n = 0;
   const Edge *example = nullptr;
   for (const auto &edge : edges)

@@ -57,9 +57,10 @@ SurfacePatches make(const TypeInput &input) {
       std::swap(facet[1], facet[2]);
   const TriangleEdges edges = connect(input, mesh);
   if (input.flag("Closed")) {
-    const std::string border = edges.describe_border(mesh);
-    if (!border.empty())
-      input.reject("File", "a closed surface; " + border + ". 'Closed = false' allows edges of the surface");
+    const std::string open_edges = edges.describe_open_edges(mesh);
+    if (!open_edges.empty())
+      input.reject("File",
+                   "a closed surface; " + open_edges + ". 'Closed = false' allows edges of the surface");
     if (sign * mesh.six_volumes() < 0.)
       input.reject("File", "a closed surface with normals that point outwards; these point inwards");
   }

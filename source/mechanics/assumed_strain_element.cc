@@ -616,9 +616,9 @@ bool AssumedStrainElement<n_through>::initialize(const ElementVectors &positions
     const double nu = poisson_ratio(elastic_), part = nu / (1. - nu);
     const auto &share = reference.constants.share;
     // The bounds keep the modulus finite and positive as ν approaches ½ and −1.
-    constexpr double least = -0.45;
+    constexpr double minimum = -0.45;
     const double counted =
-        std::max(least, std::min(part / (share[0][2] * share[1][2]), 1. - 0.25 * (1. - part)));
+        std::max(minimum, std::min(part / (share[0][2] * share[1][2]), 1. - 0.25 * (1. - part)));
     const double ratio = counted / (1. - counted);
     reference.modulus = 2. * elastic_.shear * (1. / 3. + ratio);
     reference.elastic_part = ratio / (1. + ratio);

@@ -541,9 +541,9 @@ std::string name_of(const int signal) {
 
 } // namespace
 
-Signals::Signals(MPI_Comm communicator, const double seconds_between_looks)
-    : communicator_(communicator), seconds_between_looks_(seconds_between_looks),
-      last_look_(std::chrono::steady_clock::now()) {
+Signals::Signals(MPI_Comm communicator, const double seconds_between_checks)
+    : communicator_(communicator), seconds_between_checks_(seconds_between_checks),
+      last_check_(std::chrono::steady_clock::now()) {
   end_signal = checkpoint_signal = 0;
   for (const int signal : heeded) {
     struct sigaction action {};
@@ -561,27 +561,27 @@ Signals::~Signals() {
     std::signal(signal, SIG_DFL);
 }
 
-Signals::Wish Signals::look() {
-  if (seconds_between_looks_ > 0. && !is_time_to_look())
-    return Wish::none;
-  std::array<int, 2> wishes{end_signal, checkpoint_signal};
+Signals::Request Signals::poll() {
+  if (seconds_between_checks_ > 0. && !is_time_to_check())
+    return Request::none;
+  std::array<int, 2> requests{end_signal, checkpoint_signal};
   checkpoint_signal = 0;
-  MPI_Allreduce(MPI_IN_PLACE, wishes.data(), 2, MPI_INT, MPI_MAX, communicator_);
-  if (wishes[0] == 0)
-    return wishes[1] == 0 ? Wish::none : Wish::checkpoint;
-  name_ = name_of(wishes[0]);
-  return Wish::end;
+  MPI_Allreduce(MPI_IN_PLACE, requests.data(), 2, MPI_INT, MPI_MAX, communicator_);
+  if (requests[0] == 0)
+    return requests[1] == 0 ? Request::none : Request::checkpoint;
+  name_ = name_of(requests[0]);
+  return Request::end;
 }
 
-bool Signals::is_time_to_look() {
-  if (++n_calls_ < next_look_)
+bool Signals::is_time_to_check() {
+  if (++n_calls_ < next_check_)
     return false;
   const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - last_look_).count();
-  last_look_ = now;
-  const double wanted = n_calls_ * seconds_between_looks_ / std::max(seconds, 1e-9);
-  next_look_ = static_cast<unsigned int>(std::clamp(wanted, 1., std::min(1e6, 10. * n_calls_)));
-  next_look_ = dealii::Utilities::MPI::broadcast(communicator_, next_look_, 0);
+  const double seconds = std::chrono::duration<double>(now - last_check_).count();
+  last_check_ = now;
+  const double wanted = n_calls_ * seconds_between_checks_ / std::max(seconds, 1e-9);
+  next_check_ = static_cast<unsigned int>(std::clamp(wanted, 1., std::min(1e6, 10. * n_calls_)));
+  next_check_ = dealii::Utilities::MPI::broadcast(communicator_, next_check_, 0);
   n_calls_ = 0;
   return true;
 }

@@ -12,7 +12,7 @@ namespace billet {
 
 std::string EnergyWatch::advise(const Cause cause) {
   switch (cause) {
-  case Cause::soft_penalties:
+  case Cause::low_penalties:
     return "penalties are too low: they create energy on areas that change while penetration is large. "
            "Increase 'Normal penalty'";
   case Cause::sticking_overlaps:
@@ -40,16 +40,16 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
                                   const std::function<Cause()> &find_cause) {
   // The current total counts only half, as in explicit dynamics, so that created energy does not hide the
   // imbalance.
-  largest_ =
-      std::max({largest_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
+  maximum_ =
+      std::max({maximum_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
   DiagnosticList messages;
   const double drift = std::abs(energies.drift());
-  if (balance_ != Balance::is_left && drift > allowed_drift_ * largest_) {
+  if (balance_ != Balance::is_left && drift > allowed_drift_ * maximum_) {
     if (!cause_)
       cause_ = find_cause();
     std::ostringstream what;
     what.precision(3);
-    what << "the energies are off balance by " << 100. * drift / largest_ << " % of the maximum so far";
+    what << "the energies are off balance by " << 100. * drift / maximum_ << " % of the maximum so far";
     if (balance_ == Balance::is_kept) {
       what << "; allowed are " << 100. * allowed_drift_ << " % ('Maximum energy drift'): " << advise(*cause_);
       imbalance_ = what.str();
@@ -59,7 +59,7 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
       advice.front() = static_cast<char>(std::toupper(advice.front()));
       messages.push_back(Diagnostic(diagnostic::energy_imbalance, text)
                              .time(time)
-                             .measure("part of the largest energy", drift / largest_)
+                             .measure("part of the largest energy", drift / maximum_)
                              .advice(advice));
     }
   }

@@ -210,15 +210,15 @@ void FieldWriter::write_tools(const Solution &solution, const std::string &name)
   std::vector<std::vector<std::size_t>> facets;
   std::vector<std::size_t> tool_of_facet;
   for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
-    const SurfacePicture picture = scene_.tools()[t].surface().picture(
+    const SurfaceMesh surface_mesh = scene_.tools()[t].surface().surface_mesh(
         {state.placements[t].to_tool(discretization.centre()), 1.5 * discretization.radius()});
-    for (const auto &facet : picture.facets) {
+    for (const auto &facet : surface_mesh.facets) {
       facets.emplace_back();
       for (const unsigned int point : facet)
         facets.back().push_back(points.size() + point);
       tool_of_facet.push_back(t);
     }
-    for (const auto &point : picture.points)
+    for (const auto &point : surface_mesh.points)
       points.push_back(state.placements[t].to_space(point));
   }
   std::ofstream out(folder_ + "/" + name);

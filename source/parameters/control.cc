@@ -103,22 +103,22 @@ void TimeStepping::parse(Reader &reader) {
     text << time;
     return text.str();
   };
-  largest_step = step("Maximum step", 0.1 * end_time);
-  initial_step = step("Initial step", std::min(0.01 * end_time, largest_step));
+  max_step = step("Maximum step", 0.1 * end_time);
+  initial_step = step("Initial step", std::min(0.01 * end_time, max_step));
   if (initial_step > end_time)
     reader.reject("Initial step", "a number not above the end time, " + print(end_time));
   if (reader.text("Maximum step") == "automatic")
-    largest_step = std::max(largest_step, initial_step);
+    max_step = std::max(max_step, initial_step);
   if (control == Control::fixed)
     for (const std::string key : {"Minimum step", "Maximum step", "Growth iterations", "Shrink iterations",
                                   "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
-  smallest_step = step("Minimum step", std::min(1e-6 * end_time, initial_step));
+  min_step = step("Minimum step", std::min(1e-6 * end_time, initial_step));
   if (control == Control::automatic) {
-    if (smallest_step > initial_step)
+    if (min_step > initial_step)
       reader.reject("Minimum step", "a number not above the initial step, " + print(initial_step));
-    if (largest_step < initial_step)
+    if (max_step < initial_step)
       reader.reject("Maximum step", "a number not below the initial step, " + print(initial_step));
   }
   error_tolerance = reader.not_negative("Error tolerance");
@@ -177,7 +177,7 @@ void ExplicitDynamics::parse(Reader &reader) {
   linear_viscosity = reader.not_negative("Linear bulk viscosity");
   quadratic_viscosity = reader.not_negative("Quadratic bulk viscosity");
   scaled_step = reader.not_negative("Mass scaling step");
-  largest_drift = reader.positive("Maximum energy drift");
+  max_drift = reader.positive("Maximum energy drift");
   const std::string chosen_set = reader.text("Instruction set");
   instructions = chosen_set == "automatic" ? Instructions::automatic
                  : chosen_set == "scalar"  ? Instructions::scalar
@@ -295,8 +295,8 @@ void Solver::parse(Reader &reader) {
     reader.reject("Force tolerance", "a number > 0 and < 1");
   energy_tolerance = reader.positive("Energy tolerance");
   displacement_tolerance = reader.positive("Displacement tolerance");
-  most_iterations = reader.count("Maximum iterations", 1);
-  most_augmentations = reader.count("Maximum augmentations", 1);
+  max_iterations = reader.count("Maximum iterations", 1);
+  max_augmentations = reader.count("Maximum augmentations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));
@@ -304,7 +304,7 @@ void Solver::parse(Reader &reader) {
   linear_tolerance = reader.positive("Linear tolerance");
   if (linear_tolerance >= 1.)
     reader.reject("Linear tolerance", "a number > 0 and < 1");
-  most_linear_iterations = reader.count("Maximum linear iterations", 1);
+  max_linear_iterations = reader.count("Maximum linear iterations", 1);
   if (linear_solver.value == LinearSolver::mumps || linear_solver.value == LinearSolver::mumps_symmetric ||
       linear_solver.value == LinearSolver::klu)
     for (const std::string key : {"Forcing term", "Linear tolerance", "Maximum linear iterations"})

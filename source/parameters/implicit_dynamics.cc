@@ -36,7 +36,7 @@ void ImplicitDynamics::parse(Reader &reader, const bool steps_are_fixed) {
   mass = reader.text("Mass") == "lumped" ? Mass::lumped : Mass::consistent;
   error_tolerance = reader.not_negative("Error tolerance");
   reference_displacement = reader.not_negative("Reference displacement");
-  largest_drift = reader.not_negative("Maximum energy drift");
+  max_drift = reader.not_negative("Maximum energy drift");
   if (steps_are_fixed)
     for (const std::string key : {"Error tolerance", "Reference displacement"})
       if (reader.is_set(key))

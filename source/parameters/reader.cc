@@ -20,7 +20,7 @@ constexpr auto within_reach =
     "0, or a size from 1e-60 to 1e60: products of other numbers exceed the range of the machine";
 
 bool is_beyond_reach(const double value) {
-  return std::abs(value) > largest_number || (value != 0. && std::abs(value) < smallest_number);
+  return std::abs(value) > max_number || (value != 0. && std::abs(value) < min_number);
 }
 
 } // namespace
@@ -77,10 +77,11 @@ double Reader::not_negative(const std::string &key) const {
   return value;
 }
 
-unsigned int Reader::count(const std::string &key, const unsigned int least, const unsigned int most) const {
+unsigned int Reader::count(const std::string &key, const unsigned int minimum,
+                           const unsigned int maximum) const {
   const long value = prm_.get_integer(key);
-  if (value < static_cast<long>(least) || value > static_cast<long>(most))
-    reject(key, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  if (value < static_cast<long>(minimum) || value > static_cast<long>(maximum))
+    reject(key, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum));
   return static_cast<unsigned int>(value);
 }
 

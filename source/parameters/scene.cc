@@ -185,10 +185,10 @@ public:
       refuse({"Output"}, "History interval");
     if (scene_.is_dynamic())
       refuse({"Restart"}, "Release time");
-    constexpr double most_times = 1e7; // maximum number of outputs; more would fill a disk
+    constexpr double max_times = 1e7; // maximum number of outputs; more would fill a disk
     for (const std::string key : {"Interval", "History interval"}) {
       const double interval = key == "Interval" ? scene_.output.interval : scene_.output.history_interval;
-      if (interval > 0. && interval * most_times < scene_.time_stepping.end_time)
+      if (interval > 0. && interval * max_times < scene_.time_stepping.end_time)
         throw InputError(file_.where({"Output"}, key) + ": '" + key + "'" + in({"Output"}) + " is '" +
                          file_.value({"Output"}, key, "0") +
                          "'; allowed is 0, or at least 1e-7 of the end time");

@@ -10,12 +10,12 @@
 namespace billet {
 
 ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
-  const ErrorWatch::Belief belief = watch.belief();
-  const ErrorControl::Estimate &estimate = belief.estimate;
+  const ErrorWatch::EstimatedError estimated_error = watch.estimated_error();
+  const ErrorControl::Estimate &estimate = estimated_error.estimate;
   ErrorReport result;
-  result.of_what = belief.of_what;
-  result.since = belief.since;
-  result.is_known = belief.has_results;
+  result.of_what = estimated_error.of_what;
+  result.since = estimated_error.since;
+  result.is_known = estimated_error.has_results;
   result.sources = {
       {"steps", estimate.steps,
        "Reduce 'Maximum step' or 'Initial step': the run rejects no step for its error, and the estimate is "
@@ -26,7 +26,7 @@ ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
            ? "Reduce 'Initial step', or set a 'Penetration tolerance' in every pair: penetration at first "
              "contact is measured after the step"
            : "Increase 'Normal penalty', or let 'Target error' set 'Penetration tolerance' in all pairs",
-       !watch.measures_penetration() || belief.knows_penetration},
+       !watch.measures_penetration() || estimated_error.knows_penetration},
       {"iterations", estimate.iterations, "Reduce 'Force tolerance'"}};
   result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},

@@ -65,17 +65,17 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
 bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
                              const Solution &solution) {
   constexpr double large = 0.02;
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
     if (!body.law->has_plasticity() || body.law->has_exact_dissipation())
       continue;
     for (const ElementSummary &summary : solution.summarize(b))
       if (summary.equivalent_plastic_strain > 0.)
-        largest = std::max(largest,
+        maximum = std::max(maximum,
                            dealii::deviator(summary.cauchy_stress).norm() / (2. * body.law->elastic().shear));
   }
-  return dealii::Utilities::MPI::max(largest, discretization.communicator()) > large;
+  return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > large;
 }
 
 std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
@@ -89,17 +89,16 @@ std::string explain_failed_step(const parameters::Scene &parameters, const StepR
     return message.str() + computed.str();
   message << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria << ". "
           << describe_limit_load(parameters);
-  const bool goes_round = report.newton.goes_round && !parameters.pairs.empty();
-  if (goes_round)
+  const bool is_cycling = report.newton.is_cycling && !parameters.pairs.empty();
+  if (is_cycling)
     message << "Likely cause: contact chatter (open/closed or stick/slip), as in snap-through or with strong "
                "friction. Try half or twice the normal or tangential penalty, or a 'Penetration tolerance'. ";
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     message << "Steps are fixed. Try a smaller 'Initial step' or 'Step control = automatic'";
   else
-    message << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.smallest_step
-            << ". "
+    message << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.min_step << ". "
             << (parameters.is_dynamic() ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
-            << (report.newton.goes_round   ? ""
+            << (report.newton.is_cycling   ? ""
                 : parameters.pairs.empty() ? "Try a larger 'Maximum iterations'. "
                                            : "Try a lower penalty or a larger 'Maximum iterations'. ")
             << "Check the last field output for an unstable or distorted mesh";
@@ -124,10 +123,10 @@ std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, c
   if (std::isfinite(problem.relative_drift()))
     message << "are off balance by " << 100. * problem.relative_drift()
             << " % of the maximum energy so far; allowed are "
-            << 100. * parameters.explicit_dynamics.largest_drift << " % ('Maximum energy drift'): "
-            << (!advice.empty()                ? advice
-                : problem.has_soft_penalties() ? "penalties are too low, and nodes with large penetration "
-                                                 "create energy. Increase 'Normal penalty'"
+            << 100. * parameters.explicit_dynamics.max_drift << " % ('Maximum energy drift'): "
+            << (!advice.empty()               ? advice
+                : problem.has_low_penalties() ? "penalties are too low, and nodes with large penetration "
+                                                "create energy. Increase 'Normal penalty'"
                 : scene.capabilities().friction && !scene.body_pairs().empty()
                     ? "contact chatter with friction creates energy. Try a larger 'Normal penalty', such as "
                       "1000 E/h, else a smaller 'Safety factor' or more bulk viscosity"

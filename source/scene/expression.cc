@@ -32,8 +32,8 @@ std::vector<double> corners(const parameters::Amplitude &amplitude) {
   const std::vector<double> &t = amplitude.times, &values = amplitude.values;
   // Relative to the greater of two rates, and to the range of values.
   constexpr double notable = 0.5, rounding = 1e-9;
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  const double range = *greatest - *least;
+  const auto [minimum, greatest] = std::minmax_element(values.begin(), values.end());
+  const double range = *greatest - *minimum;
   std::vector<double> found;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double length = std::max(i > 0 ? t[i] - t[i - 1] : 0., i + 1 < t.size() ? t[i + 1] - t[i] : 0.);

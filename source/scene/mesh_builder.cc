@@ -58,7 +58,7 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
                                        {"subdivided_cylinder", 0, 1},
                                        {"cheese", 0, dim},
                                        {"moebius", 0, 1}}};
-  constexpr double most = 1e9;
+  constexpr double maximum = 1e9;
   for (const Counts &counts : all) {
     if (parameters.primitive.value != counts.primitive)
       continue;
@@ -75,7 +75,7 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
       is_sound = is_sound && !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
       product *= is_sound ? std::stod(number) : 1.;
     }
-    if (!is_sound || product < 1. || product > most)
+    if (!is_sound || product < 1. || product > maximum)
       throw InputError(describe_refusal<dim>(parameters) + "Argument " + std::to_string(counts.argument + 1) +
                        " has to be " + std::to_string(counts.n) + " whole number" +
                        (counts.n > 1 ? "s" : "") + " of elements > 0, not '" + argument + "'");

@@ -22,7 +22,7 @@ std::string describe_solver(const parameters::Solver::LinearSolver solver, const
                     iterative = unsymmetric ? "GMRES with multigrid" : "CG with multigrid";
   switch (solver) {
   case Kind::automatic:
-    return direct + ", above " + std::to_string(parameters::Solver::most_direct_dofs) + " unknowns " +
+    return direct + ", above " + std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
            iterative;
   case Kind::mumps_symmetric:
     return "MUMPS, which factorises half";
@@ -67,7 +67,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   body.formulation = make_formulation(parameters);
   body.young_modulus = parameters.material.elasticity->young_modulus();
   const ElasticModuli &moduli = body.law->elastic();
-  body.largest_modulus = moduli.bulk + 4. / 3. * moduli.shear;
+  body.max_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
@@ -363,7 +363,7 @@ void Scene::add_corners(std::vector<double> &times) const {
   const bool is_fixed = stepping.control == parameters::TimeStepping::Control::fixed;
   // Times closer than this need no step of their own.
   constexpr double little = 1e-3;
-  const double apart = little * (is_fixed ? stepping.initial_step : stepping.largest_step);
+  const double apart = little * (is_fixed ? stepping.initial_step : stepping.max_step);
   std::vector<double> known = times;
   known.insert(known.end(), stepping.stops.begin(), stepping.stops.end());
   known.push_back(0.);

@@ -50,8 +50,8 @@ void ConditionWatch::update(const Vector &b, const Vector &x) {
 }
 
 DiagnosticList ConditionWatch::check() {
-  constexpr double largest = 1e12; // four digits are left
-  if (is_ill_conditioned_ || !(condition_ > largest))
+  constexpr double maximum = 1e12; // four digits are left
+  if (is_ill_conditioned_ || !(condition_ > maximum))
     return {};
   std::ostringstream text;
   text.precision(1);

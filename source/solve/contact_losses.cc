@@ -38,10 +38,10 @@ double ContactLosses::give_back(const double energy) {
   return energy - left;
 }
 
-DiagnosticList ContactLosses::watch(const double largest_energy, const double time) {
-  if (!(largest_energy > 0.))
+DiagnosticList ContactLosses::watch(const double max_energy, const double time) {
+  if (!(max_energy > 0.))
     return {};
-  const double part = total() / largest_energy;
+  const double part = total() / max_energy;
   if (part <= std::max(much, 2. * reported_))
     return {};
   reported_ = part;
@@ -54,14 +54,14 @@ DiagnosticList ContactLosses::watch(const double largest_energy, const double ti
   constexpr double small = 0.05; // of the total; not reported
   for (const std::size_t cause : order)
     if (cause == order[0] || energies_[cause] > small * total())
-      what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / largest_energy << " % by "
+      what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / max_energy << " % by "
            << descriptions[cause].name;
   return {Diagnostic(diagnostic::contact_dissipates, what.str())
               .time(time)
               .measure("part of the largest energy", part)
-              .value("by impacts", energies_[impacts] / largest_energy)
-              .value("by friction springs", energies_[friction] / largest_energy)
-              .value("by crossings", energies_[crossings] / largest_energy)
+              .value("by impacts", energies_[impacts] / max_energy)
+              .value("by friction springs", energies_[friction] / max_energy)
+              .value("by crossings", energies_[crossings] / max_energy)
               .advice(descriptions[order[0]].advice)};
 }
 

@@ -183,11 +183,11 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   const double growth = is_static ? 1.1 : 2.;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||
-       (is_last && energy >= (is_static ? still_loaded * largest_energy_ : compared_energy_)))) {
+       (is_last && energy >= (is_static ? still_loaded * max_energy_ : compared_energy_)))) {
     compare(state);
     compared_energy_ = energy;
   }
-  largest_energy_ = std::isfinite(energy) ? std::max(largest_energy_, energy) : largest_energy_;
+  max_energy_ = std::isfinite(energy) ? std::max(max_energy_, energy) : max_energy_;
   if (is_last) {
     DiagnosticList diagnostics = judge(false);
     append(diagnostics, judge_bending());
@@ -208,7 +208,7 @@ double ElementWatch::error() const {
 }
 
 void ElementWatch::save(StateWriter &writer) const {
-  std::vector<double> values = {compared_energy_, compared_time_, largest_energy_};
+  std::vector<double> values = {compared_energy_, compared_time_, max_energy_};
   for (const auto &energies : energies_)
     add_numbers(energies, values);
   writer.write("element energies", values);
@@ -220,7 +220,7 @@ void ElementWatch::load(const StateReader &reader) {
     return;
   compared_energy_ = values[0];
   compared_time_ = values[1];
-  largest_energy_ = values[2];
+  max_energy_ = values[2];
   values.erase(values.begin(), values.begin() + 3);
   for (std::size_t b = 0; b < energies_.size(); ++b)
     energies_[b] = energies_in(values, b);

@@ -24,9 +24,9 @@ void EnergyErrors::add(const double time, const EnergyLedger &energies, const do
     total_ += half * (last_total_ + total);
   }
   // Drift by first contact stays constant; drift by steps grows.
-  constexpr double part = 0.2, growth = 1.1, shorter = 0.8, least = 0.5;
+  constexpr double part = 0.2, growth = 1.1, shorter = 0.8, minimum = 0.5;
   if (has_begun_ && total > 0. && drift > part * tolerance_ * total && drift > growth * last_drift_)
-    step_factor_ = std::max(least, shorter * step_factor_);
+    step_factor_ = std::max(minimum, shorter * step_factor_);
   has_begun_ = true;
   time_ = time;
   last_drift_ = drift;

@@ -24,8 +24,8 @@ constexpr double part_of_penetration_alone = 0.5;
 // Returns the residual of steps that are compared. Their difference, which falls with the square of the
 // target, must exceed it.
 double residual_of_measurements(const double target) {
-  constexpr double most = 0.1, slope = 10.;
-  return std::min(most, slope * target) * target;
+  constexpr double maximum = 0.1, slope = 10.;
+  return std::min(maximum, slope * target) * target;
 }
 
 /// Whether the penetration tolerances of all pairs are left to the target error.
@@ -98,11 +98,11 @@ void ErrorWatch::begin(const double time) {
     control.begin(time);
 }
 
-double ErrorWatch::least(double (ErrorControl::*bound)() const) const {
-  double least = std::numeric_limits<double>::infinity();
+double ErrorWatch::minimum(double (ErrorControl::*bound)() const) const {
+  double minimum = std::numeric_limits<double>::infinity();
   for (const auto &control : controls_)
-    least = std::min(least, (control.*bound)());
-  return least;
+    minimum = std::min(minimum, (control.*bound)());
+  return minimum;
 }
 
 bool ErrorWatch::wants_measurement(const double length) const {
@@ -120,22 +120,23 @@ void ErrorWatch::miss_measurement(const double length, const bool failed) {
     control.miss_measurement(length, failed);
 }
 
-ErrorWatch::Belief ErrorWatch::belief() const {
+ErrorWatch::EstimatedError ErrorWatch::estimated_error() const {
   const std::vector<std::string> names = problem_.result_names();
-  Belief belief;
+  EstimatedError estimated_error;
   for (std::size_t i = 0; i < controls_.size(); ++i) {
     const ErrorControl::Estimate estimate = controls_[i].estimate();
-    if (controls_[i].has_forces() && (!belief.has_results || estimate.total() > belief.estimate.total()))
-      belief = {estimate, names[i], controls_[i].start(), true, controls_[i].knows_penetration()};
+    if (controls_[i].has_forces() &&
+        (!estimated_error.has_results || estimate.total() > estimated_error.estimate.total()))
+      estimated_error = {estimate, names[i], controls_[i].start(), true, controls_[i].knows_penetration()};
   }
-  if (!belief.has_results)
-    belief.of_what = names.front();
-  return belief;
+  if (!estimated_error.has_results)
+    estimated_error.of_what = names.front();
+  return estimated_error;
 }
 
 void ErrorWatch::allow_penetration() {
   if (controls_penetration_)
-    problem_.set_penetration_allowed(least(&ErrorControl::penetration_allowed));
+    problem_.set_penetration_allowed(minimum(&ErrorControl::penetration_allowed));
 }
 
 void ErrorWatch::demand_accuracy(const bool is_measured) {
@@ -148,7 +149,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
   // Not in the first of the steps that are compared: they need the same penetration.
   if (measures_penetration_ && wants_penetration() && (is_second || probe_length_ == 0.))
-    problem_.measure_penetration(least(&ErrorControl::allowed_at_first));
+    problem_.measure_penetration(minimum(&ErrorControl::allowed_at_first));
   return n_iterations;
 }
 
@@ -173,7 +174,7 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
   } else {
     demand_accuracy(false);
     miss_measurement(first, true);
-    control.limit(least(&ErrorControl::longest_step));
+    control.limit(minimum(&ErrorControl::longest_step));
   }
   return n_iterations;
 }
@@ -211,7 +212,7 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
   probe_length_ = 0.;
   demand_accuracy(false);
   last_residual_ = report.force;
-  control.limit(least(&ErrorControl::longest_step));
+  control.limit(minimum(&ErrorControl::longest_step));
 }
 
 void ErrorWatch::after_failure() {

@@ -31,9 +31,9 @@ InertiaWatch::InertiaWatch(const Scene &scene, const Discretization &discretizat
       lumped_(scene.bodies().size()), consistent_(lumped_) {}
 
 void InertiaWatch::add(const SolutionState &state) {
-  constexpr double most_samples = 100.;
+  constexpr double max_samples = 100.;
   const double dt = state.time - time_;
-  if (!is_lumped_ || !(dt > 0.) || dt < scene_.parameters().time_stepping.end_time / most_samples)
+  if (!is_lumped_ || !(dt > 0.) || dt < scene_.parameters().time_stepping.end_time / max_samples)
     return;
   time_ = state.time;
   duration_ += dt;
@@ -62,12 +62,12 @@ void InertiaWatch::add(const SolutionState &state) {
   }
 }
 
-DiagnosticList InertiaWatch::judge(const double largest_energy) const {
+DiagnosticList InertiaWatch::judge(const double max_energy) const {
   constexpr double little = 0.01;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < lumped_.size(); ++b) {
     const double ratio = lumped_[b] / consistent_[b];
-    if (!(lumped_[b] > little * largest_energy * duration_) || !(ratio > doubtful_ratio))
+    if (!(lumped_[b] > little * max_energy * duration_) || !(ratio > doubtful_ratio))
       continue;
     std::ostringstream text;
     text.precision(3);

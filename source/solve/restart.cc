@@ -75,7 +75,7 @@ std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std
   return {};
 }
 
-constexpr std::uint64_t most_ranks = 1U << 20U;
+constexpr std::uint64_t max_ranks = 1U << 20U;
 
 } // namespace
 
@@ -346,7 +346,7 @@ void save_parts(StateWriter &writer, const std::string &name, const unsigned int
                 const std::vector<std::uint64_t> &keys, const std::vector<double> &values) {
   std::vector<std::uint64_t> own = keys;
   for (auto &key : own)
-    key = key * most_ranks + rank;
+    key = key * max_ranks + rank;
   writer.write_rows(name, 3, own, values);
 }
 
@@ -354,7 +354,7 @@ std::vector<double> load_part(const StateReader &reader, const std::string &name
                               const std::vector<std::uint64_t> &keys) {
   std::vector<std::uint64_t> own = keys;
   for (auto &key : own)
-    key = key * most_ranks + rank;
+    key = key * max_ranks + rank;
   std::vector<bool> found;
   return reader.read_rows(name, 3, own, &found);
 }

@@ -113,9 +113,9 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
                                        const double noise) const {
   const bool is_first = slopes_.size() != forces.size();
   // The slope lies between the differences with and without noise: keep the last value if it is between them.
-  const double least_slope = std::max(0., difference - noise) / (2. * h * h),
-               most_slope = (difference + noise) / (2. * h * h);
-  const double value = is_first ? least_slope : std::max(least_slope, std::min(last_slope_, most_slope)),
+  const double min_slope = std::max(0., difference - noise) / (2. * h * h),
+               max_slope = (difference + noise) / (2. * h * h);
+  const double value = is_first ? min_slope : std::max(min_slope, std::min(last_slope_, max_slope)),
                last = is_first ? value : last_slope_;
   // If the difference is within the noise, not even its direction is known.
   ResultGroup now = difference > noise || is_first ? forces : slopes_;
@@ -125,7 +125,7 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
   else if (last_slope_ > 0.)
     for (auto &part : now)
       part *= value / last_slope_;
-  return {value, last, most_slope, is_first, difference > noise, std::move(now)};
+  return {value, last, max_slope, is_first, difference > noise, std::move(now)};
 }
 
 void StepErrors::take(const Slope &slope, const double h) {
@@ -160,8 +160,8 @@ void StepErrors::take(const Slope &slope, const double h) {
 }
 
 void StepErrors::schedule(const ForceCourse &course, const Slope &slope, const double h) {
-  is_little_ =
-      left_at_the_end(course, slope.most, h) <= MeasurementInterval::little * rough_target() * course.scale();
+  is_little_ = left_at_the_end(course, slope.maximum, h) <=
+               MeasurementInterval::little * rough_target() * course.scale();
   const bool is_steady = MeasurementInterval::is_steady(slope.value, slope.last) && !slope.is_first;
   if (is_steady || is_little_)
     interval_.start_longer();
@@ -184,7 +184,7 @@ void StepErrors::measure(const ForceCourse &course, const double h, const Result
   if (rules_.tolerance == 0.)
     return;
   const bool may_matter =
-      left_at_the_end(course, slope.most, h) > Factors::matters * rough_target() * course.scale();
+      left_at_the_end(course, slope.maximum, h) > Factors::matters * rough_target() * course.scale();
   choose_longest_step(course, h, may_matter && !rules_.fade, slope.is_known);
   if (h < Factors::shorter * last_step && part_ > Factors::as_much * last_part)
     longest_step_ = std::max(longest_step_, last_step);
@@ -195,11 +195,11 @@ void StepErrors::choose_longest_step(const ForceCourse &course, const double h, 
   longest_step_ = h * allowed_stretch(course, h);
   if (!matter)
     return;
-  const double span = course.span(), most_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
-  longest_step_ = std::min(longest_step_, is_known ? most_span : std::max(most_span, h));
+  const double span = course.span(), max_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
+  longest_step_ = std::min(longest_step_, is_known ? max_span : std::max(max_span, h));
   if (longest_step_ < h)
     longest_step_ = std::max(
-        longest_step_, std::min(h, std::min(0.5 * most_span, Factors::min_span * rules_.tolerance * span)));
+        longest_step_, std::min(h, std::min(0.5 * max_span, Factors::min_span * rules_.tolerance * span)));
 }
 
 void StepErrors::miss(const double h, const bool failed) {

@@ -35,10 +35,10 @@ Kind choose(const Kind wanted, const bool symmetric, const Matrix &matrix, MPI_C
   const Kind direct = symmetric ? Kind::mumps_symmetric : Kind::mumps;
   const double n_dofs = matrix.m();
   // The smallest machine of all ranks counts.
-  const double least = dealii::Utilities::MPI::min(machine_memory(), communicator);
+  const double minimum = dealii::Utilities::MPI::min(machine_memory(), communicator);
   constexpr double part_of_memory = 0.5;
-  if (n_dofs > parameters::Solver::most_direct_dofs ||
-      direct_memory(n_dofs, symmetric) > part_of_memory * least)
+  if (n_dofs > parameters::Solver::max_direct_dofs ||
+      direct_memory(n_dofs, symmetric) > part_of_memory * minimum)
     return symmetric ? Kind::conjugate_gradients : Kind::gmres;
   return direct;
 }
@@ -64,7 +64,7 @@ TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symm
     IterativeSolver::Settings iterative;
     iterative.method =
         kind == Kind::gmres ? IterativeSolver::Method::gmres : IterativeSolver::Method::conjugate_gradients;
-    iterative.most_iterations = settings.most_linear_iterations;
+    iterative.max_iterations = settings.max_linear_iterations;
     iterative_ = std::make_unique<IterativeSolver>(iterative, matrix, communicator);
     name_ = iterative_->name();
   } else {

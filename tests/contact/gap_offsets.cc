@@ -46,7 +46,7 @@ void check_multipliers() {
         offsets.is_empty() && offsets.was_empty() && !offsets.is_used());
 }
 
-void check_depths() {
+void check_penetrations() {
   GapOffsets offsets;
   check("without offsets there is no lift", offsets.of(0).now == 0. && !offsets.are_used());
   offsets.depths.start(2);
@@ -84,7 +84,7 @@ void check_restless() {
 
 int main() {
   check_multipliers();
-  check_depths();
+  check_penetrations();
   check_restless();
   return exit_code();
 }

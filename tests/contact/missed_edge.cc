@@ -44,11 +44,11 @@ void check_zone() {
   check("in front of the surface's plane: not", !edge.misses(node, at(0.2, 0.1)));
   check("farther than two facets away: not", !edge.misses(node, at(2.1, -0.1)));
   check("below the surface: not", !edge.misses(node, at(-0.2, -0.1)));
-  node.initial_depth = 0.07;
+  node.initial_penetration = 0.07;
   check("an allowed penetration is no depth", !edge.misses(node, at(0.2, -0.1)));
   edge.step.allowed_part = 0.5;
   check("  except where it has faded", edge.misses(node, at(0.2, -0.1)));
-  node.initial_depth = 0.;
+  node.initial_penetration = 0.;
   edge.step.placement.translation[0] = 0.1;
   check("the tool moves: the edge does, too",
         !edge.misses(node, at(0.14, -0.1)) && edge.misses(node, at(0.16, -0.1)));

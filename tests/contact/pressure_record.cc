@@ -37,7 +37,7 @@ int main() {
             (placement.to_space(record[0].position) - states[0].position).norm() +
             (placement.to_space(record[1].position) - states[1].position).norm(),
         1e-14);
-  record.divide_depth(0, 3.);
+  record.divide_penetration(0, 3.);
   check("a stiffer penalty is pressed less deep", record[0].depth == 0.125 && record[0].pressure == 3.);
 
   MemoryState saved;
@@ -51,7 +51,7 @@ int main() {
                               loaded[1].normal == record[0].normal &&
                               loaded[0].position == record[1].position);
   loaded.set_known(false);
-  loaded.divide_depth(1, 2.);
+  loaded.divide_penetration(1, 2.);
   MemoryState empty;
   MemoryWriter writer_of_nothing(empty);
   loaded.save(writer_of_nothing, {"", 0, 2, {5, 4}});

@@ -131,13 +131,13 @@ void test_patch() {
                  0.1 * get_vector(block->nodes.positions().data(), node) + Tensor<1, 3>({0., 0., -0.005}));
     block->press();
   }
-  double error = 0., largest = 0., bound = 0.;
+  double error = 0., maximum = 0., bound = 0.;
   for (std::size_t i = 0; i < on_plane.forces.size(); ++i) {
     error = std::max(error, std::abs(on_plane.forces[i] - on_box.forces[i]));
-    largest = std::max(largest, std::abs(on_plane.forces[i]));
+    maximum = std::max(maximum, std::abs(on_plane.forces[i]));
     bound = std::max(bound, on_plane.bounds[i] - 1.05 * on_box.bounds[i]);
   }
-  check("uniform pressure on divided facets: that of whole ones", error / largest, 1e-12);
+  check("uniform pressure on divided facets: that of whole ones", error / maximum, 1e-12);
   check("uniform pressure on divided facets: as stiff", bound <= 0.);
 }
 

@@ -29,7 +29,7 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   testing::set_fixed_steps(parameters, 20);
-  parameters.solver.most_iterations = 8;
+  parameters.solver.max_iterations = 8;
   SceneRun untried(parameters), tried(parameters);
   bool failed = true, same = true, first_guess = false, correction = false, iterations = false;
   for (unsigned int step = 0; step < 8; ++step) {

@@ -37,9 +37,9 @@ Outcome press(const std::string &scene, const double factor, const double tolera
 }
 
 /// Why the first step fails.
-std::string fail(const double tolerance, const unsigned int most) {
+std::string fail(const double tolerance, const unsigned int maximum) {
   auto parameters = read("billet_upsetting.prm", 10., tolerance);
-  parameters.solver.most_augmentations = most;
+  parameters.solver.max_augmentations = maximum;
   SceneRun run(parameters);
   return run.problem.step(parameters.time_stepping.initial_step, 0.).failure;
 }

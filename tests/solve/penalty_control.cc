@@ -10,7 +10,7 @@ using billet::testing::check;
 
 namespace {
 
-constexpr double largest_raise = PenaltyControl::in_explicit_scenes;
+constexpr double max_raise = PenaltyControl::in_explicit_scenes;
 
 /// A bar and the contact at its end, springs in series, that a constant force presses, and a pair that does
 /// not touch.
@@ -32,14 +32,14 @@ struct Press {
 
   /// Until `end`; the largest factor at a time.
   double run(PenaltyControl &control, const double from, const double end) {
-    double largest = 1.;
+    double maximum = 1.;
     for (double time = from; time < end; time += 0.25) {
       const auto factors = control.raises(at(time), {{room, room}, {room, room}});
       contact *= factors[0].normal;
       room /= factors[0].normal;
-      largest = std::max({largest, factors[0].normal, factors[1].normal});
+      maximum = std::max({maximum, factors[0].normal, factors[1].normal});
     }
-    return largest;
+    return maximum;
   }
 };
 
@@ -47,21 +47,20 @@ PenaltyControl control(const bool may_be_raised) {
   LoadPath path;
   path.bodies = {0};
   path.pairs = {0, 1};
-  return PenaltyControl({{"end", may_be_raised, may_be_raised}, {"other", true, true}}, {path},
-                        largest_raise);
+  return PenaltyControl({{"end", may_be_raised, may_be_raised}, {"other", true, true}}, {path}, max_raise);
 }
 
 void check_raises() {
   auto penalties = control(true);
   Press press;
-  auto blow = control(true);
+  auto fast = control(true);
   Press impact;
   impact.kinetic = 0.1;
-  check("nothing in fast motion", impact.run(blow, 0.25, 4.) == 1.);
+  check("nothing in fast motion", impact.run(fast, 0.25, 4.) == 1.);
   impact.kinetic = 1e-6;
-  check("nor where that turns round", impact.run(blow, 4., 20.) == 1.);
+  check("nor where that turns round", impact.run(fast, 4., 20.) == 1.);
   impact.force = 10.;
-  check("but once it is pressed much harder", impact.run(blow, 20., 40.) == 1.1);
+  check("but once it is pressed much harder", impact.run(fast, 20., 40.) == 1.1);
   check("not at once in slow motion", press.run(penalties, 4., 100.) == 1.1);
   check("until penetration takes 0.3 to 0.4 %", press.softness() < 0.004 && press.softness() > 0.0025);
   const DiagnosticList messages = penalties.take_diagnostics();
@@ -85,18 +84,18 @@ void check_limits() {
   auto light = control(true);
   Press small;
   PenaltyControl::Energies energies = small.at(1.);
-  double largest = 1.;
+  double maximum = 1.;
   for (double time = 0.25; time < 50.; time += 0.25) {
     energies.time = time;
     energies.all.elastic = 1e3 * energies.of_bodies[0]; // of other bodies
-    largest = std::max(largest, light.raises(energies, {{100., 100.}, {100., 100.}})[0].normal);
+    maximum = std::max(maximum, light.raises(energies, {{100., 100.}, {100., 100.}})[0].normal);
   }
-  check("not where it is no matter for the scene", largest == 1.);
+  check("not where it is no matter for the scene", maximum == 1.);
   LoadPath loaded;
   loaded.bodies = {0};
   loaded.pairs = {0, 1};
   loaded.bears_given_loads = true;
-  PenaltyControl support({{"end", true, true}, {"other", true, true}}, {loaded}, largest_raise);
+  PenaltyControl support({{"end", true, true}, {"other", true, true}}, {loaded}, max_raise);
   Press heavy;
   check("nor where loads are given, whose forces are right", heavy.run(support, 0.25, 100.) == 1.);
   auto twice = control(true);

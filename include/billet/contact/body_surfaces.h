@@ -28,8 +28,8 @@ struct BodySurfaces {
   // For each facet.
 
   std::vector<SurfaceFacet> facets;
-  std::vector<double> areas;  ///< [length²]
-  std::vector<double> depths; ///< maximum penetration of nodes along their paths [length]
+  std::vector<double> areas;        ///< [length²]
+  std::vector<double> penetrations; ///< maximum penetration of nodes along their paths [length]
 
   /// Returns the size of the smallest facet of all ranks [length]. Collective.
   double find_smallest_size(MPI_Comm communicator) const;

@@ -24,9 +24,9 @@ struct EdgeFading {
   double stiffness; ///< bound of the norm of `tangent` [stress/length]
 };
 
-/// Returns the fading at the position `border`, for a `gap` to the surface and a `width` w of the zone in
+/// Returns the fading at the position `edge_point`, for a `gap` to the surface and a `width` w of the zone in
 /// which the pressure fades [length]. Requires border.beyond < width.
-EdgeFading compute_edge_fading(const RigidSurface::Border &border, double width,
+EdgeFading compute_edge_fading(const RigidSurface::EdgePoint &edge_point, double width,
                                const HardeningSpring &penalty, double gap);
 
 } // namespace billet

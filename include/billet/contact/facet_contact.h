@@ -72,17 +72,17 @@ public:
 
   /// Closes initial gaps of undeformed surfaces, before any other call. Nodes in front of a facet of the
   /// other surface by at most `within` [length] permanently count as touching it without pressure. Nodes of
-  /// overlapping facets do so by their mean gap; allow_initial_depths() then allows larger penetrations.
-  /// Collective.
+  /// overlapping facets do so by their mean gap; allow_initial_penetrations() then allows larger
+  /// penetrations. Collective.
   void close_initial_gaps(const Positions &positions, double within);
   /// Allows the penetrations at the last add_forces(), before the first commit(). From then on, only the
   /// excess over the allowed part counts; that part is initially 1. Overlapping facets may still find a
   /// penetration, which another call after another add_forces() allows. Returns the maximum new penetration
   /// on this rank [facet sizes].
-  double allow_initial_depths();
+  double allow_initial_penetrations();
   /// Sets the allowed part at the start and the end of the step.
   void set_allowed_part(const double at_start, const double at_end) {
-    parts_.offsets.depths.set_allowed_part(at_start, at_end);
+    parts_.offsets.penetrations.set_allowed_part(at_start, at_end);
   }
 
   /// Returns to the state of the last commit(), to attempt a step or to repeat it.

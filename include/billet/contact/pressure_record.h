@@ -14,8 +14,8 @@ class PressureRecord {
 public:
   /// State of a node, in the tool's coordinates.
   struct Entry {
-    double pressure = 0.; ///< [stress]
-    double depth = 0.;    ///< [length]
+    double pressure = 0.;    ///< [stress]
+    double penetration = 0.; ///< [length]
     dealii::Tensor<1, 3> normal, position;
   };
 
@@ -29,9 +29,9 @@ public:
   void record(const std::vector<ToolContactState> &states, const std::vector<ContactPoint> &nodes,
               const Placement &placement);
   /// Divides the depth of a node whose penalty was multiplied by `factor` at the same pressure.
-  void divide_depth(const std::size_t i, const double factor) {
+  void divide_penetration(const std::size_t i, const double factor) {
     if (is_known_)
-      entries_[i].depth /= factor;
+      entries_[i].penetration /= factor;
   }
 
   void save(StateWriter &writer, const SlaveSurface::Range &range) const;

@@ -27,16 +27,16 @@ struct ContactPoint {
   double spacing;          ///< size of the parts of facets around it; equal to `size` where none is divided
   bool is_divided = false; ///< whether a facet around it is divided
   bool is_fixed = false;   ///< supports prescribe all its motion: it cannot leave the tool
-  double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
-  HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
+  double hardening_penetration = std::numeric_limits<double>::infinity(); ///< of its normal spring
+  HardeningSpring spring() const { return {stiffness.normal, hardening_penetration}; }
   double touching_gap;    ///< of nodes that start on the tool; far below stiff-penalty penetrations
   double gap_n = 0.;      ///< at the start of the step
   unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
   /// λ/k of augmentation, now and at the start of the step [length]
   double multiplier_offset = 0., multiplier_offset_n = 0.;
-  double initial_depth = 0.;      ///< allowed initial penetration; < 0: a gap that counts as closed
-  bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
-  dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
+  double initial_penetration = 0.; ///< allowed initial penetration; < 0: a gap that counts as closed
+  bool is_behind = false;          ///< at the start of the step: it has missed the tool's surface, ...
+  dealii::Tensor<1, 3> behind_at;  ///< ... and was here, in the tool's coordinates
 
   /// Returns the displacement of a node of the mesh.
   dealii::Tensor<1, 3> displacement_in(const Vector &displacements) const {

@@ -25,8 +25,8 @@ private:
   /// Energies on current areas of a facet's corners that touch, with bounds of their springs.
   struct CornerSprings {
     std::array<double, 4> energies{};
-    double depth = 0.;     ///< of the corner with the maximum energy [length]
-    double hardening = 1.; ///< of the stiffest spring
+    double penetration = 0.; ///< of the corner with the maximum energy [length]
+    double hardening = 1.;   ///< of the stiffest spring
   };
   CornerSprings stretch(ContactFacet &facet, const CornerStates &states) const;
   /// Areas of the corners, and −Σ_a ê_a ∂A_a/∂x_b.

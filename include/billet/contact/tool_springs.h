@@ -33,8 +33,8 @@ template <class Add> void visit_areas(const RigidContactParts &parts, const Add 
 /// Returns the maximum penetration up to which the spring energy acts on current areas in explicit scenes.
 /// The excess acts on a fixed area: that of the last step in which the node was not so deep. The limit is 0
 /// for hardening springs, so that energy is conserved where the normal jumps, as at an edge of the tool.
-inline double depth_on_current_areas(const ContactPoint &node) {
-  return std::isinf(node.hardening_depth) ? 0.1 * node.spacing : 0.;
+inline double penetration_on_current_areas(const ContactPoint &node) {
+  return std::isinf(node.hardening_penetration) ? 0.1 * node.spacing : 0.;
 }
 
 /// Energies in the penalty springs of nodes on a tool, and the areas on which they act: those of the last
@@ -56,7 +56,7 @@ public:
   SpringEnergy of(const std::size_t i, const double energy) const {
     if constexpr (is_explicit) {
       const ContactPoint &node = parts_.slaves.nodes[i];
-      return SpringEnergy::split(energy, node.spring().energy(depth_on_current_areas(node)));
+      return SpringEnergy::split(energy, node.spring().energy(penetration_on_current_areas(node)));
     } else
       return SpringEnergy::on_one_area(energy);
   }

@@ -24,7 +24,7 @@ struct ToolStep {
 
   /// Returns the gap offset of a node, by which the tool's surface counts as raised [length].
   double gap_offset(const ContactPoint &node) const {
-    return node.multiplier_offset - InitialOverlap::counted(node.initial_depth, allowed_part);
+    return node.multiplier_offset - InitialOverlap::counted(node.initial_penetration, allowed_part);
   }
 };
 

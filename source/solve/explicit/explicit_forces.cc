@@ -126,10 +126,10 @@ StepBounds ExplicitForces::bounds(const std::vector<double> &inverse_masses) con
 }
 
 double ExplicitForces::max_stiffness() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (const unsigned int node : bounded_nodes_)
-    largest = std::max(largest, bounds_[std::size_t{nodal_stride} * node]);
-  return largest;
+    maximum = std::max(maximum, bounds_[std::size_t{nodal_stride} * node]);
+  return maximum;
 }
 
 } // namespace billet

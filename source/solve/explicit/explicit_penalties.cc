@@ -44,8 +44,8 @@ DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   for (const auto &contact : parts_.contacts) {
     double moved = maxima[0];
     if (const auto &tool = contact.rigid_tool())
-      moved = std::max(moved, largest_motion(parts_.scene.tools()[*tool].placement(0.),
-                                             parts_.tools[*tool].now(), parts_.discretization.radius()));
+      moved = std::max(moved, max_motion(parts_.scene.tools()[*tool].placement(0.), parts_.tools[*tool].now(),
+                                         parts_.discretization.radius()));
     append(messages, watch_.check(contact.name(), time, {next[0], next[1]}, moved, part));
     next += 2;
     append(messages, contact.checks().check_step());

@@ -23,10 +23,10 @@ public:
   double ratio() const {
     return std::pow(errors_.back() / errors_[errors_.size() - 1 - window], 1. / window);
   }
-  /// Whether, at this rate, the error will be above 1 after `most` augmentations.
-  bool is_hopeless(const unsigned int most) const {
+  /// Whether, at this rate, the error will be above 1 after `maximum` augmentations.
+  bool is_hopeless(const unsigned int maximum) const {
     const auto n = static_cast<unsigned int>(errors_.size()) - 1;
-    return n >= 2 * window && std::log(errors_.back()) + (most - n) * std::log(ratio()) > 0.;
+    return n >= 2 * window && std::log(errors_.back()) + (maximum - n) * std::log(ratio()) > 0.;
   }
   /// Returns the number of further augmentations until convergence; the error has to fall.
   double to_go() const { return std::ceil(-std::log(errors_.back()) / std::log(ratio())); }
@@ -133,13 +133,13 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
     demand /= penetration_allowed_;
     demands.by_tolerances = std::max(demands.by_tolerances, demand);
   }
-  demands.largest = demands.by_tolerances;
+  demands.maximum = demands.by_tolerances;
   if (springs.empty())
     return demands;
   const std::vector<double> excess = softness_.excess(springs);
   for (std::size_t i = 0; i < excess.size(); ++i) {
     demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
-    demands.largest = std::max(demands.largest, excess[i]);
+    demands.maximum = std::max(demands.maximum, excess[i]);
   }
   return demands;
 }
@@ -195,11 +195,11 @@ void Augmentation::give_up(const Series &series, const unsigned int n, const dou
   std::ostringstream message;
   message << "after " << n << " augmentations the penetration or elastic slip is still " << error
           << " times the 'Penetration tolerance' from its target";
-  const unsigned int most = problem_.parameters().solver.most_augmentations;
-  if (n < most && series.pace.ratio() < 1.)
+  const unsigned int maximum = problem_.parameters().solver.max_augmentations;
+  if (n < maximum && series.pace.ratio() < 1.)
     message << ". At the present rate of " << series.pace.ratio() << " for each augmentation, it would take "
             << series.pace.to_go() << " more";
-  else if (n < most)
+  else if (n < maximum)
     message << ", and no longer falls";
   message << ". Try a larger penalty or 'Penetration tolerance', "
           << (problem_.scheme().has_inertia()
@@ -210,7 +210,7 @@ void Augmentation::give_up(const Series &series, const unsigned int n, const dou
 }
 
 void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
-  const unsigned int most = problem_.parameters().solver.most_augmentations;
+  const unsigned int maximum = problem_.parameters().solver.max_augmentations;
   const double accuracy = solver_.accuracy();
   double last_error = std::numeric_limits<double>::infinity();
   Series series(problem_.contacts().size());
@@ -219,7 +219,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
   series.springs = contact_springs();
   for (unsigned int n = 0; report.converged; ++n) {
     const Demands demands = find_demands(series.springs);
-    const double error = demands.largest;
+    const double error = demands.maximum;
     const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)
       break;
@@ -230,7 +230,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
     if (is_of_softness &&
         (n >= Limits::max_for_softness || series.pace.is_hopeless(Limits::max_for_softness)))
       break;
-    if (n == most || series.pace.is_hopeless(most)) {
+    if (n == maximum || series.pace.is_hopeless(maximum)) {
       if (!may_leave_penetration_)
         give_up(series, n, error, report);
       break;

@@ -29,7 +29,7 @@ bool is_held(const Constraints &constraints, const DofIndex dof) {
 
 } // namespace
 
-std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const std::size_t body) {
+std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
   std::vector<Resistance> resistances;
   for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization())) {
     dealii::Tensor<1, 3> position = entry.second.position;
@@ -65,10 +65,10 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
   return find_free_motion(resistances, 0.5 * (box.low + box.high), size);
 }
 
-void check_freedom(const ImplicitProblem &problem) {
+void check_free_modes(const ImplicitProblem &problem) {
   for (std::size_t body = 0; body < problem.scene().bodies().size(); ++body)
     if (const auto motion =
-            problem.stabilisation().acts_on(body) ? std::nullopt : find_freedom(problem, body))
+            problem.stabilisation().acts_on(body) ? std::nullopt : find_free_mode(problem, body))
       throw InputError(
           problem.scene().parameters().bodies[body].origin +
           ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
@@ -77,9 +77,9 @@ void check_freedom(const ImplicitProblem &problem) {
           ". A static scene allows no free mode. Add a support, or let the body touch at the start");
 }
 
-std::string describe_freedom(const ImplicitProblem &problem, const std::size_t body,
-                             const std::set<std::string> &removed) {
-  const auto motion = find_freedom(problem, body);
+std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t body,
+                               const std::set<std::string> &removed) {
+  const auto motion = find_free_mode(problem, body);
   if (!motion)
     return "";
   std::ostringstream message;
@@ -103,26 +103,26 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   for (const auto &tool : problem.scene().tools()) {
     const Placement start = tool.placement(0.), before = tool.placement(problem.state().time),
                     after = tool.placement(t);
-    driven = std::max(driven, largest_motion(before, after, radius));
-    driven_so_far = std::max(
-        {driven_so_far, largest_motion(start, before, radius), largest_motion(start, after, radius)});
+    driven = std::max(driven, max_motion(before, after, radius));
+    driven_so_far =
+        std::max({driven_so_far, max_motion(start, before, radius), max_motion(start, after, radius)});
   }
-  std::array<double, 5> largest{0., 0., 0., 0., -1.}; // held in the step, so far; all in it, so far; body
+  std::array<double, 5> maximum{0., 0., 0., 0., -1.}; // held in the step, so far; all in it, so far; body
   const Constraints &held = problem.supports().homogeneous();
   for (const DofIndex dof : problem.discretization().owned_dofs()) {
     const double now = step.trial.displacements(dof), change = now - step.start.displacements(dof);
     if (is_held(held, dof)) {
-      largest[0] = std::max(largest[0], std::abs(change));
-      largest[1] = std::max({largest[1], std::abs(now), std::abs(step.start.displacements(dof))});
+      maximum[0] = std::max(maximum[0], std::abs(change));
+      maximum[1] = std::max({maximum[1], std::abs(now), std::abs(step.start.displacements(dof))});
     }
-    largest[2] = std::max(largest[2], std::abs(change));
-    largest[3] = std::max(largest[3], std::abs(now));
+    maximum[2] = std::max(maximum[2], std::abs(change));
+    maximum[3] = std::max(maximum[3], std::abs(now));
   }
-  dealii::Utilities::MPI::max(dealii::ArrayView<const double>(largest.data(), largest.size()),
+  dealii::Utilities::MPI::max(dealii::ArrayView<const double>(maximum.data(), maximum.size()),
                               problem.communicator(),
-                              dealii::ArrayView<double>(largest.data(), largest.size()));
-  driven += largest[0];
-  driven_so_far += largest[1];
+                              dealii::ArrayView<double>(maximum.data(), maximum.size()));
+  driven += maximum[0];
+  driven_so_far += maximum[1];
   const auto fail = [&](const std::string &what) {
     report.converged = false;
     report.is_explained = true;
@@ -132,14 +132,14 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   };
   std::ostringstream text;
   text.precision(3);
-  if (largest[2] > max_step * diameter + 2. * driven) {
-    text << "the step to time " << t << " moves a node by " << largest[2] << ", which is "
-         << largest[2] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
+  if (maximum[2] > max_step * diameter + 2. * driven) {
+    text << "the step to time " << t << " moves a node by " << maximum[2] << ", which is "
+         << maximum[2] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
          << "; allowed is " << max_step << " diameters more than twice that";
     return fail(text.str());
   }
-  if (largest[3] > max_path * diameter + 2. * driven_so_far) {
-    text << "at time " << t << " a node has moved by " << largest[3] << ", which is " << largest[3] / diameter
+  if (maximum[3] > max_path * diameter + 2. * driven_so_far) {
+    text << "at time " << t << " a node has moved by " << maximum[3] << ", which is " << maximum[3] / diameter
          << " times the diameter of the scene; allowed are " << max_path
          << " diameters more than twice the path of tools and supports";
     return fail(text.str());

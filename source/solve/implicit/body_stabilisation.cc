@@ -186,14 +186,14 @@ DiagnosticList BodyStabilisation::check_needless() const {
   return messages;
 }
 
-DiagnosticList BodyStabilisation::finish(const double time, const double largest_energy, const double forces,
+DiagnosticList BodyStabilisation::finish(const double time, const double max_energy, const double forces,
                                          const RigidBodySupport::Result &support_by_contact) const {
   DiagnosticList messages;
   if (!stabilisation_)
     return messages;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const std::string &name = scene_.bodies()[body].name;
-    const double part = largest_energy > 0. ? stabilisation_->work_of_motion(body) / largest_energy : 0.;
+    const double part = max_energy > 0. ? stabilisation_->work_of_motion(body) / max_energy : 0.;
     if (part > ContactStabilisation::max_part) {
       const double factor = part / ContactStabilisation::max_part;
       std::ostringstream text;

@@ -96,10 +96,10 @@ double ContactSet::find_free_part(const ContactPath &path, std::string &obstacle
     return 1.;
   const std::vector<double> parts =
       collect_min([&](const auto &contact) { return contact.find_free_part(path); });
-  const auto least = std::min_element(parts.begin(), parts.end());
-  if (*least < 1.)
-    obstacle = (*this)[static_cast<std::size_t>(least - parts.begin())].checks().describe_obstacle();
-  return *least;
+  const auto minimum = std::min_element(parts.begin(), parts.end());
+  if (*minimum < 1.)
+    obstacle = (*this)[static_cast<std::size_t>(minimum - parts.begin())].checks().describe_obstacle();
+  return *minimum;
 }
 
 } // namespace billet

@@ -14,7 +14,7 @@ NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &di
   settings.energy_tolerance *= accuracy;
   settings.displacement_tolerance *= accuracy;
   if (is_probing_)
-    settings.most_iterations = std::min(settings.most_iterations, max_iterations_of_probe);
+    settings.max_iterations = std::min(settings.max_iterations, max_iterations_of_probe);
   NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_);
   if (!problem_.tools().failure().empty() && !report.converged)
     report.failure = problem_.tools().failure();

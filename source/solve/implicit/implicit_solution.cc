@@ -78,7 +78,7 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
     report.append_anew(attempt(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() &&
       continuation_.is_possible()) {
-    report.append_anew(attempt(t, previous_step, StepAttempt::Way::by_softer_penalties));
+    report.append_anew(attempt(t, previous_step, StepAttempt::Way::by_lower_penalties));
     if (report.converged)
       messages.push_back(continuation_.describe());
     may_accept_stalled = may_accept_stalled || report.is_stalled;

@@ -24,7 +24,7 @@ bool fail(NewtonReport &report, const std::string &failure) {
 bool PathGuard::may_be_cut(const double t) const {
   const auto &stepping = problem_.parameters().time_stepping;
   return stepping.control == parameters::TimeStepping::Control::automatic &&
-         t - problem_.state().time > stepping.smallest_step * (1. + Limits::rounding);
+         t - problem_.state().time > stepping.min_step * (1. + Limits::rounding);
 }
 
 bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
@@ -86,13 +86,13 @@ DiagnosticList PathGuard::check_motion(const double t) const {
 bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
   if (!may_be_cut(t))
     return false;
-  const double largest = problem_.contacts().max(
+  const double maximum = problem_.contacts().max(
       [](const auto &contact) { return contact.measures().closing_of_new_contacts(); });
-  if (!(largest > Limits::max_closing))
+  if (!(maximum > Limits::max_closing))
     return false;
   std::ostringstream text;
   text.precision(3);
-  text << "nodes approach by " << largest << " facet sizes in the step of first contact; allowed are "
+  text << "nodes approach by " << maximum << " facet sizes in the step of first contact; allowed are "
        << Limits::max_closing;
   return fail(report, text.str());
 }

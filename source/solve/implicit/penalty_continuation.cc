@@ -45,9 +45,9 @@ void PenaltyContinuation::soften(const std::vector<Octaves> &above, const int so
 
 NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &displacements) {
   const std::vector<Octaves> above = octaves_above_enough();
-  int most = 0;
+  int maximum = 0;
   for (const Octaves &o : above)
-    most = std::max(most, std::max(o.normal, o.tangential));
+    maximum = std::max(maximum, std::max(o.normal, o.tangential));
   int softer = 0;
   const auto soften_to = [&](const int octaves) {
     soften(above, softer, octaves);
@@ -56,9 +56,9 @@ NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &
   NewtonReport report;
   Vector reached = displacements;
   std::vector<double> reached_offsets = offsets;
-  int stride = Limits::first_stride, last = most;
+  int stride = Limits::first_stride, last = maximum;
   unsigned int n_retreats = 0;
-  soften_to(most);
+  soften_to(maximum);
   for (;;) {
     report.append(solver_.iterate(offsets, displacements));
     if (report.converged && softer == 0)
@@ -67,7 +67,7 @@ NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &
       reached = displacements;
       reached_offsets = offsets;
       last = softer;
-    } else if (softer < most && stride > 1 && n_retreats < Limits::max_retreats &&
+    } else if (softer < maximum && stride > 1 && n_retreats < Limits::max_retreats &&
                !report.is_lost_in_round_off) {
       displacements = reached;
       offsets = reached_offsets;

@@ -40,8 +40,8 @@ DiagnosticList SpringBooks::check() {
     const ContactInterface &contact = problem_.contacts()[i];
     double moved = displacement;
     if (const auto &tool = contact.rigid_tool())
-      moved = std::max(moved, largest_motion(problem_.scene().tools()[*tool].placement(0.),
-                                             state.placements[*tool], problem_.discretization().radius()));
+      moved = std::max(moved, max_motion(problem_.scene().tools()[*tool].placement(0.),
+                                         state.placements[*tool], problem_.discretization().radius()));
     check_pair(contact.name(), contact.measures().penetration(), moved, energy(i), messages);
     append(messages, contact.checks().check_step());
   }
@@ -64,7 +64,7 @@ std::vector<double> PenaltyRaises::find_factors() const {
     const bool is_too_much =
         !pair.has_tolerance() && factors[i] > (pair.input->has_own_penalty && !is_short ? Limits::deep : 1.);
     const double raise =
-        std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), most_raise * room[i]);
+        std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), max_raise * room[i]);
     factors[i] = is_too_much && raise >= Limits::min_raise ? whole_octaves(raise) : 1.;
   }
   return factors;

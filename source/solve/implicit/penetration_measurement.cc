@@ -10,13 +10,13 @@ namespace {
 
 /// Returns the largest difference of a group, as part of it.
 double difference(const StepResults::Groups &a, const StepResults::Groups &b) {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
     const double scale = size_of(b[group]);
     if (scale > 0.)
-      largest = std::max(largest, distance_of(a[group], b[group]) / scale);
+      maximum = std::max(maximum, distance_of(a[group], b[group]) / scale);
   }
-  return largest;
+  return maximum;
 }
 
 } // namespace

@@ -12,7 +12,7 @@ namespace billet {
 
 RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
     : problem_(problem), bodies_(problem.scene(), problem.discretization()),
-      forces_n_(problem.scene().bodies().size(), 0.), largest_forces_(forces_n_) {
+      forces_n_(problem.scene().bodies().size(), 0.), max_forces_(forces_n_) {
   problem.stabilisation().prepare(bodies_);
 }
 
@@ -128,8 +128,7 @@ std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
 }
 
 bool RigidBodyModes::hold_if_let_go(const RigidBodySupport::Mode &mode) {
-  if (!(largest_forces_[mode.body] > 0.) ||
-      forces_n_[mode.body] > Limits::little * largest_forces_[mode.body])
+  if (!(max_forces_[mode.body] > 0.) || forces_n_[mode.body] > Limits::little * max_forces_[mode.body])
     return false;
   problem_.stabilisation().hold(mode.body);
   let_go_.push_back(mode);
@@ -139,7 +138,7 @@ bool RigidBodyModes::hold_if_let_go(const RigidBodySupport::Mode &mode) {
 void RigidBodyModes::hold_unloaded_bodies() {
   std::vector<bool> is_unloaded;
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
-    is_unloaded.push_back(forces_n_[body] < Limits::unloaded * largest_forces_[body] &&
+    is_unloaded.push_back(forces_n_[body] < Limits::unloaded * max_forces_[body] &&
                           !problem_.stabilisation().acts_on(body));
   // One after the other: connected bodies are free together.
   for (std::size_t n = std::count(is_unloaded.begin(), is_unloaded.end(), true); n > 0; --n) {
@@ -169,7 +168,7 @@ bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, Ne
        << " opens, or slides at the limit of friction. Add a support or a symmetry plane, keep a contact "
           "longer, or increase friction; use 'Scheme = implicit dynamics' for free motion";
   const parameters::Scene &parameters = problem_.parameters();
-  if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.largest_step)
+  if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.max_step)
     throw SolutionFailure(parameters.file_name + ": " + text.str() + ". Results until then are in '" +
                           parameters.output.folder.value + "'");
   loss_ = {t, text.str()};
@@ -189,7 +188,7 @@ bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
     return true;
   forces_n_ = contact_forces_on_bodies();
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
-    largest_forces_[body] = std::max(largest_forces_[body], forces_n_[body]);
+    max_forces_[body] = std::max(max_forces_[body], forces_n_[body]);
   support_ = found;
   hold_unloaded_bodies();
   report_let_go(t, report);
@@ -235,16 +234,16 @@ std::string RigidBodyModes::describe_loss(const std::string &failure) const {
              : "";
 }
 
-DiagnosticList RigidBodyModes::finish(const double largest_energy) const {
+DiagnosticList RigidBodyModes::finish(const double max_energy) const {
   const ForceState &state = problem_.step().start;
-  return problem_.stabilisation().finish(problem_.state().time, largest_energy,
+  return problem_.stabilisation().finish(problem_.state().time, max_energy,
                                          std::max(state.internal.l2_norm(), state.contact.l2_norm()),
                                          support_by_contact_);
 }
 
 void RigidBodyModes::save(StateWriter &writer) const {
   writer.write("forces on bodies", forces_n_);
-  writer.write("largest forces on bodies", largest_forces_);
+  writer.write("largest forces on bodies", max_forces_);
   if (!bodies_.are_held())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
   problem_.stabilisation().save(writer);
@@ -256,7 +255,7 @@ void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
     return;
   if (reader.has("forces on bodies")) {
     forces_n_ = reader.read("forces on bodies");
-    largest_forces_ = reader.read("largest forces on bodies");
+    max_forces_ = reader.read("largest forces on bodies");
   }
   if (!bodies_.are_held() && reader.has("free modes"))
     support_.n_free = static_cast<std::size_t>(reader.number("free modes"));

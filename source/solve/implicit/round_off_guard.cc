@@ -36,7 +36,7 @@ bool RoundOffGuard::may_explain(const NewtonReport &report) const {
       !(report.force > 0.)) // there may be no residual
     return false;
   const double springs = problem_.scales().spring_round_off, forces = problem_.force_scale();
-  return springs > most_round_off * forces && report.force * forces <= Limits::by_much * springs;
+  return springs > max_round_off * forces && report.force * forces <= Limits::by_much * springs;
 }
 
 DiagnosticList RoundOffGuard::check(const double part, const double accuracy) const {

@@ -183,7 +183,7 @@ def make_steps(scene: Scene, argument: str) -> Changes:
 
 
 @knob("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
-def make_largest_step(scene: Scene, argument: str) -> Changes:
+def make_max_step(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
     need(
