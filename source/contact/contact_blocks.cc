@@ -106,8 +106,7 @@ void ContactBlocks::add_entries(SparsityPattern &pattern) const {
       pattern.add_entries(row, dofs.begin(), dofs.end(), true);
 }
 
-void ContactBlocks::resolve(const Constraints &constraints, const std::size_t node,
-                            std::vector<std::vector<PartMotion>> &motions) const {
+void ContactBlocks::resolve(const Constraints &constraints, const std::size_t node, Motions &motions) const {
   const NodeDofs &own = dofs_[node];
   const auto add = [&](const unsigned int i, const DofIndex dof, const double factor) {
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -130,10 +129,9 @@ void ContactBlocks::resolve(const Constraints &constraints, const std::size_t no
   }
 }
 
-std::vector<std::vector<ContactBlocks::PartMotion>>
-ContactBlocks::resolve_all(const Constraints &constraints) const {
+ContactBlocks::Motions ContactBlocks::resolve_all(const Constraints &constraints) const {
   // Only their own ranks know the constraints of ghost nodes.
-  std::vector<std::vector<PartMotion>> motions(parts_.size(), std::vector<PartMotion>(dofs_.size()));
+  Motions motions(parts_.size(), std::vector<PartMotion>(dofs_.size()));
   for (std::size_t node = 0; node < dofs_.size(); ++node)
     resolve(constraints, node, motions);
   for (auto &of_nodes : motions)
@@ -141,57 +139,74 @@ ContactBlocks::resolve_all(const Constraints &constraints) const {
   return motions;
 }
 
+void ContactBlocks::condense(const Parts &parts, const Motions &motions,
+                             const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K,
+                             Block &block) {
+  auto &[dofs, half, condensed] = block;
+  dofs.clear();
+  for (const unsigned int node : nodes)
+    for_each_part(parts, node, [&](const std::size_t p) {
+      dofs.insert(dofs.end(), parts[p][node].begin(), parts[p][node].end());
+    });
+  const std::size_t n = K.m(), n_dofs = dofs.size();
+  half.reinit(n, n_dofs);
+  condensed.reinit(n_dofs, n_dofs);
+  std::size_t first = 0; // dof of the part
+  for (std::size_t b = 0; b < nodes.size(); ++b)
+    for_each_part(parts, nodes[b], [&](const std::size_t p) {
+      const auto &free = motions[p][nodes[b]].free;
+      for (std::size_t row = 0; row < n; ++row)
+        for (unsigned int j = 0; j < 3; ++j)
+          for (unsigned int k = 0; k < 3; ++k)
+            half(row, first + j) += K(row, 3 * b + k) * free[k][j];
+      first += 3;
+    });
+  first = 0;
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for_each_part(parts, nodes[a], [&](const std::size_t p) {
+      const auto &free = motions[p][nodes[a]].free;
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (std::size_t column = 0; column < n_dofs; ++column)
+            condensed(first + i, column) += free[k][i] * half(3 * a + k, column);
+      first += 3;
+    });
+}
+
+void ContactBlocks::add_lift(const Parts &parts, const Motions &motions,
+                             const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K,
+                             std::vector<FacetSearch::Positions> &lift) {
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    Tensor<1, 3> force;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        for (unsigned int j = 0; j < 3; ++j)
+          force[k] -= K(3 * a + k, 3 * b + j) * motions[0][nodes[b]].value[j];
+    for_each_part(parts, nodes[a], [&](const std::size_t p) {
+      const auto &free = motions[p][nodes[a]].free;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int k = 0; k < 3; ++k)
+          lift[p][nodes[a]][i] += free[k][i] * force[k];
+    });
+  }
+}
+
 void ContactBlocks::add_tangent(const ContactTangent tangent, const TangentSystem &system) const {
-  const std::vector<std::vector<PartMotion>> motions = resolve_all(system.constraints);
+  const Motions motions = resolve_all(system.constraints);
   const Parts parts = find_all_parts(); // indices of ghosts may have changed since the couplings were found
-  std::vector<FacetSearch::Positions> lift(parts.size(), FacetSearch::Positions(parts[0].size()));
-  dealii::FullMatrix<double> half, condensed;
-  std::vector<DofIndex> dofs;
+  std::vector<FacetSearch::Positions> lift;
+  if (system.lift != nullptr)
+    lift.assign(parts.size(), FacetSearch::Positions(parts[0].size()));
+  Block block;
   contact_.tangents().visit(tangent,
                             [&](const std::vector<unsigned int> &nodes, const dealii::FullMatrix<double> &K) {
-                              const std::size_t n = K.m();
-                              dofs.clear();
-                              for (const unsigned int node : nodes)
-                                for_each_part(parts, node, [&](const std::size_t p) {
-                                  dofs.insert(dofs.end(), parts[p][node].begin(), parts[p][node].end());
-                                });
-                              half.reinit(n, dofs.size());
-                              condensed.reinit(dofs.size(), dofs.size());
-                              std::size_t first = 0; // dof of the part
-                              for (std::size_t b = 0; b < nodes.size(); ++b)
-                                for_each_part(parts, nodes[b], [&](const std::size_t p) {
-                                  const auto &free = motions[p][nodes[b]].free;
-                                  for (std::size_t row = 0; row < n; ++row)
-                                    for (unsigned int j = 0; j < 3; ++j)
-                                      for (unsigned int k = 0; k < 3; ++k)
-                                        half(row, first + j) += K(row, 3 * b + k) * free[k][j];
-                                  first += 3;
-                                });
-                              first = 0;
-                              for (std::size_t a = 0; a < nodes.size(); ++a) {
-                                Tensor<1, 3> force;
-                                for (unsigned int k = 0; k < 3; ++k)
-                                  for (std::size_t b = 0; b < nodes.size(); ++b)
-                                    for (unsigned int j = 0; j < 3; ++j)
-                                      force[k] -= K(3 * a + k, 3 * b + j) * motions[0][nodes[b]].value[j];
-                                for_each_part(parts, nodes[a], [&](const std::size_t p) {
-                                  const auto &free = motions[p][nodes[a]].free;
-                                  for (unsigned int k = 0; k < 3; ++k)
-                                    for (unsigned int i = 0; i < 3; ++i)
-                                      for (std::size_t column = 0; column < dofs.size(); ++column)
-                                        condensed(first + i, column) += free[k][i] * half(3 * a + k, column);
-                                  for (unsigned int i = 0; i < 3; ++i)
-                                    for (unsigned int k = 0; k < 3; ++k)
-                                      lift[p][nodes[a]][i] += free[k][i] * force[k];
-                                  first += 3;
-                                });
-                              }
-                              condensed *= system.weight;
-                              system.matrix.add(dofs, condensed, false);
+                              condense(parts, motions, nodes, K, block);
+                              if (system.lift != nullptr)
+                                add_lift(parts, motions, nodes, K, lift);
+                              block.condensed *= system.weight;
+                              system.matrix.add(block.dofs, block.condensed, false);
                             });
-  if (system.lift == nullptr)
-    return;
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
+  for (std::size_t p = 0; p < lift.size(); ++p) {
     contact_.exchange().collect(lift[p]);
     for (auto &force : lift[p])
       force *= system.weight;

@@ -59,6 +59,14 @@ private:
     std::array<double, 3> value{};
   };
 
+  using Motions = std::vector<std::vector<PartMotion>>; ///< as Parts
+
+  /// Block of a tangent and what it becomes with the constraints; memory for many.
+  struct Block {
+    std::vector<DofIndex> dofs; ///< of all parts of all nodes; some may appear twice
+    dealii::FullMatrix<double> half, condensed;
+  };
+
   /// Calls visit(p) for each part of a node.
   template <class Visit>
   static void for_each_part(const Parts &parts, const std::size_t node, const Visit &visit) {
@@ -67,11 +75,16 @@ private:
   }
   /// Returns the parts of surface nodes and ghosts. Collective.
   Parts find_all_parts() const;
-  /// Returns the motions of surface nodes and ghosts, by parts. Collective.
-  std::vector<std::vector<PartMotion>> resolve_all(const Constraints &constraints) const;
+  /// Returns the motions of surface nodes and ghosts. Collective.
+  Motions resolve_all(const Constraints &constraints) const;
   /// Sets the motions of a surface node.
-  void resolve(const Constraints &constraints, std::size_t node,
-               std::vector<std::vector<PartMotion>> &motions) const;
+  void resolve(const Constraints &constraints, std::size_t node, Motions &motions) const;
+  /// Computes Cᵀ K C.
+  static void condense(const Parts &parts, const Motions &motions, const std::vector<unsigned int> &nodes,
+                       const dealii::FullMatrix<double> &K, Block &block);
+  /// Adds −Cᵀ K value to `lift`, of each part.
+  static void add_lift(const Parts &parts, const Motions &motions, const std::vector<unsigned int> &nodes,
+                       const dealii::FullMatrix<double> &K, std::vector<FacetSearch::Positions> &lift);
   std::vector<double> first_dofs() const;
 
   FacetContact &contact_;

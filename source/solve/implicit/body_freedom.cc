@@ -91,7 +91,7 @@ std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t
           << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
              "rigid-body mode with "
           << print(*motion) << ". Add a support or a symmetry plane, or keep a tool. Results until time "
-          << problem.state().time << " is in '" << problem.scene().parameters().output.folder.value << "'.";
+          << problem.state().time << " are in '" << problem.scene().parameters().output.folder.value << "'.";
   return message.str();
 }
 

@@ -119,10 +119,15 @@ std::vector<int> TangentMatrix::touching_dofs() const {
     contact.add_forces(additive);
   additive.compress(dealii::VectorOperation::add);
   forces = additive;
-  const auto values = owned_values(forces);
+  Vector condensed(forces); // of nodes on which hanging nodes that touch depend, too
+  supports_.condense(condensed);
+  const auto values = owned_values(forces), of_masters = owned_values(condensed);
+  const auto is_loaded = [](const auto &of, const std::size_t i) {
+    return of[i] != 0. || of[i + 1] != 0. || of[i + 2] != 0.;
+  };
   std::vector<int> dofs;
   for (std::size_t i = 0; i < values.size(); i += 3)
-    if (values[i] != 0. || values[i + 1] != 0. || values[i + 2] != 0.)
+    if (is_loaded(values, i) || is_loaded(of_masters, i))
       for (std::size_t dof = i; dof < i + 3; ++dof)
         dofs.push_back(static_cast<int>(dof));
   return dofs;
