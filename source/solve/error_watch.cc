@@ -2,6 +2,7 @@
 #include "billet/solve/error_watch.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/solve/error_budget.h"
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
 
@@ -13,20 +14,6 @@
 namespace billet {
 
 namespace {
-
-// Part of the target error for penetration; 0.4 of it is for the steps, the rest is a margin for poor
-// estimates.
-constexpr double part_of_penetration = 0.3;
-
-// The same part if steps cause no error.
-constexpr double part_of_penetration_alone = 0.5;
-
-// Returns the residual of steps that are compared. Their difference, which falls with the square of the
-// target, must exceed it.
-double residual_of_measurements(const double target) {
-  constexpr double maximum = 0.1, slope = 10.;
-  return std::min(maximum, slope * target) * target;
-}
 
 /// Whether the penetration tolerances of all pairs are left to the target error.
 bool may_choose_penetration(const parameters::Scene &parameters) {
@@ -56,9 +43,8 @@ ErrorControl::Tolerances tolerances_of(const Scene &scene) {
   const parameters::Scene &parameters = scene.parameters();
   const double target = parameters.target_error;
   return {parameters.time_stepping.error_tolerance,
-          !may_choose_penetration(parameters) ? 0.
-          : depends_on_steps(scene)           ? part_of_penetration * target
-                                              : part_of_penetration_alone * target,
+          may_choose_penetration(parameters) ? ErrorBudget::of_penetration(target, depends_on_steps(scene))
+                                             : 0.,
           !stresses_depend_on_steps(scene)};
 }
 
@@ -85,7 +71,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
                             !(scene.pairs().empty() && scene.body_pairs().empty())),
       controls_penetration_(may_choose_penetration(scene.parameters())),
       accuracy_of_measurements_(scene.parameters().target_error > 0.
-                                    ? std::min(1., residual_of_measurements(scene.parameters().target_error) /
+                                    ? std::min(1., ErrorBudget::residual(scene.parameters().target_error) /
                                                        scene.parameters().solver.force_tolerance)
                                     : 1.) {
   controls_.resize(problem.result_names().size(), ErrorControl(tolerances_of_travels(scene), end_time_));
@@ -158,9 +144,8 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
-  constexpr double alike = 0.01;
-  if (control.ends_at_stop() ||                       // the longer step would cross the stop
-      !(std::abs(second - first) <= alike * first)) { // a stop is near: measure after it
+  if (control.ends_at_stop() ||                 // the longer step would cross the stop
+      !ErrorBudget::are_equal(first, second)) { // a stop is near: measure after it
     miss_measurement(first, false);
     return 0;
   }
@@ -231,11 +216,10 @@ DiagnosticList ErrorWatch::check(const StepControl &control) const {
                                   "There is no error estimate of the steps from here on, since the steps of "
                                   "twice the length for comparison do not converge")
                            .time(control.time()));
-  constexpr double very_many = 2000.;
   if (control.is_finished() || !(control.next_step() > 0.) || probe_length_ > 0.)
     return messages;
   const double to_come = (end_time_ - control.time()) / control.next_step();
-  if (to_come < very_many)
+  if (!ErrorBudget::is_expensive(to_come))
     return messages;
   std::ostringstream text;
   text.precision(2);

@@ -14,14 +14,21 @@ namespace billet {
 
 namespace {
 
-/// Limits of (L8): the allowed part of penetration, the target of raises, and the irrelevant part.
-constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
-/// The same for sticking, (L9): as parts of friction, and of the normal force. Friction lost before a raise
-/// stays lost.
-constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
-constexpr double max_at_once = 4.;    ///< softness is measured anew after that
-constexpr double slow = 0.01;         ///< largest kinetic energy so far beside what deformation takes now
-constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
+/// Limits of penalties that rise.
+struct Limits {
+  /// Part of penetration in the deformation of a path above which penalties rise, the part that raises aim
+  /// at, and the part of all energy below which penetration is irrelevant, (L8).
+  static constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
+  /// The same for sticking, (L9): the lost part of friction, the part that raises aim at, and the part of the
+  /// normal force below which lost friction is irrelevant. Friction lost before a raise stays lost.
+  static constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
+  /// Maximum factor of a raise. Softness is measured anew after it.
+  static constexpr double max_at_once = 4.;
+  /// Largest kinetic energy so far over the energy of deformation now, below which motion is slow.
+  static constexpr double slow = 0.01;
+  /// Part of a path's energy of penetration above which a pair's penalty rises with it.
+  static constexpr double notable_pair = 0.05;
+};
 constexpr double percent = 100.;
 
 template <class ContactPair> bool raises_tangential(const ContactPair &pair) {
@@ -66,10 +73,10 @@ bool PenaltyControl::is_used() const {
 }
 
 void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<Factors> &room) {
-  const double part = path.softness.part(counts);
-  if (!(part > allowed))
+  const double part = path.softness.part(Limits::counts);
+  if (!(part > Limits::allowed))
     return;
-  const double raise = std::min(part / aim, max_at_once);
+  const double raise = std::min(part / Limits::aim, Limits::max_at_once);
   for (const std::size_t pair : path.parts.pairs) {
     if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair].normal > 1.))
       continue;
@@ -103,10 +110,10 @@ void PenaltyControl::describe(const std::string &penalty, const std::size_t pair
 double PenaltyControl::tangential_raise(const std::size_t pair, const Energies &energies, const double room) {
   const StickSoftness &softness = energies.sticking[pair];
   const double part = softness.part();
-  if (!pairs_[pair].may_be_raised_tangentially || !(part > allowed_in_friction) ||
-      !(softness.lost > counts_in_friction * softness.pressure) || !(room > 1.))
+  if (!pairs_[pair].may_be_raised_tangentially || !(part > Limits::allowed_in_friction) ||
+      !(softness.lost > Limits::counts_in_friction * softness.pressure) || !(room > 1.))
     return 1.;
-  const double raise = std::min({part / aim_in_friction, max_at_once, room});
+  const double raise = std::min({part / Limits::aim_in_friction, Limits::max_at_once, room});
   std::ostringstream reason;
   reason.precision(3);
   reason << "friction forces while sticking are too small by up to " << percent * part << " %";
@@ -133,7 +140,7 @@ std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &ener
   time_ = energies.time;
   const EnergyLedger &all = energies.all;
   const double deformed = all.of_elements() + all.contact;
-  const bool is_slow = max_kinetic_ < slow * deformed;
+  const bool is_slow = max_kinetic_ < Limits::slow * deformed;
   for (std::size_t pair = 0; is_slow && pair < pairs_.size(); ++pair)
     factors[pair].tangential = tangential_raise(pair, energies, room[pair].tangential);
   for (Controlled &path : paths_) {
@@ -152,7 +159,7 @@ std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &ener
     const double factor = std::min(path.left, max_raise_);
     path.left /= factor;
     for (const std::size_t pair : path.parts.pairs)
-      if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)
+      if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > Limits::notable_pair * penetration)
         factors[pair].normal = std::max(1., std::min(factor, room[pair].normal));
     path.softness.restart();
   }

@@ -9,23 +9,35 @@
 
 namespace billet {
 
+namespace {
+
+/// Signs of penalties that are too low.
+struct Limits {
+  /// Penetration that is too deep [facet sizes]: deeper nodes are visible in field output and affect areas.
+  static constexpr double deep = 0.1;
+  /// Penetration over the largest displacement, or energy of springs over all work: a fifth of what bodies
+  /// would bear.
+  static constexpr double much_taken = 0.2;
+  /// Penetration below which these parts are irrelevant, in slow and in sudden motion [facet sizes].
+  static constexpr double min_in_slow_motion = 1e-6, min_in_sudden_motion = 2e-2;
+  /// Part of all work in springs below which a short penetration in an impact is irrelevant.
+  static constexpr double counts = 0.01;
+};
+
+} // namespace
+
 DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, const Penetration &deepest,
                                    const double displacement, const double part_of_work) {
-  constexpr double deep = 0.1;       // of a facet: deeper nodes are visible in field output and affect areas
-  constexpr double much_taken = 0.2; // of the motion: a fifth of what bodies would bear
   const bool is_slow = motion_ == Motion::slow;
-  // Depth that may matter for the second sign [facet sizes].
-  const double minimum = is_slow ? 1e-6 : 2e-2;
+  const double minimum = is_slow ? Limits::min_in_slow_motion : Limits::min_in_sudden_motion;
   double &maximum = displacements_[pair];
   maximum = std::max(maximum, displacement);
-  const bool is_deep = deepest.of_facet > deep;
-  const bool takes_motion = deepest.of_facet > minimum && deepest.length > much_taken * maximum;
-  const bool takes_work = is_slow && deepest.of_facet > minimum && part_of_work > much_taken;
-  // A short penetration in an impact, with next to no energy, is irrelevant.
-  constexpr double counts = 0.01;
+  const bool is_deep = deepest.of_facet > Limits::deep;
+  const bool takes_motion = deepest.of_facet > minimum && deepest.length > Limits::much_taken * maximum;
+  const bool takes_work = is_slow && deepest.of_facet > minimum && part_of_work > Limits::much_taken;
   const bool was_deep = are_deep_[pair];
   are_deep_[pair] = is_deep;
-  const bool matters = is_slow || was_deep || part_of_work > counts;
+  const bool matters = is_slow || was_deep || part_of_work > Limits::counts;
   has_low_penalties_ = has_low_penalties_ || is_deep || takes_motion || takes_work;
   if (!((is_deep && matters) || takes_work || (is_slow && takes_motion)))
     return {};

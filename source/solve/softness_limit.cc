@@ -9,10 +9,23 @@ namespace billet {
 
 namespace {
 
-constexpr double allowed = 2e-3; // of the forces
-
-// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the pressure.
-constexpr double min_of_max = 0.01, min_friction = 0.02;
+/// Constants of (L7), as parts of forces unless they say otherwise.
+struct Limits {
+  /// Missing part of a force up to which nothing is augmented.
+  static constexpr double allowed = 2e-3;
+  /// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the pressure.
+  static constexpr double min_of_max = 0.01, min_friction = 0.02;
+  /// Minimum of the friction that is still allowed, as part of the allowed one. Slip persists: the allowance
+  /// that one step uses is lost for the next ones.
+  static constexpr double min_left = 0.1;
+  /// Part of the force above which springs hold so much that the state is unlike the one in which `counts`
+  /// was measured.
+  static constexpr double unlike = 0.5;
+  /// Maximum of ρ, the ratio of the geometric series of all further augmentations.
+  static constexpr double max_ratio = 0.8;
+  /// Minimum part that springs hold for ρ to be measured. Smaller parts of a force are not significant.
+  static constexpr double min_held = 1e-4;
+};
 
 double max_force(const std::vector<ContactSprings> &springs) {
   double maximum = 0.;
@@ -24,19 +37,15 @@ double max_force(const std::vector<ContactSprings> &springs) {
 } // namespace
 
 double SoftnessLimit::Direction::missing(const ContactSprings::Direction &springs, const double force) const {
-  // `counts` is known only for similar states. All further augmentations form a geometric series.
-  constexpr double unlike = 0.5, maximum = 0.8;
-  const double in_all = counts / (1. - std::min(counts, maximum));
-  return std::min(changed, springs.held > unlike * force ? springs.held : in_all * springs.held);
+  const double in_all = counts / (1. - std::min(counts, Limits::max_ratio));
+  return std::min(changed, springs.held > Limits::unlike * force ? springs.held : in_all * springs.held);
 }
 
 void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change) {
-  // Smaller parts of a force are not significant. Only the first augmentation counts: facets that do not fit
-  // keep gaps.
-  constexpr double min_held = 1e-4;
+  // Only the first augmentation counts: facets that do not fit keep gaps.
   const bool is_first = std::isinf(changed);
   changed = change.in_all;
-  if (is_first && before.held > min_held * before.force && before.held > 0.)
+  if (is_first && before.held > Limits::min_held * before.force && before.held > 0.)
     counts = std::min(1., change.of_nodes / before.held);
 }
 
@@ -56,9 +65,7 @@ bool SoftnessLimit::is_used() const {
 }
 
 std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs) const {
-  // Slip persists: the allowance that one step uses is lost for the next ones.
-  constexpr double min_left = 0.1;
-  const double minimum = min_of_max * max_force(springs);
+  const double minimum = Limits::min_of_max * max_force(springs);
   std::vector<double> result(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair &pair = pairs_[i];
@@ -66,12 +73,13 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
       continue;
     const auto &[normal, tangential] = springs[i];
     const double pressure = std::max(minimum, normal.force),
-                 friction = std::max(min_friction * pressure, tangential.force);
+                 friction = std::max(Limits::min_friction * pressure, tangential.force);
     const double of_pressure = pair.normal.missing(normal, pressure),
                  of_friction = pair.tangential.missing(tangential, friction),
-                 left = std::max(min_left * allowed * friction, allowed * friction - pair.let_in);
+                 left = std::max(Limits::min_left * Limits::allowed * friction,
+                                 Limits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
-      result[i] += of_pressure / (allowed * pressure);
+      result[i] += of_pressure / (Limits::allowed * pressure);
     if (of_friction > 0.)
       result[i] += of_friction / left;
   }

@@ -42,8 +42,15 @@ struct Factors {
   /// Steps that are `shorter` than the last ones, but cause `as_much` error in the same time, are useless.
   /// Then nodes touch, or begin to slip, one by one.
   static constexpr double shorter = 0.75, as_much = 0.8;
+  /// Minimum step after a measurement, over the maximum that `max_span` gives.
+  static constexpr double min_of_max_span = 0.5;
   /// Factor of a step at which comparisons fail twice in a row.
   static constexpr double cut = 0.5;
+  /// Steps that are `longer` than the measured ones are measured anew.
+  static constexpr double longer = 1.5;
+  /// Remaining steps below which the first comparison cannot wait: it takes two, and one more would be taken
+  /// before it. A part `rounding` of the end time does not count.
+  static constexpr double last_chance = 3., rounding = 1e-9;
 };
 
 /// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h² and
@@ -73,11 +80,11 @@ void StepErrors::accept(const double h, const std::size_t n_forces) {
 }
 
 bool StepErrors::wants_measurement(const ForceCourse &course, const double h) const {
-  constexpr double longer = 1.5, rounding = 1e-9;
-  if (n_measurements_ == 0 && course.time() + 3. * h > course.end_time() * (1. + rounding))
+  if (n_measurements_ == 0 &&
+      course.time() + Factors::last_chance * h > course.end_time() * (1. + Factors::rounding))
     return true;
   return wants_measurement(course) ||
-         (n_measurements_ > 0 && course.force() > 0. && h > longer * measured_step_);
+         (n_measurements_ > 0 && course.force() > 0. && h > Factors::longer * measured_step_);
 }
 
 double StepErrors::allowed_rate(const ForceCourse &course) const {
@@ -198,8 +205,9 @@ void StepErrors::choose_longest_step(const ForceCourse &course, const double h, 
   const double span = course.span(), max_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
   longest_step_ = std::min(longest_step_, is_known ? max_span : std::max(max_span, h));
   if (longest_step_ < h)
-    longest_step_ = std::max(
-        longest_step_, std::min(h, std::min(0.5 * max_span, Factors::min_span * rules_.tolerance * span)));
+    longest_step_ =
+        std::max(longest_step_, std::min(h, std::min(Factors::min_of_max_span * max_span,
+                                                     Factors::min_span * rules_.tolerance * span)));
 }
 
 void StepErrors::miss(const double h, const bool failed) {

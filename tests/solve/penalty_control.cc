@@ -144,10 +144,100 @@ void check_friction() {
   check("nor does it rise where friction is little beside pressure", small.spring == 27.);
 }
 
+/// Constant energies of a path of two pairs and a body, and of friction on the first pair, over all time.
+struct Constant {
+  double penetration = 0.01, softness = 0.03;
+  double part_of_all = 0.03;  ///< penetration, of all energies of deformation
+  double kinetic = 0.;        ///< over all energies of deformation
+  double share_of_other = 0.; ///< of the second pair, in the penetration
+  double room = 1e5;
+  StickSoftness sticking;
+
+  PenaltyControl::Factors raise(PenaltyControl &control, const std::size_t pair = 0) const {
+    PenaltyControl::Energies energies;
+    energies.time = 1.;
+    energies.of_pairs = {(1. - share_of_other) * penetration, share_of_other * penetration};
+    energies.of_bodies = {penetration * (1. / softness - 1.)};
+    const double all = penetration / part_of_all;
+    energies.all.contact = penetration;
+    energies.all.elastic = all - penetration;
+    energies.all.kinetic = kinetic * all;
+    energies.sticking = {sticking, {}};
+    return control.raises(energies, {{room, room}, {room, room}})[pair];
+  }
+  PenaltyControl::Factors raise(const std::size_t pair = 0,
+                                const double at_once = PenaltyControl::in_implicit_scenes) const {
+    PenaltyControl all(pairs, {path()}, at_once);
+    return raise(all, pair);
+  }
+  static LoadPath path() {
+    LoadPath path;
+    path.bodies = {0};
+    path.pairs = {0, 1};
+    return path;
+  }
+  const std::vector<PenaltyControl::Pair> pairs{{"end", true, true}, {"other", true, true}};
+};
+
+/// (L8) with numbers.
+void check_formula() {
+  constexpr double rounding = 1e-9;
+  const auto normal = [](const double softness, const double part_of_all, const double kinetic) {
+    Constant constant;
+    constant.softness = softness;
+    constant.part_of_all = part_of_all;
+    constant.kinetic = kinetic;
+    return constant.raise().normal;
+  };
+  check("0.4 % of the deformation raises penalties",
+        normal(3.9e-3, 3e-3, 0.) == 1. && normal(4.1e-3, 3e-3, 0.) > 1.);
+  check("so that 0.3 % are left", std::abs(normal(6e-3, 6e-3, 0.) - 2.), rounding);
+  check("fourfold at most", normal(0.03, 0.03, 0.) == 4.);
+  check("0.2 % of all energies count", normal(0.01, 2.1e-3, 0.) > 1. && normal(0.01, 1.9e-3, 0.) == 1.);
+  check("motion is slow with a hundredth of the energy of deformation",
+        normal(0.01, 0.01, 9.5e-3) > 1. && normal(0.01, 0.01, 1.05e-2) == 1.);
+  check("explicit penalties rise by a tenth at a time",
+        std::abs(Constant().raise(0, PenaltyControl::in_explicit_scenes).normal - 1.1), rounding);
+  Constant shared;
+  shared.share_of_other = 0.052;
+  check("pairs with a twentieth of the penetration rise, too", shared.raise(1).normal == 4.);
+  shared.share_of_other = 0.048;
+  check("those with less do not", shared.raise(1).normal == 1. && shared.raise(0).normal == 4.);
+
+  // A pair at its default, 10 E/h, may rise by a factor of 1e5.
+  Constant described;
+  described.softness = described.part_of_all = 6e-3;
+  PenaltyControl control(described.pairs, {Constant::path()}, PenaltyControl::in_implicit_scenes);
+  described.raise(control);
+  const DiagnosticList messages = control.take_diagnostics();
+  check("the message knows the penalty",
+        !messages.empty() && messages.front().text().find("rises to 20 E/h") != std::string::npos);
+}
+
+/// (L9) with numbers.
+void check_friction_formula() {
+  // Loses this part of the friction, which is that part of the pressure.
+  const auto tangential = [](const double part, const double of_pressure) {
+    Constant constant;
+    constant.sticking.lost = part;
+    constant.sticking.friction = 1. - part;
+    constant.sticking.pressure = part / of_pressure;
+    return constant.raise().tangential;
+  };
+  check("0.2 % of friction that sticks raises penalties",
+        tangential(1.9e-3, 0.1) == 1. && tangential(2.1e-3, 0.1) > 1.);
+  check("so that 0.15 % are left", std::abs(tangential(3e-3, 0.1) - 2.), 1e-9);
+  check("fourfold at most, there too", tangential(0.03, 0.1) == 4.);
+  check("0.02 % of the pressure count", tangential(0.01, 2.1e-4) > 1. && tangential(0.01, 1.9e-4) == 1.);
+}
+
 } // namespace
 
 int main() {
   check_raises();
   check_limits();
   check_friction();
+  check_formula();
+  check_friction_formula();
+  return billet::testing::exit_code();
 }
