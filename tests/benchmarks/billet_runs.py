@@ -175,7 +175,10 @@ def arguments(name, has_scenes=False):
     parser.add_argument("--ranks", type=int, default=1, help="processes to run billet on (1)")
     if has_scenes:
         parser.add_argument(
-            "--only", nargs="+", metavar="SCENE", help="measure these scenes anew, and keep the rows of others"
+            "--only",
+            nargs="+",
+            metavar="SCENE",
+            help="measure these scenes anew, and keep the rows of others",
         )
     return parser.parse_args()
 

@@ -31,14 +31,14 @@ int main() {
   check("nothing is known at first", !record.is_known() && !record.has_pressure());
   record.record(states, nodes, placement);
   check("a recorded pressure", record.is_known() && record.has_pressure() && record[0].pressure == 3.);
-  check("  its penetration is that of the spring", record[0].depth == 0.375 && record[1].depth == 0.);
+  check("  its penetration is that of the spring", record[0].penetration == 0.375 && record[1].penetration == 0.);
   check("  in the tool's coordinates",
         (record[0].normal - Tensor<1, 3>({0., 0., 1.})).norm() +
             (placement.to_space(record[0].position) - states[0].position).norm() +
             (placement.to_space(record[1].position) - states[1].position).norm(),
         1e-14);
   record.divide_penetration(0, 3.);
-  check("a stiffer penalty is pressed less deep", record[0].depth == 0.125 && record[0].pressure == 3.);
+  check("a stiffer penalty is pressed less deep", record[0].penetration == 0.125 && record[0].pressure == 3.);
 
   MemoryState saved;
   MemoryWriter writer(saved);
@@ -47,7 +47,7 @@ int main() {
   loaded.record({ToolContactState(), ToolContactState()}, nodes, Placement());
   check("without pressure", loaded.is_known() && !loaded.has_pressure());
   loaded.load(MemoryReader(saved), {"", 0, 2, {4, 5}});
-  check("a saved record", loaded[1].pressure == 3. && loaded[1].depth == 0.125 &&
+  check("a saved record", loaded[1].pressure == 3. && loaded[1].penetration == 0.125 &&
                               loaded[1].normal == record[0].normal &&
                               loaded[0].position == record[1].position);
   loaded.set_known(false);
