@@ -61,7 +61,6 @@ std::optional<StoredFormulation<ElementFormulation>> find_implicit_formulation(c
 
 std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std::string &words,
                                                                        const SharedLaw &law) {
-  using NumberType = ExplicitFormulation::NumberType;
   for (const SharedLaw &candidate : laws_like(law))
     for (const BrickElement element : all_elements())
       for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {
