@@ -40,7 +40,7 @@ template <class Formulation> struct StoredFormulation {
 std::vector<SharedLaw> laws_like(const SharedLaw &law) {
   std::vector<SharedLaw> laws{law};
   for (const ElasticityType &type : elasticity_types())
-    if (SharedLaw other = make_isotropic_law(type.name, law->elastic(), law->shared_flow_stress()))
+    if (SharedLaw other = type.find_law(law->elastic(), law->shared_flow_stress()))
       laws.push_back(std::move(other));
   return laws;
 }
