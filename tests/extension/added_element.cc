@@ -118,8 +118,8 @@ const std::string plastic = "set Young modulus = 200e3\nset Poisson ratio = 0.3\
                             "set Hardening modulus = 500\nset Elasticity = ",
                   elastic = "set Law = elastic\nset Young modulus = 200e3\nset Poisson ratio = 0.3";
 
-/// A brick of 5 x 3 x 1, bent about y, against the closed forms of the element, with σ_xx by κ + 4/3 G and the
-/// shear besides, and of a plate that cannot bend across.
+/// A brick of 5 x 3 x 1, bent about y, against the closed forms of the element, with σ_xx by κ + 4/3 G and
+/// the shear besides, and of a plate that cannot bend across.
 void check_bending() {
   constexpr double young = 1000., poisson = 0.3, length = 5.;
   const ElasticModuli moduli = ElasticModuli::from_young_poisson(young, poisson);
