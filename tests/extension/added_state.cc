@@ -8,8 +8,8 @@
 #include "pulled_cube.h"
 #include "read_field.h"
 
-#include "billet/material/elasticity.h"
 #include "billet/material/elastic.h"
+#include "billet/material/elasticity.h"
 #include "billet/material/law_adapter.h"
 #include "billet/output/field_quantity.h"
 
