@@ -206,9 +206,13 @@ parameters = subprocess.run(
 ).stdout
 with open(ROOT / "doc/results/defaults.csv", newline="") as file:
     kept = {row["scene"]: row for row in csv.DictReader(file)}
+paths = sorted((ROOT / "prm").glob("*.prm"))
+unknown = set(options.only or ()) - {path.stem for path in paths}
+if unknown:
+    raise SystemExit(f"defaults: no scene in prm/ is named {', '.join(sorted(unknown))}")
 chosen = ("billet_upsetting", "ring_crush", "patch_test") if options.quick else options.only
 rows = []
-for path in sorted((ROOT / "prm").glob("*.prm")):
+for path in paths:
     if not chosen or path.stem in chosen:
         rows.append(measure(path, parameters))
     elif options.only:
