@@ -45,7 +45,8 @@ struct CommandLine {
 };
 
 [[noreturn]] void refuse(const std::string &argument) {
-  throw billet::InputError("command line: found '" + argument + "', allowed is what follows.\n" + help);
+  throw billet::InputError("command line: '" + argument +
+                           "' is not allowed here; allowed is the following.\n" + help);
 }
 
 CommandLine read_command_line(const std::vector<std::string> &arguments) {
@@ -68,7 +69,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
       command.task = Task::update_scene;
     else if (argument == "--restart") {
       if (++next == arguments.end() || next->empty())
-        throw billet::InputError(std::string("command line: --restart names no checkpoint.\n") + help);
+        throw billet::InputError(
+            std::string("command line: '--restart' names no checkpoint; allowed is the following.\n") + help);
       command.restart_file = *next;
     } else if (argument.empty() || argument.front() == '-')
       refuse(argument);
@@ -78,7 +80,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
   if (command.task == Task::print_parameters || command.task == Task::print_diagnostics)
     return command;
   if (command.scenes.empty())
-    throw billet::InputError(std::string("command line: no scene file is named.\n") + help);
+    throw billet::InputError(
+        std::string("command line: it names no scene file; allowed is the following.\n") + help);
   if (command.task == Task::check)
     return command;
   if (command.json)
@@ -119,17 +122,17 @@ void update_scene(const std::vector<std::string> &files) {
     stream << update.text;
     stream.close();
     if (!stream)
-      throw billet::InputError("command line: found '" + files.back() +
-                               "', allowed is a file that can be written");
+      throw billet::InputError("command line: '" + files.back() +
+                               "' cannot be written; allowed is the name of a writable file");
   } else
     std::cout << update.text;
   std::ostream &report = has_target ? std::cout : std::cerr;
   for (const auto &change : update.changes)
     report << change << "\n";
   for (const auto &change : update.left)
-    report << change << "; this included file is not changed, update it too\n";
+    report << change << "; this included file does not change, so update it too\n";
   if (update.changes.empty() && update.left.empty())
-    report << files.front() << ": all names are today's\n";
+    report << files.front() << ": all names are current\n";
 }
 
 void print_diagnostic_kinds(std::ostream &stream) {

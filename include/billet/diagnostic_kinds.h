@@ -37,28 +37,27 @@ inline const DiagnosticKind implausible_yield_stress(
 inline const DiagnosticKind
     implausible_speed("implausible-speed", Severity::warning,
                       "A body or a tool moves with more than 0.3 of the speed of elastic waves.",
-                      "Check units of velocity, density and Young's modulus: they have to be consistent");
+                      "Check that the units of velocity, density and Young's modulus are consistent");
 
 inline const DiagnosticKind
     run_shorter_than_wave("run-shorter-than-wave", Severity::warning,
                           "The run ends before an elastic wave has crossed a body once.",
-                          "Check units of time, density and Young's modulus: they have to be consistent");
+                          "Check that the units of time, density and Young's modulus are consistent");
 
 inline const DiagnosticKind step_longer_than_period(
     "step-longer-than-period", Severity::warning,
-    "Fixed steps are longer than 0.35 of the time in which an elastic wave crosses a body that hits "
-    "something.",
+    "Fixed steps are longer than 0.35 of the time in which an elastic wave crosses an impacting body.",
     "Reduce 'Initial step', or use 'Step control = automatic'");
 
 inline const DiagnosticKind implausible_travel(
     "implausible-travel", Severity::warning,
-    "A tool travels more than ten times, or less than a ten-millionth of, the size of all bodies.",
+    "The travel of a tool is above ten times, or below a ten-millionth of, the size of all bodies.",
     "Check the units of the mesh ('Scale') and of the motion");
 
-inline const DiagnosticKind starts_behind_tool(
-    "starts-behind-tool", Severity::warning,
-    "Nodes start more than two facet sizes behind the surface of a tool, where overlap is allowed.",
-    "Check the side to which the tool faces and its position");
+inline const DiagnosticKind starts_behind_tool("starts-behind-tool", Severity::warning,
+                                               "Nodes start more than two facet sizes behind the surface of "
+                                               "a tool, where initial penetration is allowed.",
+                                               "Check the side to which the tool faces and its position");
 
 inline const DiagnosticKind
     large_displacement("large-displacement", Severity::warning,
@@ -70,15 +69,15 @@ inline const DiagnosticKind implausible_force(
     "A tool exerts more than ten times the force that the largest section of a body bears as it yields.",
     "Check the units of force and stress, and whether the tool closes on something rigid");
 
-inline const DiagnosticKind
-    implausible_friction("implausible-friction", Severity::warning,
-                         "A friction coefficient is above 1.5. Dry metals have 0.1 to 0.8, rubber about 1.",
-                         "Check whether it is given in per cent");
+inline const DiagnosticKind implausible_friction(
+    "implausible-friction", Severity::warning,
+    "A friction coefficient is above 1.5. Dry metals have 0.1 to 0.8, rubber has about 1.",
+    "Check whether it is given in per cent");
 
 inline const DiagnosticKind unseen_motion(
     "unseen-motion", Severity::warning,
-    "A tool or support goes to and fro, or around, within a step: the step knows where it ends only.",
-    "Use shorter steps, or automatic ones");
+    "A tool or support reverses, or turns fully, within a step. The step sees its final position only.",
+    "Reduce the step, or use 'Step control = automatic'");
 
 inline const DiagnosticKind many_turns("many-turns", Severity::note,
                                        "A tool turns more than four times during the run.",
@@ -86,65 +85,65 @@ inline const DiagnosticKind many_turns("many-turns", Severity::note,
 
 inline const DiagnosticKind
     outline_checked("outline-checked", Severity::note,
-                    "A scene of more than 500,000 elements was checked by the outline of its meshes only.",
+                    "The check of a scene of more than 500,000 elements uses the outline of its meshes only.",
                     "The run checks the rest before its first step");
 
 inline const DiagnosticKind
     inverted_corners("inverted-corners", Severity::warning,
-                     "Undeformed elements are inside out at a corner. Their stiffness and volume are wrong "
+                     "Undeformed elements are inverted at a corner. Their stiffness and volume are wrong "
                      "there, and they fail early.",
-                     "Mend the mesh: no inner angle of a face may exceed 180 degrees");
+                     "Correct the mesh: no inner angle of a face may exceed 180 degrees");
 
 inline const DiagnosticKind inverted_at_end(
     "inverted-at-end", Severity::warning,
-    "At the end of the run more than a twentieth of the elements of a body is inside out at a corner: it "
-    "deforms as its mesh does, not as its material.",
+    "At the end of the run more than 5 % of the elements of a body are inverted at a corner. The mesh, not "
+    "the material, determines its deformation.",
     "Use bricks that are longer in the direction in which they are compressed, or a finer mesh");
 
 inline const DiagnosticKind faceted_curvature(
     "faceted-curvature", Severity::warning,
-    "Two curved faces fit each other, but the chords of their facets do not: they touch only here and there, "
-    "and the contact is too soft.",
+    "Two curved faces fit each other, but the chords of their facets do not. They touch at few places, and "
+    "the contact is too soft.",
     "Place the nodes of both faces at the same angles, use more facets around, or name the true surface in "
     "'Surface correction'");
 
 // --- contact ---------------------------------------------------------------------------------------------
 
-inline const DiagnosticKind penalty_too_low(
-    "penalty-too-low", Severity::warning,
-    "Penetration is large beside the facets, the displacements or the work: the contact is softer than the "
-    "bodies.",
-    "Increase 'Normal penalty'");
+inline const DiagnosticKind
+    penalty_too_low("penalty-too-low", Severity::warning,
+                    "Penetration is too large, relative to the facets, the displacements or the work. The "
+                    "contact is softer than the bodies.",
+                    "Increase 'Normal penalty'");
 
 inline const DiagnosticKind contact_too_soft(
     "contact-too-soft", Severity::warning,
-    "Penetration takes part of the deformation along a load path: over all its contact pairs, more than 4 % "
-    "of the energy. Forces of driven tools and supports are too small by that part.",
+    "Penetration takes more than 4 % of the energy of deformation along a load path, summed over its contact "
+    "pairs. Forces of driven tools and supports are too small by that part.",
     "Increase 'Normal penalty' or, in statics, set a smaller 'Penetration tolerance', for all pairs named");
 
 inline const DiagnosticKind contact_unsettled(
     "contact-unsettled", Severity::warning,
-    "Augmentation of a contact pair was given up before its force had settled: the last one still changed it "
-    "by more than 0.5 % of the largest force. The force may be off by several times that.",
-    "Use a finer mesh where the pair touches, or 'Penetration tolerance = 1e-3', which augments to the end "
-    "and takes many more iterations");
+    "Augmentation of a contact pair stops before its force converges. The last augmentation changes it by "
+    "more than 0.5 % of the maximum force. The error of the force may be several times that.",
+    "Use a finer mesh where the pair touches, or 'Penetration tolerance = 1e-3', which augments until "
+    "convergence and takes many more iterations");
 
-inline const DiagnosticKind tangential_penalty_too_low(
-    "tangential-penalty-too-low", Severity::warning,
-    "Nodes stick to elastic tangential springs that are soft beside the bodies: friction that sticks is too "
-    "small by more than 3 %.",
-    "Increase 'Tangential penalty', or leave it out: it is that of the normal direction then, and rises in "
-    "slow motion");
+inline const DiagnosticKind
+    tangential_penalty_too_low("tangential-penalty-too-low", Severity::warning,
+                               "The tangential penalty is too low beside the stiffness of the bodies. "
+                               "Friction forces while sticking are too small by more than 3 %.",
+                               "Increase 'Tangential penalty', or leave it out: it then equals the normal "
+                               "penalty, and rises in slow motion");
 
-inline const DiagnosticKind few_contact_nodes(
-    "few-contact-nodes", Severity::warning,
-    "Fewer than five nodes carry the force of a contact pair, with unequal pressures. The force may be off "
-    "by tens of per cent.",
-    "Use a finer mesh where the pair touches");
+inline const DiagnosticKind
+    few_contact_nodes("few-contact-nodes", Severity::warning,
+                      "Fewer than five nodes carry the force of a contact pair, with unequal pressures. The "
+                      "error of the force may be tens of per cent.",
+                      "Use a finer mesh where the pair touches");
 
 inline const DiagnosticKind coarse_on_tool(
     "coarse-on-tool", Severity::warning,
-    "Facets are large beside the radius of the tool that they touch: fewer than five along a quarter turn.",
+    "Facets are large beside the radius of the tool that they touch. A quarter turn has fewer than five.",
     "Use a finer mesh where the pair touches");
 
 inline const DiagnosticKind pair_never_touched(
@@ -158,136 +157,130 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind missing_pair(
     "missing-pair", Severity::warning,
-    "Two bodies, a body and a tool, or a body and itself go into each other where no contact pair "
-    "connects them.",
-    "Add a contact pair of the two, or the missing faces to the one that there is");
+    "Two bodies, a body and a tool, or a body and itself penetrate where no contact pair connects them.",
+    "Add a contact pair of the two, or the missing faces to the existing pair");
 
-inline const DiagnosticKind penalty_too_high(
-    "penalty-too-high", Severity::warning,
-    "A penalty is so high that the solution becomes slow: steps become short, or Newton's method needs lower "
-    "penalties first.",
-    "Reduce 'Normal penalty'; 10 to 40 E/h keep penetration small");
+inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warning,
+                                             "A penalty is so high that the solution is slow: steps become "
+                                             "short, or Newton's method needs lower penalties first.",
+                                             "Reduce 'Normal penalty'; 10 to 40 E/h keep penetration small");
 
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
-    "A penalty was reduced to 10 E/h, since Newton's method failed; augmentation enforces the constraint.",
-    "");
+    "Newton's method failed, so a penalty is reduced to 10 E/h; augmentation enforces the constraint.", "");
 
-inline const DiagnosticKind penalty_raised(
-    "penalty-raised", Severity::note,
-    "A penalty was raised. In statics nodes penetrated by more than a tenth of a facet, or 0.4 of "
-    "an element's thickness, and the step was repeated. In dynamics penetration took more "
-    "than 0.4 % of the deformation. The message names the new value.",
-    "Set 'Normal penalty' to that value from the start");
+inline const DiagnosticKind
+    penalty_raised("penalty-raised", Severity::note,
+                   "A penalty is raised. In statics nodes penetrate by more than a tenth of a facet, or 0.4 "
+                   "of an element's thickness, and the step is repeated. In dynamics penetration takes more "
+                   "than 0.4 % of the deformation. The message gives the new value.",
+                   "Set 'Normal penalty' to that value from the start");
 
-inline const DiagnosticKind contact_dissipates(
-    "contact-dissipates", Severity::warning,
-    "Contact has removed much energy beside friction, because the time steps do not resolve how it opens "
-    "and closes. The message names the cause.",
-    "Where bodies should bounce, reduce 'Error tolerance', 'Maximum step' or the penalty");
+inline const DiagnosticKind
+    contact_dissipates("contact-dissipates", Severity::warning,
+                       "Contact removes much energy beside friction, because the time steps do not resolve "
+                       "how it opens and closes. The message names the cause.",
+                       "If bodies should rebound, reduce 'Error tolerance', 'Maximum step' or the penalty");
 
-inline const DiagnosticKind numerical_dissipation(
-    "numerical-dissipation", Severity::warning,
-    "Implicit time integration has dissipated, or made, more than 5 % of the largest energy: its steps "
-    "do not resolve the motion.",
-    "Reduce 'Error tolerance' or 'Maximum step', if the motion matters that is damped; 'Method = Newmark' "
-    "dissipates nothing");
+inline const DiagnosticKind
+    numerical_dissipation("numerical-dissipation", Severity::warning,
+                          "Implicit time integration dissipates, or creates, more than 5 % of the maximum "
+                          "energy: its steps do not resolve the motion.",
+                          "If the damped motion matters, reduce 'Error tolerance' or 'Maximum step'; 'Method "
+                          "= Newmark' dissipates nothing");
 
-inline const DiagnosticKind lumped_inertia(
-    "lumped-inertia", Severity::warning,
-    "Masses at the nodes have 1.6 times the kinetic energy of the bricks between them, or more, in the "
-    "motion "
-    "of a body relative to its mean: a bar of one brick across that twists, or waves of three bricks' "
-    "length. "
-    "Periods are 15 % too long, or more.",
-    "Use two or more bricks across what twists or spins, and finer ones along waves; in implicit dynamics "
-    "'Mass = consistent'");
+inline const DiagnosticKind
+    lumped_inertia("lumped-inertia", Severity::warning,
+                   "Lumped masses have at least 1.6 times the kinetic energy of the bricks, in the motion of "
+                   "a body relative to its mean. Examples are a twisting bar with one brick across, and "
+                   "waves of three bricks' length. Periods are at least 15 % too long.",
+                   "Use two or more bricks across parts that twist or spin, and finer ones along waves; in "
+                   "implicit dynamics use 'Mass = consistent'");
 
 inline const DiagnosticKind nodes_behind_tool(
     "nodes-behind-tool", Severity::warning,
-    "Nodes have moved around the edge of a tool. Its surface has no back: what is behind it is free.",
+    "Nodes have moved around the edge of a tool. Its surface has no back, so nodes behind it are free.",
     "Give the tool sides, a larger surface, or a radius where it ends");
 
 // --- accuracy --------------------------------------------------------------------------------------------
 
 inline const DiagnosticKind round_off_limits_forces(
     "round-off-limits-forces", Severity::warning,
-    "Round-off in the positions leaves a larger residual than 'Force tolerance' allows.",
-    "Use a lower penalty, with a 'Penetration tolerance' where that is too low, or place bodies nearer to "
-    "the origin");
+    "Round-off in the positions limits the residual to more than 'Force tolerance' allows.",
+    "Use a lower penalty, with a 'Penetration tolerance' if penetration is then too large, or place bodies "
+    "nearer to the origin");
 
-inline const DiagnosticKind balanced_to_round_off("balanced-to-round-off", Severity::note,
-                                                  "Round-off in the positions leaves a larger residual than "
-                                                  "'Force tolerance' allows, but at most 1e-8 of the forces.",
-                                                  "");
+inline const DiagnosticKind
+    balanced_to_round_off("balanced-to-round-off", Severity::note,
+                          "Round-off in the positions limits the residual to more than 'Force tolerance' "
+                          "allows, but at most 1e-8 of the forces.",
+                          "");
 
-inline const DiagnosticKind ill_conditioned(
-    "ill-conditioned", Severity::warning,
-    "The matrix is nearly singular: few of the sixteen digits of a correction are right.",
-    "Look for a body that hardly anything constrains, for penalties or moduli that are far apart, and for "
-    "elements much longer than thick");
+inline const DiagnosticKind
+    ill_conditioned("ill-conditioned", Severity::warning,
+                    "The matrix is nearly singular: few of the sixteen digits of a correction are correct.",
+                    "Check for a body with weak constraints, for penalties or moduli that are far apart, and "
+                    "for elements much longer than thick");
 
 inline const DiagnosticKind
     energy_imbalance("energy-imbalance", Severity::warning,
-                     "The energies do not balance: forces do work that no account knows.",
+                     "The energies do not balance: forces do work that no energy accounts for.",
                      "Reduce 'Maximum step'");
 
 inline const DiagnosticKind element_too_stiff(
     "element-too-stiff", Severity::warning,
-    "The elements of a body lock: the displacements store more energy in them than in elements without "
-    "parasitic shear. Forces are too large, or displacements too small, by the given factor: by at least it "
-    "in elastic bodies, by up to it in bodies that yield.",
-    "Use 'Element = assumed strain', and where it is used bricks whose opposite edges are parallel, or "
-    "shorter ones beside their thickness");
+    "The elements of a body lock: they store more energy in these displacements than elements without "
+    "parasitic shear. Forces are too large, or displacements too small, by the given factor. It is a lower "
+    "bound in elastic bodies and an upper bound in bodies that yield.",
+    "Use 'Element = assumed strain'; if it is used, make opposite edges of bricks parallel, or bricks "
+    "shorter relative to their thickness");
 
 inline const DiagnosticKind element_too_soft(
     "element-too-soft", Severity::warning,
-    "The elements of a body store less energy in these displacements than elements that bend right: as a "
-    "rule they are too soft in bending. So is a single layer of bricks with mean dilatation that are as long "
-    "as high.",
+    "The elements of a body store less energy in these displacements than elements that are exact in "
+    "bending. Usually they are too soft in bending, as is a single layer of cubes with mean dilatation.",
     "Use 'Element = assumed strain'");
 
 inline const DiagnosticKind plastic_bending_coarse(
     "plastic-bending-coarse", Severity::warning,
-    "A body yields as it bends, with few elements through its thickness or along the fold. More than a tenth "
-    "of the energy of one-point elements is in modes that the stabilisation resists, with one yield stress "
-    "for an element. Or the two points of assumed strains miss more than 0.3 of what flow dissipates "
-    "between them, where that is more than a twentieth of the energy.",
-    "Use four or more one-point bricks through the thickness, and shorter ones where the bend is sharpest; "
-    "of assumed strains two, or 'Points through thickness = 5'");
+    "A body yields in bending, with few elements through its thickness or along the fold. One-point elements "
+    "have more than 10 % of the energy in hourglass modes, with one yield stress for an element. Or the two "
+    "points of assumed strains miss more than 30 % of the dissipation between them, where that exceeds 5 % "
+    "of the energy.",
+    "Use four or more one-point bricks through the thickness, and shorter ones where the bend is sharpest. "
+    "With assumed strains use two bricks, or 'Points through thickness = 5'");
 
 inline const DiagnosticKind bricks_may_lock(
     "bricks-may-lock", Severity::warning,
     "A thin body has long bricks, or few through its thickness, of an element that is too stiff in bending. "
-    "Only '--check' tells this; a run measures what it makes and warns with the factor.",
+    "Only '--check' prints this; a run measures the effect and warns with the factor.",
     "Use 'Element = assumed strain'");
 
 inline const DiagnosticKind element_unfit_at_start(
     "element-unfit-at-start", Severity::note,
     "At the first loaded step the elements of a body are too stiff or too soft by the given factor. The run "
     "measures it again at the end.",
-    "If that stays so until the end: use 'Element = assumed strain', and where it is used bricks whose "
-    "opposite edges are parallel");
-
-inline const DiagnosticKind pressure_checkerboard(
-    "pressure-checkerboard", Severity::warning,
-    "Pressures alternate from element to element. Forces and displacements are not affected; pressures are "
-    "right only as means over neighbours.",
-    "Use a less regular or finer mesh, or a Poisson ratio farther from 0.5");
-
-inline const DiagnosticKind unstable_law("unstable-law", Severity::warning,
-                                         "An elastic body is strained beyond the limit up to which its law "
-                                         "is elliptic; results depend on the mesh.",
-                                         "Reduce the strains");
+    "If it remains until the end, use 'Element = assumed strain'; if it is used, make opposite edges of "
+    "bricks parallel");
 
 inline const DiagnosticKind
-    flat_elements("flat-elements", Severity::warning,
-                  "An element is pressed nearly flat, which makes explicit steps very short.",
-                  "Use larger elements there, or let the material harden");
+    pressure_checkerboard("pressure-checkerboard", Severity::warning,
+                          "Pressures alternate from element to element. Forces and displacements are not "
+                          "affected; pressures are correct only as means over neighbours.",
+                          "Use a less regular or finer mesh, or a Poisson ratio farther from 0.5");
 
-inline const DiagnosticKind error_estimate("error-estimate", Severity::note,
-                                           "The estimated error of the run, by source, and what it cost.",
-                                           "");
+inline const DiagnosticKind unstable_law(
+    "unstable-law", Severity::warning,
+    "The strains of an elastic body exceed the limit of ellipticity of its law; results depend on the mesh.",
+    "Reduce the strains");
+
+inline const DiagnosticKind flat_elements("flat-elements", Severity::warning,
+                                          "An element is nearly flat, which makes explicit steps very short.",
+                                          "Use larger elements there, or let the material harden");
+
+inline const DiagnosticKind
+    error_estimate("error-estimate", Severity::note,
+                   "This is the estimated error of the run by source, and the cost of the run.", "");
 
 inline const DiagnosticKind
     target_error_missed("target-error-missed", Severity::warning,
@@ -295,59 +288,56 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind
     target_error_unknown("target-error-unknown", Severity::warning,
-                         "Too little was measured to tell whether the 'Target error' is met.", "");
+                         "The run has too few measurements to tell whether it meets the 'Target error'.", "");
 
 inline const DiagnosticKind mesh_may_exceed_target(
     "mesh-may-exceed-target", Severity::note,
     "Stresses jump between elements by more than the 'Target error', which does not control the mesh.",
-    "Run a finer mesh, too, to see what it changes");
+    "Compare with a run on a finer mesh");
 
 inline const DiagnosticKind target_error_expensive("target-error-expensive", Severity::warning,
-                                                   "The error that is allowed needs very many steps.",
+                                                   "The allowed error requires very many steps.",
                                                    "Choose a larger 'Target error' or 'Error tolerance'");
 
 // --- solution --------------------------------------------------------------------------------------------
 
-inline const DiagnosticKind unsupported_body(
-    "unsupported-body", Severity::warning,
-    "Nothing presses a body in a static scene any more, and it could move away freely: viscous "
-    "forces hold it. Its shape is right; its place is arbitrary.",
-    "Hold it by a support or a symmetry plane, or end the run before it is unloaded");
+inline const DiagnosticKind
+    unsupported_body("unsupported-body", Severity::warning,
+                     "No contact presses on a body in a static scene any more, so it has a rigid-body mode. "
+                     "Viscous forces hold it: its shape is correct, its position arbitrary.",
+                     "Constrain it by a support or a symmetry plane, or end the run before it is unloaded");
 
 inline const DiagnosticKind stabilisation_too_strong(
     "stabilisation-too-strong", Severity::warning,
-    "The viscous forces of 'Contact stabilisation = until contact' did more than 0.1 % of all work.",
-    "Let the body touch at the start or move over a shorter way, close small gaps by 'Initial gap = close "
-    "within', or hold it by a support or a symmetry plane");
+    "The viscous forces of 'Contact stabilisation = until contact' do more than 0.1 % of all work.",
+    "Let the body touch earlier, close small gaps by 'Initial gap = close within', or add a support or a "
+    "symmetry plane");
 
 inline const DiagnosticKind stabilised_at_end(
     "stabilised-at-end", Severity::note,
-    "At the end of the run contact still leaves a rigid-body mode of a body free, and only the viscous "
-    "forces "
-    "of 'Contact stabilisation = until contact' resist it. Where the body stands along that mode is "
-    "arbitrary.",
-    "Hold the mode by a support or a symmetry plane, or use friction");
+    "At the end of the run contact still leaves a rigid-body mode of a body free. Only the viscous forces of "
+    "'Contact stabilisation = until contact' resist it, so the position along that mode is arbitrary.",
+    "Constrain the mode by a support or a symmetry plane, or use friction");
 
 inline const DiagnosticKind stabilised_loads(
     "stabilised-loads", Severity::warning,
-    "At the end of the run the viscous forces of 'Contact stabilisation = until contact' bear more than "
-    "0.1 % of the forces: contact does not hold the body yet, or no longer.",
-    "Check whether the body reaches what it is to touch, or hold it by a support or a "
-    "symmetry plane");
+    "At the end of the run the viscous forces of 'Contact stabilisation = until contact' bear more than 0.1 "
+    "% of the forces. Contact does not constrain the body.",
+    "Check whether the body reaches its contact partner, or constrain it by a support or a symmetry plane");
 
-inline const DiagnosticKind needless_stabilisation(
-    "needless-stabilisation", Severity::note,
-    "'Contact stabilisation = until contact' has no effect on a body that supports and symmetry planes hold.",
-    "Set 'Contact stabilisation = none'");
+inline const DiagnosticKind needless_stabilisation("needless-stabilisation", Severity::note,
+                                                   "'Contact stabilisation = until contact' has no effect on "
+                                                   "a body that supports and symmetry planes constrain.",
+                                                   "Set 'Contact stabilisation = none'");
 
 inline const DiagnosticKind exact_tangent(
     "exact-tangent", Severity::note,
-    "Newton's method failed with the chosen 'Contact tangent'; the exact one is used from here on.", "");
+    "Newton's method failed with the chosen 'Contact tangent'; the run uses the exact one from here on.", "");
 
 inline const DiagnosticKind stalled_step(
     "stalled-step", Severity::warning,
-    "Newton's method could not reach its tolerances in a step, because of round-off or contact chatter. The "
-    "step was accepted with a residual of at most 2 % of the forces.",
+    "Newton's method cannot reach its tolerances in a step, because of round-off or contact chatter. The "
+    "step is accepted with a residual of at most 2 % of the forces.",
     "Compare the forces with those of a run with a smaller 'Maximum step' or a lower 'Normal penalty'");
 
 inline const DiagnosticKind direct_solver("direct-solver", Severity::note,
@@ -356,26 +346,26 @@ inline const DiagnosticKind direct_solver("direct-solver", Severity::note,
                                           "");
 
 inline const DiagnosticKind solver_memory("solver-memory", Severity::note,
-                                          "Memory that the iterative linear solver takes.", "");
+                                          "This is the memory of the iterative linear solver.", "");
 
 inline const DiagnosticKind comparison_failed(
     "comparison-failed", Severity::warning,
-    "Steps of twice the length do not converge, so the error of the steps can no longer be estimated.",
+    "Steps of twice the length do not converge, so there is no error estimate of the steps from here on.",
     "Choose another 'Contact tangent' or a lower penalty");
 
 inline const DiagnosticKind resumed("resumed", Severity::note, "The run continues from a checkpoint.", "");
 
 inline const DiagnosticKind mass_scaling("mass-scaling", Severity::note,
-                                         "How much mass 'Mass scaling step' adds to the bodies.", "");
+                                         "This is the mass that 'Mass scaling step' adds to the bodies.", "");
 
 inline const DiagnosticKind mass_scaling_too_strong(
     "mass-scaling-too-strong", Severity::warning,
-    "'Mass scaling step' adds more than 10 % of the mass, and the largest kinetic energy is more than 5 % of "
-    "the largest internal energy: inertia that the bodies do not have changes the motion.",
-    "Reduce 'Mass scaling step', or the speed of tools where the process is to be quasi-static");
+    "'Mass scaling step' adds more than 10 % of the mass, and the maximum kinetic energy exceeds 5 % of the "
+    "maximum internal energy. The added inertia changes the motion.",
+    "Reduce 'Mass scaling step', or the speed of tools if the process is quasi-static");
 
 inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::warning,
-                                              "A checkpoint could not be written; the run continues.",
+                                              "The program cannot write a checkpoint; the run continues.",
                                               "Free disk space, or choose another folder");
 
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
@@ -386,7 +376,7 @@ inline const DiagnosticKind
                  "The energies fail to balance by more than 'Maximum energy drift' allows.", "");
 
 inline const DiagnosticKind internal_error("internal-error", Severity::error,
-                                           "A defect of the program or of the machine.",
+                                           "The program or the machine has a defect.",
                                            "Report it with the scene file");
 
 } // namespace billet::diagnostic

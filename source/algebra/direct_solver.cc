@@ -28,8 +28,8 @@ public:
     Amesos factory;
     solver_.reset(factory.Create(amesos_name, problem_));
     if (solver_ == nullptr)
-      throw InputError("This Trilinos was built without " + amesos_name +
-                       "; allowed in 'Linear solver' is what it has, KLU at least");
+      throw InputError("'Linear solver' names a solver that this Trilinos lacks: " + amesos_name +
+                       "; allowed is another solver, such as KLU");
     Teuchos::ParameterList options;
     options.set("PrintTiming", false);
     options.set("PrintStatus", false);
@@ -142,7 +142,7 @@ private:
     dmumps_c(&mumps_);
     if (mumps_.infog[0] < 0)
       failure_ = mumps_.infog[0] == -10 ? "the matrix is singular"
-                                        : "MUMPS stopped with INFOG(1) = " + std::to_string(mumps_.infog[0]) +
+                                        : "MUMPS stops with INFOG(1) = " + std::to_string(mumps_.infog[0]) +
                                               ", INFOG(2) = " + std::to_string(mumps_.infog[1]);
     return mumps_.infog[0] >= 0;
   }

@@ -306,7 +306,7 @@ bool IterativeSolver::factorize() {
   // Keep the hierarchy if the last solve converged well: it is expensive, and a Newton iteration changes
   // little.
   const bool keeps_pace =
-      multigrid_ != nullptr && last_pace_ >= settings_.least_pace * fresh_pace_ && fresh_pace_ > 0.;
+      multigrid_ != nullptr && last_pace_ >= settings_.min_pace * fresh_pace_ && fresh_pace_ > 0.;
   if (!keeps_pace)
     multigrid_.reset();
   contact_ = std::move(started_);
@@ -332,21 +332,21 @@ bool IterativeSolver::renew() {
   if (multigrid_->is_ready())
     return true;
   multigrid_.reset();
-  failure_ = "multigrid could not be set up";
+  failure_ = "the set-up of multigrid failed";
   return false;
 }
 
 bool IterativeSolver::solve(const Vector &b, Vector &x, const double relative_tolerance) {
   if (!is_lagging_)
-    return iterate(b, x, relative_tolerance, settings_.most_iterations);
-  const double expected = -std::log(relative_tolerance) / (settings_.least_pace * fresh_pace_);
-  const double most = std::min(expected + 10., static_cast<double>(settings_.most_iterations));
-  return iterate(b, x, relative_tolerance, static_cast<unsigned int>(most)) ||
-         (renew() && iterate(b, x, relative_tolerance, settings_.most_iterations));
+    return iterate(b, x, relative_tolerance, settings_.max_iterations);
+  const double expected = -std::log(relative_tolerance) / (settings_.min_pace * fresh_pace_);
+  const double maximum = std::min(expected + 10., static_cast<double>(settings_.max_iterations));
+  return iterate(b, x, relative_tolerance, static_cast<unsigned int>(maximum)) ||
+         (renew() && iterate(b, x, relative_tolerance, settings_.max_iterations));
 }
 
 bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double relative_tolerance,
-                              const unsigned int most_iterations) {
+                              const unsigned int max_iterations) {
   const Epetra_CrsMatrix &A = matrix_->trilinos_matrix();
   const Epetra_Vector &b = as_epetra(rhs);
   Epetra_Vector &x = as_epetra(solution);
@@ -366,7 +366,7 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
   compute_residual();
   const double start = relative_residual_;
   // The recursive residual may be smaller than the true one: then the iterations continue from there.
-  unsigned int left = most_iterations;
+  unsigned int left = max_iterations;
   for (unsigned int attempt = 0; relative_residual_ > relative_tolerance && attempt < 3 && left > 0;
        ++attempt) {
     const double before = relative_residual_;
@@ -387,16 +387,16 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
       break;
   }
   if (relative_residual_ <= relative_tolerance) {
-    if (left < most_iterations && relative_residual_ > 0.)
-      last_pace_ = std::log(start / relative_residual_) / (most_iterations - left);
+    if (left < max_iterations && relative_residual_ > 0.)
+      last_pace_ = std::log(start / relative_residual_) / (max_iterations - left);
     if (fresh_pace_ == 0.)
       fresh_pace_ = last_pace_;
     return true;
   }
   std::ostringstream text;
   text.precision(2);
-  text << name() << " left " << relative_residual_ << " of the right-hand side after "
-       << most_iterations - left << " iterations, allowed was " << relative_tolerance;
+  text << name() << " leaves " << relative_residual_ << " of the right-hand side after "
+       << max_iterations - left << " iterations; allowed is " << relative_tolerance;
   failure_ = text.str();
   return false;
 }

@@ -172,7 +172,7 @@ public:
     if (!(step > 0.))
       return false;
     if (!evaluate(group, step, direction, old)) {
-      for (unsigned int cut = 0; cut < most_cuts_; ++cut) {
+      for (unsigned int cut = 0; cut < max_cuts_; ++cut) {
         step *= 0.5;
         if (evaluate(group, step, direction, old))
           return true;
@@ -191,7 +191,7 @@ public:
       return true;
     double best_step = step, best = std::abs(end);
     double low = 0., low_value = start, high = step, high_value = end;
-    for (unsigned int trial = 0; trial < most_trials_ && std::abs(end) > enough * std::abs(start); ++trial) {
+    for (unsigned int trial = 0; trial < max_trials_ && std::abs(end) > enough * std::abs(start); ++trial) {
       const bool brackets = low_value * high_value < 0.;
       step = brackets ? low - low_value * (high - low) / (high_value - low_value) : 0.5 * high;
       step = std::clamp(step, low + 0.1 * (high - low), high - 0.1 * (high - low));
@@ -235,7 +235,7 @@ private:
     return norms_.back() > 0.5 * norms_.front();
   }
 
-  static constexpr unsigned int most_cuts_ = 5, most_trials_ = 4;
+  static constexpr unsigned int max_cuts_ = 5, max_trials_ = 4;
   static constexpr double enough_ = 0.8, enough_of_cycles_ = 0.3;
   bool by_energy_;
   std::vector<double> norms_; ///< norms of the last residuals

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/body_contact.h"
 
-#include "billet/contact/contact_blocks.h"
+#include "billet/contact/body_checks.h"
+#include "billet/contact/body_couplings.h"
+#include "billet/contact/body_measures.h"
 #include "billet/contact/facet_contact.h"
 #include "billet/contact/facet_paths.h"
 #include "billet/contact/overlap.h"
@@ -9,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace billet {
 
@@ -38,8 +39,7 @@ FacetMethod method_of(const parameters::ContactPair::Facets facets) {
 BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes,
                          const ContactTangent tangent)
     : ContactInterface(scene, scene.body_pairs()[pair]), pair_(scene.body_pairs()[pair]), nodes_(nodes),
-      surfaces_(pair_, nodes, NodeKeys(nodes.discretization())), positions_(surfaces_.local_nodes.size()),
-      tangent_(tangent) {
+      surfaces_(pair_, nodes, NodeKeys(nodes.discretization())), positions_(surfaces_.local_nodes.size()) {
   const MPI_Comm communicator = nodes.discretization().communicator();
   FacetContactSettings settings;
   settings.method = method_of(pair_.facets);
@@ -51,66 +51,41 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   settings.search_margin = std::max(pair_.search_margin * surfaces_.find_smallest_size(communicator),
                                     2. * pair_.overlap.closed_gap);
   settings.limits.zone = pair_.smoothing;
-  constexpr unsigned int most_changes = 8;
+  constexpr unsigned int max_changes = 8;
   if (!scene.parameters().is_explicit())
-    settings.most_changes = most_changes;
+    settings.max_changes = max_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   const PairPenalties penalties = compute_penalties(scene, pair_, surfaces_, communicator);
-  max_stiffening_ = penalties.max_stiffening;
-  max_tangential_stiffening_ = penalties.max_tangential_stiffening;
-  settings.touching_gap *= std::min(1., max_stiffening_);
+  settings.penetration_tolerance = pair_.penetration_tolerance.value_or(0.);
+  settings.max_stiffening = penalties.max_stiffening;
+  settings.touching_gap *= std::min(1., settings.max_stiffening.normal);
   contact_ = std::make_unique<FacetContact>(communicator, settings, surfaces_.keys, surfaces_.facets,
                                             penalties.of_nodes, surfaces_.sizes);
-  blocks_ = std::make_unique<ContactBlocks>(*contact_, nodes, surfaces_.local_nodes);
+  couplings_ = std::make_unique<BodyCouplings>(pair_, nodes, surfaces_, *contact_, tangent);
+  measures_ = std::make_unique<BodyMeasures>(pair_, nodes, surfaces_, *contact_);
+  checks_ = std::make_unique<BodyChecks>(pair_, *contact_, communicator);
   if (!scene.parameters().is_explicit())
     paths_ = std::make_unique<FacetPaths>(communicator, settings.partners, surfaces_.keys, surfaces_.facets,
-                                          surfaces_.depths);
+                                          surfaces_.penetrations);
 }
 
 BodyContact::~BodyContact() = default;
 
+ContactPenalties &BodyContact::penalties() { return contact_->penalties(); }
+const ContactPenalties &BodyContact::penalties() const { return contact_->penalties(); }
+const ContactMeasures &BodyContact::measures() const { return *measures_; }
+ContactCouplings &BodyContact::couplings() { return *couplings_; }
+const ContactCouplings &BodyContact::couplings() const { return *couplings_; }
+const ContactChecks &BodyContact::checks() const { return *checks_; }
+
 void BodyContact::set_friction_account(const double start_weight, const bool is_static) {
   contact_->set_friction_account(start_weight, is_static);
 }
-StepWorks BodyContact::compute_step_works(const double weight) const {
-  return contact_->works().compute_step_works(weight);
-}
-
-void BodyContact::add_tangent(const TangentSystem &system) const { blocks_->add_tangent(tangent_, system); }
-bool BodyContact::has_new_couplings() const { return blocks_->has_new(); }
-void BodyContact::find_couplings() { blocks_->find(tangent_); }
-void BodyContact::add_foreign_dofs(dealii::IndexSet &dofs) const { blocks_->add_foreign_dofs(dofs); }
-void BodyContact::add_couplings(SparsityPattern &pattern) const { blocks_->add_entries(pattern); }
-void BodyContact::save_couplings(StateWriter &writer) const {
-  blocks_->save(writer, surfaces_.keys, describe_couplings());
-}
-bool BodyContact::load_couplings(const StateReader &reader) {
-  return blocks_->load(reader, surfaces_.keys, describe_couplings());
-}
-
+void BodyContact::set_tangent(const ContactTangent tangent) { couplings_->set_tangent(tangent); }
+void BodyContact::add_tangent(const TangentSystem &system) const { couplings_->add_tangent(system); }
 void BodyContact::add_crossings(Crossings &crossings) const { contact_->bounds().add_crossings(crossings); }
-
 void BodyContact::restart() { contact_->restart(); }
-void BodyContact::augment() { contact_->augment(); }
-void BodyContact::take_back_augmentation() { contact_->take_back_augmentation(); }
-void BodyContact::scale_penalties(const double normal, const double tangential) {
-  contact_->scale_penalties(normal, tangential);
-}
-void BodyContact::stiffen_under_load(const double normal, const double tangential) {
-  contact_->stiffen_under_load(normal, tangential);
-}
-double BodyContact::stiffening() const { return contact_->stiffening(); }
-double BodyContact::tangential_stiffening() const { return contact_->tangential_stiffening(); }
-
-ContactSprings BodyContact::compute_springs() const { return contact_->measures().compute_springs(); }
-double BodyContact::largest_spring() const { return contact_->measures().largest_spring(); }
-Penetration BodyContact::penetration() const { return contact_->measures().penetration(); }
-double BodyContact::excessive_penetration() const { return contact_->measures().excessive_penetration(); }
-double BodyContact::closing_of_new_contacts() const { return contact_->measures().closing_of_new_contacts(); }
-double BodyContact::augmentation_gap() const { return contact_->measures().augmentation_error(); }
-std::vector<SlaveForce> BodyContact::slave_forces() const { return contact_->measures().slave_forces(); }
-std::size_t BodyContact::history_size() const { return contact_->history_size(); }
 
 void BodyContact::place(const NodalVectors &displacements, FacetSearch::Positions &positions) const {
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -199,83 +174,14 @@ double BodyContact::find_free_part(const ContactPath &path) const {
   return paths_->find_free_part(from, to, path.is_thorough);
 }
 
-std::string BodyContact::describe_obstacle() const {
-  return "nodes of contact pair '" + pair_.name + "' would go through the other body";
-}
-
-std::vector<double> BodyContact::describe_couplings() const {
-  return {static_cast<double>(tangent_), static_cast<double>(pair_.facets), pair_.two_passes ? 1. : 0.};
-}
-
 void BodyContact::commit() {
   contact_->commit();
   positions_n_ = positions_;
 }
 
-ContactLoad BodyContact::compute_load() const {
-  const FacetContactLoad all = contact_->works().compute_load();
-  ContactLoad load;
-  load.force = all.force;
-  load.moment = all.moment;
-  load.area = all.area;
-  load.stored_energy = all.stored_energy;
-  load.dissipation = all.dissipation;
-  load.damping = all.damping;
-  load.deepest = all.deepest;
-  return load;
-}
-
-void BodyContact::add_resistances(const std::size_t body, std::vector<Resistance> &resistances) const {
-  if (pair_.bodies[0] == pair_.bodies[1])
-    return;
-  contact_->measures().visit_touching([&](const Tensor<1, 3> &position, const Tensor<1, 3> &normal,
-                                          const unsigned int of_node, const unsigned int of_facet) {
-    for (const unsigned int side : {of_node, of_facet})
-      if (pair_.bodies[side] == body)
-        add_contact(position, side == of_node ? normal : -normal, false, pair_.has_friction(), resistances);
-  });
-}
-
 void BodyContact::start_step(const ContactStep &step) {
   duration_ = step.duration;
   contact_->set_allowed_part(pair_.overlap.allowed_part(step.start), pair_.overlap.allowed_part(step.end));
-}
-
-void BodyContact::visit_supporting(const VisitSupporting &visit) const {
-  if (pair_.bodies[0] == pair_.bodies[1])
-    return;
-  contact_->measures().visit_supporting(
-      [&](const SupportingPoint &point, const unsigned int of, const unsigned int on) {
-        visit(point, pair_.bodies[of], pair_.bodies[on]);
-      });
-}
-
-std::string BodyContact::describe_restless() const {
-  const MPI_Comm communicator = nodes_.discretization().communicator();
-  std::array<double, 5> mine{}; // number of changes, position, number of nodes
-  for (const auto &node : contact_->measures().find_restless()) {
-    mine[4] += 1.;
-    if (node.n_changes > mine[0])
-      mine = {static_cast<double>(node.n_changes), node.position[0], node.position[1], node.position[2],
-              mine[4]};
-  }
-  std::array<double, 5> worst{};
-  double n_nodes = 0.;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine)) {
-    n_nodes += of_rank[4];
-    if (of_rank[0] > worst[0])
-      worst = of_rank;
-  }
-  if (n_nodes == 0.)
-    return "";
-  std::ostringstream text;
-  text << "; contact pair '" << pair_.name << "': " << n_nodes
-       << (n_nodes == 1. ? " node keeps" : " nodes keep") << " changing facet or status, most often, "
-       << worst[0] << " times, the one at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << "): try "
-       << (contact_->method() == FacetMethod::overlap
-               ? "a softer penalty, with a 'Penetration tolerance' where that is too soft"
-               : "smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'");
-  return text.str();
 }
 
 void BodyContact::allow_overlap() {
@@ -287,26 +193,14 @@ void BodyContact::allow_overlap() {
     return;
   // A node's mean gap over overlapping facets hides larger penetrations in parts of them. Repetition reduces
   // these until none remain.
-  constexpr unsigned int most_times = 200;
+  constexpr unsigned int max_times = 200;
   constexpr double none = 1e-10; // facet sizes
   const MPI_Comm communicator = nodes_.discretization().communicator();
-  for (unsigned int i = 0; i < most_times; ++i) {
-    if (dealii::Utilities::MPI::max(contact_->allow_initial_depths(), communicator) <= none)
+  for (unsigned int i = 0; i < max_times; ++i) {
+    if (dealii::Utilities::MPI::max(contact_->allow_initial_penetrations(), communicator) <= none)
       return;
     evaluate(0.);
   }
-}
-
-std::vector<ContactNodeReport> BodyContact::report() const {
-  std::vector<ContactNodeReport> reports;
-  const auto states = contact_->measures().report();
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const double area = nodes_.is_owned(surfaces_.local_nodes[i]) ? states[i].area : 0.;
-    reports.push_back({nodes_.dofs(surfaces_.local_nodes[i]), states[i].status, states[i].pressure,
-                       states[i].gap, states[i].slip, area, states[i].traction, states[i].penetration,
-                       surfaces_.sizes[i], states[i].tangential_stiffness});
-  }
-  return reports;
 }
 
 } // namespace billet

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace billet {
@@ -38,7 +39,7 @@ BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const 
       facet.bulge = bulge_of(boundary, pair.correction);
       facet.wall = boundary.thickness;
       constexpr double part_of_facet = 0.4; // all methods find nodes there, and all elements are thicker
-      depths.push_back(part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
+      penetrations.push_back(part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes.size()));
@@ -60,10 +61,10 @@ BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const 
 }
 
 double BodySurfaces::find_smallest_size(MPI_Comm communicator) const {
-  double smallest = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (const double area : areas)
-    smallest = std::min(smallest, std::sqrt(area));
-  return dealii::Utilities::MPI::min(smallest, communicator);
+    minimum = std::min(minimum, std::sqrt(area));
+  return dealii::Utilities::MPI::min(minimum, communicator);
 }
 
 PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const BodySurfaces &surfaces,
@@ -96,10 +97,10 @@ PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const 
     const double unit = pair.penalty_is_factor ? of_factor : 1.;
     penalties.of_nodes.push_back({unit * pair.normal_penalty, unit * pair.tangential_penalty});
     const double enough = enough_penalty * of_factor / unit;
-    penalties.max_stiffening = std::min(penalties.max_stiffening, enough / pair.normal_penalty);
+    ContactPenalties::Limits &limits = penalties.max_stiffening;
+    limits.normal = std::min(limits.normal, enough / pair.normal_penalty);
     if (pair.has_friction())
-      penalties.max_tangential_stiffening =
-          std::min(penalties.max_tangential_stiffening, enough / pair.tangential_penalty);
+      limits.tangential = std::min(limits.tangential, enough / pair.tangential_penalty);
   }
   return penalties;
 }

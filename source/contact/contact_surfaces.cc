@@ -12,8 +12,8 @@ ContactSurfaces::ContactSurfaces(MPI_Comm communicator, const FacetSearch::Partn
     : communicator_(communicator), partners_(partners), margin_(margin),
       exchange_(communicator, std::move(node_keys), std::move(facets)), search_(partners, margin) {
   for (const auto &facet : exchange_.facets())
-    largest_reach_ = std::max(largest_reach_, facet.reach);
-  MPI_Allreduce(MPI_IN_PLACE, &largest_reach_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+    max_reach_ = std::max(max_reach_, facet.reach);
+  MPI_Allreduce(MPI_IN_PLACE, &max_reach_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
 }
 
 bool ContactSurfaces::update(const Positions &positions_n, const Positions &positions) {
@@ -38,9 +38,9 @@ bool ContactSurfaces::update(const Positions &positions_n, const Positions &posi
   return is_rebuilt_;
 }
 
-double ContactSurfaces::find_distance(const std::optional<double> &depth) const {
-  double distance = largest_reach_ + margin_;
-  if (!depth)
+double ContactSurfaces::find_distance(const std::optional<double> &penetration) const {
+  double distance = max_reach_ + margin_;
+  if (!penetration)
     return distance;
   // The middle of an edge or a facet is farther from nodes, and depth is not limited to the reach.
   double longest = 0.;
@@ -49,13 +49,14 @@ double ContactSurfaces::find_distance(const std::optional<double> &depth) const 
     for (unsigned int i = 0; i < 4; ++i)
       longest = std::max(longest, (x[facet::around[(i + 1) % 4]] - x[facet::around[i]]).norm());
   }
-  distance += *depth * largest_reach_ + longest;
+  distance += *penetration * max_reach_ + longest;
   MPI_Allreduce(MPI_IN_PLACE, &distance, 1, MPI_DOUBLE, MPI_MAX, communicator_);
   return distance;
 }
 
-void ContactSurfaces::rebuild(const std::vector<SlaveNode> &slaves, const std::optional<double> &depth) {
-  exchange_.rebuild(positions_n_, positions_, find_distance(depth));
+void ContactSurfaces::rebuild(const std::vector<SlaveNode> &slaves,
+                              const std::optional<double> &penetration) {
+  exchange_.rebuild(positions_n_, positions_, find_distance(penetration));
   exchange_.update(positions_n_);
   exchange_.update(positions_);
   search_.set_surface(exchange_.facets(), slaves);

@@ -34,7 +34,7 @@ Contacts::Contacts(const Scene &scene, const LocalNodes &nodes) : n_tools_(scene
 }
 
 void Contacts::list_all() {
-  RigidContact::introduce(of_tools_);
+  RigidContact::link_neighbours(of_tools_);
   for (auto &contact : of_tools_)
     all_.push_back(&contact);
   for (auto &contact : of_bodies_)
@@ -46,27 +46,27 @@ Contacts::Loads Contacts::compute_loads() const {
   loads.of_tools.resize(n_tools_);
   for (const ContactInterface &contact : *this)
     if (const auto &tool = contact.rigid_tool())
-      loads.of_tools[*tool] += contact.compute_load();
+      loads.of_tools[*tool] += contact.measures().compute_load();
     else
-      loads.of_body_pairs.push_back(contact.compute_load());
+      loads.of_body_pairs.push_back(contact.measures().compute_load());
   return loads;
 }
 
 std::size_t Contacts::history_size() const {
   std::size_t size = 0;
   for (const ContactInterface &contact : *this)
-    size += contact.history_size();
+    size += contact.measures().history_size();
   return size;
 }
 
 std::vector<std::vector<ContactNodeReport>> Contacts::report() const {
-  return collect([](const ContactInterface &contact) { return contact.report(); });
+  return collect([](const ContactInterface &contact) { return contact.measures().report(); });
 }
 
 DiagnosticList Contacts::check_start() const {
   DiagnosticList list;
   for (const ContactInterface &contact : *this)
-    append(list, contact.check_start());
+    append(list, contact.checks().check_start());
   return list;
 }
 

@@ -68,8 +68,8 @@ std::array<Tensor<1, 3>, 4> EdgeContact::Crossing::forces(const double stiffness
   return forces;
 }
 
-EdgeContact::EdgeContact(const FacetSearch::Partners partners, const double largest_alignment)
-    : partners_(partners), largest_alignment_(largest_alignment) {}
+EdgeContact::EdgeContact(const FacetSearch::Partners partners, const double max_alignment)
+    : partners_(partners), max_alignment_(max_alignment) {}
 
 void EdgeContact::connect(const std::vector<SurfaceFacet> &facets) {
   const auto is_same = [](const SurfaceFacet &a, const SurfaceFacet &b) {
@@ -117,7 +117,7 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
   for (const auto &edge : all_edges_) {
     if (edge.facets[1] != none) {
       const Plane &x = planes[edge.facets[0]], &y = planes[edge.facets[1]];
-      if (x.normal * y.normal >= largest_alignment_ || (y.centre - x.centre) * x.normal > 0.)
+      if (x.normal * y.normal >= max_alignment_ || (y.centre - x.centre) * x.normal > 0.)
         continue;
     }
     outward_edges.push_back(edge);
@@ -152,16 +152,16 @@ bool EdgeContact::may_touch(const Edge &slave, const Edge &target) const {
 }
 
 void EdgeContact::rebuild(const std::vector<SurfaceFacet> &facets, const std::size_t n_own_facets,
-                          const Positions &positions, const double margin, const double depth) {
+                          const Positions &positions, const double margin, const double penetration) {
   connect(facets);
-  depth_ = depth;
+  penetration_ = penetration;
   edges_ = find_outward_edges(positions);
   std::vector<BoundingBox> boxes;
   for (const auto &edge : edges_) {
     boxes.push_back(BoundingBox::empty());
     for (const unsigned int node : edge.nodes)
       boxes.back().add(positions[node]);
-    boxes.back().enlarge(depth * edge.reach + margin);
+    boxes.back().enlarge(penetration * edge.reach + margin);
   }
   const BoxTree tree(boxes);
   pairs_.clear();
@@ -191,16 +191,16 @@ std::vector<EdgeContact::Crossing> EdgeContact::find_crossings(const Positions &
       continue;
     const Tensor<1, 3> along_1 = first[1] - first[0], along_2 = second[1] - second[0];
     // Nearly parallel edges have no well-defined common normal; node-to-facet contact covers them.
-    constexpr double least_sine = 0.1;
+    constexpr double min_sine = 0.1;
     Tensor<1, 3> normal = dealii::cross_product_3d(along_1, along_2);
     const double sine = normal.norm() / (along_1.norm() * along_2.norm());
-    if (sine < least_sine)
+    if (sine < min_sine)
       continue;
     normal /= normal.norm();
     if (!is_between_normals(target, normal, positions))
       normal *= -1.;
     const double gap = closest.difference * normal, reach = std::min(slave.reach, target.reach);
-    if (!(gap < reach) || gap < -depth_ * reach || !is_between_normals(target, normal, positions) ||
+    if (!(gap < reach) || gap < -penetration_ * reach || !is_between_normals(target, normal, positions) ||
         !is_between_normals(slave, -normal, positions))
       continue;
     const double s = closest.parameters[0], t = closest.parameters[1];

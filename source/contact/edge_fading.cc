@@ -6,18 +6,19 @@
 
 namespace billet {
 
-EdgeFading compute_edge_fading(const RigidSurface::Border &border, const double width,
+EdgeFading compute_edge_fading(const RigidSurface::EdgePoint &edge_point, const double width,
                                const HardeningSpring &penalty, const double gap) {
-  const double q = border.beyond / width, left = 1. - q * q;
+  const double q = edge_point.beyond / width, left = 1. - q * q;
   const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width); // s′, s″
-  const double depth = std::max(-gap, 0.), spring = penalty.energy(depth), pressure = penalty.pressure(depth);
-  const dealii::Tensor<1, 3> &n = border.normal, &e = border.outward;
+  const double penetration = std::max(-gap, 0.), spring = penalty.energy(penetration),
+               pressure = penalty.pressure(penetration);
+  const dealii::Tensor<1, 3> &n = edge_point.normal, &e = edge_point.outward;
   EdgeFading fading;
   fading.share = left * left;
   fading.push = -spring * slope * e;
   fading.pressure_slope = pressure * slope * e;
   fading.tangent = -pressure * slope * (dealii::outer_product(n, e) + dealii::outer_product(e, n)) +
-                   spring * (bend * dealii::outer_product(e, e) + slope * border.spreading);
+                   spring * (bend * dealii::outer_product(e, e) + slope * edge_point.spreading);
   // |s′|/d <= 4/w², |s″| <= 8/w².
   fading.stiffness = 2. * pressure * std::abs(slope) + 12. * spring / (width * width);
   return fading;

@@ -10,7 +10,8 @@ using dealii::Tensor;
 
 EdgeSprings::EdgeSprings(const FacetContactSettings &settings, const std::vector<ContactStiffness> &stiffness,
                          const SlavePenalties &penalties)
-    : edges_(settings.partners, settings.flat_edge), depth_(settings.edge_depth), penalties_(penalties) {
+    : edges_(settings.partners, settings.flat_edge), penetration_(settings.edge_penetration),
+      penalties_(penalties) {
   for (const auto &of_node : stiffness)
     stiffness_.push_back(of_node.normal);
 }
@@ -18,7 +19,7 @@ EdgeSprings::EdgeSprings(const FacetContactSettings &settings, const std::vector
 void EdgeSprings::rebuild(const ContactSurfaces &surfaces) {
   surfaces.exchange().update(stiffness_);
   edges_.rebuild(surfaces.search().facets(), surfaces.exchange().n_own_facets(), surfaces.positions(),
-                 surfaces.margin(), depth_);
+                 surfaces.margin(), penetration_);
   memory_.set(edges_.n_pairs() * 2 * sizeof(std::size_t));
 }
 
@@ -47,14 +48,14 @@ void EdgeSprings::add_row_sums(std::vector<double> &sums) const {
   for (const auto &crossing : crossings_) {
     // The second derivatives of ½ k A g², except those of A and g, which are smaller by g/L. The full area
     // applies always, since the reduced area changes fast where it fades.
-    const double k = stiffness_of(crossing), depth = std::max(-crossing.counted_gap(), 0.);
+    const double k = stiffness_of(crossing), penetration = std::max(-crossing.counted_gap(), 0.);
     double sum = 0.;
     for (const auto &gradient : crossing.area_gradients)
       sum += gradient.norm();
     for (unsigned int i = 0; i < 4; ++i)
       sums[crossing.nodes[i]] +=
           k * (2. * crossing.weights[i] * crossing.full_area +
-               depth * (crossing.weights[i] * sum + 2. * crossing.area_gradients[i].norm()));
+               penetration * (crossing.weights[i] * sum + 2. * crossing.area_gradients[i].norm()));
   }
 }
 

@@ -31,9 +31,9 @@ constexpr double one_plane = 0.99;
 template <class Facet> class Choice {
 public:
   Choice(const MovedFacets &facets, const unsigned int node, const FacetSearch::Positions &positions_n,
-         const ContactLimits &limits, const FacetLift &lift)
+         const ContactLimits &limits, const GapOffset &gap_offset)
       : facets_(facets), search_(facets.search()), positions_n_(positions_n), limits_(limits), node_(node),
-        x_n_(positions_n[node]), x_(facets.position(node)), lift_(lift) {}
+        x_n_(positions_n[node]), x_(facets.position(node)), gap_offset_(gap_offset) {}
 
   const TouchedFacet &best() const { return best_; }
 
@@ -44,7 +44,7 @@ public:
     if (!touched.exists() || !is_held(touched))
       return;
     if (meet_smoothly(last.projection.normal, touched.projection.normal))
-      touched.offset = std::min(last.offset, depth_of(touched));
+      touched.offset = std::min(last.offset, penetration_of(touched));
     else if (!has_come_through(touched))
       return;
     if (faces(touched) && is_on_its_own_side(touched))
@@ -54,7 +54,7 @@ public:
   /// Considers the facet that the node touches.
   void consider_held(const TouchedFacet &last) {
     TouchedFacet touched = look_at(last.facet, last.projection.parameters);
-    touched.offset = std::min(last.offset, depth_of(touched));
+    touched.offset = std::min(last.offset, penetration_of(touched));
     if (touched.exists() && is_held(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
@@ -90,7 +90,7 @@ public:
       if (!touched.projection.exists)
         return;
       ++n_near;
-      is_behind_all = is_behind_all && depth_of(touched) > 0. && is_held(touched) && faces(touched);
+      is_behind_all = is_behind_all && penetration_of(touched) > 0. && is_held(touched) && faces(touched);
       if (touched.projection.excess < nearest.projection.excess)
         nearest = touched;
     };
@@ -98,7 +98,7 @@ public:
     search_.visit_ring(last.facet, add);
     if (n_near > 1 && is_behind_all) {
       best_ = nearest;
-      best_.offset = std::min(last.offset, depth_of(nearest));
+      best_.offset = std::min(last.offset, penetration_of(nearest));
     }
   }
 
@@ -112,14 +112,16 @@ private:
   TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
     const PlanedFacet &plane = facets_.plane(facet);
-    const double raised_by = lift_.now + facet::largest_height(search_.facets()[facet].bulge);
+    const double raised_by = gap_offset_.now + facet::max_height(search_.facets()[facet].bulge);
     if (plane.is_before(x_ - raised_by * plane.normal(), tolerance) || plane.is_aside(x_, tolerance))
       return {};
     const TouchedFacet touched{facet, project(facet, tolerance, start)};
-    return touched.projection.exists && depth_of(touched) > 0. ? touched : TouchedFacet();
+    return touched.projection.exists && penetration_of(touched) > 0. ? touched : TouchedFacet();
   }
 
-  double depth_of(const TouchedFacet &touched) const { return lift_.now - touched.projection.gap; }
+  double penetration_of(const TouchedFacet &touched) const {
+    return gap_offset_.now - touched.projection.gap;
+  }
 
   const Tensor<1, 3> &normal() {
     if (!normal_)
@@ -128,12 +130,11 @@ private:
   }
 
   bool faces(const TouchedFacet &touched) {
-    return limits_.largest_alignment >= 1. ||
-           normal() * touched.projection.normal < limits_.largest_alignment;
+    return limits_.max_alignment >= 1. || normal() * touched.projection.normal < limits_.max_alignment;
   }
 
   bool is_held(const TouchedFacet &touched) const {
-    return touched.projection.gap >= -limits_.held_depth * search_.facets()[touched.facet].reach;
+    return touched.projection.gap >= -limits_.held_penetration * search_.facets()[touched.facet].reach;
   }
 
   /// Whether the node was in front of the facet at the start of the step, or slightly behind it, which sets
@@ -142,11 +143,11 @@ private:
   bool has_come_through(TouchedFacet &touched) const {
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
-    const double depth = lift_.at_start - raised(plane.project(x_n_, {}), target).gap;
-    if (depth <= in_line * plane.radius())
+    const double penetration = gap_offset_.at_start - raised(plane.project(x_n_, {}), target).gap;
+    if (penetration <= in_line * plane.radius())
       return true;
-    touched.offset = depth_of(touched);
-    return depth <= target.reach && !is_out(touched);
+    touched.offset = penetration_of(touched);
+    return penetration <= target.reach && !is_out(touched);
   }
 
   /// Calls visit(projection, whether it meets smoothly) for the facets around the corner nearest to a node
@@ -208,7 +209,7 @@ private:
   const ContactLimits &limits_;
   const unsigned int node_;
   const Tensor<1, 3> x_n_, x_;
-  const FacetLift lift_;
+  const GapOffset gap_offset_;
   std::optional<Tensor<1, 3>> normal_; ///< of the node, computed on first use
   TouchedFacet best_;
 };
@@ -218,9 +219,9 @@ private:
 template <class Facet>
 TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
-                          const ContactLimits &limits, const FacetLift &lift) {
+                          const ContactLimits &limits, const GapOffset &gap_offset) {
   const FacetSearch &search = facets.search();
-  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits, lift);
+  Choice<Facet> choice(facets, search.slaves()[slave].node, positions_n, limits, gap_offset);
   if (last.exists()) {
     choice.consider_held(last);
     if (!choice.best().exists())
@@ -238,8 +239,8 @@ TouchedFacet choose_facet(const MovedFacets &facets, const std::size_t slave,
 template <class Facet>
 TouchedFacet keep_facet(const MovedFacets &facets, const std::size_t slave,
                         const FacetSearch::Positions &positions_n, const TouchedFacet &now,
-                        const ContactLimits &limits, const FacetLift &lift) {
-  Choice<Facet> choice(facets, facets.search().slaves()[slave].node, positions_n, limits, lift);
+                        const ContactLimits &limits, const GapOffset &gap_offset) {
+  Choice<Facet> choice(facets, facets.search().slaves()[slave].node, positions_n, limits, gap_offset);
   choice.consider_held(now);
   return choice.best();
 }
@@ -273,9 +274,9 @@ Tensor<1, 3> compute_node_normal(const MovedFacets &facets, const unsigned int n
 #define BILLET_INSTANTIATE(Facet)                                                                            \
   template TouchedFacet choose_facet<Facet>(const MovedFacets &, std::size_t,                                \
                                             const FacetSearch::Positions &, const TouchedFacet &,            \
-                                            const ContactLimits &, const FacetLift &);                       \
+                                            const ContactLimits &, const GapOffset &);                       \
   template TouchedFacet keep_facet<Facet>(const MovedFacets &, std::size_t, const FacetSearch::Positions &,  \
-                                          const TouchedFacet &, const ContactLimits &, const FacetLift &);
+                                          const TouchedFacet &, const ContactLimits &, const GapOffset &);
 BILLET_INSTANTIATE(PlanedFacet)
 BILLET_INSTANTIATE(MeanGapFacet)
 BILLET_INSTANTIATE(BilinearFacet)

@@ -13,17 +13,17 @@ FacetContact::FacetContact(MPI_Comm communicator, const FacetContactSettings &se
                            const std::vector<ContactStiffness> &stiffness, const std::vector<double> &sizes)
     : parts_(communicator, settings, std::move(node_keys), std::move(facets), stiffness, sizes),
       evaluation_(make_slave_evaluation(parts_)), tangents_(make_slave_tangents(parts_)), couplings_(parts_),
-      measures_(parts_), works_(parts_), bounds_(parts_) {}
+      measures_(parts_), penalties_(parts_, measures_), works_(parts_), bounds_(parts_) {}
 
 void FacetContact::update_surfaces(const Positions &positions_n, const Positions &positions) {
   ContactSurfaces &surfaces = parts_.surfaces;
   if (surfaces.update(positions_n, positions)) {
-    std::optional<double> depth;
+    std::optional<double> penetration;
     if (parts_.edges)
-      depth = parts_.settings.edge_depth;
+      penetration = parts_.settings.edge_penetration;
     else if (parts_.overlaps)
-      depth = FacetOverlaps::depth;
-    surfaces.rebuild(parts_.slaves.list(), depth);
+      penetration = FacetOverlaps::penetration;
+    surfaces.rebuild(parts_.slaves.list(), penetration);
     if (parts_.overlaps)
       parts_.overlaps->rebuild(surfaces, parts_.settings.has_self_contact(), parts_.settings.two_pass);
     if (parts_.edges)
@@ -99,64 +99,31 @@ void FacetContact::close_initial_gaps(const Positions &positions, const double w
   Positions ignored(parts_.surfaces.exchange().n_own_nodes());
   // The mean gap of overlaps is known only for facets that overlap; they are therefore lowered.
   const double lowered = parts_.overlaps ? within : 0.;
-  parts_.offsets.depths.assign(parts_.slaves.size(), -lowered);
+  parts_.offsets.penetrations.assign(parts_.slaves.size(), -lowered);
   add_forces(positions, positions, 0., ignored);
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];
     const bool is_before = state.touched.exists() || state.is_near;
     const double gap = is_before ? state.contact.gap + lowered : 0.;
-    parts_.offsets.depths.set(s, gap > 0. && gap <= within ? -gap : 0.);
+    parts_.offsets.penetrations.set(s, gap > 0. && gap <= within ? -gap : 0.);
   }
 }
 
-double FacetContact::allow_initial_depths() {
-  parts_.offsets.depths.start(parts_.slaves.size());
+double FacetContact::allow_initial_penetrations() {
+  parts_.offsets.penetrations.start(parts_.slaves.size());
   double deepest = 0.;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s]; state.presses()) {
-      const double depth = std::max(0., -state.contact.gap);
-      parts_.offsets.depths.add(s, depth);
-      deepest = std::max(deepest, depth / parts_.slaves.facet_size(s));
+      const double penetration = std::max(0., -state.contact.gap);
+      parts_.offsets.penetrations.add(s, penetration);
+      deepest = std::max(deepest, penetration / parts_.slaves.facet_size(s));
     }
   return deepest;
 }
 
 void FacetContact::restart() {
   parts_.restless.restart();
-  take_back_augmentation();
-}
-
-void FacetContact::take_back_augmentation() {
-  parts_.offsets.augmentation.restart();
-  if (parts_.friction)
-    parts_.friction->restart();
-}
-
-void FacetContact::augment() {
-  if (parts_.friction) // uses the offsets so far
-    parts_.friction->augment();
-  parts_.offsets.augmentation.augment(parts_.slaves.size(), [&](const std::size_t s) {
-    const SlaveState &state = parts_.touching[s];
-    return state.presses() ? std::optional<double>(state.contact.gap) : std::nullopt;
-  });
-}
-
-void FacetContact::scale_penalties(const double normal, const double tangential) {
-  parts_.penalties.scale(normal, tangential);
-  parts_.offsets.augmentation.scale(normal);
-}
-
-void FacetContact::stiffen_under_load(const double normal, const double tangential) {
-  scale_penalties(normal, tangential);
-  parts_.offsets.depths.start(parts_.slaves.size());
-  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
-    SlaveState &state = parts_.touching[s];
-    if (!state.has_pressure())
-      continue;
-    parts_.offsets.depths.add(s, -((1. - 1. / normal) * state.contact.gap));
-    state.contact.gap /= normal;
-    parts_.start.divide_depth(s, normal);
-  }
+  penalties_.take_back_augmentation();
 }
 
 std::vector<std::uint64_t> FacetContact::slave_keys() const {
@@ -174,18 +141,18 @@ void FacetContact::save(StateWriter &writer) const {
     return dealii::Utilities::MPI::max(has_some ? 1 : 0, communicator) == 1;
   };
   const bool is_augmented = any(!offsets.augmentation.was_empty()),
-             has_depths = any(!offsets.depths.is_empty());
-  writer.write("start", {parts_.start.has_started() ? 1. : 0., is_augmented ? 1. : 0., has_depths ? 1. : 0.,
-                         offsets.depths.allowed_part()});
-  writer.write("stiffening", {stiffening(), tangential_stiffening()});
+             has_penetrations = any(!offsets.penetrations.is_empty());
+  writer.write("start", {parts_.start.has_started() ? 1. : 0., is_augmented ? 1. : 0.,
+                         has_penetrations ? 1. : 0., offsets.penetrations.allowed_part()});
+  writer.write("stiffening", {penalties_.stiffening(), penalties_.tangential_stiffening()});
   parts_.start.save(writer, keys);
   if (parts_.edges)
     parts_.edges->save(writer, dealii::Utilities::MPI::this_mpi_process(communicator));
-  if (is_augmented || has_depths) {
+  if (is_augmented || has_penetrations) {
     std::vector<double> rows;
     RowWriter row(rows);
     for (std::size_t s = 0; s < keys.size(); ++s)
-      row.number(offsets.augmentation.at_start(s)).number(offsets.depths[s]);
+      row.number(offsets.augmentation.at_start(s)).number(offsets.penetrations[s]);
     writer.write_rows("lifts", 2, keys, rows);
   }
   if (parts_.friction)
@@ -195,33 +162,34 @@ void FacetContact::save(StateWriter &writer) const {
 void FacetContact::load(const StateReader &reader) {
   const std::vector<std::uint64_t> keys = slave_keys();
   const std::vector<double> start = reader.read("start");
-  const bool is_augmented = start.at(1) != 0., has_depths = start.at(2) != 0.;
+  const bool is_augmented = start.at(1) != 0., has_penetrations = start.at(2) != 0.;
   parts_.start.load(reader, keys, start.at(0) != 0.);
   if (parts_.edges)
     parts_.edges->load(reader);
   GapOffsets &offsets = parts_.offsets;
-  offsets.depths.set_allowed_part(start.at(3), start.at(3));
+  offsets.penetrations.set_allowed_part(start.at(3), start.at(3));
   if (reader.has("stiffening")) {
     const std::vector<double> factors = reader.read("stiffening");
-    scale_penalties(factors.at(0) / stiffening(), factors.at(1) / tangential_stiffening());
+    penalties_.scale(factors.at(0) / penalties_.stiffening(),
+                     factors.at(1) / penalties_.tangential_stiffening());
   }
-  std::optional<std::vector<double>> multipliers, depths;
+  std::optional<std::vector<double>> multipliers, penetrations;
   if (is_augmented)
     multipliers.emplace(keys.size());
-  if (has_depths)
-    depths.emplace(keys.size());
-  if (is_augmented || has_depths) {
+  if (has_penetrations)
+    penetrations.emplace(keys.size());
+  if (is_augmented || has_penetrations) {
     std::vector<bool> is_known; // slaves may be new if the pair had one pass before
     const std::vector<double> rows = reader.read_rows("lifts", 2, keys, &is_known);
     for (std::size_t s = 0; s < keys.size(); ++s) {
       if (is_augmented)
         (*multipliers)[s] = rows[2 * s];
-      if (has_depths)
-        (*depths)[s] = rows[2 * s + 1];
+      if (has_penetrations)
+        (*penetrations)[s] = rows[2 * s + 1];
     }
   }
   offsets.augmentation.set(std::move(multipliers));
-  offsets.depths.set(std::move(depths));
+  offsets.penetrations.set(std::move(penetrations));
   if (parts_.friction)
     parts_.friction->load(reader, keys);
 }

@@ -28,17 +28,17 @@ std::array<Tensor<1, 3>, 8> directions(const Tensor<1, 3> &normal) {
 
 } // namespace
 
-FacetDivision::FacetDivision(const RigidSurface &surface, const PictureRegion &region) : surface_(surface) {
-  const SurfacePicture picture = surface.picture(region);
+FacetDivision::FacetDivision(const RigidSurface &surface, const OutputRegion &region) : surface_(surface) {
+  const SurfaceMesh surface_mesh = surface.surface_mesh(region);
   const double distance = 1e-3 * region.radius;
-  const std::size_t stride = 1 + picture.points.size() / max_points;
-  for (std::size_t i = 0; i < picture.points.size(); i += stride)
-    add_samples(picture.points[i], distance);
+  const std::size_t stride = 1 + surface_mesh.points.size() / max_points;
+  for (std::size_t i = 0; i < surface_mesh.points.size(); i += stride)
+    add_samples(surface_mesh.points[i], distance);
   // Middles of facets are samples, too: a coarse triangulation has points only on its edges.
-  for (std::size_t i = 0; i < picture.facets.size(); i += stride) {
+  for (std::size_t i = 0; i < surface_mesh.facets.size(); i += stride) {
     Tensor<1, 3> middle;
-    for (const unsigned int point : picture.facets[i])
-      middle += picture.points[point] / double(picture.facets[i].size());
+    for (const unsigned int point : surface_mesh.facets[i])
+      middle += surface_mesh.points[point] / double(surface_mesh.facets[i].size());
     const auto above = surface.project(middle);
     if (above.exists)
       samples_.push_back({middle - above.gap * above.normal, above.normal});
@@ -75,9 +75,9 @@ bool FacetDivision::is_seen(const double spacing, const double length) const {
       bool is_met = false;
       for (unsigned int corner = turned; corner < 8 && !is_met; corner += 2)
         // For thin tools, only some of the depths are inside.
-        for (double depth = unseen; depth > 0.1 * unseen && !is_met; depth *= 0.5)
+        for (double penetration = unseen; penetration > 0.1 * unseen && !is_met; penetration *= 0.5)
           is_met = is_met_at(sample.position + diagonal * spacing * around[corner] -
-                                 depth * length * sample.normal,
+                                 penetration * length * sample.normal,
                              sample.normal);
       if (!is_met)
         return false;

@@ -5,15 +5,6 @@
 
 namespace billet {
 
-double FacetMeasures::largest_spring() const {
-  double largest = 0.;
-  for (std::size_t s = 0; s < parts_.slaves.size(); ++s)
-    largest = std::max(
-        largest, std::max(parts_.penalties[s].normal, parts_.friction ? parts_.penalties[s].tangential : 0.) *
-                     parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s));
-  return largest;
-}
-
 Penetration FacetMeasures::penetration() const {
   Penetration deepest;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
@@ -23,46 +14,22 @@ Penetration FacetMeasures::penetration() const {
 }
 
 double FacetMeasures::excessive_penetration() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s]; state.has_pressure())
-      largest = std::max(largest, parts_.touching.penetration_of(s) /
+      maximum = std::max(maximum, parts_.touching.penetration_of(s) /
                                       parts_.surfaces.facet(state.touched.facet).reach);
-  return largest;
+  return maximum;
 }
 
 double FacetMeasures::closing_of_new_contacts() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s];
         state.has_pressure() && !(parts_.start.pressed(s).pressure > 0.))
-      largest = std::max(largest, -(parts_.touching.motion_of(s).displacement * state.contact.normal) /
+      maximum = std::max(maximum, -(parts_.touching.motion_of(s).displacement * state.contact.normal) /
                                       parts_.slaves.facet_size(s));
-  return largest;
-}
-
-double FacetMeasures::augmentation_error() const {
-  double worst = penetration().of_facet;
-  if (parts_.friction)
-    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
-      worst = std::max(worst, parts_.friction->elastic_slip(s) / parts_.slaves.facet_size(s));
-  return worst;
-}
-
-ContactSprings FacetMeasures::compute_springs() const {
-  ContactSprings springs;
-  springs.normal.of_nodes.resize(parts_.touching.size());
-  springs.tangential.of_nodes.resize(parts_.touching.size());
-  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
-    const SlaveState &state = parts_.touching[s];
-    if (!state.presses())
-      continue;
-    const double elastic_slip = parts_.friction ? parts_.friction->elastic_slip(s) : 0.;
-    springs.add(s, state.own_area * state.traction.traction, state.contact.normal,
-                state.own_area * parts_.penalties[s].normal * parts_.touching.penetration_of(s),
-                state.own_area * parts_.penalties[s].tangential * elastic_slip);
-  }
-  return springs;
+  return maximum;
 }
 
 std::vector<SlaveForce> FacetMeasures::slave_forces() const {

@@ -14,9 +14,9 @@ namespace {
 
 /// Returns 1 for facets that face each other within 60 degrees, and 0 from 80 degrees on.
 double facing_part(const Tensor<1, 3> &area_vector, const Tensor<1, 3> &other) {
-  constexpr double least = 0.17, enough = 0.5;
+  constexpr double minimum = 0.17, enough = 0.5;
   const double cosine = -(area_vector * other) / (area_vector.norm() * other.norm());
-  const double z = std::clamp((cosine - least) / (enough - least), 0., 1.);
+  const double z = std::clamp((cosine - minimum) / (enough - minimum), 0., 1.);
   return z * z * (3. - 2. * z);
 }
 
@@ -32,7 +32,7 @@ void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &position
       boxes[f].add(positions_n[node]);
       boxes[f].add(positions[node]);
     }
-    boxes[f].enlarge(depth * facets[f].reach + margin);
+    boxes[f].enlarge(penetration * facets[f].reach + margin);
   }
   const BoxTree tree(boxes);
   const auto is_neighbour = [&](const unsigned int f, const unsigned int other) {
@@ -67,7 +67,7 @@ void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &position
 }
 
 void FacetOverlaps::update(const FacetSearch &search, const Positions &positions_n,
-                           const Positions &positions, const std::vector<double> &lifts,
+                           const Positions &positions, const std::vector<double> &gap_offsets,
                            const std::vector<double> &augmentation) {
   const auto &facets = search.facets();
   overlaps_.clear();
@@ -77,22 +77,22 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
     if (first_candidate_[f] == first_candidate_[f + 1])
       continue;
     const FacetCorners slave = corners_of(facets[f], positions);
-    const std::array<double, 4> lift = corners_of(facets[f], lifts),
+    const std::array<double, 4> gap_offset = corners_of(facets[f], gap_offsets),
                                 raise = corners_of(facets[f], augmentation);
     for (std::size_t i = first_candidate_[f]; i < first_candidate_[f + 1]; ++i) {
       const unsigned int target = candidates_[i];
       const facet::Expansion slave_n = corners_of(facets[f], positions_n),
                              target_n = corners_of(facets[target], positions_n);
       const Tensor<1, 3> area_vector = target_n.mean_area_vector();
-      const double within_step = depth * facets[target].reach,
+      const double within_step = penetration * facets[target].reach,
                    at_start = 0.5 * std::min(within_step, facets[target].wall);
       const bool was_behind = (slave_n.e_0 - target_n.e_0) * area_vector < -at_start * area_vector.norm();
       const double facing = facing_part(slave_n.mean_area_vector(), area_vector);
       const double limit = facing * (was_behind ? at_start : within_step);
       if (!(limit > 0.))
         continue;
-      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, lift, raise,
-                                           facets[f].bulge, facets[target].bulge);
+      const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, gap_offset,
+                                           raise, facets[f].bulge, facets[target].bulge);
       if (overlap.exists)
         overlaps_.push_back({f, target, limit, overlap});
     }

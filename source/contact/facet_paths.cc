@@ -35,7 +35,7 @@ public:
     const Tensor<1, 3> x = between(from_[node], to_[node], part);
     SurfaceSide result{SurfaceSide::Side::beyond, std::numeric_limits<double>::infinity(), {}, false};
     Tensor<1, 3> nearest, normals;
-    double depth = 0.;
+    double penetration = 0.;
     constexpr double rounding = 1e-9, straight = 0.5;
     for (const unsigned int f : candidates_) {
       std::array<Tensor<1, 3>, 4> corners;
@@ -60,7 +60,7 @@ public:
         if (distance < result.distance) {
           result.distance = distance;
           nearest = point;
-          depth = facets_[f].reach;
+          penetration = facets_[f].reach;
         }
       }
     }
@@ -70,7 +70,7 @@ public:
     const double height = (x - nearest) * result.normal;
     if (std::abs(height) >= straight * result.distance)
       result.side = height < 0. ? SurfaceSide::Side::behind : SurfaceSide::Side::front;
-    result.is_too_deep = result.side == SurfaceSide::Side::behind && result.distance > depth;
+    result.is_too_deep = result.side == SurfaceSide::Side::behind && result.distance > penetration;
     return result;
   }
 
@@ -83,11 +83,11 @@ public:
     return longest;
   }
 
-  double least_depth() const {
-    double least = std::numeric_limits<double>::infinity();
+  double min_penetration() const {
+    double minimum = std::numeric_limits<double>::infinity();
     for (const unsigned int f : candidates_)
-      least = std::min(least, facets_[f].reach);
-    return least;
+      minimum = std::min(minimum, facets_[f].reach);
+    return minimum;
   }
 
   /// Removes the facets that the node is directly behind at the start, and too deep.
@@ -122,18 +122,18 @@ std::vector<std::vector<unsigned int>> collect_around(const std::vector<SurfaceF
 
 FacetPaths::FacetPaths(MPI_Comm communicator, const FacetSearch::Partners partners,
                        std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
-                       const std::vector<double> depths)
+                       const std::vector<double> penetrations)
     : communicator_(communicator), partners_(partners), exchange_(communicator, std::move(node_keys), [&] {
         for (std::size_t f = 0; f < facets.size(); ++f) // here ghosts transfer the depth as their reach
-          facets[f].reach = depths[f];
+          facets[f].reach = penetrations[f];
         return std::move(facets);
       }()) {
-  for (const double depth : depths) {
-    least_depth_ = std::min(least_depth_, depth);
-    largest_depth_ = std::max(largest_depth_, depth);
+  for (const double penetration : penetrations) {
+    min_penetration_ = std::min(min_penetration_, penetration);
+    max_penetration_ = std::max(max_penetration_, penetration);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &least_depth_, 1, MPI_DOUBLE, MPI_MIN, communicator_);
-  MPI_Allreduce(MPI_IN_PLACE, &largest_depth_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+  MPI_Allreduce(MPI_IN_PLACE, &min_penetration_, 1, MPI_DOUBLE, MPI_MIN, communicator_);
+  MPI_Allreduce(MPI_IN_PLACE, &max_penetration_, 1, MPI_DOUBLE, MPI_MAX, communicator_);
 }
 
 double FacetPaths::find_free_part(const Positions &from, const Positions &to, const bool is_thorough) {
@@ -150,22 +150,22 @@ double FacetPaths::find_free_part(const Positions &from, const Positions &to, co
     common[c] = 0.5 * (ends[3 + c] - ends[c]);
     range[c] = ends[3 + c] + ends[c];
   }
-  const double least_way = is_thorough ? 0. : resolution * least_depth_;
-  if (!(range.norm() > least_way) || !std::isfinite(range.norm()))
+  const double min_way = is_thorough ? 0. : resolution * min_penetration_;
+  if (!(range.norm() > min_way) || !std::isfinite(range.norm()))
     return 1.;
   Positions start = from, end = to; // a common motion takes no node through a facet
   for (auto &x : end)
     x -= common;
-  exchange_.rebuild(start, end, largest_depth_);
+  exchange_.rebuild(start, end, max_penetration_);
   exchange_.update(start);
   exchange_.update(end);
-  double part = find_free_part_of_rank(start, end, least_way);
+  double part = find_free_part_of_rank(start, end, min_way);
   MPI_Allreduce(MPI_IN_PLACE, &part, 1, MPI_DOUBLE, MPI_MIN, communicator_);
   return part;
 }
 
 double FacetPaths::find_free_part_of_rank(const Positions &from, const Positions &to,
-                                          const double least_way) const {
+                                          const double min_way) const {
   const std::vector<SurfaceFacet> &facets = exchange_.facets();
   std::vector<BoundingBox> boxes(facets.size(), BoundingBox::empty());
   for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -212,8 +212,8 @@ double FacetPaths::find_free_part_of_rank(const Positions &from, const Positions
     std::sort(candidates.begin(), candidates.end(),
               [&](const unsigned int a, const unsigned int b) { return facets[a].key < facets[b].key; });
     surface.drop_walls_above(node);
-    const double length = surface.bound_way(node), step = resolution * surface.least_depth();
-    if (candidates.empty() || !(length > least_way))
+    const double length = surface.bound_way(node), step = resolution * surface.min_penetration();
+    if (candidates.empty() || !(length > min_way))
       continue;
     const double of_node_free =
         billet::find_free_part([&](const double s) { return surface.locate(node, s); }, length, step);

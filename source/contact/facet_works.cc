@@ -13,14 +13,14 @@ namespace {
 void sum_over_ranks(FacetContactLoad &load, MPI_Comm communicator) {
   std::array<double, 18> sums{load.stored_energy, load.dissipation,    load.area,
                               load.n_touching,    load.absolute_force, load.damping};
-  std::array<double, 2> largest{load.deepest, load.deepest_relative};
+  std::array<double, 2> maximum{load.deepest, load.deepest_relative};
   const std::array<Tensor<1, 3> *, 4> vectors{&load.force, &load.moment, &load.residual_force,
                                               &load.residual_moment};
   for (unsigned int v = 0; v < vectors.size(); ++v)
     for (unsigned int i = 0; i < 3; ++i)
       sums[6 + 3 * v + i] = (*vectors[v])[i];
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator);
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, maximum.data(), 2, MPI_DOUBLE, MPI_MAX, communicator);
   load.stored_energy = sums[0];
   load.dissipation = sums[1];
   load.area = sums[2];
@@ -30,8 +30,8 @@ void sum_over_ranks(FacetContactLoad &load, MPI_Comm communicator) {
   for (unsigned int v = 0; v < vectors.size(); ++v)
     for (unsigned int i = 0; i < 3; ++i)
       (*vectors[v])[i] = sums[6 + 3 * v + i];
-  load.deepest = largest[0];
-  load.deepest_relative = largest[1];
+  load.deepest = maximum[0];
+  load.deepest_relative = maximum[1];
 }
 
 } // namespace
@@ -78,9 +78,9 @@ void FacetWorks::add_slave(const std::size_t s, const bool hands_load_over, Face
   const FacetCorners corners = parts_.surfaces.moved().corners(state.touched.facet);
   const double size =
       std::sqrt(0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]).norm());
-  const double depth = state.touched.offset - state.contact.gap - parts_.offsets.of(s).now;
-  load.deepest = std::max(load.deepest, depth);
-  load.deepest_relative = std::max(load.deepest_relative, depth / size);
+  const double penetration = state.touched.offset - state.contact.gap - parts_.offsets.of(s).now;
+  load.deepest = std::max(load.deepest, penetration);
+  load.deepest_relative = std::max(load.deepest_relative, penetration / size);
 }
 
 void FacetWorks::add_forces(const std::size_t s, FacetContactLoad &load) const {
@@ -127,17 +127,18 @@ StepWorks FacetWorks::compute_step_works(const double weight) const {
     works.touching -= friction.taken_beyond - friction.missed -
                       (hands_load_over ? friction.dissipation_handed_over - friction.dissipation : 0.);
     const SlaveStart::Pressure &before = parts_.start.pressed(s);
-    const double ramp_depth = parts_.offsets.depths.ramp(s);
+    const double ramp_penetration = parts_.offsets.penetrations.ramp(s);
     if (state.has_pressure()) {
-      const double depth = std::max(0., -(state.contact.gap + parts_.offsets.augmentation[s]));
-      const double closing = ramp_depth - parts_.touching.motion_of(s).displacement * state.contact.normal;
-      works.add(before.pressure * state.own_area, state.traction.pressure * state.own_area, before.depth,
-                depth, closing, ramp_depth, weight);
+      const double penetration = std::max(0., -(state.contact.gap + parts_.offsets.augmentation[s]));
+      const double closing =
+          ramp_penetration - parts_.touching.motion_of(s).displacement * state.contact.normal;
+      works.add(before.pressure * state.own_area, state.traction.pressure * state.own_area,
+                before.penetration, penetration, closing, ramp_penetration, weight);
     } else if (before.pressure > 0. && parts_.start.touched(s).exists()) {
       const SlaveMotion motion = parts_.touching.motion_after_contact(s);
       const Tensor<1, 3> normal = motion.rotation * before.normal;
-      works.add(before.pressure * parts_.touching.own_part(s) * before.area, 0., before.depth, 0.,
-                ramp_depth - motion.displacement * normal, ramp_depth, weight);
+      works.add(before.pressure * parts_.touching.own_part(s) * before.area, 0., before.penetration, 0.,
+                ramp_penetration - motion.displacement * normal, ramp_penetration, weight);
     }
   }
   works.touching = dealii::Utilities::MPI::sum(works.touching, parts_.surfaces.communicator());

@@ -201,7 +201,7 @@ void check_correction(const Scene &scene, const BodyPair &pair, const Discretiza
   using Correction = parameters::ContactPair::Correction;
   if (pair.correction.kind == Correction::Kind::none)
     return;
-  constexpr double least_part = 0.5;
+  constexpr double min_part = 0.5;
   const MPI_Comm communicator = discretization.communicator();
   const std::string point = pair.correction.kind == Correction::Kind::cylinder ? "axis" : "centre";
   for (unsigned int side = 0; side < 2; ++side) {
@@ -228,13 +228,14 @@ void check_correction(const Scene &scene, const BodyPair &pair, const Discretiza
     std::ostringstream text;
     text.precision(3);
     text << pair.input->origin << ": the face of body '" << body
-         << "' does not lie on the surface that 'Surface correction' names: ";
-    if (worst[0] > largest_tilt)
+         << "' does not lie on the surface of 'Surface correction': ";
+    if (worst[0] > max_tilt)
       text << "at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ") its normal misses the "
-           << point << " by " << worst[0] << " of the distance to it, allowed is " << largest_tilt;
-    else if (named < least_part * of_normals)
+           << point << " by " << worst[0] << " of the distance to it; allowed is " << max_tilt;
+    else if (named < min_part * of_normals)
       text << "the surface rises above the chords by " << 100. * named / of_normals
-           << " % of what normals of neighbouring facets say, allowed are " << 100. * least_part << " %";
+           << " % of the height that normals of neighbouring facets give; allowed are " << 100. * min_part
+           << " %";
     else
       continue;
     text << ". Check the " << point << " and the boundary ids of both bodies";
@@ -285,9 +286,9 @@ double find_correction_error(const Discretization &discretization, const BodyPai
 
 Diagnostic describe(const BodyPair &pair, const ChordGap &chords, const std::string &when) {
   std::ostringstream text;
-  text << "The curved faces fit each other, but the chords of their facets miss each other " << when
-       << "by up to " << chords.gap << " (" << chords.relative
-       << " facet sizes); the clearance of the true surfaces is " << chords.clearance;
+  text << "The curved faces fit each other, but the chords of their facets differ " << when << "by up to "
+       << chords.gap << " (" << chords.relative << " facet sizes); the clearance of the true surfaces is "
+       << chords.clearance;
   return Diagnostic(diagnostic::faceted_curvature, text.str())
       .pair(pair.name)
       .at(chords.position)

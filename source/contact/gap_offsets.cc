@@ -27,10 +27,10 @@ double MultiplierOffsets::find_pace(const std::size_t s, const double gap) const
   const auto [offset_before, gap_before] = last_[s];
   const double taken_up = offsets_[s] - offset_before, closed = gap - gap_before;
   // The secant does not apply if the motion of neighbours dominates the change.
-  const bool goes_on =
+  const bool continues =
       gap_before * gap > 0. && std::abs(gap) < std::abs(gap_before) && taken_up * closed > 0.;
   constexpr double fastest = 4.;
-  return goes_on ? std::clamp(taken_up / closed, 1., fastest) : 1.;
+  return continues ? std::clamp(taken_up / closed, 1., fastest) : 1.;
 }
 
 void MultiplierOffsets::restart() {
@@ -52,23 +52,23 @@ void MultiplierOffsets::set(std::optional<std::vector<double>> offsets) {
   offsets_ = offsets_n_;
 }
 
-void InitialDepths::assign(const std::size_t n, const double depth) {
+void InitialPenetrations::assign(const std::size_t n, const double penetration) {
   is_used_ = true;
-  depths_.assign(n, depth);
+  penetrations_.assign(n, penetration);
 }
 
-void InitialDepths::start(const std::size_t n) {
+void InitialPenetrations::start(const std::size_t n) {
   is_used_ = true;
-  depths_.resize(n);
+  penetrations_.resize(n);
 }
 
-void InitialDepths::set(std::optional<std::vector<double>> depths) {
-  is_used_ = depths.has_value();
-  depths_ = std::move(depths).value_or(std::vector<double>());
+void InitialPenetrations::set(std::optional<std::vector<double>> penetrations) {
+  is_used_ = penetrations.has_value();
+  penetrations_ = std::move(penetrations).value_or(std::vector<double>());
 }
 
-double InitialDepths::counted(const double depth, const double part) {
-  return InitialOverlap::counted(depth, part);
+double InitialPenetrations::counted(const double penetration, const double part) {
+  return InitialOverlap::counted(penetration, part);
 }
 
 } // namespace billet

@@ -224,18 +224,18 @@ private:
   /// other body.
   static constexpr double inset = 1e-3;
 
-  void add(const ProbedFacet &facet, const std::array<double, 2> &parameters, const double depth) {
+  void add(const ProbedFacet &facet, const std::array<double, 2> &parameters, const double penetration) {
     points_.push_back(facet::interpolate(facet::weights(parameters), facet.corners) -
-                      depth * facet.thickness * facet.normal);
+                      penetration * facet.thickness * facet.normal);
   }
 
   void add_below_side(const ProbedFacet &facet, const unsigned int side, const double t) {
-    for (const double depth : {inset, 0.1, 0.25, 0.5}) {
-      const double inner = 1. - 2. * depth, along = 2. * t - 1.;
+    for (const double penetration : {inset, 0.1, 0.25, 0.5}) {
+      const double inner = 1. - 2. * penetration, along = 2. * t - 1.;
       // In the order of facet::around: η = −1, ξ = 1, η = 1, ξ = −1.
       const std::array<std::array<double, 2>, 4> parameters{
           {{along, -inner}, {inner, along}, {-along, inner}, {-inner, -along}}};
-      add(facet, parameters[side], depth);
+      add(facet, parameters[side], penetration);
     }
   }
 
@@ -260,13 +260,13 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
   std::vector<double> distances;
   for (std::size_t i = 0; i < points.size(); ++i)
     distances.push_back(counts[i] >= n_elements ? surface.distance(points[i]) : 0.);
-  std::vector<double> depths(distances.size());
-  dealii::Utilities::MPI::min(distances, communicator, depths);
+  std::vector<double> penetrations(distances.size());
+  dealii::Utilities::MPI::min(distances, communicator, penetrations);
 
   Overlap overlap;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (depths[i] > overlap.depth) {
-      overlap.depth = depths[i];
+    if (penetrations[i] > overlap.penetration) {
+      overlap.penetration = penetrations[i];
       overlap.position = points[i];
     }
   return overlap;
@@ -358,19 +358,19 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   check_correction(scene, bodies, discretization);
   const MPI_Comm communicator = discretization.communicator();
   std::array<double, 2> sums{}; // area and number of facets
-  double least_reach = std::numeric_limits<double>::infinity();
+  double min_reach = std::numeric_limits<double>::infinity();
   std::array<double, 2> chords{}; // distances of facets of both sides from the true surface
   for (unsigned int side = 0; side < (bodies.is_self_contact ? 1 : 2); ++side)
     for (const auto &facet :
          collect_boundary_facets(discretization, bodies.bodies[side], bodies.boundary_ids[side])) {
       sums[0] += facet.area_vector().norm();
       sums[1] += 1.;
-      least_reach = std::min(least_reach, contact_reach(facet));
+      min_reach = std::min(min_reach, contact_reach(facet));
       for (const double height : bulge_of(facet, bodies.correction))
         chords[side] = std::max(chords[side], std::abs(height));
     }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, communicator);
-  least_reach = dealii::Utilities::MPI::min(least_reach, communicator);
+  min_reach = dealii::Utilities::MPI::min(min_reach, communicator);
   MPI_Allreduce(MPI_IN_PLACE, chords.data(), 2, MPI_DOUBLE, MPI_MAX, communicator);
   const double size = std::sqrt(sums[0] / sums[1]);
   Overlap deepest;
@@ -385,12 +385,12 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
     const Overlap overlap =
         find_overlap(discretization, bodies.bodies[side], bodies.boundary_ids[side], bodies.bodies[1 - side],
                      bodies.boundary_ids[1 - side], scene.bodies()[bodies.bodies[1 - side]].holds);
-    if (overlap.depth > deepest.depth)
+    if (overlap.penetration > deepest.penetration)
       deepest = overlap;
   }
   // Allowed penetrations are limited to those that contact finds: half of those that a step loses.
   const bool is_by_overlaps = bodies.facets == parameters::ContactPair::Facets::overlap;
-  const double found = least_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::depth : 1.);
+  const double found = min_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::penetration : 1.);
   // The middle of a facet of a sphere is as far below the surface as its edges of both directions together,
   // (C8).
   const double of_edges =
@@ -398,18 +398,19 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   const double allowed = bodies.overlap.is_allowed ? found
                                                    : bodies.input->allowed_penetration.value * size +
                                                          of_edges * (chords[0] + chords[1]);
-  if (deepest.depth <= allowed)
+  if (deepest.penetration <= allowed)
     return;
   std::ostringstream message;
-  message << bodies.input->origin << ": the " << (is_one_body ? "body starts " : "bodies start ")
-          << deepest.depth << " deep (" << deepest.depth / size << " facet sizes) in "
+  message << bodies.input->origin << ": the "
+          << (is_one_body ? "body starts with a penetration of " : "bodies start with a penetration of ")
+          << deepest.penetration << " (" << deepest.penetration / size << " facet sizes) in "
           << (is_one_body ? "itself" : "each other") << ", deepest at (" << deepest.position[0] << ", "
           << deepest.position[1] << ", " << deepest.position[2] << "); ";
   if (bodies.overlap.is_allowed)
-    message << "contact is found until a depth of " << found << ", "
+    message << "contact detects a penetration of up to " << found << ", "
             << (is_by_overlaps ? "half of the smallest facet or two walls" : "a tenth of the smallest facet")
-            << ": place them less deep, and move them by 'Supports'"
-            << (is_by_overlaps ? "" : ", or take 'Facets = overlap'");
+            << ". Reduce the overlap, and move the bodies by 'Supports'"
+            << (is_by_overlaps ? "" : ", or use 'Facets = overlap'");
   else
     message << "allowed are " << bodies.input->allowed_penetration.value
             << " facet sizes ('Allowed initial penetration')";

@@ -48,14 +48,14 @@ template <class Facet>
 TouchedFacet SlaveFinder<Facet>::choose(const std::size_t s, const TouchedFacet &last_iteration) const {
   const MovedFacets &facets = parts_.surfaces.moved();
   const FacetSearch::Positions &positions_n = parts_.surfaces.positions_n();
-  const FacetLift lift = parts_.offsets.of(s);
+  const GapOffset gap_offset = parts_.offsets.of(s);
   TouchedFacet touched;
   // Indices of facets are valid only for the last search; it is rarely rebuilt while a node is restless.
   if (parts_.restless.is_restless(s) && last_iteration.exists() && !parts_.surfaces.is_rebuilt())
-    touched = keep_facet<Facet>(facets, s, positions_n, last_iteration, parts_.settings.limits, lift);
+    touched = keep_facet<Facet>(facets, s, positions_n, last_iteration, parts_.settings.limits, gap_offset);
   if (!touched.exists())
-    touched =
-        choose_facet<Facet>(facets, s, positions_n, parts_.start.touched(s), parts_.settings.limits, lift);
+    touched = choose_facet<Facet>(facets, s, positions_n, parts_.start.touched(s), parts_.settings.limits,
+                                  gap_offset);
   return touched;
 }
 
@@ -103,15 +103,15 @@ void SlaveFinder<OverlapFacet>::find(const std::size_t s) {
   const SlaveNodes &slaves = parts_.slaves;
   state = SlaveState();
   state.first_share = shares.size();
-  double largest = 0.;
+  double maximum = 0.;
   parts_.surfaces.search().visit_around(slaves.node(s), [&](const unsigned int f) {
     const unsigned int corner = corner_of(parts_.surfaces.facet(f), slaves.node(s));
     parts_.overlaps->pairs().visit(f, [&](const FacetOverlaps::Overlap &overlap) {
-      shares.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target, overlap.depth,
-                                        slaves.depth_rounding(s)));
+      shares.push_back(share_of_overlap(overlap.integrals, corner, f, overlap.target, overlap.penetration,
+                                        slaves.penetration_rounding(s)));
       const FacetShare &share = shares.back();
-      if (share.share > largest) {
-        largest = share.share;
+      if (share.share > maximum) {
+        maximum = share.share;
         state.touched.facet = overlap.target;
       }
       if (!(share.area > 0.))

@@ -38,9 +38,11 @@ void SlaveFriction::account_for(const std::size_t s, const SlaveTraction &tracti
   const SlaveStart::Pressure &pressed_n = start_.pressed(s);
   double part = 1.; // part of the step in contact
   if (is_static_ && history_[s].is_active && !history_n_[s].is_active)
-    part = part_in_contact(slaves_[s].contact.gap + motion.lift, slaves_[s].contact.normal, motion);
+    part =
+        part_in_contact(slaves_[s].contact.gap + motion.multiplier_offset, slaves_[s].contact.normal, motion);
   else if (is_static_ && !history_[s].is_active)
-    part = part_before_leaving(pressed_n.depth, motion.displacement * (motion.rotation * pressed_n.normal));
+    part = part_before_leaving(pressed_n.penetration,
+                               motion.displacement * (motion.rotation * pressed_n.normal));
   double limit_n = 0.;
   if (is_static_ && history_[s].is_active && traction.slip > 0. && traction.pressure > 0.)
     limit_n = std::hypot(history_[s].tangential[0], history_[s].tangential[1]) * pressed_n.pressure /
@@ -62,7 +64,8 @@ bool SlaveFriction::was_touching(const std::size_t s) const {
     return true;
   const SlaveState &state = slaves_[s];
   const SlaveMotion motion = slaves_.motion_of(s);
-  return state.contact.gap + motion.lift - motion.displacement * state.contact.normal <= motion.flush;
+  return state.contact.gap + motion.multiplier_offset - motion.displacement * state.contact.normal <=
+         motion.flush;
 }
 
 double SlaveFriction::elastic_slip(const std::size_t s) const {

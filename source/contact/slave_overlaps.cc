@@ -10,19 +10,19 @@ void SlaveOverlaps::rebuild(const ContactSurfaces &surfaces, const bool with_sel
 
 void SlaveOverlaps::update(const ContactSurfaces &surfaces, const SlaveNodes &slaves,
                            const GapOffsets &offsets) {
-  depth_offsets_.clear();
+  gap_offsets_.clear();
   augmentation_.clear();
   if (offsets.are_used()) {
-    depth_offsets_.assign(surfaces.exchange().n_nodes(), 0.);
-    augmentation_ = depth_offsets_;
+    gap_offsets_.assign(surfaces.exchange().n_nodes(), 0.);
+    augmentation_ = gap_offsets_;
     for (std::size_t s = 0; s < slaves.size(); ++s) {
       augmentation_[slaves.node(s)] = offsets.augmentation[s];
-      depth_offsets_[slaves.node(s)] = offsets.of(s).now - offsets.augmentation[s];
+      gap_offsets_[slaves.node(s)] = offsets.of(s).now - offsets.augmentation[s];
     }
-    surfaces.exchange().update(depth_offsets_);
+    surfaces.exchange().update(gap_offsets_);
     surfaces.exchange().update(augmentation_);
   }
-  overlaps_.update(surfaces.search(), surfaces.positions_n(), surfaces.positions(), depth_offsets_,
+  overlaps_.update(surfaces.search(), surfaces.positions_n(), surfaces.positions(), gap_offsets_,
                    augmentation_);
 }
 

@@ -49,7 +49,7 @@ void SlaveStart::save(StateWriter &writer, const std::vector<std::uint64_t> &key
         .number(touched.projection.parameters[1])
         .vector(touched.projection.normal);
     const Pressure &slave = pressed_[s];
-    pressed_row.number(slave.pressure).number(slave.depth).number(slave.area).vector(slave.normal);
+    pressed_row.number(slave.pressure).number(slave.penetration).number(slave.area).vector(slave.normal);
   }
   writer.write_rows("touched", touch_width, keys, touches);
   writer.write_rows("pressed", pressed_width, keys, pressed);
@@ -79,7 +79,7 @@ void SlaveStart::load(const StateReader &reader, const std::vector<std::uint64_t
   for (std::size_t s = 0; s < pressed_.size(); ++s) {
     RowReader row(&pressed[pressed_width * s]);
     pressed_[s].pressure = row.number();
-    pressed_[s].depth = row.number();
+    pressed_[s].penetration = row.number();
     pressed_[s].area = row.number();
     row.vector(pressed_[s].normal);
   }

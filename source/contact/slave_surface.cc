@@ -246,7 +246,7 @@ void SlaveSurface::harden_springs(const double tool_thickness) {
   constexpr double hardening = 0.002; // part of the distance between points, or of the tool's thickness
   for (auto &node : nodes)
     if (node.is_divided)
-      node.hardening_depth = hardening * std::min(node.spacing, tool_thickness);
+      node.hardening_penetration = hardening * std::min(node.spacing, tool_thickness);
 }
 
 void SlaveSurface::add_to_dofs(const std::size_t i, const Tensor<1, 3> &value, Vector &vector) const {

@@ -21,12 +21,13 @@ namespace {
 /// Computes an overlap with derivatives with respect to the variables of its corners: each corner's
 /// coordinates are variables.
 template <class Number>
-FacetOverlapOf<Number>
-follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
-               const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation,
-               const FacetBulge &slave_bulge, const FacetBulge &target_bulge) {
+FacetOverlapOf<Number> follow_overlap(const FacetCornersOf<Number> &slave,
+                                      const FacetCornersOf<Number> &target, const double penetration,
+                                      const std::array<double, 4> &gap_offsets,
+                                      const std::array<double, 4> &augmentation,
+                                      const FacetBulge &slave_bulge, const FacetBulge &target_bulge) {
   if constexpr (std::is_same_v<Number, double>)
-    return compute_overlap(slave, target, depth, lifts, augmentation, slave_bulge, target_bulge);
+    return compute_overlap(slave, target, penetration, gap_offsets, augmentation, slave_bulge, target_bulge);
   else {
     // Derivatives with respect to the 24 coordinates of this pair, then the chain rule: a slave depends on
     // many more.
@@ -38,7 +39,7 @@ follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number>
         t[a][i] = Derivative(n, static_cast<int>(12 + 3 * a + i), target[a][i].val());
       }
     FacetOverlapOf<Derivative> overlap =
-        compute_overlap(s, t, depth, lifts, augmentation, slave_bulge, target_bulge);
+        compute_overlap(s, t, penetration, gap_offsets, augmentation, slave_bulge, target_bulge);
     const auto chain = [&](Derivative &value) {
       Derivative result = value.val();
       result.resize(slave[0][0].size());
@@ -61,7 +62,7 @@ follow_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number>
     for (unsigned int a = 0; a < 4; ++a) {
       chain(overlap.areas[a]);
       chain(overlap.gaps[a]);
-      chain(overlap.depths[a]);
+      chain(overlap.penetrations[a]);
       for (unsigned int b = 0; b < 4; ++b) {
         chain(overlap.slave_parts[a][b]);
         chain(overlap.target_parts[a][b]);
@@ -240,11 +241,11 @@ auto SlaveTangentsOf<Facet, Law>::follow_contact(const std::size_t s, const Plac
       const SurfaceFacet &own = facet(share.slave_facet), &target = facet(share.facet);
       const auto corners = placed.corners(own);
       const auto overlap = follow_overlap<Number>(
-          corners, placed.corners(target), share.depth, corners_of(own, parts_.overlaps->depth_offsets()),
+          corners, placed.corners(target), share.penetration, corners_of(own, parts_.overlaps->gap_offsets()),
           corners_of(own, parts_.overlaps->augmentation()), own.bulge, target.bulge);
       touched.shares.push_back(share_of_overlap(overlap, corner_of(own, parts_.slaves.node(s)),
-                                                share.slave_facet, share.facet, share.depth,
-                                                parts_.slaves.depth_rounding(s)));
+                                                share.slave_facet, share.facet, share.penetration,
+                                                parts_.slaves.penetration_rounding(s)));
       touched.points.push_back(facet::interpolate(touched.shares.back().slave_weights, corners));
     } else {
       const FacetLimits limits = make_limits(std::numeric_limits<double>::infinity(), parts_.settings.limits);
@@ -364,7 +365,7 @@ template <class Facet, class Law>
 void SlaveTangentsOf<Facet, Law>::add_exact_tangent(const std::size_t s, const Add &add) const {
   const std::vector<unsigned int> nodes = this->collect_nodes(s, true);
   const std::size_t n = 3 * nodes.size();
-  if (n > most_variables) { // only at a corner of a dozen facets
+  if (n > max_variables) { // only at a corner of a dozen facets
     add_numerical_tangent(s, add);
     return;
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Computes how far nodes and tools may move before nodes pass
 // through a tool.
+#include "billet/contact/tool_paths.h"
+
 #include "billet/contact/crossing.h"
-#include "billet/contact/rigid_contact.h"
 
 #include <deal.II/physics/transformations.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace billet {
@@ -69,29 +71,27 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
 
 } // namespace
 
-double RigidContact::find_free_part(const ContactPath &path) const {
-  if (is_removed_)
+double find_free_part_of_nodes(const RigidContactParts &parts, const ContactPath &path) {
+  if (parts.step.is_removed)
     return 1.;
-  const Placement &tool_from = path.tools_from[pair_.tool], &tool_to = path.tools_to[pair_.tool];
-  const MovingTool tool(tool_.rotation_axis(), tool_from, tool_to);
-  const RigidSurface &surface = tool_.surface();
+  const Placement &tool_from = path.tools_from[parts.pair.tool], &tool_to = path.tools_to[parts.pair.tool];
+  const MovingTool tool(parts.tool.rotation_axis(), tool_from, tool_to);
+  const RigidSurface &surface = parts.step.surface;
+  const SlaveSurface &slaves = parts.slaves;
   double part = 1.;
-  const auto displaced = [this](const std::size_t i, const Vector &displacements) {
-    return slaves_.nodes[i].reference + slaves_.at(i, [&](const std::size_t node) {
-      Tensor<1, 3> displacement;
-      for (unsigned int c = 0; c < 3; ++c)
-        displacement[c] = displacements(slaves_.nodes[node].dofs[c]);
-      return displacement;
+  const auto displaced = [&](const std::size_t i, const Vector &displacements) {
+    return slaves.nodes[i].reference + slaves.at(i, [&](const std::size_t node) {
+      return slaves.nodes[node].displacement_in(displacements);
     });
   };
-  for (std::size_t i = 0; i < slaves_.nodes.size(); ++i) {
-    const ContactPoint &node = slaves_.nodes[i];
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
+    const ContactPoint &node = slaves.nodes[i];
     const Tensor<1, 3> x_from = displaced(i, path.from), x_to = displaced(i, path.to);
     const double resolution = fine * node.size, length = tool.bound_way(x_from, x_to);
     if (node.is_behind || !(length > (path.is_thorough ? 0. : resolution)) || !std::isfinite(length) ||
         surface.bounding_box().distance_square(tool_from.to_tool(x_from)) > length * length)
       continue;
-    part = std::min(part, billet::find_free_part(
+    part = std::min(part, find_free_part(
                               [&](const double s) {
                                 return locate(surface, node.patch, tool.at(s), (1. - s) * x_from + s * x_to,
                                               0.5 * resolution);
@@ -99,10 +99,6 @@ double RigidContact::find_free_part(const ContactPath &path) const {
                               length, resolution));
   }
   return part;
-}
-
-std::string RigidContact::describe_obstacle() const {
-  return "nodes of contact pair '" + pair_.name + "' would go through tool '" + tool_.name() + "'";
 }
 
 } // namespace billet

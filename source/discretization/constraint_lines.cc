@@ -29,6 +29,8 @@ Constraints build_constraints(const dealii::IndexSet &owned, const dealii::Index
 
 std::vector<ConstraintLine> collect_hanging_nodes(const dealii::DoFHandler<3> &dof_handler,
                                                   const dealii::IndexSet &relevant) {
+  if (dof_handler.get_triangulation().n_levels() == 1)
+    return {};
   Constraints constraints;
   compatibility::reinit(constraints, dof_handler.locally_owned_dofs(), relevant);
   dealii::DoFTools::make_hanging_node_constraints(dof_handler, constraints);

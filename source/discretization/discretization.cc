@@ -22,9 +22,9 @@ namespace {
 void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::Triangulation<3> &mesh) {
   scene.build_mesh(MeshDetail::full, mesh);
   if (mesh.n_active_cells() < n_parts)
-    throw InputError(scene.parameters().file_name + ": found " + std::to_string(mesh.n_active_cells()) +
-                     " elements for " + std::to_string(n_parts) +
-                     " ranks, allowed is at least one for each rank");
+    throw InputError(scene.parameters().file_name + ": the mesh has " +
+                     std::to_string(mesh.n_active_cells()) + " elements for " + std::to_string(n_parts) +
+                     " ranks; allowed is at least one element for each rank");
   dealii::DynamicSparsityPattern neighbours;
   dealii::GridTools::get_face_connectivity_of_cells(mesh, neighbours);
   add_contact_neighbours(scene, mesh, neighbours);

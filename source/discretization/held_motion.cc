@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/held_motion.h"
-#include "billet/usage.h"
+
+#include "billet/discretization/hanging_nodes.h"
 
 #include <cmath>
 
@@ -9,6 +10,7 @@ namespace billet {
 using dealii::Tensor;
 
 HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
+  require_no_hanging_nodes(nodes.discretization().dof_handler(), "Explicit dynamics");
   for (const auto &[dof, held] : collect_held_nodes(scene, nodes.discretization())) {
     Node node{nodes.find(dof), held.position, {}};
     if (node.node == dealii::numbers::invalid_unsigned_int) // only at ghost cells

@@ -13,7 +13,7 @@ using dealii::Tensor;
 namespace {
 
 /// Returns the minimum of det ∂x/∂ξ over the corners, relative to a cube of the undeformed element's volume.
-double smallest_corner_jacobian(const Element &element, const Vector *displacements) {
+double min_corner_jacobian(const Element &element, const Vector *displacements) {
   const CellIterator &cell = element.cell;
   std::array<Tensor<1, 3>, n_element_nodes> x;
   for (unsigned int v = 0; v < n_element_nodes; ++v) {
@@ -21,16 +21,16 @@ double smallest_corner_jacobian(const Element &element, const Vector *displaceme
     for (unsigned int i = 0; displacements != nullptr && i < 3; ++i)
       x[v][i] += (*displacements)(element.dofs[std::size_t{3} * v + i]);
   }
-  double smallest = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (unsigned int v = 0; v < n_element_nodes; ++v) {
     std::array<Tensor<1, 3>, 3> edges;
     for (unsigned int i = 0; i < 3; ++i) { // the two corners of an edge differ in one bit
       const unsigned int bit = 1U << i, high = v | bit, low = v & ~bit;
       edges[i] = x[high] - x[low];
     }
-    smallest = std::min(smallest, dealii::cross_product_3d(edges[0], edges[1]) * edges[2]);
+    minimum = std::min(minimum, dealii::cross_product_3d(edges[0], edges[1]) * edges[2]);
   }
-  return smallest / cell->measure();
+  return minimum / cell->measure();
 }
 
 /// Returns a message for each body with more than this fraction of inverted elements.
@@ -41,7 +41,7 @@ DiagnosticList find(const Scene &scene, const Discretization &discretization, co
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     std::array<double, 5> own{}; // number, minimum, its position
     for (const auto &element : discretization.elements(b)) {
-      const double jacobian = smallest_corner_jacobian(element, displacements);
+      const double jacobian = min_corner_jacobian(element, displacements);
       if (!(jacobian < -rounding))
         continue;
       own[0] += 1.;
@@ -64,7 +64,7 @@ DiagnosticList find(const Scene &scene, const Discretization &discretization, co
       continue;
     std::ostringstream text;
     text << n << (n == 1. ? " element is" : " elements are")
-         << " inside out at a corner; the worst has a Jacobian of " << worst[1] << " times its "
+         << " inverted at a corner; the worst has a Jacobian of " << worst[1] << " times its "
          << (displacements != nullptr ? "undeformed volume" : "volume") << " there";
     diagnostics.push_back(Diagnostic(kind, text.str())
                               .body(scene.bodies()[b].name)

@@ -160,9 +160,9 @@ Constraints Supports::at_time(const double t) const {
       if (std::abs(sum) > 1e-8 * discretization_.radius()) {
         std::ostringstream message;
         message << redundancy.terms.front().hold->origin << ": at time " << t << " the node at ("
-                << redundancy.position << ") is held by " << redundancy.holds
-                << ", and they contradict each other by " << std::abs(sum)
-                << ". Allowed are prescribed displacements that agree where their boundaries meet";
+                << redundancy.position << ") has prescribed displacements by " << redundancy.holds
+                << ", which contradict each other by " << std::abs(sum)
+                << "; allowed are prescribed displacements that agree where their boundaries meet";
         throw SolutionFailure(message.str()); // becomes an InputError at the start
       }
     }
@@ -212,8 +212,8 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
   std::vector<SupportTrack> all;
   unsigned int n_lines = 0;
   for (const Prescription &prescription : prescriptions_) {
-    const bool goes_on = !all.empty() && all.back().position_ == prescription.position && n_lines < 3;
-    if (!goes_on) {
+    const bool continues = !all.empty() && all.back().position_ == prescription.position && n_lines < 3;
+    if (!continues) {
       all.emplace_back();
       all.back().position_ = prescription.position;
       n_lines = 0;

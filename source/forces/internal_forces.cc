@@ -28,10 +28,10 @@ std::vector<ThicknessAxis> find_thickness_axes(const Scene &scene, const std::si
     const auto axis = find_thickness_axis(positions[e], direction);
     if (!axis) {
       std::ostringstream message;
-      message << scene.parameters().bodies[b].thickness_direction.origin << ": found (" << direction
+      message << scene.parameters().bodies[b].thickness_direction.origin << " is (" << direction
               << ") at the element with its centre at (" << centre
-              << "), allowed is a direction that is nearer to one axis of each element than to the others, "
-                 "by 10 degrees";
+              << "); allowed is a direction that is nearer to one axis of each element than to the others by "
+                 "10 degrees";
       throw InputError(message.str());
     }
     axes[e] = *axis;
@@ -56,7 +56,7 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
         std::ostringstream message;
         message << scene.parameters().bodies[b].origin << ": the element with its centre at ("
                 << discretization.elements(b)[offender].cell->center()
-                << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
+                << ") is degenerate or inverted; allowed are hexahedra with a positive Jacobian";
         throw InputError(message.str());
       }
       const Body &body = scene.bodies()[b];

@@ -16,7 +16,7 @@ TypeTable<FrictionPointer> &friction_law_types() {
 
 const TypeParameter friction_coefficient_parameter{
     "Friction coefficient", "0", TypeParameter::Kind::number,
-    "mu >= 0; at rest, or at the reference pressure. 0: no friction."};
+    "mu >= 0. Friction coefficient, at rest or at the reference pressure. 0: no friction."};
 
 double read_friction_coefficient(const TypeInput &input) {
   const std::string &key = friction_coefficient_parameter.key;

@@ -15,19 +15,21 @@ std::string PressureDependent::description() const {
 
 FrictionLawType pressure_dependent_type() {
   using Kind = TypeParameter::Kind;
-  return {"pressure dependent",
-          "mu (p/p_0)^(e-1) p",
-          {friction_coefficient_parameter,
-           {"Reference pressure", "0", Kind::number, "p_0 > 0. [stress]"},
-           {"Pressure exponent", "1", Kind::number, "0 < e <= 1."}},
-          [](const TypeInput &input) {
-            const double coefficient = read_friction_coefficient(input);
-            const double reference = input.positive("Reference pressure");
-            const double exponent = input.number("Pressure exponent");
-            if (!(exponent > 0. && exponent <= 1.))
-              input.reject("Pressure exponent", "a number > 0 and <= 1");
-            return std::make_shared<const PressureDependent>(coefficient, reference, exponent);
-          }};
+  return {
+      "pressure dependent",
+      "mu (p/p_0)^(e-1) p",
+      {friction_coefficient_parameter,
+       {"Reference pressure", "0", Kind::number,
+        "p_0 > 0. Pressure at which the coefficient is mu. [stress]"},
+       {"Pressure exponent", "1", Kind::number, "0 < e <= 1. Exponent of the pressure; 1 is Coulomb's law."}},
+      [](const TypeInput &input) {
+        const double coefficient = read_friction_coefficient(input);
+        const double reference = input.positive("Reference pressure");
+        const double exponent = input.number("Pressure exponent");
+        if (!(exponent > 0. && exponent <= 1.))
+          input.reject("Pressure exponent", "a number > 0 and <= 1");
+        return std::make_shared<const PressureDependent>(coefficient, reference, exponent);
+      }};
 }
 
 } // namespace billet

@@ -16,9 +16,10 @@ std::string ShearLimited::description() const {
 FrictionLawType shear_limited_type() {
   using Kind = TypeParameter::Kind;
   return {"shear limited",
-          "mu p, at most the largest shear stress",
+          "mu p, up to the maximum shear stress",
           {friction_coefficient_parameter,
-           {"Maximum shear stress", "0", Kind::number, "> 0, whatever the pressure. [stress]"}},
+           {"Maximum shear stress", "0", Kind::number,
+            "> 0. Upper bound of the shear stress at any pressure. [stress]"}},
           [](const TypeInput &input) {
             const double coefficient = read_friction_coefficient(input);
             return std::make_shared<const ShearLimited>(coefficient, input.positive("Maximum shear stress"));

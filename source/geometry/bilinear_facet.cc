@@ -72,9 +72,9 @@ std::array<double, 2> BilinearFacet::minimise(const Tensor<1, 3> &arm, const dou
   return at;
 }
 
-std::array<double, 2> BilinearFacet::nearest_on_border(const Tensor<1, 3> &arm) const {
+std::array<double, 2> BilinearFacet::nearest_on_edge(const Tensor<1, 3> &arm) const {
   std::array<double, 2> nearest{};
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (unsigned int fixed = 0; fixed < 2; ++fixed)
     for (const double end : {-1., 1.}) { // a straight line
       std::array<double, 2> at{};
@@ -85,8 +85,8 @@ std::array<double, 2> BilinearFacet::nearest_on_border(const Tensor<1, 3> &arm) 
       if (square > 0.)
         at[1 - fixed] = into_range(-(difference(at, arm) * along) / square, 1.);
       const double distance_square = difference(at, arm).norm_square();
-      if (distance_square < least) {
-        least = distance_square;
+      if (distance_square < minimum) {
+        minimum = distance_square;
         nearest = at;
       }
     }
@@ -108,7 +108,7 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   bool is_straight = projection.excess <= limits.tolerance;
   if (!is_straight) {
     at = minimise(arm, 1., {into_range(at[0], 1.), into_range(at[1], 1.)});
-    const std::array<double, 2> other = nearest_on_border(arm);
+    const std::array<double, 2> other = nearest_on_edge(arm);
     if (difference(other, arm).norm_square() < difference(at, arm).norm_square())
       at = minimise(arm, 1., other);
     // A strongly curved surface may have another closest point.

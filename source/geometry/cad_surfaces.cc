@@ -65,8 +65,8 @@ gp_Pnt point(const Tensor<1, 3> &x) { return {x[0], x[1], x[2]}; }
 template <class Curve> std::vector<double> sample(const Curve &curve) {
   if (curve.GetType() == GeomAbs_Line)
     return {curve.FirstParameter(), curve.LastParameter()};
-  constexpr int least_points = 8;
-  const GCPnts_TangentialDeflection points(curve, 0.5 * chord_angle, 1e100, least_points);
+  constexpr int min_points = 8;
+  const GCPnts_TangentialDeflection points(curve, 0.5 * chord_angle, 1e100, min_points);
   std::vector<double> result;
   for (int i = 1; i <= points.NbPoints(); ++i)
     result.push_back(points.Parameter(i));
@@ -203,7 +203,7 @@ closed_form_of(const GeomAdaptor_Surface &surface, const double v) {
 }
 
 std::unique_ptr<const SurfacePatch> convert(const TopoDS_Face &face, const double side,
-                                            const double border_accuracy) {
+                                            const double edge_accuracy) {
   const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
   std::array<double, 2> low{}, high{};
   BRepTools::UVBounds(face, low[0], high[0], low[1], high[1]);
@@ -220,7 +220,7 @@ std::unique_ptr<const SurfacePatch> convert(const TopoDS_Face &face, const doubl
       high,
       std::move(edges),
       face.Orientation() == TopAbs_REVERSED ? -side : side,
-      border_accuracy,
+      edge_accuracy,
       {tensor(box.CornerMin()), tensor(box.CornerMax())}});
 }
 
@@ -289,7 +289,7 @@ TopoDS_Shape choose_faces(const TypeInput &input, const TopoDS_Shape &shape) {
 
 /// Returns the maximum distance of coincident edges. An edge with only one face may duplicate an edge of
 /// another face, within its tolerance.
-double border_accuracy(const TopoDS_Shape &shape) {
+double edge_accuracy(const TopoDS_Shape &shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
   double accuracy = 0.;
@@ -316,7 +316,7 @@ SurfacePatches make(const TypeInput &input) {
       shape = sewing.SewedShape();
     }
     const BRepMesh_IncrementalMesh facets(shape, chord_deviation * size_of(shape), false, chord_angle);
-    const double accuracy = border_accuracy(shape);
+    const double accuracy = edge_accuracy(shape);
     const TopTools_IndexedMapOfShape faces = faces_of(shape);
     for (int i = 1; i <= faces.Extent(); ++i)
       patches.push_back(convert(TopoDS::Face(faces(i)), side_sign(input), accuracy));
@@ -330,7 +330,7 @@ SurfacePatches make(const TypeInput &input) {
 #else
 
 SurfacePatches make(const TypeInput &input) {
-  input.reject("Shape", "another shape: the deal.II that this program is built with has no OpenCASCADE");
+  input.reject("Shape", "another shape, since the deal.II of this program has no OpenCASCADE");
   return {};
 }
 
@@ -339,20 +339,20 @@ SurfacePatches make(const TypeInput &input) {
 } // namespace
 
 SurfaceType cad_type() {
-  return {
-      "CAD",
-      "Faces from a CAD file, STEP or IGES, as they are there. Wants a deal.II with OpenCASCADE.",
-      {{"File", "", Kind::text,
-        "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
-       {"Scale", "1", Kind::number,
-        "> 0. The file's lengths, in millimetres, times this are lengths of the scene."},
-       {"Translation", "0, 0, 0", Kind::text, "Where the file's origin is. [length]"},
-       {"Faces", "", Kind::text,
-        "Numbers of the faces that are meant, separated by commas, 1 for the first one in the file; empty: "
-        "all."},
-       {"Side", "outside", Kind::choice,
-        "outside|inside: Where the bodies are; outside: where the faces' normals point, out of a solid."}},
-      make};
+  return {"CAD",
+          "Faces of a CAD file, STEP or IGES. Requires deal.II with OpenCASCADE.",
+          {{"File", "", Kind::text,
+            "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
+           {"Scale", "1", Kind::number,
+            "> 0. Factor from the file's lengths, in millimetres, to lengths of the scene."},
+           {"Translation", "0, 0, 0", Kind::text, "Position of the file's origin. [length]"},
+           {"Faces", "", Kind::text,
+            "Numbers of the faces to use, separated by commas; the first face of the file has number 1. "
+            "Empty: all."},
+           {"Side", "outside", Kind::choice,
+            "outside|inside: Side of the bodies. The normals of the faces, out of a solid, point to the "
+            "outside."}},
+          make};
 }
 
 } // namespace billet

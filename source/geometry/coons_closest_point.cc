@@ -23,20 +23,20 @@ constexpr double not_nearer = 1e-13, straight_above = 1e-10;
 struct Quadratic {
   double g_u, g_v, uu, uv, vv;
 
-  double least_eigenvalue() const { return 0.5 * (uu + vv) - half_difference(); }
-  double largest_eigenvalue() const { return 0.5 * (uu + vv) + half_difference(); }
+  double min_eigenvalue() const { return 0.5 * (uu + vv) - half_difference(); }
+  double max_eigenvalue() const { return 0.5 * (uu + vv) + half_difference(); }
   double half_difference() const { return std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv); }
   /// Replaces the eigenvalues λ_1, λ_2 of H with their absolute values, by (H² + |λ_1 λ_2| I)/(|λ_1| +
-  /// |λ_2|), and raises them to at least `least`.
-  void make_convex(const double least) {
-    const double first = std::abs(least_eigenvalue()), second = std::abs(largest_eigenvalue());
+  /// |λ_2|), and raises them to at least `lowest`.
+  void make_convex(const double lowest) {
+    const double first = std::abs(min_eigenvalue()), second = std::abs(max_eigenvalue());
     if (first + second > 0.) {
       const Quadratic h = *this;
       uu = (h.uu * h.uu + h.uv * h.uv + first * second) / (first + second);
       uv = h.uv * (h.uu + h.vv) / (first + second);
       vv = (h.vv * h.vv + h.uv * h.uv + first * second) / (first + second);
     }
-    const double shift = std::max(0., least - std::min(first, second));
+    const double shift = std::max(0., lowest - std::min(first, second));
     uu += shift;
     vv += shift;
   }
@@ -55,11 +55,11 @@ Pair minimum(const Quadratic &q, const Pair &low, const Pair &high) {
   if (inside[0] >= low[0] && inside[0] <= high[0] && inside[1] >= low[1] && inside[1] <= high[1])
     return inside;
   Pair best{0., 0.};
-  double least = infinity;
+  double lowest = infinity;
   const auto consider = [&](const double u, const double v) {
     const double value = q.value(u, v);
-    if (value < least) {
-      least = value;
+    if (value < lowest) {
+      lowest = value;
       best = {u, v};
     }
   };
@@ -124,7 +124,7 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
     }
   const double scale_u = 1. / length_u_, scale_v = 1. / length_v_;
   const Point u = scale_u * foot.jet.u, v = scale_v * foot.jet.v;
-  const double stretch = std::sqrt(std::max(0., Quadratic{0., 0., u * u, u * v, v * v}.least_eigenvalue()));
+  const double stretch = std::sqrt(std::max(0., Quadratic{0., 0., u * u, u * v, v * v}.min_eigenvalue()));
   const double left =
       std::max(0., stretch - 0.5 * std::sqrt(bend_u * bend_u * a * a + bend_v * bend_v * b * b));
   const Point d = x - foot.jet.position;
@@ -132,7 +132,7 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
   const Quadratic towards{0., 0., scale_u * scale_u * (d * foot.jet.uu) + distance * change_u,
                           scale_u * scale_v * (d * foot.jet.uv),
                           scale_v * scale_v * (d * foot.jet.vv) + distance * change_v};
-  return std::min(towards.largest_eigenvalue(), distance * std::max(bend_u, bend_v)) <= left * left;
+  return std::min(towards.max_eigenvalue(), distance * std::max(bend_u, bend_v)) <= left * left;
 }
 
 /// Returns a step of Newton's method on
@@ -160,10 +160,10 @@ CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const
     model.g_v = 0.;
     model.vv = 1.;
   }
-  const double least = 1e-10 * (std::abs(model.uu) + std::abs(model.vv) + 1.);
-  const bool is_convex = model.least_eigenvalue() > least;
+  const double lowest = 1e-10 * (std::abs(model.uu) + std::abs(model.vv) + 1.);
+  const bool is_convex = model.min_eigenvalue() > lowest;
   if (!is_convex)
-    model.make_convex(least);
+    model.make_convex(lowest);
   model.uu *= 1. + damping;
   model.vv *= 1. + damping;
   const auto [u, v] = minimum(model, {(range.low_u - foot.u) * length_u_, (range.low_v - foot.v) * length_v_},
@@ -219,11 +219,11 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
   // Find the steepest descent: among samples, then by bisection for the zero of the slope's derivative.
   constexpr unsigned int n = 16;
   unsigned int steepest = 0;
-  double least = infinity;
+  double lowest = infinity;
   for (unsigned int i = 0; i <= n; ++i) {
     const double here = slope(at_pole(low + i * (high - low) / n));
-    if (here < least) {
-      least = here;
+    if (here < lowest) {
+      lowest = here;
       steepest = i;
     }
   }
@@ -270,17 +270,17 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
     return Foot{0.5 * (range.low_u + range.high_u), 0.5 * (range.low_v + range.high_v), cells_[cell].middle,
                 square};
   };
-  std::array<double, most_cells * most_cells> squares; // squared distances to the middles
+  std::array<double, max_cells * max_cells> squares; // squared distances to the middles
   const std::size_t n = balls_.size();
-  double least_square = infinity;
+  double min_square = infinity;
   for (std::size_t cell = 0; cell < n; ++cell) {
     squares[cell] = (x - balls_[cell].centre).norm_square();
-    least_square = std::min(least_square, squares[cell]);
+    min_square = std::min(min_square, squares[cell]);
   }
   // If x is not a number, no cell is nearest.
-  const std::size_t found = std::find(squares.begin(), squares.begin() + n, least_square) - squares.begin();
+  const std::size_t found = std::find(squares.begin(), squares.begin() + n, min_square) - squares.begin();
   const std::size_t nearest = found < n ? found : 0;
-  Foot best = descend(x, start(nearest, least_square), whole);
+  Foot best = descend(x, start(nearest, min_square), whole);
 
   double distance = std::sqrt(best.square);
   const auto may_be_nearer = [&](const std::size_t cell) {
@@ -302,8 +302,8 @@ CoonsPatch::Foot CoonsPatch::foot(const Point &x) const {
   for (std::size_t cell = 0; cell < n; ++cell)
     if (may_be_nearer(cell)) {
       const Foot candidate = descend(x, start(cell, squares[cell]), cells_[cell].range);
-      const double least = distance - not_nearer * (distance + size_);
-      if (least > 0. && candidate.square < least * least) {
+      const double lowest = distance - not_nearer * (distance + size_);
+      if (lowest > 0. && candidate.square < lowest * lowest) {
         best = descend(x, candidate, whole);
         distance = std::sqrt(best.square);
       }
@@ -348,9 +348,9 @@ ClosestPoint CoonsPatch::closest_point(const Point &x) const {
   const Point arm = x - result.position;
   result.gap = arm * result.normal;
   result.turning = turning(nearest, result.normal, result.gap);
-  const bool is_on_border = nearest.u == 0. || nearest.u == 1. || nearest.v == 0. || nearest.v == 1.;
-  result.is_beyond_border = is_on_border && (arm - result.gap * result.normal).norm() >
-                                                straight_above * size_ + 10. * round_off * arm.norm();
+  const bool is_on_edge = nearest.u == 0. || nearest.u == 1. || nearest.v == 0. || nearest.v == 1.;
+  result.is_beyond_edge = is_on_edge && (arm - result.gap * result.normal).norm() >
+                                            straight_above * size_ + 10. * round_off * arm.norm();
   return result;
 }
 

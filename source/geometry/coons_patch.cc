@@ -47,7 +47,7 @@ std::array<CurveSketch, 4> joined(std::array<CurveSketch, 4> round, const double
     if (round[i].kind == Kind::point && round[j].kind == Kind::point)
       throw std::invalid_argument("curves " + std::to_string(std::min(i, j) + 1) + " and " +
                                   std::to_string(std::max(i, j) + 1) +
-                                  ", which are neighbours, have both shrunk to a point");
+                                  ", which are neighbours, are both points");
     // A point moves as a whole; the previous curve meets it within the tolerance.
     start = end;
   }
@@ -62,7 +62,7 @@ Curve make_curve(const CurveSketch &sketch, const unsigned int number) {
   }
 }
 
-Point largest(const Point &a, const Point &b) {
+Point maximum(const Point &a, const Point &b) {
   return Point({std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])});
 }
 
@@ -123,14 +123,14 @@ void CoonsPatch::measure() {
     throw std::invalid_argument("the patch has no area");
   length_u_ = std::sqrt(square_u);
   length_v_ = std::sqrt(square_v);
-  const double second_u = std::max(curves_[0].largest_second(0., 1.).norm(),
-                                   curves_[2].largest_second(0., 1.).norm()),
-               second_v = std::max(curves_[1].largest_second(0., 1.).norm(),
-                                   curves_[3].largest_second(0., 1.).norm());
+  const double second_u =
+                   std::max(curves_[0].max_second(0., 1.).norm(), curves_[2].max_second(0., 1.).norm()),
+               second_v =
+                   std::max(curves_[1].max_second(0., 1.).norm(), curves_[3].max_second(0., 1.).norm());
   const auto count = [&](const double second, const double own, const double other) {
     const double angle = std::max(second / own, twist / other);
     return static_cast<unsigned int>(
-        std::clamp(std::ceil(angle / cell_angle), 1. * fewest_cells, 1. * most_cells));
+        std::clamp(std::ceil(angle / cell_angle), 1. * fewest_cells, 1. * max_cells));
   };
   n_u_ = count(second_u, length_u_, length_v_);
   n_v_ = count(second_v, length_v_, length_u_);
@@ -162,15 +162,13 @@ CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int 
       at(low_u, low_v).position - cell.middle.position, at(high_u, low_v).position - cell.middle.position,
       at(high_u, high_v).position - cell.middle.position, at(low_u, high_v).position - cell.middle.position};
   // X_uu and X_vv are means of the curves' second derivatives.
-  const Point uu =
-                  largest(curves_[0].largest_second(low_u, high_u), curves_[2].largest_second(low_u, high_u)),
-              vv =
-                  largest(curves_[1].largest_second(low_v, high_v), curves_[3].largest_second(low_v, high_v));
+  const Point uu = maximum(curves_[0].max_second(low_u, high_u), curves_[2].max_second(low_u, high_u)),
+              vv = maximum(curves_[1].max_second(low_v, high_v), curves_[3].max_second(low_v, high_v));
   cell.slack = h_u * h_u / 8. * uu + h_v * h_v / 8. * vv;
   // X_uuv = c_1'' − c_0'' and X_uvv = d_1'' − d_0'' change with the curves' third derivatives.
   const auto third = [](const Curve &a, const Curve &b, const double from, const double to) {
     const double middle = 0.5 * (from + to);
-    const double change = a.largest_third(from, to) + b.largest_third(from, to);
+    const double change = a.max_third(from, to) + b.max_third(from, to);
     return (a.at(middle).second - b.at(middle).second).norm() + 0.5 * (to - from) * change;
   };
   const double uuv = third(curves_[2], curves_[0], low_u, high_u),
@@ -178,11 +176,11 @@ CoonsPatch::Cell CoonsPatch::make_cell(const unsigned int i, const unsigned int 
   const double uv = (cell.middle.uv.norm() + 0.5 * (h_u * uuv + h_v * uvv)) / (length_u_ * length_v_);
   cell.bend_u = uu.norm() / (length_u_ * length_u_) + uv;
   cell.bend_v = vv.norm() / (length_v_ * length_v_) + uv;
-  cell.uuu = std::max(curves_[0].largest_third(low_u, high_u), curves_[2].largest_third(low_u, high_u)) /
+  cell.uuu = std::max(curves_[0].max_third(low_u, high_u), curves_[2].max_third(low_u, high_u)) /
              std::pow(length_u_, 3);
   cell.uuv = uuv / (length_u_ * length_u_ * length_v_);
   cell.uvv = uvv / (length_u_ * length_v_ * length_v_);
-  cell.vvv = std::max(curves_[1].largest_third(low_v, high_v), curves_[3].largest_third(low_v, high_v)) /
+  cell.vvv = std::max(curves_[1].max_third(low_v, high_v), curves_[3].max_third(low_v, high_v)) /
              std::pow(length_v_, 3);
   return cell;
 }
@@ -235,24 +233,24 @@ void CoonsPatch::refuse_crossings() const {
     throw std::invalid_argument("the patch crosses itself near " + print(*where));
 }
 
-void CoonsPatch::draw(const PictureRegion &, SurfacePicture &picture) const {
+void CoonsPatch::draw(const OutputRegion &, SurfaceMesh &surface_mesh) const {
   const unsigned int n_u = facets_per_cell * n_u_, n_v = facets_per_cell * n_v_;
-  const auto first = static_cast<unsigned int>(picture.points.size());
+  const auto first = static_cast<unsigned int>(surface_mesh.points.size());
   for (unsigned int i = 0; i <= n_u; ++i)
     for (unsigned int j = 0; j <= n_v; ++j)
-      picture.points.push_back(at(i / static_cast<double>(n_u), j / static_cast<double>(n_v)).position);
+      surface_mesh.points.push_back(at(i / static_cast<double>(n_u), j / static_cast<double>(n_v)).position);
   for (unsigned int i = 0; i < n_u; ++i)
     for (unsigned int j = 0; j < n_v; ++j) {
       const unsigned int corner = first + i * (n_v + 1) + j;
       std::vector<unsigned int> facet;
       for (const unsigned int next : {corner, corner + n_v + 1, corner + n_v + 2, corner + 1}) {
         const auto coincides = [&](const unsigned int other) {
-          return (picture.points[other] - picture.points[next]).norm() <= meeting * size_;
+          return (surface_mesh.points[other] - surface_mesh.points[next]).norm() <= meeting * size_;
         };
         if (std::none_of(facet.begin(), facet.end(), coincides))
           facet.push_back(next);
       }
-      picture.facets.push_back(facet);
+      surface_mesh.facets.push_back(facet);
     }
 }
 

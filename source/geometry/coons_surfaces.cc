@@ -17,10 +17,10 @@ using Kind = TypeParameter::Kind;
 using Sketch = std::array<CurveSketch, 4>;
 
 const std::string curves_meaning =
-    "four curves that run round the patch, separated by semicolons, each from where the one before ends; "
-    "counter-clockwise for one who looks at it from the bodies: so runs a thumb up the normal. A curve is "
-    "'line: x, y, z to x, y, z', 'arc: x, y, z via x, y, z to x, y, z', 'spline: x, y, z via x, y, z via ... "
-    "to x, y, z' (a natural cubic one), or 'point: x, y, z' where a side has shrunk to a point. [length]";
+    "Four curves around the patch, separated by semicolons, each from the end of the one before. They run "
+    "counter-clockwise as seen from the bodies, right-handed about the normal. A curve is 'line: x, y, z to "
+    "x, y, z', 'arc: x, y, z via x, y, z to x, y, z', 'spline: x, y, z via x, y, z via ... to x, y, z' (a "
+    "natural cubic spline), or 'point: x, y, z' for a side that shrinks to a point. [length]";
 
 Sketch read_curves(const std::vector<std::string> &parts) {
   if (parts.size() != 4)
@@ -108,7 +108,7 @@ SurfacePatches read_patches(std::istream &stream, const std::string &name) {
 
 SurfaceType coons_patch_type() {
   return {"coons patch",
-          "The surface that four curves span, bilinearly blended.",
+          "Surface between four curves, bilinearly blended.",
           {{"Curves", "", Kind::text, "The " + curves_meaning}},
           [](const TypeInput &input) {
             try {
@@ -122,10 +122,10 @@ SurfaceType coons_patch_type() {
 
 SurfaceType coons_patches_type() {
   return {"coons patches",
-          "Coons patches from a file; where they meet the surface goes on.",
+          "Coons patches of a file. The surface continues where they meet.",
           {{"File", "", Kind::text,
-            "Name of a text file, relative to the scene file, with a patch a line and comments after '#'. Of "
-            "each patch the " +
+            "Name of a text file, relative to the scene file, with one patch a line and comments after '#'. "
+            "A patch is: " +
                 curves_meaning}},
           [](const TypeInput &input) {
             const std::string name = input.file("File");

@@ -11,8 +11,8 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double flat_angle = 2e-4;   // maximum angle between the normals of a flat region [radians]
-constexpr double least_height = 3e-7; // minimum height of a facet with an area, over the size of the mesh
+constexpr double flat_angle = 2e-4; // maximum angle between the normals of a flat region [radians]
+constexpr double min_height = 3e-7; // minimum height of a facet with an area, over the size of the mesh
 
 /// Disjoint sets that can be merged.
 class UnionFind {
@@ -90,7 +90,7 @@ double angle_between(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
 }
 
 FacetNormals::FacetNormals(const TriangleMesh &mesh, const TriangleEdges &edges) {
-  const double tiny = least_height * mesh.size();
+  const double tiny = min_height * mesh.size();
   std::vector<unsigned int> slivers;
   for (unsigned int f = 0; f < mesh.facets.size(); ++f) {
     std::array<Tensor<1, 3>, 3> sides;
@@ -110,8 +110,8 @@ FacetNormals::FacetNormals(const TriangleMesh &mesh, const TriangleEdges &edges)
   }
   // A sliver takes the normal of the facet at its longest side. A chain of slivers needs as many passes as
   // its length.
-  for (bool goes_on = true; goes_on;) {
-    goes_on = false;
+  for (bool continues = true; continues;) {
+    continues = false;
     for (const unsigned int f : slivers) {
       if (normals[f].norm_square() > 0.)
         continue;
@@ -129,7 +129,7 @@ FacetNormals::FacetNormals(const TriangleMesh &mesh, const TriangleEdges &edges)
       if (neighbour == TriangleEdges::none)
         continue;
       normals[f] = normals[neighbour];
-      goes_on = true;
+      continues = true;
     }
   }
 }
@@ -148,12 +148,12 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
   }
 
   const std::vector<FlatRegion> regions = flat_regions(mesh, edges, facets);
-  std::vector<double> least_radius(3 * static_cast<std::size_t>(n_facets),
-                                   std::numeric_limits<double>::infinity());
+  std::vector<double> min_radius(3 * static_cast<std::size_t>(n_facets),
+                                 std::numeric_limits<double>::infinity());
   for (unsigned int f = 0; f < n_facets; ++f)
     for (unsigned int i = 0; i < 3 && facets.areas[f] > 0.; ++i) {
-      double &least = least_radius[groups.root(3 * f + i)];
-      least = std::min(least, regions[f].radius);
+      double &minimum = min_radius[groups.root(3 * f + i)];
+      minimum = std::min(minimum, regions[f].radius);
     }
 
   std::vector<Tensor<1, 3>> sums(3 * static_cast<std::size_t>(n_facets));
@@ -163,7 +163,7 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
       const double sides = (mesh.points[mesh.facets[f][(i + 1) % 3]] - point).norm_square() *
                            (mesh.points[mesh.facets[f][(i + 2) % 3]] - point).norm_square();
       const unsigned int group = groups.root(3 * f + i);
-      const double ratio = regions[f].is_single ? 1. : regions[f].radius / (1.4 * least_radius[group]);
+      const double ratio = regions[f].is_single ? 1. : regions[f].radius / (1.4 * min_radius[group]);
       sums[group] += facets.areas[f] / sides * std::max(1., std::pow(ratio, 8)) * facets.normals[f];
     }
 

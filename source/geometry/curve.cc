@@ -93,7 +93,7 @@ Curve::Curve(const CurveSketch &sketch) {
   for (std::size_t i = 1; i < points.size(); ++i)
     if ((points[i] - points[i - 1]).norm() <= 1e-9 * size || size == 0.)
       throw std::invalid_argument("two points coincide at " + print(points[i]) +
-                                  " (a side that has shrunk to a point is 'point: x, y, z')");
+                                  " (a side that shrinks to a point is 'point: x, y, z')");
   switch (sketch.kind) {
   case Kind::point:
     spans_.push_back({0., points[0], {}, {}, {}});
@@ -175,30 +175,30 @@ Curve::Jet Curve::at(const double t) const {
           span.c1 + s * (2. * span.c2 + (3. * s) * span.c3), 2. * span.c2 + (6. * s) * span.c3};
 }
 
-Point Curve::largest_second(const double from, const double to) const {
-  Point largest;
+Point Curve::max_second(const double from, const double to) const {
+  Point maximum;
   if (spans_.empty())
     for (unsigned int c = 0; c < 3; ++c)
-      largest[c] = sweep_ * sweep_ * std::hypot(arm_[c], across_[c]);
+      maximum[c] = sweep_ * sweep_ * std::hypot(arm_[c], across_[c]);
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     const Span &span = spans_[i];
     if (span.start > to || end_of(i) < from)
       continue;
     for (const double t : {std::max(from, span.start), std::min(to, end_of(i))}) // linear in between
       for (unsigned int c = 0; c < 3; ++c)
-        largest[c] = std::max(largest[c], std::abs(2. * span.c2[c] + 6. * (t - span.start) * span.c3[c]));
+        maximum[c] = std::max(maximum[c], std::abs(2. * span.c2[c] + 6. * (t - span.start) * span.c3[c]));
   }
-  return largest;
+  return maximum;
 }
 
-double Curve::largest_third(const double from, const double to) const {
+double Curve::max_third(const double from, const double to) const {
   if (spans_.empty())
     return sweep_ * sweep_ * sweep_ * arm_.norm();
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t i = 0; i < spans_.size(); ++i)
     if (spans_[i].start <= to && end_of(i) >= from)
-      largest = std::max(largest, 6. * spans_[i].c3.norm());
-  return largest;
+      maximum = std::max(maximum, 6. * spans_[i].c3.norm());
+  return maximum;
 }
 
 } // namespace billet

@@ -98,11 +98,11 @@ CurvedTriangle::Point CurvedTriangle::area_normal(const double u, const double v
 }
 
 /// Returns an upper bound of |F|: w u v is at most 1/27, and the other factor is a mean of the l.
-double CurvedTriangle::largest_turning_part() const {
-  double largest = 0.;
+double CurvedTriangle::max_turning_part() const {
+  double maximum = 0.;
   for (const Seam &seam : seams_)
-    largest = std::max(largest, std::abs(double(seam.alpha)) + std::abs(double(seam.beta)));
-  return largest / 27.;
+    maximum = std::max(maximum, std::abs(double(seam.alpha)) + std::abs(double(seam.beta)));
+  return maximum / 27.;
 }
 
 bool CurvedTriangle::is_farther(const Point &x, const double square) const {
@@ -113,9 +113,9 @@ bool CurvedTriangle::is_farther(const Point &x, const double square) const {
   const double u = u_ * view, v = v_ * view, uu = uu_ * view, uv = uv_ * view, vv = vv_ * view;
   double farthest = std::max({0., 0.5 * u, 0.5 * v, u + uu, v + vv, 0.5 * (u + v + uv)});
   if (has_seams_)
-    farthest += largest_turning_part() * std::abs(up_ * view);
-  const double least = arm * view - farthest;
-  return least > 0. && least * least > square * view.norm_square() * (1. + 1e-12);
+    farthest += max_turning_part() * std::abs(up_ * view);
+  const double minimum = arm * view - farthest;
+  return minimum > 0. && minimum * minimum > square * view.norm_square() * (1. + 1e-12);
 }
 
 BoundingBox CurvedTriangle::bounding_box() const {
@@ -124,8 +124,8 @@ BoundingBox CurvedTriangle::bounding_box() const {
                                origin_ + 0.5 * v_, origin_ + 0.5 * (u_ + v_ + uv_)}) {
     box.add(control);
     if (has_seams_) {
-      box.add(control + largest_turning_part() * up_);
-      box.add(control - largest_turning_part() * up_);
+      box.add(control + max_turning_part() * up_);
+      box.add(control - max_turning_part() * up_);
     }
   }
   return box;

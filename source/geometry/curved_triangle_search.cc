@@ -112,8 +112,8 @@ CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) {
 /// Descends by Newton's method with line search inside the triangle. At an edge it follows the edge until
 /// descent inwards is possible again. It ends at a minimum over the triangle.
 CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) const {
-  constexpr unsigned int most_steps = 60;
-  for (unsigned int n = 0; n < most_steps; ++n) {
+  constexpr unsigned int max_steps = 60;
+  for (unsigned int n = 0; n < max_steps; ++n) {
     const Step step = choose_step(here);
     if (!step.is_possible)
       break;
@@ -130,17 +130,17 @@ CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) co
         hit = i;
       }
     }
-    const double largest = std::max(std::abs(step.u), std::abs(step.v));
+    const double maximum = std::max(std::abs(step.u), std::abs(step.v));
     const double round_off = 1e-15 * (1. + std::sqrt(here.square / here.point.p_u.norm_square()));
     // Newton's method doubles the number of correct digits.
-    const bool is_last = hit == 3 && largest < (step.is_newton ? 1e-8 : 1e-13) + round_off;
+    const bool is_last = hit == 3 && maximum < (step.is_newton ? 1e-8 : 1e-13) + round_off;
     Iterate next = here;
     for (unsigned int cut = 0; cut < 40; ++cut, part *= 0.5, hit = 3) {
       auto edges_there = edges;
       if (hit < 3)
         edges_there[hit] = true;
       next = at(x, here.u + part * step.u, here.v + part * step.v, edges_there);
-      if (is_last || largest * part < 1e-7 || next.square <= here.square + 2e-4 * part * step.slope)
+      if (is_last || maximum * part < 1e-7 || next.square <= here.square + 2e-4 * part * step.slope)
         break;
     }
     here = next;
@@ -247,7 +247,7 @@ ClosestPoint CurvedTriangle::closest_point(const Point &x, const Shape &shape) c
   ClosestPoint result = at_foot(foot.point, x, 1.);
   const Point aside = foot.arm - result.gap * result.normal;
   const double length = std::sqrt(u_.norm_square() + v_.norm_square() + foot.square);
-  result.is_beyond_border = (foot.at[0] || foot.at[1] || foot.at[2]) && aside.norm() > 1e-10 * length;
+  result.is_beyond_edge = (foot.at[0] || foot.at[1] || foot.at[2]) && aside.norm() > 1e-10 * length;
   return result;
 }
 

@@ -10,7 +10,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double picture_angle = M_PI / 18.;
+constexpr double mesh_angle = M_PI / 18.;
 
 /// Returns the bend of an edge with chord d. m_0 and m_1 are the tangents' slopes towards `up` at its start
 /// and end [times a length].
@@ -69,9 +69,9 @@ public:
     return triangles_->triangle(facet_).is_farther(x, square);
   }
   BoundingBox bounding_box() const override { return triangles_->triangle(facet_).bounding_box(); }
-  double border_accuracy() const override { return triangles_->border_accuracy(); }
+  double edge_accuracy() const override { return triangles_->edge_accuracy(); }
 
-  void draw(const PictureRegion & /*region*/, SurfacePicture &picture) const override {
+  void draw(const OutputRegion & /*region*/, SurfaceMesh &surface_mesh) const override {
     const CurvedTriangle triangle = triangles_->triangle(facet_);
     const auto unit = [&triangle](const double u, const double v) {
       const Tensor<1, 3> normal = triangle.area_normal(u, v);
@@ -80,17 +80,17 @@ public:
     const double turned =
         std::max({angle_between(unit(0., 0.), unit(1., 0.)), angle_between(unit(1., 0.), unit(0., 1.)),
                   angle_between(unit(0., 1.), unit(0., 0.))});
-    const auto n = static_cast<unsigned int>(std::max(1., std::ceil(turned / picture_angle)));
-    auto row = static_cast<unsigned int>(picture.points.size());
+    const auto n = static_cast<unsigned int>(std::max(1., std::ceil(turned / mesh_angle)));
+    auto row = static_cast<unsigned int>(surface_mesh.points.size());
     for (unsigned int i = 0; i <= n; ++i)
       for (unsigned int j = 0; j <= n - i; ++j)
-        picture.points.push_back(triangle.position(double(j) / n, double(i) / n));
+        surface_mesh.points.push_back(triangle.position(double(j) / n, double(i) / n));
     for (unsigned int i = 0; i < n; row += n - i + 1, ++i)
       for (unsigned int j = 0; j < n - i; ++j) {
         const unsigned int corner = row + j, above = corner + n - i + 1;
-        picture.facets.push_back({corner, corner + 1, above});
+        surface_mesh.facets.push_back({corner, corner + 1, above});
         if (j + 1 < n - i)
-          picture.facets.push_back({corner + 1, above + 1, above});
+          surface_mesh.facets.push_back({corner + 1, above + 1, above});
       }
   }
 
@@ -122,12 +122,12 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
     const auto &edge = edges.edges[e];
     const auto [a, b] = edge.facets;
     const auto [i, j] = edge.corners;
-    const bool is_border = b == TriangleEdges::none;
-    if (facets_.areas[a] == 0. || (!is_border && facets_.areas[b] == 0.)) // slivers stay straight
+    const bool is_open_edge = b == TriangleEdges::none;
+    if (facets_.areas[a] == 0. || (!is_open_edge && facets_.areas[b] == 0.)) // slivers stay straight
       continue;
     const Tensor<1, 3> d = mesh_.points[edge.points[1]] - mesh_.points[edge.points[0]];
     const Tensor<1, 3> &start = normals[a][i], &end = normals[a][(i + 1) % 3];
-    bends_[e] = is_border || !facets_.is_sharp(edge, sharp_angle)
+    bends_[e] = is_open_edge || !facets_.is_sharp(edge, sharp_angle)
                     ? bend_smooth(d, start, end)
                     : bend_crease(d, {start, end, normals[b][(j + 1) % 3], normals[b][j]});
   }
@@ -136,8 +136,8 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
 /// Straightens the edges of facets whose triangles would fold over, since the normals are too far from that
 /// of the facet; then those of neighbours that fold as a consequence.
 void CurvedTriangles::straighten_where_folded() {
-  for (bool goes_on = true; goes_on;) {
-    goes_on = false;
+  for (bool continues = true; continues;) {
+    continues = false;
     for (unsigned int f = 0; f < mesh_.facets.size(); ++f) {
       bool is_bent = false;
       for (const unsigned int e : edges_of_facet_[f])
@@ -146,7 +146,7 @@ void CurvedTriangles::straighten_where_folded() {
         continue;
       for (const unsigned int e : edges_of_facet_[f])
         bends_[e] = Tensor<1, 3>();
-      goes_on = true;
+      continues = true;
     }
   }
 }

@@ -68,13 +68,13 @@ template <class Number> struct Fan {
   Number middle_height;
 
   Fan(const FacetCornersOf<Number> &x, const Tensor<1, 3, Number> &origin,
-      const std::array<Tensor<1, 3, Number>, 3> &axes, const std::array<double, 4> &lifts) {
+      const std::array<Tensor<1, 3, Number>, 3> &axes, const std::array<double, 4> &gap_offsets) {
     middle = {Number(0.), Number(0.)};
     middle_height = 0.;
     for (unsigned int a = 0; a < 4; ++a) {
       const Tensor<1, 3, Number> arm = x[a] - origin;
       corners[a] = {arm * axes[0], arm * axes[1]};
-      heights[a] = arm * axes[2] - lifts[a];
+      heights[a] = arm * axes[2] - gap_offsets[a];
       middle[0] += 0.25 * corners[a][0];
       middle[1] += 0.25 * corners[a][1];
       middle_height += 0.25 * heights[a];
@@ -210,13 +210,14 @@ void integrate(const Polygon<Number> &polygon, const Triangle<Number> &slave, co
 } // namespace
 
 template <class Number>
-FacetOverlapOf<Number>
-compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, const double depth,
-                const std::array<double, 4> &lifts, const std::array<double, 4> &augmentation,
-                const FacetBulge &slave_bulge, const FacetBulge &target_bulge) {
+FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
+                                       const FacetCornersOf<Number> &target, const double penetration,
+                                       const std::array<double, 4> &gap_offsets,
+                                       const std::array<double, 4> &augmentation,
+                                       const FacetBulge &slave_bulge, const FacetBulge &target_bulge) {
   FacetOverlapOf<Number> overlap;
   const bool is_curved = facet::has_height(slave_bulge) || facet::has_height(target_bulge);
-  std::array<double, 4> lowered = lifts;
+  std::array<double, 4> lowered = gap_offsets;
   for (unsigned int a = 0; a < 4; ++a)
     lowered[a] += augmentation[a];
   const facet::ExpansionOf<Number> surface(target), slave_surface(slave);
@@ -231,7 +232,7 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
                                                  overlap.normal};
   const Fan<Number> of_slave(slave, surface.e_0, axes, lowered), of_target(target, surface.e_0, axes, {});
   constexpr double rounding = 1e-10; // maximum mismatch of matching corners, relative to a facet's size
-  const double height_rounding = rounding * depth;
+  const double height_rounding = rounding * penetration;
   for (unsigned int t = 0; t < 4; ++t) {
     const Triangle<Number> below(of_target, t);
     if (!(below.double_area > 0.)) // degenerate at the tip of a triangular facet
@@ -253,7 +254,7 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
                                high.along_r - low.along_r};
       const auto clip = [&](const Linear<Number> &g) {
         polygon.clip([&](const Point<Number> &x) { return Number(-g(x)); }, height_rounding);
-        polygon.clip([&](const Point<Number> &x) { return Number(depth + g(x)); }, height_rounding);
+        polygon.clip([&](const Point<Number> &x) { return Number(penetration + g(x)); }, height_rounding);
       };
       if (!is_curved) {
         clip(gap);
@@ -274,7 +275,7 @@ compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number
   }
   for (unsigned int a = 0; a < 4; ++a) {
     overlap.exists = overlap.exists || overlap.areas[a] > 0.;
-    overlap.depths[a] = -overlap.gaps[a];
+    overlap.penetrations[a] = -overlap.gaps[a];
     for (unsigned int b = 0; b < 4; ++b) // Σ φ_b a_b is the distance by which it was lowered
       overlap.gaps[a] += augmentation[b] * overlap.slave_parts[a][b];
   }

@@ -25,13 +25,13 @@ double SampledCurve::nearest(const Tensor<1, 3> &x) const {
     squares[i + 1] = (x - points_[i] - part * chord).norm_square();
     starts[i + 1] = parameters_[i] + part * (parameters_[i + 1] - parameters_[i]);
   }
-  double least = std::numeric_limits<double>::infinity(), result = parameters_.front();
+  double minimum = std::numeric_limits<double>::infinity(), result = parameters_.front();
   for (std::size_t i = 1; i <= n; ++i) {
     if (squares[i] > squares[i - 1] || squares[i] > squares[i + 1])
       continue;
     const double t = descend(x, starts[i]), square = (x - curve_(t).p).norm_square();
-    if (square < least) {
-      least = square;
+    if (square < minimum) {
+      minimum = square;
       result = t;
     }
   }

@@ -69,8 +69,8 @@ SurfaceFoot descend_to_foot(const std::function<SurfacePoint(double, double)> &s
   std::array<bool, 2> is_fixed{false, false};
   std::array<bool, 2> has_wrapped{false, false};
   SurfacePoint here = surface(u, v);
-  constexpr unsigned int most_steps = 60;
-  for (unsigned int n = 0; n < most_steps; ++n) {
+  constexpr unsigned int max_steps = 60;
+  for (unsigned int n = 0; n < max_steps; ++n) {
     const Tensor<1, 3> arm = x - here.p;
     const std::array<double, 2> slope{-(arm * here.p_u), -(arm * here.p_v)};
     for (unsigned int i = 0; i < 2; ++i) {
@@ -164,13 +164,13 @@ std::array<double, 2> SampledSurface::turn_about_pole(const Tensor<1, 3> &x, std
                                                       const unsigned int around) const {
   constexpr unsigned int n = 24;
   const auto [low, high] = std::pair(ranges_[around].low, ranges_[around].high);
-  double least = (x - surface_(uv[0], uv[1]).p).norm_square();
+  double minimum = (x - surface_(uv[0], uv[1]).p).norm_square();
   auto best = uv;
   for (unsigned int i = 0; i < n; ++i) {
     uv[around] = low + (i + 0.5) / n * (high - low);
     const double square = (x - surface_(uv[0], uv[1]).p).norm_square();
-    if (square < least) {
-      least = square;
+    if (square < minimum) {
+      minimum = square;
       best = uv;
     }
   }
@@ -179,17 +179,17 @@ std::array<double, 2> SampledSurface::turn_about_pole(const Tensor<1, 3> &x, std
 
 std::optional<SurfacePoint> SampledSurface::nearest(const Tensor<1, 3> &x,
                                                     const std::function<bool(const SurfaceFoot &)> &accept,
-                                                    const std::function<double()> &border_distance) const {
+                                                    const std::function<double()> &edge_distance) const {
   std::optional<SurfacePoint> result;
   std::vector<Tensor<1, 3>> starts;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   const auto try_from = [&](const FacetTree::Foot &start, const Tensor<1, 3> &position) {
     starts.push_back(position);
     const SurfaceFoot foot = descend(x, start);
     const double distance = (x - foot.point.p).norm();
-    if (distance < least && accept(foot)) {
+    if (distance < minimum && accept(foot)) {
       result = foot.point;
-      least = distance;
+      minimum = distance;
     }
   };
   const auto position_of = [this](const FacetTree::Foot &foot) {
@@ -201,8 +201,8 @@ std::optional<SurfacePoint> SampledSurface::nearest(const Tensor<1, 3> &x,
   const auto nearest_facet = facets_.nearest(x);
   try_from(nearest_facet, position_of(nearest_facet));
   if (!result)
-    least = border_distance();
-  double reach_square = std::pow(least + deviation_, 2);
+    minimum = edge_distance();
+  double reach_square = std::pow(minimum + deviation_, 2);
   facets_.visit_near(x, reach_square, [&](const FacetTree::Foot &foot) {
     if (foot.square > reach_square)
       return;
@@ -211,7 +211,7 @@ std::optional<SurfacePoint> SampledSurface::nearest(const Tensor<1, 3> &x,
       if ((position - start).norm() < 1.5 * facet_size_)
         return;
     try_from(foot, position);
-    reach_square = std::pow(least + deviation_, 2);
+    reach_square = std::pow(minimum + deviation_, 2);
   });
   return result;
 }

@@ -23,19 +23,19 @@ BoundingBox Plane::bounding_box() const {
   return box;
 }
 
-void Plane::draw(const PictureRegion &region, SurfacePicture &picture) const {
+void Plane::draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const {
   const auto foot = closest_point(region.centre).position;
   const Frame frame = Frame::from_normal(normal_);
-  const auto first = static_cast<unsigned int>(picture.points.size());
+  const auto first = static_cast<unsigned int>(surface_mesh.points.size());
   for (const auto &corner : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}})
-    picture.points.push_back(foot + region.radius * (corner[0] * frame.q + corner[1] * frame.r));
-  picture.facets.push_back({first, first + 1, first + 2, first + 3});
+    surface_mesh.points.push_back(foot + region.radius * (corner[0] * frame.q + corner[1] * frame.r));
+  surface_mesh.facets.push_back({first, first + 1, first + 2, first + 3});
 }
 
 namespace {
 
 const TypeParameter normal_parameter{"Normal", "0, 0, 1", Kind::text,
-                                     "Normal out of the tool, towards the bodies."};
+                                     "Normal of the tool, towards the bodies."};
 
 /// Returns a line along x with the normal y; closed if it begins on the axis of revolution.
 Profile flat_profile(const double from, const double to, const bool is_closed = false) {
@@ -57,12 +57,12 @@ SurfaceType plane_type() {
 SurfaceType rectangle_type() {
   return {"rectangle",
           "A rectangle.",
-          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
+          {{"Centre", "0, 0, 0", Kind::text, "Centre of the rectangle. [length]"},
            normal_parameter,
            {"Direction", "1, 0, 0", Kind::text,
-            "Of the sides that have the length; its part along the normal is left out."},
-           {"Length", "1", Kind::number, "> 0, its size. [length]"},
-           {"Width", "1", Kind::number, "> 0, of the other sides. [length]"}},
+            "Direction of the sides of this length. Its component along the normal does not count."},
+           {"Length", "1", Kind::number, "> 0. Length of two sides. [length]"},
+           {"Width", "1", Kind::number, "> 0. Length of the other sides. [length]"}},
           [](const TypeInput &input) {
             const auto normal = input.direction("Normal"), direction = input.direction("Direction");
             if (dealii::cross_product_3d(normal, direction).norm() < 1e-6)
@@ -79,11 +79,11 @@ SurfaceType rectangle_type() {
 
 SurfaceType disc_type() {
   return {"disc", "A disc or a ring, or a sector of one.",
-          with_sector({{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
+          with_sector({{"Centre", "0, 0, 0", Kind::text, "Centre of the disc. [length]"},
                        {"Normal", "0, 0, 1", Kind::text,
-                        "Normal out of the tool, towards the bodies; the axis that a sector goes round."},
-                       {"Radius", "1", Kind::number, "> 0, its size. [length]"},
-                       {"Inner radius", "0", Kind::number, ">= 0; of the hole. [length]"}}),
+                        "Normal of the tool, towards the bodies, which is the axis of a sector."},
+                       {"Radius", "1", Kind::number, "> 0. Radius of the disc. [length]"},
+                       {"Inner radius", "0", Kind::number, ">= 0. Radius of the hole. [length]"}}),
           [](const TypeInput &input) {
             const double radius = input.positive("Radius"), inner = input.not_negative("Inner radius");
             if (inner >= radius)

@@ -43,8 +43,8 @@ template <class Number> bool PlanedFacetOf<Number>::is_aside(const Vector &x, co
     return true;
   using std::abs;
   const Vector arm = x - centre_;
-  const Number height = arm * normal_, largest = (1. + 4. * tolerance) * radius() + abs(height);
-  return arm.norm_square() - height * height > largest * largest;
+  const Number height = arm * normal_, maximum = (1. + 4. * tolerance) * radius() + abs(height);
+  return arm.norm_square() - height * height > maximum * maximum;
 }
 
 template <class Number>

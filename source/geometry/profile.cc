@@ -175,9 +175,9 @@ Profile::Closest Profile::closest_point(const Point &x) const {
   if ((is_first || is_last) && !is_loop_) {
     if (is_first ? closed_start_ : closed_end_)
       return at_joint(x, best_position, normal, Point({-normal[0], normal[1]}), curvature);
-    Closest border = straight_above;
-    border.is_beyond_border = std::abs(arm * segment.tangent_at(best_position)) > on_the_end * size_;
-    return border;
+    Closest edge_point = straight_above;
+    edge_point.is_beyond_edge = std::abs(arm * segment.tangent_at(best_position)) > on_the_end * size_;
+    return edge_point;
   }
   const std::size_t n = segments_.size();
   const Segment &neighbour = segments_[(best + (best_end < 0 ? n - 1 : 1)) % n];
@@ -305,7 +305,7 @@ Segment round_off(Segment &before, Segment &after, const double radius) {
   }
   if (!found)
     throw std::invalid_argument("the fillet of radius " + std::to_string(radius) + " at " + print(corner) +
-                                " does not fit between its neighbours");
+                                " does not fit between the neighbouring corners");
   const auto shorten = [](Segment &segment, const Point &start, const Point &end) {
     if (segment.is_arc) {
       const double turned =

@@ -15,12 +15,10 @@ using Kind = TypeParameter::Kind;
 using Point = Profile::Point;
 
 const std::string corners_meaning =
-    "Corners, separated by semicolons: 'x, y', with ': r' after it for a fillet of "
-    "radius r there, and with 'via x, y to' before it where an arc leads to "
-    "it instead of a line. ";
-const TypeParameter outside_parameter{
-    "Outside", "left", Kind::choice,
-    "left|right: Where the bodies are, for one who walks along the corners."};
+    "Corners of the profile, separated by semicolons. 'x, y' is a corner; ': r' after it adds a fillet of "
+    "radius r; 'via x, y to' before it makes an arc instead of a line. ";
+const TypeParameter outside_parameter{"Outside", "left", Kind::choice,
+                                      "left|right: Side of the bodies, in the direction of the corners."};
 
 /// Reads exactly two numbers; returns false otherwise.
 bool read_point(const std::string &text, Point &point) {
@@ -85,12 +83,13 @@ Profile::Outside read_outside(const TypeInput &input) {
 
 SurfaceType revolved_profile_type() {
   return {"revolved profile",
-          "Lines and arcs in a plane through an axis, revolved about it, all around or over a sector.",
-          with_sector({{"Corners", "", Kind::text,
-                        corners_meaning + "x: distance from the axis, >= 0; y: along it. [length]"},
-                       outside_parameter,
-                       {"Origin", "0, 0, 0", Kind::text, "The point of the axis where y = 0. [length]"},
-                       {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
+          "Lines and arcs in a plane through an axis, revolved about it, over a full turn or a sector.",
+          with_sector(
+              {{"Corners", "", Kind::text,
+                corners_meaning + "x >= 0 is the distance from the axis, y the position along it. [length]"},
+               outside_parameter,
+               {"Origin", "0, 0, 0", Kind::text, "Point of the axis at y = 0. [length]"},
+               {"Axis", "0, 0, 1", Kind::text, "Direction of the axis."}}),
           [](const TypeInput &input) {
             const auto segments = read_segments(input);
             const Profile profile(segments, read_outside(input));
@@ -108,11 +107,11 @@ SurfaceType extruded_profile_type() {
           "Lines and arcs in a plane, extruded across it.",
           {{"Corners", "", Kind::text, corners_meaning + "[length]"},
            outside_parameter,
-           {"Origin", "0, 0, 0", Kind::text, "Where x = y = 0, in the middle of the extrusion. [length]"},
+           {"Origin", "0, 0, 0", Kind::text, "Point at x = y = 0, in the middle of the extrusion. [length]"},
            {"Axis", "0, 0, 1", Kind::text, "Direction of the extrusion."},
            {"Direction", "1, 0, 0", Kind::text,
-            "Of x; its part along the axis is left out. y is across both, right-handed."},
-           {"Length", "", Kind::text, "> 0, of the extrusion; empty: infinite. [length]"}},
+            "Direction of x. Its component along the axis does not count. y is across both, right-handed."},
+           {"Length", "", Kind::text, "> 0. Length of the extrusion. Empty: infinite. [length]"}},
           [](const TypeInput &input) {
             const Profile profile(read_segments(input), read_outside(input));
             const auto axis = input.direction("Axis"), direction = input.direction("Direction");

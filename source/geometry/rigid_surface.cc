@@ -45,7 +45,7 @@ RigidSurface::RigidSurface(SurfacePatches patches)
     box_.add(box);
     const double size = (box.high - box.low).norm();
     if (std::isfinite(size))
-      tolerance_ = std::max({tolerance_, 1e-7 * size, 2. * patch->border_accuracy()});
+      tolerance_ = std::max({tolerance_, 1e-7 * size, 2. * patch->edge_accuracy()});
   }
 }
 
@@ -68,8 +68,8 @@ RigidSurface::Projection RigidSurface::project(const Tensor<1, 3> &x, const unsi
       }
     });
   }
-  if (nearest.is_beyond_border)
-    return project_beyond_border(x, nearest, nearest_patch);
+  if (nearest.is_beyond_edge)
+    return project_beyond_edge(x, nearest, nearest_patch);
   return {true, nearest.normal, nearest.gap, nearest.turning, nearest_patch};
 }
 
@@ -89,7 +89,7 @@ RigidSurface::Neighbours RigidSurface::find_neighbours(const Tensor<1, 3> &x, co
     const ClosestPoint point = patches_[i]->closest_point(x);
     if ((point.position - nearest.position).norm() > tolerance)
       return;
-    if (!point.is_beyond_border && (!found.is_straight_below || i < found.below.patch)) {
+    if (!point.is_beyond_edge && (!found.is_straight_below || i < found.below.patch)) {
       found.is_straight_below = true;
       found.below = {true, point.normal, point.gap, point.turning, i};
     }
@@ -109,9 +109,8 @@ RigidSurface::Neighbours RigidSurface::find_neighbours(const Tensor<1, 3> &x, co
   return found;
 }
 
-RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> &x,
-                                                             const ClosestPoint &nearest,
-                                                             const unsigned int patch) const {
+RigidSurface::Projection RigidSurface::project_beyond_edge(const Tensor<1, 3> &x, const ClosestPoint &nearest,
+                                                           const unsigned int patch) const {
   const Tensor<1, 3> arm = x - nearest.position;
   const double distance = arm.norm();
   const double along = arm * nearest.normal;
@@ -143,28 +142,28 @@ RigidSurface::Projection RigidSurface::project_beyond_border(const Tensor<1, 3> 
   return projection;
 }
 
-RigidSurface::Border RigidSurface::border(const Tensor<1, 3> &x, const unsigned int patch,
-                                          const double width) const {
+RigidSurface::EdgePoint RigidSurface::edge_point(const Tensor<1, 3> &x, const unsigned int patch,
+                                                 const double width) const {
   const ClosestPoint nearest = patches_[patch]->closest_point(x);
   const Tensor<1, 3> arm = x - nearest.position;
-  Border border{nearest.normal, arm * nearest.normal, {}, 0., {}, {}};
-  const Tensor<1, 3> aside = arm - border.gap * nearest.normal;
-  border.beyond = aside.norm();
-  if (!(border.beyond > 0.))
-    return border;
-  border.outward = aside / border.beyond;
+  EdgePoint edge_point{nearest.normal, arm * nearest.normal, {}, 0., {}, {}};
+  const Tensor<1, 3> aside = arm - edge_point.gap * nearest.normal;
+  edge_point.beyond = aside.norm();
+  if (!(edge_point.beyond > 0.))
+    return edge_point;
+  edge_point.outward = aside / edge_point.beyond;
   // Derivatives of the edge's point and normal by x, from central differences, since patches do not provide
   // them.
-  const Tensor<1, 3> along = dealii::cross_product_3d(border.normal, border.outward);
-  const double h = std::max(1e-3 * border.beyond, 1e-6 * width); // smaller steps leave mostly round-off
+  const Tensor<1, 3> along = dealii::cross_product_3d(edge_point.normal, edge_point.outward);
+  const double h = std::max(1e-3 * edge_point.beyond, 1e-6 * width); // smaller steps leave mostly round-off
   const ClosestPoint before = patches_[patch]->closest_point(x - h * along),
                      after = patches_[patch]->closest_point(x + h * along);
   const double carried = along * (after.position - before.position) / (2. * h);
   const double bend = along * (after.normal - before.normal) / (2. * h);
   const Tensor<2, 3> twice = dealii::outer_product(along, along);
-  border.spreading = (1. - carried - border.gap * bend) / border.beyond * twice;
-  border.turning = bend * twice;
-  return border;
+  edge_point.spreading = (1. - carried - edge_point.gap * bend) / edge_point.beyond * twice;
+  edge_point.turning = bend * twice;
+  return edge_point;
 }
 
 double RigidSurface::turning_along_edge(const Projection &projection, const ClosestPoint &nearest,
@@ -184,11 +183,11 @@ double RigidSurface::turning_along_edge(const Projection &projection, const Clos
   return (std::abs(stretch) > 1e-12 ? kappa / stretch : 0.) - 1. / projection.gap;
 }
 
-SurfacePicture RigidSurface::picture(const PictureRegion &region) const {
-  SurfacePicture picture;
+SurfaceMesh RigidSurface::surface_mesh(const OutputRegion &region) const {
+  SurfaceMesh surface_mesh;
   for (const auto &patch : patches_)
-    patch->draw(region, picture);
-  return picture;
+    patch->draw(region, surface_mesh);
+  return surface_mesh;
 }
 
 } // namespace billet

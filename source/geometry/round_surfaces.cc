@@ -43,23 +43,23 @@ Profile::Outside away_from_axis(const TypeInput &input) {
 } // namespace
 
 SurfaceType sphere_type() {
-  return {
-      "sphere", "A sphere, or a zone of it.",
-      with_sector_and_side(
-          {{"Centre", "0, 0, 0", Kind::text, "Its middle. [length]"},
-           {"Radius", "1", Kind::number, "> 0, its size. [length]"},
-           axis_parameter,
-           {"From latitude", "-90", Kind::number, "Where the zone begins, -90 at the pole below. [degrees]"},
-           {"To latitude", "90", Kind::number, "Where it ends, 90 at the pole above. [degrees]"}}),
-      [](const TypeInput &input) {
-        const double radius = input.positive("Radius");
-        const double from = in_range(input, "From latitude", -90., 90., "a number from -90 to 90");
-        const double to = in_range(input, "To latitude", -90., 90., "a number from -90 to 90");
-        if (to <= from)
-          input.reject("To latitude", "a number above 'From latitude'");
-        const Segment arc = Segment::arc(Point(), radius, from * degree, (to - from) * degree);
-        return revolve(input, "Centre", Profile({arc}, away_from_axis(input), from == -90., to == 90.));
-      }};
+  return {"sphere", "A sphere, or a zone of it.",
+          with_sector_and_side({{"Centre", "0, 0, 0", Kind::text, "Centre of the sphere. [length]"},
+                                {"Radius", "1", Kind::number, "> 0. Radius of the sphere. [length]"},
+                                axis_parameter,
+                                {"From latitude", "-90", Kind::number,
+                                 "Latitude at the start of the zone, -90 at the lower pole. [degrees]"},
+                                {"To latitude", "90", Kind::number,
+                                 "Latitude at the end of the zone, 90 at the upper pole. [degrees]"}}),
+          [](const TypeInput &input) {
+            const double radius = input.positive("Radius");
+            const double from = in_range(input, "From latitude", -90., 90., "a number from -90 to 90");
+            const double to = in_range(input, "To latitude", -90., 90., "a number from -90 to 90");
+            if (to <= from)
+              input.reject("To latitude", "a number above 'From latitude'");
+            const Segment arc = Segment::arc(Point(), radius, from * degree, (to - from) * degree);
+            return revolve(input, "Centre", Profile({arc}, away_from_axis(input), from == -90., to == 90.));
+          }};
 }
 
 SurfaceType cylinder_type() {
@@ -67,8 +67,8 @@ SurfaceType cylinder_type() {
           with_sector_and_side(
               {{"Point", "0, 0, 0", Kind::text, "A point of the axis, in the middle of the length. [length]"},
                axis_parameter,
-               {"Radius", "1", Kind::number, "> 0, its size. [length]"},
-               {"Length", "", Kind::text, "> 0; empty: infinite. [length]"}}),
+               {"Radius", "1", Kind::number, "> 0. Radius of the cylinder. [length]"},
+               {"Length", "", Kind::text, "> 0. Length along the axis. Empty: infinite. [length]"}}),
           [](const TypeInput &input) {
             const double radius = input.positive("Radius");
             std::vector<Segment> segments;
@@ -87,11 +87,13 @@ SurfaceType cylinder_type() {
 SurfaceType cone_type() {
   return {"cone", "A cone, or a part of it between two circles.",
           with_sector_and_side(
-              {{"Apex", "0, 0, 0", Kind::text, "The cone's tip. [length]"},
+              {{"Apex", "0, 0, 0", Kind::text, "Apex of the cone. [length]"},
                {"Axis", "0, 0, 1", Kind::text, "Direction of the axis, from the apex into the cone."},
-               {"Half angle", "45", Kind::number, "> 0 and < 90, between axis and surface. [degrees]"},
-               {"From height", "0", Kind::number, ">= 0, along the axis from the apex. [length]"},
-               {"To height", "1", Kind::number, "> From height. [length]"}}),
+               {"Half angle", "45", Kind::number, "> 0 and < 90. Angle between axis and surface. [degrees]"},
+               {"From height", "0", Kind::number,
+                ">= 0. Distance of the first circle from the apex, along the axis. [length]"},
+               {"To height", "1", Kind::number,
+                "> 'From height'. Distance of the second circle from the apex, along the axis. [length]"}}),
           [](const TypeInput &input) {
             const double angle = input.number("Half angle") * degree;
             if (!(angle > 0. && angle < 0.5 * M_PI))
@@ -108,13 +110,14 @@ SurfaceType cone_type() {
 SurfaceType torus_type() {
   return {"torus", "A torus, or a part of it such as a fillet.",
           with_sector_and_side(
-              {{"Centre", "0, 0, 0", Kind::text, "Of the ring. [length]"},
+              {{"Centre", "0, 0, 0", Kind::text, "Centre of the ring. [length]"},
                axis_parameter,
-               {"Ring radius", "2", Kind::number, "> 0, of the circle in the tube's middle. [length]"},
-               {"Tube radius", "1", Kind::number, "> 0, its size. [length]"},
+               {"Ring radius", "2", Kind::number,
+                "> 0. Radius of the circle in the middle of the tube. [length]"},
+               {"Tube radius", "1", Kind::number, "> 0. Radius of the tube. [length]"},
                {"From angle", "0", Kind::number,
-                "Where the part begins in the tube's section: 0 away from the axis, 90 along it. [degrees]"},
-               {"To angle", "360", Kind::number, "Where it ends, up to 360 further on. [degrees]"}}),
+                "Start of the part in the section of the tube: 0 away from the axis, 90 along it. [degrees]"},
+               {"To angle", "360", Kind::number, "End of the part, at most 360 further on. [degrees]"}}),
           [](const TypeInput &input) {
             const double ring = input.positive("Ring radius"), tube = input.positive("Tube radius");
             const double from = input.number("From angle"), to = input.number("To angle");

@@ -11,9 +11,9 @@ using Kind = TypeParameter::Kind;
 
 std::vector<TypeParameter> with_sector(std::vector<TypeParameter> parameters) {
   parameters.push_back(
-      {"Start", "1, 0, 0", Kind::text, "Direction across the axis where the sector begins."});
+      {"Start", "1, 0, 0", Kind::text, "Direction across the axis at the start of the sector."});
   parameters.push_back({"Sector", "360", Kind::number,
-                        "> 0 and <= 360: how far it goes round, right-handed about the axis. [degrees]"});
+                        "> 0 and <= 360. Angle of the sector, right-handed about the axis. [degrees]"});
   return parameters;
 }
 

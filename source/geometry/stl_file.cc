@@ -33,10 +33,9 @@ public:
     if (mesh_.facets.empty())
       throw std::invalid_argument("it holds no facet");
     if (2 * n_against_ > mesh_.facets.size())
-      throw std::invalid_argument("the normals that are written in it point against the order of the corners "
-                                  "(right-handed about the normal) in " +
-                                  std::to_string(n_against_) + " of " + std::to_string(mesh_.facets.size()) +
-                                  " facets");
+      throw std::invalid_argument(
+          "its normals are opposite to the order of the corners (right-handed about the normal) in " +
+          std::to_string(n_against_) + " of " + std::to_string(mesh_.facets.size()) + " facets");
     return std::move(mesh_);
   }
 
@@ -183,11 +182,11 @@ TriangleMesh read_stl(const std::string &file_name) {
       bytes.find('\0') == std::string::npos)
     return AsciiReader(bytes).read();
   throw std::invalid_argument(
-      "it neither begins with 'solid' as an ASCII file, nor is as long as a binary one: " +
+      "it neither begins with 'solid', as an ASCII file does, nor has the length of a binary file: " +
       (bytes.size() < header_size ? std::to_string(bytes.size()) + " bytes are less than a header"
                                   : std::to_string(bytes.size()) + " bytes, not the " +
                                         std::to_string(header_size + n * facet_size) + " of the " +
-                                        std::to_string(n) + " facets it would hold"));
+                                        std::to_string(n) + " facets in its header"));
 }
 
 } // namespace billet

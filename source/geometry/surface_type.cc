@@ -27,7 +27,7 @@ TypeTable<SurfacePatches> &surface_types() {
 }
 
 const TypeParameter side_parameter{"Side", "outside", TypeParameter::Kind::choice,
-                                   "outside|inside: Where the bodies are."};
+                                   "outside|inside: Side of the bodies."};
 
 double side_sign(const TypeInput &input) { return input.text("Side") == "outside" ? 1. : -1.; }
 

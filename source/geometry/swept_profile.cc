@@ -13,21 +13,21 @@ using dealii::Tensor;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double picture_angle = M_PI / 36.; // maximum angle of facets that represent an arc
+constexpr double mesh_angle = M_PI / 36.; // maximum angle of facets that represent an arc
 
 /// Returns a b, where 0 times infinity is 0.
 double product(const double a, const double b) { return std::abs(a) < 1e-14 ? 0. : a * b; }
 
 /// Adds quadrilaterals between adjacent rows of points.
-void add_grid(const std::vector<std::vector<Tensor<1, 3>>> &rows, SurfacePicture &picture) {
-  const auto first = static_cast<unsigned int>(picture.points.size());
+void add_grid(const std::vector<std::vector<Tensor<1, 3>>> &rows, SurfaceMesh &surface_mesh) {
+  const auto first = static_cast<unsigned int>(surface_mesh.points.size());
   const auto n = static_cast<unsigned int>(rows.front().size());
   for (const auto &row : rows)
-    picture.points.insert(picture.points.end(), row.begin(), row.end());
+    surface_mesh.points.insert(surface_mesh.points.end(), row.begin(), row.end());
   for (unsigned int i = 0; i + 1 < rows.size(); ++i)
     for (unsigned int j = 0; j + 1 < n; ++j) {
       const unsigned int corner = first + i * n + j;
-      picture.facets.push_back({corner, corner + 1, corner + n + 1, corner + n});
+      surface_mesh.facets.push_back({corner, corner + 1, corner + n + 1, corner + n});
     }
 }
 
@@ -75,8 +75,8 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
   result.position = axes_.origin + closest.position[0] * outwards + closest.position[1] * axes_.z;
   result.normal = closest.normal[0] * outwards + closest.normal[1] * axes_.z;
   result.gap = closest.gap;
-  result.is_beyond_border = closest.is_beyond_border || is_beside;
-  if (is_full_ && radius <= tiny && closest.gap < 0. && !closest.is_beyond_border &&
+  result.is_beyond_edge = closest.is_beyond_edge || is_beside;
+  if (is_full_ && radius <= tiny && closest.gap < 0. && !closest.is_beyond_edge &&
       std::abs(closest.normal[1]) > oblique) { // at a tip: the mean of all directions
     result.normal = std::copysign(1., closest.normal[1]) * axes_.z;
     result.position = x - result.gap * result.normal;
@@ -101,13 +101,13 @@ BoundingBox RevolvedProfile::bounding_box() const {
   return box;
 }
 
-void RevolvedProfile::draw(const PictureRegion &region, SurfacePicture &picture) const {
+void RevolvedProfile::draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const {
   const Tensor<1, 3> arm = region.centre - axes_.origin;
   const double height = arm * axes_.z;
   const double reach = (arm - height * axes_.z).norm() + region.radius;
-  const auto points = profile_.polyline(picture_angle, Profile::Point({0., height}), reach);
+  const auto points = profile_.polyline(mesh_angle, Profile::Point({0., height}), reach);
   const double sweep = std::min(sweep_, 2. * M_PI);
-  const auto n = static_cast<unsigned int>(std::ceil(sweep / picture_angle));
+  const auto n = static_cast<unsigned int>(std::ceil(sweep / mesh_angle));
   std::vector<std::vector<Tensor<1, 3>>> rows(n + 1);
   for (unsigned int i = 0; i <= n; ++i) {
     const double angle = from_ + i * sweep / n;
@@ -115,7 +115,7 @@ void RevolvedProfile::draw(const PictureRegion &region, SurfacePicture &picture)
     for (const auto &point : points)
       rows[i].push_back(axes_.origin + point[0] * outwards + point[1] * axes_.z);
   }
-  add_grid(rows, picture);
+  add_grid(rows, surface_mesh);
 }
 
 ExtrudedProfile::ExtrudedProfile(Profile profile, const Axes &axes, const double low, const double high)
@@ -129,7 +129,7 @@ ClosestPoint ExtrudedProfile::closest_point(const Tensor<1, 3> &x) const {
   result.position = axes_.from_origin(closest.position[0], closest.position[1], inside);
   result.normal = closest.normal[0] * axes_.x + closest.normal[1] * axes_.y;
   result.gap = closest.gap;
-  result.is_beyond_border = closest.is_beyond_border || std::abs(z - inside) > 1e-10 * profile_.size();
+  result.is_beyond_edge = closest.is_beyond_edge || std::abs(z - inside) > 1e-10 * profile_.size();
   const Tensor<1, 3> along = -closest.normal[1] * axes_.x + closest.normal[0] * axes_.y;
   result.turning = closest.turning * dealii::outer_product(along, along);
   return result;
@@ -148,11 +148,11 @@ BoundingBox ExtrudedProfile::bounding_box() const {
   return box;
 }
 
-void ExtrudedProfile::draw(const PictureRegion &region, SurfacePicture &picture) const {
+void ExtrudedProfile::draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const {
   const Tensor<1, 3> arm = region.centre - axes_.origin;
   const Profile::Point centre({arm * axes_.x, arm * axes_.y});
   const double z = arm * axes_.z;
-  const auto points = profile_.polyline(picture_angle, centre, region.radius);
+  const auto points = profile_.polyline(mesh_angle, centre, region.radius);
   const double low = low_ == -infinity ? std::min(z - region.radius, high_) : low_;
   const double high = high_ == infinity ? std::max(z + region.radius, low) : high_;
   std::vector<std::vector<Tensor<1, 3>>> rows(2);
@@ -160,7 +160,7 @@ void ExtrudedProfile::draw(const PictureRegion &region, SurfacePicture &picture)
     rows[0].push_back(axes_.from_origin(point[0], point[1], low));
     rows[1].push_back(axes_.from_origin(point[0], point[1], high));
   }
-  add_grid(rows, picture);
+  add_grid(rows, surface_mesh);
 }
 
 } // namespace billet

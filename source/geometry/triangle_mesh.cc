@@ -161,13 +161,13 @@ TriangleEdges::TriangleEdges(const TriangleMesh &mesh) : of_facet(mesh.facets.si
     throw std::invalid_argument(count_edges(n_crowded) + " more than two facets, such as that " +
                                 describe_edge(mesh, crowded.points));
   if (n_against > 0)
-    throw std::invalid_argument(count_edges(n_against) +
-                                " facets that look to different sides: both walk it in the same "
-                                "direction, such as that " +
-                                describe_edge(mesh, against.points));
+    throw std::invalid_argument(
+        count_edges(n_against) +
+        " facets of opposite orientation: both have it in the same direction, such as that " +
+        describe_edge(mesh, against.points));
 }
 
-std::string TriangleEdges::describe_border(const TriangleMesh &mesh) const {
+std::string TriangleEdges::describe_open_edges(const TriangleMesh &mesh) const {
   std::size_t n = 0;
   const Edge *example = nullptr;
   for (const auto &edge : edges)

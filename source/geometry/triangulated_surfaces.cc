@@ -35,7 +35,7 @@ TriangleEdges connect(const TypeInput &input, const TriangleMesh &mesh) {
   try {
     return TriangleEdges(mesh);
   } catch (const std::invalid_argument &error) {
-    input.reject("File", std::string("a surface whose facets look to one side; ") + error.what());
+    input.reject("File", std::string("a surface with facets of one orientation; ") + error.what());
     throw;
   }
 }
@@ -48,7 +48,7 @@ SurfacePatches make(const TypeInput &input) {
   if (!(sharp_angle >= 0. && sharp_angle <= 90.))
     input.reject("Feature angle", "a number from 0 to 90");
   if (!is_smoothed && input.is_set("Feature angle"))
-    input.reject("Feature angle", "no value: without smoothing every edge stays as it is");
+    input.reject("Feature angle", "no value: without 'Smoothing' every edge remains as it is");
 
   TriangleMesh mesh = read_welded(input);
   const double sign = side_sign(input);
@@ -57,11 +57,12 @@ SurfacePatches make(const TypeInput &input) {
       std::swap(facet[1], facet[2]);
   const TriangleEdges edges = connect(input, mesh);
   if (input.flag("Closed")) {
-    const std::string border = edges.describe_border(mesh);
-    if (!border.empty())
-      input.reject("File", "a closed surface; " + border + ". With 'Closed = false' it may have a border");
+    const std::string open_edges = edges.describe_open_edges(mesh);
+    if (!open_edges.empty())
+      input.reject("File",
+                   "a closed surface; " + open_edges + ". 'Closed = false' allows edges of the surface");
     if (sign * mesh.six_volumes() < 0.)
-      input.reject("File", "a closed surface whose facets look outwards; these look inwards");
+      input.reject("File", "a closed surface with normals that point outwards; these point inwards");
   }
   for (auto &point : mesh.points)
     point = scale * point + translation;
@@ -74,19 +75,19 @@ SurfacePatches make(const TypeInput &input) {
 SurfaceType stl_type() {
   return {
       "STL",
-      "Triangles from an STL file, ASCII or binary, each curved to follow the normals of the surface that "
-      "they stand for.",
+      "Triangles of an STL file, ASCII or binary. Each triangle is curved to follow the normals of the "
+      "original surface.",
       {{"File", "", Kind::text, "Name of the file, relative to the scene file."},
-       {"Scale", "1", Kind::number, "> 0. The file's numbers times this are lengths of the scene."},
-       {"Translation", "0, 0, 0", Kind::text, "Where the file's origin is. [length]"},
+       {"Scale", "1", Kind::number, "> 0. Factor from the file's numbers to lengths of the scene."},
+       {"Translation", "0, 0, 0", Kind::text, "Position of the file's origin. [length]"},
        {"Side", "outside", Kind::choice,
-        "outside|inside: Where the bodies are; outside: where the facets' normals point, by the order of "
-        "their corners."},
+        "outside|inside: Side of the bodies. The normals of the facets, by the order of their corners, point "
+        "to the outside."},
        {"Closed", "true", Kind::flag,
-        "Whether every edge must have two facets; else there is no surface beyond those that have one."},
-       {"Smoothing", "true", Kind::flag, "Whether triangles are curved; else they are flat."},
+        "Whether every edge must have two facets. Otherwise edges with one facet are edges of the tool."},
+       {"Smoothing", "true", Kind::flag, "Whether triangles are curved. Otherwise they are flat."},
        {"Feature angle", "30", Kind::number,
-        "From 0 to 90. Edges at which the facets' normals differ by more stay sharp. [degrees]"}},
+        ">= 0 and <= 90. Edges at which the normals of the facets differ by more remain sharp. [degrees]"}},
       make};
 }
 

@@ -19,11 +19,11 @@ TrimmedSurface::TrimmedSurface(Description description)
   for (const Edge &edge : d_.edges) {
     loops_.add(edge.on_surface, edge.samples);
     if (!edge.is_seam)
-      border_.push_back(edge);
+      edges_.push_back(edge);
   }
   d_.edges.clear();
   if (!d_.closed_form)
-    for (const Edge &edge : border_)
+    for (const Edge &edge : edges_)
       if (edge.is_pole && goes_around(edge))
         add_cap(edge);
 }
@@ -31,27 +31,27 @@ TrimmedSurface::TrimmedSurface(Description description)
 ClosestPoint TrimmedSurface::closest_point(const Tensor<1, 3> &x) const {
   if (d_.closed_form) {
     const Parameters parameters = d_.closed_form(x);
-    return is_inside(parameters) ? at_foot(regular_point(parameters), x, d_.side) : nearest_on_border(x);
+    return is_inside(parameters) ? at_foot(regular_point(parameters), x, d_.side) : nearest_on_edge(x);
   }
-  std::optional<ClosestPoint> border;
+  std::optional<ClosestPoint> edge_point;
   const auto foot = d_.surface.nearest(
       x,
       [this](const SurfaceFoot &f) {
-        return border_.empty() || (!f.is_at_bound && is_inside({f.u, f.v}));
+        return edges_.empty() || (!f.is_at_bound && is_inside({f.u, f.v}));
       },
       [&] {
-        border = nearest_on_border(x);
-        return (x - border->position).norm();
+        edge_point = nearest_on_edge(x);
+        return (x - edge_point->position).norm();
       });
-  const Tensor<1, 3> position = foot ? foot->p : border->position;
+  const Tensor<1, 3> position = foot ? foot->p : edge_point->position;
   for (const Cap &cap : caps_)
     if ((position - cap.position).norm() < cap.radius)
       return cap.project(x);
-  return foot ? at_foot(*foot, x, d_.side) : *border;
+  return foot ? at_foot(*foot, x, d_.side) : *edge_point;
 }
 
 bool TrimmedSurface::is_inside(Parameters parameters) const {
-  if (border_.empty())
+  if (edges_.empty())
     return true;
   for (unsigned int i = 0; i < 2; ++i)
     if (d_.periods[i] > 0.)
@@ -73,17 +73,17 @@ SurfacePoint TrimmedSurface::regular_point(const Parameters &parameters) const {
   return beside;
 }
 
-ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
-  double least = std::numeric_limits<double>::infinity(), parameter = 0.;
+ClosestPoint TrimmedSurface::nearest_on_edge(const Tensor<1, 3> &x) const {
+  double minimum = std::numeric_limits<double>::infinity(), parameter = 0.;
   const Edge *nearest = nullptr;
   Tensor<1, 3> position;
-  for (const Edge &edge : border_) {
+  for (const Edge &edge : edges_) {
     const double t = edge.is_pole ? 0.5 * (edge.samples.front() + edge.samples.back()) : edge.nearest(x);
     const Parameters at = edge.on_surface(t);
     // The edge's spatial curve is the same for both of its faces.
     const Tensor<1, 3> p = edge.is_pole ? d_.surface.at(at[0], at[1]).p : edge.position(t);
-    if ((x - p).norm_square() < least) {
-      least = (x - p).norm_square();
+    if ((x - p).norm_square() < minimum) {
+      minimum = (x - p).norm_square();
       parameter = t;
       nearest = &edge;
       position = p;
@@ -95,7 +95,7 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   const Tensor<1, 3> arm = x - position;
   if (nearest->is_pole && goes_around(*nearest)) { // a point inside the surface, not on an edge
     const Tensor<1, 3> mean = mean_normal(*nearest);
-    if (mean.norm() < smooth_pole && least > 0.) { // it is a tip
+    if (mean.norm() < smooth_pole && minimum > 0.) { // it is a tip
       result.gap = arm * mean < 0. ? -arm.norm() : arm.norm();
       result.normal = arm / result.gap;
       result.turning = projector_across(result.normal) / result.gap;
@@ -104,7 +104,7 @@ ClosestPoint TrimmedSurface::nearest_on_border(const Tensor<1, 3> &x) const {
   }
   const Tensor<1, 3> aside = arm - result.gap * result.normal;
   const double size = (d_.box.high - d_.box.low).norm();
-  result.is_beyond_border = aside.norm() > 1e-10 * (size + std::sqrt(least));
+  result.is_beyond_edge = aside.norm() > 1e-10 * (size + std::sqrt(minimum));
   return result;
 }
 
@@ -181,12 +181,12 @@ ClosestPoint TrimmedSurface::Cap::project(const Tensor<1, 3> &x) const {
   return result;
 }
 
-void TrimmedSurface::draw(const PictureRegion & /*region*/, SurfacePicture &picture) const {
-  const auto first = static_cast<unsigned int>(picture.points.size());
+void TrimmedSurface::draw(const OutputRegion & /*region*/, SurfaceMesh &surface_mesh) const {
+  const auto first = static_cast<unsigned int>(surface_mesh.points.size());
   const TriangleMesh &mesh = d_.surface.mesh();
-  picture.points.insert(picture.points.end(), mesh.points.begin(), mesh.points.end());
+  surface_mesh.points.insert(surface_mesh.points.end(), mesh.points.begin(), mesh.points.end());
   for (const auto &[a, b, c] : mesh.facets)
-    picture.facets.push_back({first + a, first + b, first + c});
+    surface_mesh.facets.push_back({first + a, first + b, first + c});
 }
 
 } // namespace billet

@@ -14,7 +14,8 @@ TimeIntegratorType generalised_alpha_type() {
   return {"generalised-alpha",
           "Chung & Hulbert (1993), of second order, damps high frequencies",
           {{"Spectral radius", "0.8", TypeParameter::Kind::number,
-            "What a step leaves of the highest frequencies, from 0, nothing, to 1, everything."}},
+            ">= 0 and <= 1. Part of the amplitude of the highest frequencies that remains after a step. 1: "
+            "no dissipation."}},
           [](const TypeInput &input) {
             const double spectral_radius = input.number("Spectral radius");
             if (!(spectral_radius >= 0. && spectral_radius <= 1.))

@@ -19,7 +19,7 @@ public:
 
 LoadType acceleration_type() {
   return {"acceleration",
-          "of the whole body, such as gravity",
+          "acceleration of the whole body, such as gravity",
           {{"Acceleration", "0 ; 0 ; 0", TypeParameter::Kind::text,
             "Three muParser expressions of the time t and the names of amplitudes. [length/time^2]"}},
           [](const TypeInput &input) {

@@ -38,7 +38,8 @@ LoadType dashpot_type() {
       "dashpot",
       "resists velocities of the faces",
       {loaded_faces(),
-       {"Damping", "0", TypeParameter::Kind::number, "> 0, per undeformed area. [force time/length^3]"},
+       {"Damping", "0", TypeParameter::Kind::number,
+        "> 0. Viscosity per undeformed area. [force time/length^3]"},
        ResistedDirection::parameter()},
       [](const TypeInput &input) {
         return Load{{}, std::make_shared<const Dashpot>(input.positive("Damping"), ResistedDirection(input))};

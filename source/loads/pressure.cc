@@ -55,7 +55,7 @@ public:
 
 LoadType pressure_type() {
   return {"pressure",
-          "on the deformed faces, against their outward normal",
+          "stress on the deformed faces, against their outward normal",
           {loaded_faces(),
            {"Pressure", "0", TypeParameter::Kind::text,
             "Expression of the undeformed face's centre x, y, z, the time t and the names of amplitudes. "

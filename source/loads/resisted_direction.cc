@@ -5,7 +5,7 @@ namespace billet {
 
 TypeParameter ResistedDirection::parameter() {
   return {"Direction", "all", TypeParameter::Kind::text,
-          "all, normal (of the undeformed face), or a vector 'x, y, z'."};
+          "Direction of the resistance: all, normal (of the undeformed face), or a vector 'x, y, z'."};
 }
 
 ResistedDirection::ResistedDirection(const TypeInput &input) {

@@ -37,7 +37,8 @@ LoadType spring_type() {
   return {"spring",
           "resists displacements of the faces",
           {loaded_faces(),
-           {"Stiffness", "0", TypeParameter::Kind::number, "> 0, per undeformed area. [force/length^3]"},
+           {"Stiffness", "0", TypeParameter::Kind::number,
+            "> 0. Stiffness per undeformed area. [force/length^3]"},
            ResistedDirection::parameter()},
           [](const TypeInput &input) {
             return Load{

@@ -33,8 +33,8 @@ RateFactorType cowper_symonds_type() {
   using Kind = TypeParameter::Kind;
   return {"Cowper-Symonds",
           "1 + (rate/D)^(1/p), of the rate of e",
-          {{"Reference rate", "0", Kind::number, "D > 0, at which the flow stress has doubled. [1/time]"},
-           {"Rate exponent", "1", Kind::number, "p >= 1."}},
+          {{"Reference rate", "0", Kind::number, "D > 0. Rate at which the flow stress doubles. [1/time]"},
+           {"Rate exponent", "1", Kind::number, "p >= 1. Exponent of the rate."}},
           [](const TypeInput &input) -> std::shared_ptr<const RateFactor> {
             const double reference = input.positive("Reference rate"), p = input.positive("Rate exponent");
             if (p < 1.)

@@ -98,8 +98,8 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
   using Kind = TypeParameter::Kind;
   return {std::move(name),
           std::move(meaning),
-          {{"Young modulus", "0", Kind::number, "E > 0. [stress]"},
-           {"Poisson ratio", "0.3", Kind::number, "-1 < nu < 0.5."}},
+          {{"Young modulus", "0", Kind::number, "E > 0. Young's modulus. [stress]"},
+           {"Poisson ratio", "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."}},
           [make](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
             const double young = input.positive("Young modulus"), poisson = input.number("Poisson ratio");
             if (!(poisson > -1. && poisson < 0.5))
@@ -109,7 +109,7 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
 }
 
 ElasticityType hencky_type() {
-  return isotropic_elasticity_type(hencky, "multiplicative plasticity with logarithmic strain",
+  return isotropic_elasticity_type(hencky, "multiplicative plasticity with logarithmic strains",
                                    &make_hencky_law);
 }
 ElasticityType neo_hookean_type() {
@@ -118,8 +118,8 @@ ElasticityType neo_hookean_type() {
 }
 ElasticityType hypoelastic_type() {
   return isotropic_elasticity_type(hypoelastic,
-                                   "rates of stress and the final rotation of the step (Bittencourt & Creus "
-                                   "1998), whose error grows with the step",
+                                   "stress rates with the final rotation of the step (Bittencourt & Creus "
+                                   "1998); the error grows with the step",
                                    &make_hypoelastic_law);
 }
 

@@ -16,8 +16,7 @@ TypeTable<std::shared_ptr<const HardeningLaw>> &hardening_types() {
 
 std::string no_softening(const std::string &allowed) {
   return allowed + ": softening would localise in one layer of elements, and results would depend on the "
-                   "mesh, since the "
-                   "law has no length of its own";
+                   "mesh, since the law has no internal length";
 }
 
 double read_hardening(const TypeInput &input, const std::string &key) {
@@ -27,8 +26,8 @@ double read_hardening(const TypeInput &input, const std::string &key) {
 }
 
 const TypeParameter yield_stress_parameter{"Yield stress", "0", TypeParameter::Kind::number,
-                                           "Sy > 0. [stress]"};
+                                           "Sy > 0. Initial yield stress. [stress]"};
 const TypeParameter hardening_modulus_parameter{"Hardening modulus", "0", TypeParameter::Kind::number,
-                                                "H >= 0. [stress]"};
+                                                "H >= 0. Hardening modulus. [stress]"};
 
 } // namespace billet

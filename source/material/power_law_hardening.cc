@@ -18,9 +18,9 @@ HardeningType power_law_hardening_type() {
   using Kind = TypeParameter::Kind;
   return {"power law",
           "K (e0 + e)^n",
-          {{"Strength coefficient", "0", Kind::number, "K > 0. [stress]"},
-           {"Prestrain", "0", Kind::number, "e0 > 0."},
-           {"Hardening exponent", "0", Kind::number, "0 <= n <= 1."}},
+          {{"Strength coefficient", "0", Kind::number, "K > 0. Strength coefficient. [stress]"},
+           {"Prestrain", "0", Kind::number, "e0 > 0. Initial strain."},
+           {"Hardening exponent", "0", Kind::number, "0 <= n <= 1. Hardening exponent."}},
           [](const TypeInput &input) {
             PowerLawHardening law{};
             law.strength = input.positive("Strength coefficient");

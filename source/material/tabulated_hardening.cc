@@ -40,11 +40,10 @@ double TabulatedHardening::slope_of(const std::size_t i) const {
 
 HardeningType tabulated_hardening_type() {
   return {"table",
-          "straight lines through points",
+          "linear interpolation between points",
           {{"Table", "", TypeParameter::Kind::text,
-            "'strain : stress, strain : stress, ...': plastic strains from 0, strictly increasing; yield "
-            "stresses > "
-            "0, not decreasing; constant beyond the last point. [- : stress]"}},
+            "Points 'strain : stress', separated by commas. Plastic strains increase strictly from 0; yield "
+            "stresses > 0 do not decrease. The stress is constant beyond the last point. [- : stress]"}},
           [](const TypeInput &input) {
             std::vector<double> strains, stresses;
             for (const auto &part : input.parts("Table", ',')) {

@@ -21,8 +21,8 @@ HardeningType voce_hardening_type() {
           "Sy + (Ss - Sy)(1 - exp(-d e)) + H e",
           {yield_stress_parameter,
            hardening_modulus_parameter,
-           {"Saturation stress", "0", Kind::number, "Ss >= Sy. [stress]"},
-           {"Saturation rate", "0", Kind::number, "d > 0."}},
+           {"Saturation stress", "0", Kind::number, "Ss >= Sy. Saturation stress. [stress]"},
+           {"Saturation rate", "0", Kind::number, "d > 0. Rate of saturation over plastic strain."}},
           [](const TypeInput &input) {
             VoceHardening law{};
             law.yield_stress = input.positive("Yield stress");

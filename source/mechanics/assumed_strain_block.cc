@@ -38,7 +38,7 @@ const BrickElement BrickElement::assumed_strain(kind);
 ElementType assumed_strain_type() {
   return make_element_type(
       BrickElement::assumed_strain,
-      "eight points, right in bending with one brick through a thickness and in plastic flow");
+      "eight points, accurate in bending with one brick through a thickness and in plastic flow");
 }
 
 } // namespace billet

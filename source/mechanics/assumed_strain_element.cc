@@ -312,6 +312,33 @@ inline void combine(const double a, const Row &x, const double b, const Row &y, 
     row[u] = a * x[u] + b * y[u] + c * z[u];
 }
 
+/// Adds a point's contribution to the rates of the mean, δp 1 + {δY M + Y δM − Y M Y⁻¹ δY} Y⁻¹, with Z = Y⁻¹
+/// and N = Y M Y⁻¹.
+template <unsigned int n_mean>
+[[gnu::always_inline]] inline void add_mean_rates(const double weight, const Numbers &M, const Numbers &Y,
+                                                  const Numbers &Z, const Numbers &N, const Rows<6> &dY,
+                                                  const Rows<6> &dM, const Row &dp, Rows<9> &mean) {
+  Rows<9> W;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j) {
+      Row &row = W[3 * i + j];
+      row.fill(0.);
+      for (unsigned int k = 0; k < 3; ++k) {
+        const double m = M[k][j], y = Y[i][k], n = N[i][k];
+        const Row &dY_ik = dY[symmetric[i][k]], &dM_kj = dM[symmetric[k][j]], &dY_kj = dY[symmetric[k][j]];
+        for (unsigned int u = 0; u < n_mean; ++u)
+          row[u] += dY_ik[u] * m + y * dM_kj[u] - n * dY_kj[u];
+      }
+    }
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j) {
+      const double z0 = weight * Z[0][j], z1 = weight * Z[1][j], z2 = weight * Z[2][j],
+                   own = i == j ? weight : 0.;
+      for (unsigned int u = 0; u < n_mean; ++u)
+        mean[3 * i + j][u] += W[3 * i][u] * z0 + W[3 * i + 1][u] * z1 + W[3 * i + 2][u] * z2 + own * dp[u];
+    }
+}
+
 /// Adds the points' contributions to the rates of StressSums by the unknowns; those of the mean only for the
 /// first `n_mean` unknowns.
 template <unsigned int n_mean, unsigned int n_through, class Moduli>
@@ -389,28 +416,9 @@ void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &
       }
     }
 
-    // δp 1 + {δY M + Y δM − Y M Y⁻¹ δY} Y⁻¹
     const Numbers N(Tensor<2, 3>(kinematics.Y[q]) * Tensor<2, 3>(dealii::deviator(tau[q])) *
                     Tensor<2, 3>(kinematics.inverse_Y[q]));
-    Rows<9> W;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j) {
-        Row &row = W[3 * i + j];
-        row.fill(0.);
-        for (unsigned int k = 0; k < 3; ++k) {
-          const double m = M[k][j], y = Y[i][k], n = N[i][k];
-          const Row &dY_ik = dY[symmetric[i][k]], &dM_kj = dM[symmetric[k][j]], &dY_kj = dY[symmetric[k][j]];
-          for (unsigned int u = 0; u < n_mean; ++u)
-            row[u] += dY_ik[u] * m + y * dM_kj[u] - n * dY_kj[u];
-        }
-      }
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j) {
-        const double z0 = weight * Z[0][j], z1 = weight * Z[1][j], z2 = weight * Z[2][j],
-                     own = i == j ? weight : 0.;
-        for (unsigned int u = 0; u < n_mean; ++u)
-          mean[3 * i + j][u] += W[3 * i][u] * z0 + W[3 * i + 1][u] * z1 + W[3 * i + 2][u] * z2 + own * dp[u];
-      }
+    add_mean_rates<n_mean>(weight, M, Y, Z, N, dY, dM, dp, mean);
   }
 }
 
@@ -608,9 +616,9 @@ bool AssumedStrainElement<n_through>::initialize(const ElementVectors &positions
     const double nu = poisson_ratio(elastic_), part = nu / (1. - nu);
     const auto &share = reference.constants.share;
     // The bounds keep the modulus finite and positive as ν approaches ½ and −1.
-    constexpr double least = -0.45;
+    constexpr double minimum = -0.45;
     const double counted =
-        std::max(least, std::min(part / (share[0][2] * share[1][2]), 1. - 0.25 * (1. - part)));
+        std::max(minimum, std::min(part / (share[0][2] * share[1][2]), 1. - 0.25 * (1. - part)));
     const double ratio = counted / (1. - counted);
     reference.modulus = 2. * elastic_.shear * (1. / 3. + ratio);
     reference.elastic_part = ratio / (1. + ratio);

@@ -20,7 +20,7 @@ double bound_gradients(const ReferenceElement &reference, const MeanDilatationKi
       for (unsigned int b = 0; b < n_element_nodes; ++b)
         A[a][b] += reference.volumes[q] * (g[a][0] * g[b][0] + g[a][1] * g[b][1] + g[a][2] * g[b][2]);
   }
-  double largest = 0.;
+  double maximum = 0.;
   for (const auto &row : A) {
     double sum = 0.;
     for (unsigned int b = 0; b < n_element_nodes; ++b) {
@@ -29,9 +29,9 @@ double bound_gradients(const ReferenceElement &reference, const MeanDilatationKi
         square += row[c] * A[c][b];
       sum += std::abs(square);
     }
-    largest = std::max(largest, sum);
+    maximum = std::max(maximum, sum);
   }
-  return std::sqrt(largest);
+  return std::sqrt(maximum);
 }
 
 class ElementwiseBlock final : public ExplicitBlock {
@@ -71,12 +71,11 @@ public:
 
   std::size_t size() const override { return nodes_.size(); }
 
-  double scale_mass(const double smallest_step) override {
+  double scale_mass(const double min_step) override {
     double added = 0.;
     for (std::size_t e = 0; e < size(); ++e) {
       const double stiffness = law_->bound_stiffness({}) * last_[e].omega,
-                   excess =
-                       smallest_step * find_rate(stiffness, damp(last_[e].omega, 0.).rate * last_[e].omega);
+                   excess = min_step * find_rate(stiffness, damp(last_[e].omega, 0.).rate * last_[e].omega);
       if (excess <= 1.)
         continue;
       // Stiffness/mass scales as the square of a rate, damping/mass linearly with it.
@@ -92,7 +91,7 @@ public:
 
   StepResult advance(const Nodes &nodes, const double dt) override {
     StepResult result{std::numeric_limits<double>::infinity(), 0., 0., 0., 0., size()};
-    double largest_rate = 0.;
+    double max_rate = 0.;
     PointStep step;
     step.dt = dt;
     for (std::size_t e = 0; e < size(); ++e) {
@@ -120,12 +119,12 @@ public:
       result.hourglass_energy += summary.hourglass_energy;
       result.plastic_work += summary.plastic_work - last.plastic_work;
       last = {kinematics.current_volume, find_omega(e, kinematics), damping.pressure, summary.plastic_work};
-      largest_rate = std::max(largest_rate, find_rate(summary.stiffness_bound * last.omega,
-                                                      damping.rate * kinematics.volume_ratio * last.omega));
+      max_rate = std::max(max_rate, find_rate(summary.stiffness_bound * last.omega,
+                                              damping.rate * kinematics.volume_ratio * last.omega));
     }
     block_->commit();
-    if (largest_rate > 0.)
-      result.stable_step = 1. / largest_rate;
+    if (max_rate > 0.)
+      result.stable_step = 1. / max_rate;
     return result;
   }
 

@@ -89,16 +89,16 @@ double typical_length(const std::vector<std::array<unsigned int, n_element_nodes
                       const double *positions) {
   double sum = 0.;
   for (const auto &element : elements) {
-    double largest = 0.;
+    double maximum = 0.;
     for (unsigned int i = 0; i < 3; ++i) {
       double low = positions[4 * std::size_t{element[0]} + i], high = low;
       for (const unsigned int node : element) {
         low = std::min(low, positions[4 * std::size_t{node} + i]);
         high = std::max(high, positions[4 * std::size_t{node} + i]);
       }
-      largest = std::max(largest, high - low);
+      maximum = std::max(maximum, high - low);
     }
-    sum += largest;
+    sum += maximum;
   }
   return sum / static_cast<double>(elements.size());
 }
@@ -174,7 +174,7 @@ public:
                : 0;
   }
 
-  double scale_mass(const double smallest_step) override {
+  double scale_mass(const double min_step) override {
     // The kernel itself computes the stable step of each element.
     const dealii::AlignedVector<double> at_rest(storage_.nodal_size(), 0.);
     dealii::AlignedVector<double> ignored_forces(storage_.nodal_size(), 0.);
@@ -184,7 +184,7 @@ public:
       explicit_kernels::Result result{};
       kernel_(storage_.copy_element(element, copy), kernel_material_, functions_,
               make_step({at_rest.data(), at_rest.data(), ignored_forces.data()}, 0.), result);
-      const double excess = smallest_step * largest_rate(result);
+      const double excess = min_step * max_rate(result);
       if (excess > 1.) // stiffness/mass scales as the square of a rate, damping/mass linearly with it
         added += material_.density * storage_.scale_mass(element, excess * excess);
     }
@@ -200,7 +200,7 @@ public:
     is_fresh_ = false;
     [[maybe_unused]] const std::conditional_t<is_single, NoSubnormals, std::monostate> guard{};
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
-    const double energy = units_.energy(), rate = largest_rate(result);
+    const double energy = units_.energy(), rate = max_rate(result);
     // A rank without elements sets no limit.
     const double longest = rate > 0. ? 1. / rate : std::numeric_limits<double>::infinity();
     return {longest,
@@ -292,8 +292,8 @@ private:
 
   /// Returns the rate with a margin in float: its round-off, a few parts in 10⁷, must not make the step
   /// unstable.
-  double largest_rate(const explicit_kernels::Result &result) const {
-    return (is_single ? 1. + 2e-6 : 1.) * result.largest_rate / units_.time;
+  double max_rate(const explicit_kernels::Result &result) const {
+    return (is_single ? 1. + 2e-6 : 1.) * result.max_rate / units_.time;
   }
 
   /// Returns a PointState's tensor from dev τ, the inverse of compute_distortion().

@@ -49,8 +49,7 @@ Tables require(const InstructionSet instructions) {
   const Tables tables = find(instructions);
   if (tables.in_double == nullptr)
     throw std::invalid_argument(
-        "the instruction set is not available: this processor does not have it, or the "
-        "program was compiled without it");
+        "the instruction set is not available: the processor or the compiled program lacks it");
   return tables;
 }
 

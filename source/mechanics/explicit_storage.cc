@@ -36,14 +36,14 @@ Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const u
 
 /// Returns the maximum absolute row sum, a bound of a symmetric matrix's eigenvalues.
 template <std::size_t n> double bound_by_rows(const std::array<std::array<double, n>, n> &matrix) {
-  double largest = 0.;
+  double maximum = 0.;
   for (const auto &row : matrix) {
     double sum = 0.;
     for (const double entry : row)
       sum += std::abs(entry);
-    largest = std::max(largest, sum);
+    maximum = std::max(maximum, sum);
   }
-  return largest;
+  return maximum;
 }
 
 /// Returns a bound of λ_max of A Aᵀ per squared displacement. A maps the nodal values to vectors; `rows` are
@@ -117,10 +117,10 @@ double bound_hourglass(const ElasticModuli &elastic, const hourglass::Metric<dou
 /// Returns a bound of the eigenvalues of J⁻¹ J⁻ᵀ.
 double bound_metric(const Tensor<2, 3> &inverse_jacobian) {
   const Tensor<2, 3> metric = inverse_jacobian * transpose(inverse_jacobian);
-  double largest = 0.;
+  double maximum = 0.;
   for (unsigned int k = 0; k < 3; ++k)
-    largest = std::max(largest, std::abs(metric[k][0]) + std::abs(metric[k][1]) + std::abs(metric[k][2]));
-  return largest;
+    maximum = std::max(maximum, std::abs(metric[k][0]) + std::abs(metric[k][1]) + std::abs(metric[k][2]));
+  return maximum;
 }
 
 } // namespace
@@ -261,9 +261,8 @@ void ExplicitStorage<Number>::set_modes(const std::size_t element, const std::si
 
 template <class Number>
 bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element,
-                                                       const ElementVectors &positions,
-                                                       const double smallest_mass, const double yield_stress,
-                                                       double &lambda) {
+                                                       const ElementVectors &positions, const double min_mass,
+                                                       const double yield_stress, double &lambda) {
   const ModalGeometry geometry(positions);
   Tensor<2, 3> jacobian;
   for (unsigned int k = 0; k < 3; ++k)
@@ -281,13 +280,13 @@ bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element
   const double mass_unit = units_.density * cubed;
   set_constant(element, mean_gradient::volume, geometry.volume / cubed);
   set_constant(element, mean_gradient::inverse_det, cubed / det);
-  set_constant(element, mean_gradient::bound, squares / smallest_mass * mass_unit);
+  set_constant(element, mean_gradient::bound, squares / min_mass * mass_unit);
   for (unsigned int m = 0; m < 6; ++m)
     for (unsigned int k = 0; k < 3; ++k)
       set_constant(element, mean_gradient::beta + 3 * m + k, geometry.beta[m][k]);
   if (is_one_point) {
     set_constant(element, one_point::bound_of_all,
-                 bound_squares(rows_of_all(geometry, inverse, 0.)) / smallest_mass * mass_unit);
+                 bound_squares(rows_of_all(geometry, inverse, 0.)) / min_mass * mass_unit);
     initialize_one_point(element, geometry, inverse);
   } else
     initialize_assumed_strain(element, geometry, inverse);
@@ -347,18 +346,18 @@ bool ExplicitStorage<Number>::initialize_element(const std::size_t element, cons
   if (!compute_reference_element(positions, reference))
     return false;
   const auto nodal_volumes = compute_nodal_volumes(reference);
-  const double smallest_mass = density * *std::min_element(nodal_volumes.begin(), nodal_volumes.end());
+  const double min_mass = density * *std::min_element(nodal_volumes.begin(), nodal_volumes.end());
   double volume = 0., lambda = 0.;
   for (const double w : reference.volumes)
     volume += w;
 
   if (element_ != Element::mean_dilatation) {
-    if (!initialize_mean_gradient(element, positions, smallest_mass, yield_stress, lambda))
+    if (!initialize_mean_gradient(element, positions, min_mass, yield_stress, lambda))
       return false;
   } else {
     const double cubed = units_.length * units_.length * units_.length;
     set_constant(element, 0, volume / cubed);
-    set_constant(element, 1, units_.density * cubed / smallest_mass);
+    set_constant(element, 1, units_.density * cubed / min_mass);
     std::size_t place = eight_point_modes;
     if (is_single) {
       set_modes(element, place, ModalGeometry(positions));
@@ -373,7 +372,7 @@ bool ExplicitStorage<Number>::initialize_element(const std::size_t element, cons
     }
   }
   set_history(element, last::volume, is_single ? 0. : volume);
-  set_history(element, last::omega, lambda / smallest_mass);
+  set_history(element, last::omega, lambda / min_mass);
   set_history(element, last::viscous_pressure, 0.);
   return true;
 }

@@ -28,7 +28,7 @@ void write_capabilities(const std::string &folder, MPI_Comm communicator) {
     file << name_of(static_cast<Capability>(i)) << "," << calls[i] << "," << sums[2 * i] << ","
          << sums[2 * i + 1] << "\n";
   if (!file.flush())
-    std::cerr << "billet: '" << folder << "/capabilities.csv' could not be written" << std::endl;
+    std::cerr << "billet: '" << folder << "/capabilities.csv' cannot be written" << std::endl;
 }
 
 } // namespace billet

@@ -146,12 +146,12 @@ bool CheckpointWriter::reserve(const std::size_t n_bytes) {
     return false;
   const int error = posix_fallocate(descriptor, 0, static_cast<off_t>(size + n_bytes + reserve_of_hdf5));
   ::close(descriptor);
-  return check(error == 0, "cannot be made as long as it has to be");
+  return check(error == 0, "cannot be extended to its full size");
 }
 
 bool CheckpointWriter::check(const bool success, const std::string &what) {
   if (!success && failure_.empty())
-    failure_ = name_ + ".tmp " + what + ": is the disk full?";
+    failure_ = name_ + ".tmp " + what + ". Check whether the disk is full";
   return failure_.empty();
 }
 
@@ -293,22 +293,22 @@ std::string find_fault(const std::string &name) {
   in.read(text.data(), header_size);
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.compare(0, magic.size() + 1, magic + "\n") != 0)
-    return "is no checkpoint of billet";
+    return "is not a checkpoint of billet";
   std::istringstream header(text.substr(magic.size() + 1));
   std::string word, program, sum;
   unsigned int format = 0;
   std::uintmax_t n_bytes = 0;
   header >> word >> format >> word >> program >> word >> n_bytes >> word >> sum;
   if (format != checkpoint_format)
-    return "has format " + std::to_string(format) + ", this program reads format " +
+    return "has format " + std::to_string(format) + ", but this program reads format " +
            std::to_string(checkpoint_format);
   if (program != version)
-    return "was written by billet " + program + ", this is billet " + version;
+    return "was written by billet " + program + ", but this is billet " + version;
   const std::uintmax_t size = size_of(name);
   if (size != n_bytes)
-    return "is cut short: " + std::to_string(size) + " of " + std::to_string(n_bytes) + " bytes are there";
+    return "is truncated: it has " + std::to_string(size) + " of " + std::to_string(n_bytes) + " bytes";
   if (checksum(in) != sum)
-    return "is damaged: its checksum does not fit";
+    return "is damaged: its checksum does not match";
   return "";
 }
 
@@ -323,13 +323,14 @@ CheckpointReader::CheckpointReader(MPI_Comm communicator, const std::string &fil
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       fault = find_fault(file_name);
     if (!fault.empty())
-      throw InputError(origin + ": '" + file_name + "' " + fault + "; allowed is a checkpoint that is whole");
+      throw InputError(origin + ": '" + file_name + "' " + fault +
+                       "; allowed is a complete checkpoint of this program");
   });
   fail_together(communicator, [&] {
     file_ = H5Fopen(file_name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0)
       throw InputError(origin + ": '" + file_name +
-                       "' cannot be opened on every rank; allowed is a file that all of them see");
+                       "' cannot be opened on every rank; allowed is a file that all ranks can read");
   });
   n_ranks_ = static_cast<unsigned int>(number("ranks"));
 }
@@ -345,7 +346,7 @@ void CheckpointReader::load(const std::string &group, const std::function<void()
     in(group, load);
   } catch (const InputError &error) {
     group_ = outside;
-    throw InputError(origin_ + ": '" + file_name_ + "' does not fit this scene: " + error.what());
+    throw InputError(origin_ + ": '" + file_name_ + "' does not match this scene: " + error.what());
   }
 }
 
@@ -540,9 +541,9 @@ std::string name_of(const int signal) {
 
 } // namespace
 
-Signals::Signals(MPI_Comm communicator, const double seconds_between_looks)
-    : communicator_(communicator), seconds_between_looks_(seconds_between_looks),
-      last_look_(std::chrono::steady_clock::now()) {
+Signals::Signals(MPI_Comm communicator, const double seconds_between_checks)
+    : communicator_(communicator), seconds_between_checks_(seconds_between_checks),
+      last_check_(std::chrono::steady_clock::now()) {
   end_signal = checkpoint_signal = 0;
   for (const int signal : heeded) {
     struct sigaction action {};
@@ -560,27 +561,27 @@ Signals::~Signals() {
     std::signal(signal, SIG_DFL);
 }
 
-Signals::Wish Signals::look() {
-  if (seconds_between_looks_ > 0. && !is_time_to_look())
-    return Wish::none;
-  std::array<int, 2> wishes{end_signal, checkpoint_signal};
+Signals::Request Signals::poll() {
+  if (seconds_between_checks_ > 0. && !is_time_to_check())
+    return Request::none;
+  std::array<int, 2> requests{end_signal, checkpoint_signal};
   checkpoint_signal = 0;
-  MPI_Allreduce(MPI_IN_PLACE, wishes.data(), 2, MPI_INT, MPI_MAX, communicator_);
-  if (wishes[0] == 0)
-    return wishes[1] == 0 ? Wish::none : Wish::checkpoint;
-  name_ = name_of(wishes[0]);
-  return Wish::end;
+  MPI_Allreduce(MPI_IN_PLACE, requests.data(), 2, MPI_INT, MPI_MAX, communicator_);
+  if (requests[0] == 0)
+    return requests[1] == 0 ? Request::none : Request::checkpoint;
+  name_ = name_of(requests[0]);
+  return Request::end;
 }
 
-bool Signals::is_time_to_look() {
-  if (++n_calls_ < next_look_)
+bool Signals::is_time_to_check() {
+  if (++n_calls_ < next_check_)
     return false;
   const auto now = std::chrono::steady_clock::now();
-  const double seconds = std::chrono::duration<double>(now - last_look_).count();
-  last_look_ = now;
-  const double wanted = n_calls_ * seconds_between_looks_ / std::max(seconds, 1e-9);
-  next_look_ = static_cast<unsigned int>(std::clamp(wanted, 1., std::min(1e6, 10. * n_calls_)));
-  next_look_ = dealii::Utilities::MPI::broadcast(communicator_, next_look_, 0);
+  const double seconds = std::chrono::duration<double>(now - last_check_).count();
+  last_check_ = now;
+  const double wanted = n_calls_ * seconds_between_checks_ / std::max(seconds, 1e-9);
+  next_check_ = static_cast<unsigned int>(std::clamp(wanted, 1., std::min(1e6, 10. * n_calls_)));
+  next_check_ = dealii::Utilities::MPI::broadcast(communicator_, next_check_, 0);
   n_calls_ = 0;
   return true;
 }

@@ -97,8 +97,8 @@ double stress_jumps(const Solution &solution, const Discretization &discretizati
 }
 
 Checkerboard find_checkerboard(const Solution &solution, const Discretization &discretization) {
-  constexpr unsigned int least_elements = 64;
-  if (discretization.n_global_elements() < least_elements)
+  constexpr unsigned int min_elements = 64;
+  if (discretization.n_global_elements() < min_elements)
     return {};
   const ElementValues pressures =
       values_of(summarize(solution, discretization),

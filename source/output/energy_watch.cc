@@ -12,25 +12,22 @@ namespace billet {
 
 std::string EnergyWatch::advise(const Cause cause) {
   switch (cause) {
-  case Cause::soft_penalties:
-    return "penalties are too low: on areas that change while penetration is large they create energy. "
-           "Increase "
-           "'Normal penalty'";
+  case Cause::low_penalties:
+    return "penalties are too low: they create energy on areas that change while penetration is large. "
+           "Increase 'Normal penalty'";
   case Cause::sticking_overlaps:
     return "the areas of overlapping facets change while friction sticks. Choose 'Facets = bilinear' for "
            "these "
            "contact pairs";
   case Cause::contact_edges:
-    return "contact makes energy, as where an edge of the second body slides along facets of the first. Swap "
-           "'Body' and 'Second body' of that contact pair, or use smaller facets there";
+    return "contact creates energy, as where an edge of the second body slides along facets of the first. "
+           "Swap 'Body' and 'Second body' of that contact pair, or use smaller facets there";
   case Cause::unstable_law:
-    return "the law of an elastic body has lost its ellipticity. Reduce the strains, or choose the "
-           "'Elasticity' "
+    return "the law of an elastic body loses its ellipticity. Reduce the strains, or choose the 'Elasticity' "
            "that the warning names";
   case Cause::inexact_dissipation:
-    return "a body that yields has large elastic strains, and its law, which is not Hencky's, knows its "
-           "dissipation only to their order. Choose 'Elasticity = Hencky', or increase 'Maximum energy "
-           "drift'";
+    return "a yielding body has large elastic strains, and its law, unlike Hencky's, has the dissipation "
+           "only to first order in them. Choose 'Elasticity = Hencky', or increase 'Maximum energy drift'";
   case Cause::steps:
     break;
   }
@@ -43,18 +40,18 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
                                   const std::function<Cause()> &find_cause) {
   // The current total counts only half, as in explicit dynamics, so that created energy does not hide the
   // imbalance.
-  largest_ =
-      std::max({largest_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
+  maximum_ =
+      std::max({maximum_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
   DiagnosticList messages;
   const double drift = std::abs(energies.drift());
-  if (balance_ != Balance::is_left && drift > allowed_drift_ * largest_) {
+  if (balance_ != Balance::is_left && drift > allowed_drift_ * maximum_) {
     if (!cause_)
       cause_ = find_cause();
     std::ostringstream what;
     what.precision(3);
-    what << "the energies fail to balance by " << 100. * drift / largest_ << " % of the largest so far";
+    what << "the energies are off balance by " << 100. * drift / maximum_ << " % of the maximum so far";
     if (balance_ == Balance::is_kept) {
-      what << ", allowed are " << 100. * allowed_drift_ << " % ('Maximum energy drift'): " << advise(*cause_);
+      what << "; allowed are " << 100. * allowed_drift_ << " % ('Maximum energy drift'): " << advise(*cause_);
       imbalance_ = what.str();
     } else {
       std::string text = what.str(), advice = advise(*cause_);
@@ -62,7 +59,7 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
       advice.front() = static_cast<char>(std::toupper(advice.front()));
       messages.push_back(Diagnostic(diagnostic::energy_imbalance, text)
                              .time(time)
-                             .measure("part of the largest energy", drift / largest_)
+                             .measure("part of the largest energy", drift / maximum_)
                              .advice(advice));
     }
   }

@@ -26,8 +26,8 @@ double percent(const double part) { return 100. * part; }
 std::string mesh_is_not_part(const double stress_jumps) {
   std::ostringstream text;
   text.precision(2);
-  text << "The mesh is not part of the estimate: stresses jump between elements by " << percent(stress_jumps)
-       << " % in the mean";
+  text << "The estimate excludes the error of the mesh: stresses jump between elements by "
+       << percent(stress_jumps) << " % on average";
   return text.str();
 }
 
@@ -37,9 +37,9 @@ Diagnostic ErrorReport::estimate() const {
   std::ostringstream text;
   text.precision(2);
   if (!is_known) {
-    text << "No error estimate: there are no " << of_what << " to normalise by"
-         << (of_what == "energies" ? ", besides those of a motion that all bodies share"
-                                   : ", neither of a tool, nor between bodies, nor of supports");
+    text << "There is no error estimate, since the scene has no " << of_what << " to normalise by"
+         << (of_what == "energies" ? " except those of a common motion of all bodies"
+                                   : ", neither of tools, nor between bodies, nor of supports");
     return Diagnostic(diagnostic::error_estimate, text.str());
   }
   const bool has_unknown =
@@ -90,11 +90,13 @@ DiagnosticList ErrorReport::diagnostics() const {
                            .value("target", target)
                            .advice(worst->remedy));
   } else if (!is_known) {
-    messages.push_back(Diagnostic(diagnostic::target_error_unknown,
-                                  "Whether the target is met is unknown, since there is no error estimate")
-                           .value("target", target));
+    messages.push_back(
+        Diagnostic(diagnostic::target_error_unknown,
+                   "It is unknown whether the run meets the target, since there is no error estimate")
+            .value("target", target));
   } else if (unknown != sources.end()) {
-    text << "Whether the target is met is unknown: too few steps succeeded to measure the error due to "
+    text << "It is unknown whether the run meets the target: too few steps succeed to estimate the error due "
+            "to "
          << unknown->name;
     messages.push_back(Diagnostic(diagnostic::target_error_unknown, text.str())
                            .value("target", target)
@@ -129,7 +131,7 @@ void ErrorReport::write(const std::string &folder) const {
   for (const auto &[what, value] : costs)
     file << what << "," << value << "\n";
   if (!file.flush())
-    throw SolutionFailure(name + " cannot be written: is the disk full?");
+    throw SolutionFailure(name + " cannot be written. Check whether the disk is full");
 }
 
 } // namespace billet

@@ -154,7 +154,7 @@ void FieldWriter::write(const Solution &solution) {
       data_out.write_xdmf_file(xdmf_entries_, folder_ + "/fields.xdmf", communicator_);
     }
   } catch (const std::exception &) { // deal.II throws various types
-    failure = folder_ + "/" + snapshot.fields + " cannot be written: is the disk full?";
+    failure = folder_ + "/" + snapshot.fields + " cannot be written. Check whether the disk is full";
   }
   fail_together(communicator_, [&failure] {
     if (!failure.empty())
@@ -210,15 +210,15 @@ void FieldWriter::write_tools(const Solution &solution, const std::string &name)
   std::vector<std::vector<std::size_t>> facets;
   std::vector<std::size_t> tool_of_facet;
   for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
-    const SurfacePicture picture = scene_.tools()[t].surface().picture(
+    const SurfaceMesh surface_mesh = scene_.tools()[t].surface().surface_mesh(
         {state.placements[t].to_tool(discretization.centre()), 1.5 * discretization.radius()});
-    for (const auto &facet : picture.facets) {
+    for (const auto &facet : surface_mesh.facets) {
       facets.emplace_back();
       for (const unsigned int point : facet)
         facets.back().push_back(points.size() + point);
       tool_of_facet.push_back(t);
     }
-    for (const auto &point : picture.points)
+    for (const auto &point : surface_mesh.points)
       points.push_back(state.placements[t].to_space(point));
   }
   std::ofstream out(folder_ + "/" + name);
@@ -247,7 +247,7 @@ void FieldWriter::write_tools(const Solution &solution, const std::string &name)
   out << "\n</DataArray>\n</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   out.close();
   if (!out)
-    throw SolutionFailure(folder_ + "/" + name + " cannot be written: is the disk full?");
+    throw SolutionFailure(folder_ + "/" + name + " cannot be written. Check whether the disk is full");
 }
 
 void FieldWriter::write_index() const {

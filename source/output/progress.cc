@@ -59,7 +59,7 @@ void Progress::start(const Discretization &discretization, const Solution &solut
 void Progress::show_number_of_steps(const double n_steps, const double step) {
   if (verbosity_ == Verbosity::quiet)
     return;
-  stream_ << "About " << std::llround(n_steps) << " steps of " << std::setprecision(4) << step
+  stream_ << "The run takes about " << std::llround(n_steps) << " steps of " << std::setprecision(4) << step
           << std::setprecision(6) << "\n";
 }
 

@@ -19,51 +19,47 @@ using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
 void Mesh::declare(ParameterHandler &prm) {
-  prm.declare_entry(
-      "Source", "primitive", Patterns::Selection("primitive|extruded primitive|file"),
-      "A three-dimensional function of deal.II's GridGenerator, a two-dimensional one extruded along z, "
-      "or a mesh file.");
+  prm.declare_entry("Source", "primitive", Patterns::Selection("primitive|extruded primitive|file"),
+                    "Source of the mesh: a three-dimensional function of deal.II's GridGenerator, a "
+                    "two-dimensional one extruded along z, or a mesh file.");
   prm.declare_entry(
       "Primitive", "hyper_rectangle", Patterns::Anything(),
       "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
       "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
   prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1 : true", Patterns::Anything(),
                     "Arguments of that function, separated by ':' (points and lists inside by ','). All "
-                    "arguments without a "
-                    "default have to be given.");
-  prm.declare_entry(
-      "Refinements", "0", Patterns::Integer(0),
-      "Uniform refinements of the primitive (of the section, where it is extruded) or of the mesh read.");
-  prm.declare_entry(
-      "Section area", "0", Patterns::Double(),
-      "Extruded primitives: scale the section about its origin until its area is this, so that a polygon "
-      "stands for a circle without losing volume. 0: as generated. [length^2]");
+                    "arguments without a default are necessary.");
+  prm.declare_entry("Refinements", "0", Patterns::Integer(0),
+                    "Number of uniform refinements of the primitive (of the section if it is extruded) or of "
+                    "the mesh file.");
+  prm.declare_entry("Section area", "0", Patterns::Double(),
+                    "Extruded primitives: area of the section after scaling about its origin, so that a "
+                    "polygon has the volume of a circle. 0: no scaling. [length^2]");
   prm.declare_entry("Height", "1", Patterns::Double(),
                     "Extruded primitives: extent along z, from z = 0. [length]");
-  prm.declare_entry("Layers", "1", Patterns::Integer(0), "Extruded primitives: layers of elements along z.");
+  prm.declare_entry("Layers", "1", Patterns::Integer(0),
+                    "Extruded primitives: number of layers of elements along z.");
   prm.declare_entry(
       "File", "", Patterns::Anything(),
       "Mesh file (Gmsh .msh, .vtk, UCD .inp or .ucd, deal.II's .vtu) of hexahedra, relative to the scene "
       "file. Boundary ids are the file's.");
-  prm.declare_entry(
-      "Positions", "", Patterns::Anything(),
-      "Unless empty, three muParser expressions of x, y, z, separated by semicolons: where the "
-      "mesh's vertices go, before it is scaled, turned and moved; such as 'x*cos(y) ; x*sin(y) ; "
-      "z' to bend a box into a ring. [length]");
+  prm.declare_entry("Positions", "", Patterns::Anything(),
+                    "Three muParser expressions of x, y, z, separated by semicolons: new positions of the "
+                    "vertices, before scaling, rotation and translation. 'x*cos(y) ; x*sin(y) ; z' bends a "
+                    "box into a ring. Empty: no change. [length]");
   prm.declare_entry("Scale", "1", Patterns::Double(),
-                    "Multiplies all positions of the mesh, before it is turned and moved.");
+                    "> 0. Factor of all positions of the mesh, before rotation and translation.");
   prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(),
-                    "Axis through the origin about which the mesh is turned.");
+                    "Axis through the origin for the rotation of the mesh.");
   prm.declare_entry("Rotation angle", "0", Patterns::Double(),
-                    "Angle by which the mesh is turned. [degrees]");
+                    "Angle of the rotation of the mesh. [degrees]");
   prm.declare_entry("Translation", "0, 0, 0", Patterns::Anything(),
-                    "Moves the mesh after it was turned. [length]");
+                    "Translation of the mesh after the rotation. [length]");
   prm.declare_entry(
       "Boundary ids", "", Patterns::Anything(),
-      "Renames boundary faces: 'id : condition ; id : condition ...', each condition a muParser expression "
-      "of the face's centre x, y, z in the final position, such as '7 : abs(z - 15) < 1e-6'. The last "
-      "condition "
-      "that holds wins; faces without one keep their id.");
+      "New ids of boundary faces: 'id : condition ; id : condition ...', each condition a muParser "
+      "expression of the face's centre x, y, z in the final position, such as '7 : abs(z - 15) < 1e-6'. The "
+      "last true condition applies; faces without a true one keep their id.");
 }
 
 void Mesh::parse(Reader &reader) {
@@ -99,7 +95,7 @@ void Mesh::parse(Reader &reader) {
   const bool is_extruded = source == Source::extruded;
   for (const std::string key : {"Section area", "Height", "Layers"})
     if (reader.is_set(key) && !is_extruded)
-      reader.reject(key, "no value: it only makes sense with 'Source = extruded primitive'");
+      reader.reject(key, "no value: only 'Source = extruded primitive' uses it");
   for (const std::string key : {"Primitive", "Arguments"})
     if (reader.is_set(key) && source == Source::file)
       reader.reject(key, "no value: the mesh comes from a file");
@@ -118,7 +114,7 @@ void Material::declare(ParameterHandler &prm) {
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
-                    "Density of the undeformed body; dynamic scenes need one > 0. [mass/length^3]");
+                    "Density of the undeformed body, > 0 in dynamic scenes. [mass/length^3]");
   declare_selection(prm, "Hardening", "linear", hardening_types(),
                     "Law of the yield stress over equivalent plastic strain e.");
   declare_selection(prm, "Rate factor", "none", rate_factor_types(),
@@ -143,18 +139,18 @@ void Material::parse(Reader &reader) {
       make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
                        make_selected(reader, "Rate factor", rate_factor_types())));
   if (law == nullptr)
-    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' knows no plasticity");
+    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' has no plasticity");
 }
 
 void Support::declare(ParameterHandler &prm) {
   prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                    "Boundary ids whose nodes are held, separated by commas.");
+                    "Boundary ids of the nodes with prescribed displacements, separated by commas.");
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
-                    "Which displacement components are prescribed.");
+                    "Components of the displacement that are prescribed.");
   prm.declare_entry(
       "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
-      "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position "
-      "x, y, z, the time t and the names of amplitudes. Components that are not held are ignored. [length]");
+      "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position x, y, "
+      "z, the time t and the names of amplitudes. Other components have no effect. [length]");
 }
 
 void Support::parse(Reader &reader) {
@@ -202,19 +198,20 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
                     "Gauss points of each brick along the thickness direction. More than 2 need 'Element = "
                     "assumed strain' and a static scene or implicit dynamics. Use 5 for the springback of "
                     "sheets, with two bricks through the thickness rather than one.");
-  prm.declare_entry("Thickness direction", "", Patterns::Anything(),
-                    "From the inner to the outer side, with more than 2 points through the thickness: three "
-                    "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' of a plate "
-                    "or 'x ; y ; 0' of a tube about z. Each brick takes its axis nearest to it.");
-  prm.declare_entry("Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Dynamic scenes: three muParser expressions of the position x, y, z. [length/time]");
+  prm.declare_entry(
+      "Thickness direction", "", Patterns::Anything(),
+      "Direction from the inner to the outer side, with more than 2 points through the thickness: three "
+      "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' for a plate or 'x ; y ; "
+      "0' for a tube about z. Each brick uses its axis nearest to it.");
+  prm.declare_entry(
+      "Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
+      "Dynamic scenes: initial velocity, three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
-                    "Planes that boundary nodes on them cannot leave, separated by semicolons: 'x = 0', or "
-                    "with a normal and "
-                    "the distance along it, '1, 1, 0 = 3.5'. [length]");
+                    "Symmetry planes, which boundary nodes on them cannot leave, separated by semicolons: 'x "
+                    "= 0', or with a normal and the distance along it, '1, 1, 0 = 3.5'. [length]");
   prm.declare_entry("Contact stabilisation", "none", Patterns::Selection("none|until contact"),
-                    "Static scenes. until contact: a weak viscous force holds a body that neither supports "
-                    "nor contact constrain at the start, and fades once contact supports it.");
+                    "Static scenes. until contact: a small viscous force acts on a body that neither "
+                    "supports nor contact constrain at the start, and fades once contact supports it.");
   prm.enter_subsection("Mesh");
   Mesh::declare(prm);
   prm.leave_subsection();

@@ -14,10 +14,10 @@ namespace Patterns = dealii::Patterns;
 
 void Amplitude::declare(ParameterHandler &prm) {
   prm.declare_entry("Times", "0, 1", Patterns::Anything(),
-                    "Strictly increasing numbers. Before the first and after the last time the value is "
-                    "constant. Steps of implicit scenes end where the motion turns, begins, ends or changes "
-                    "its rate by more than half. [time]");
-  prm.declare_entry("Values", "0, 1", Patterns::Anything(), "One value for each time. [any]");
+                    "Strictly increasing times. Before the first and after the last time the value is "
+                    "constant. Steps of implicit scenes end where the motion reverses, begins, ends or "
+                    "changes its rate by more than half. [time]");
+  prm.declare_entry("Values", "0, 1", Patterns::Anything(), "Values, one for each time. [any]");
   prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
                     "linear: straight lines between the times; smooth: quintic steps with vanishing first "
                     "and second derivative at "
@@ -39,7 +39,7 @@ void Amplitude::parse(Reader &reader) {
 
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(),
-                    "The run begins at time 0 and ends at this time. [time]");
+                    "> 0. The run begins at time 0 and ends at this time. [time]");
   prm.declare_entry(
       "Scheme", "quasi-static", Patterns::Selection("quasi-static|explicit|implicit dynamics"),
       "quasi-static: equilibrium at the end of each step, by Newton's method; explicit: motion by central "
@@ -56,24 +56,24 @@ void TimeStepping::declare(ParameterHandler &prm) {
                     "Length of the first step, or of all steps if they are fixed. automatic: a hundredth of "
                     "the end time, or the maximum step if that is less. [time]");
   prm.declare_entry("Minimum step", "automatic", Patterns::Anything(),
-                    "The run ends when a step would have to be cut below this. automatic: a millionth of the "
+                    "The run fails if a step requires a cut below this length. automatic: a millionth of the "
                     "end time, or the initial step if that is less. [time]");
   prm.declare_entry("Maximum step", "automatic", Patterns::Anything(),
                     "A step grows up to this length. automatic: a tenth of the end time, or the initial step "
                     "if that is more. [time]");
   prm.declare_entry(
       "Error tolerance", "0", Patterns::Double(),
-      "Quasi-static scenes with automatic steps: maximum error of a step, as a part of the forces. Steps of "
-      "twice the length estimate the error now and then. 0: the iterations alone determine the step.");
+      "Quasi-static scenes with automatic steps: maximum error of a step, as a part of the forces. From time "
+      "to time a step of twice the length estimates the error. 0: the iterations alone determine the step.");
   prm.declare_entry("Growth iterations", "5", Patterns::Integer(0),
-                    "The step grows after at most this many iterations.");
+                    "The step grows after this number of iterations or fewer.");
   prm.declare_entry("Shrink iterations", "9", Patterns::Integer(0),
-                    "The step shrinks after at least this many iterations.");
-  prm.declare_entry("Growth factor", "1.5", Patterns::Double(), "At least 1. A step grows by this factor.");
+                    "The step shrinks after this number of iterations or more.");
+  prm.declare_entry("Growth factor", "1.5", Patterns::Double(), ">= 1. Factor by which a step grows.");
   prm.declare_entry("Shrink factor", "0.7", Patterns::Double(),
-                    "Between 0 and 1. A step shrinks by this factor.");
+                    "> 0 and <= 1. Factor by which a step shrinks.");
   prm.declare_entry("Cut factor", "0.5", Patterns::Double(),
-                    "Between 0 and 1. A failed step is repeated at this part of its length.");
+                    "> 0 and < 1. Part of its length with which a failed step is repeated.");
 }
 
 void TimeStepping::parse(Reader &reader) {
@@ -103,22 +103,22 @@ void TimeStepping::parse(Reader &reader) {
     text << time;
     return text.str();
   };
-  largest_step = step("Maximum step", 0.1 * end_time);
-  initial_step = step("Initial step", std::min(0.01 * end_time, largest_step));
+  max_step = step("Maximum step", 0.1 * end_time);
+  initial_step = step("Initial step", std::min(0.01 * end_time, max_step));
   if (initial_step > end_time)
     reader.reject("Initial step", "a number not above the end time, " + print(end_time));
   if (reader.text("Maximum step") == "automatic")
-    largest_step = std::max(largest_step, initial_step);
+    max_step = std::max(max_step, initial_step);
   if (control == Control::fixed)
     for (const std::string key : {"Minimum step", "Maximum step", "Growth iterations", "Shrink iterations",
                                   "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
-  smallest_step = step("Minimum step", std::min(1e-6 * end_time, initial_step));
+  min_step = step("Minimum step", std::min(1e-6 * end_time, initial_step));
   if (control == Control::automatic) {
-    if (smallest_step > initial_step)
+    if (min_step > initial_step)
       reader.reject("Minimum step", "a number not above the initial step, " + print(initial_step));
-    if (largest_step < initial_step)
+    if (max_step < initial_step)
       reader.reject("Maximum step", "a number not below the initial step, " + print(initial_step));
   }
   error_tolerance = reader.not_negative("Error tolerance");
@@ -143,28 +143,28 @@ void TimeStepping::parse(Reader &reader) {
 
 void ExplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry("Safety factor", "0.75", Patterns::Double(),
-                    "> 0, at most 1. Steps are this part of the stability bound of elements and contact.");
-  prm.declare_entry("Contact resolution", "2", Patterns::Double(),
-                    "At least 1. Steps resolve the oscillation of a node on its contact penalty by this "
-                    "factor finer than stability requires. 1 makes the longest steps; 2 reduces the energy "
-                    "error of stiff impacts to a third.");
+                    "> 0 and <= 1. Ratio of the step to the stability bound of elements and contact.");
+  prm.declare_entry(
+      "Contact resolution", "2", Patterns::Double(),
+      ">= 1. Factor by which steps resolve the oscillation of a node on its contact penalty finer than "
+      "stability requires. 1: longest steps; 2: a third of the energy error of stiff impacts.");
   prm.declare_entry("Linear bulk viscosity", "0.06", Patterns::Double(),
-                    "b1 >= 0: a pressure b1 rho c L times the volumetric strain rate damps ringing; L is the "
-                    "element's size, c the speed of sound.");
+                    "b1 >= 0. A pressure b1 rho c L times the volumetric strain rate damps oscillations; L "
+                    "is the element size, c the wave speed.");
   prm.declare_entry("Quadratic bulk viscosity", "1.2", Patterns::Double(),
-                    "b2 >= 0: a pressure rho (b2 L)^2 times the square of the rate, in compression only, "
-                    "spreads shocks over some elements.");
+                    "b2 >= 0. A pressure rho (b2 L)^2 times the square of the volumetric strain rate, in "
+                    "compression only, spreads shocks over some elements.");
   prm.declare_entry("Mass scaling step", "0", Patterns::Double(),
-                    "Elements whose stable step, safety factor included, is shorter at the start get mass "
-                    "until it is this long. A note reports the added mass. 0: none. [time]");
+                    "Elements with a shorter stable step at the start, including the safety factor, receive "
+                    "mass until it has this length. A note reports the added mass. 0: none. [time]");
   prm.declare_entry("Maximum energy drift", "0.05", Patterns::Double(),
-                    "> 0. The run ends if the energies fail to balance by more than this part of the "
-                    "largest energy so far, for a hundred steps or at the end.");
+                    "> 0. Allowed drift of the energies, as a part of the maximum energy so far. The run "
+                    "fails if the drift is larger for a hundred steps, or at the end.");
   prm.declare_entry("Instruction set", "automatic", Patterns::Selection("automatic|scalar|SSE2|AVX2|AVX-512"),
-                    "Instruction set of the element kernels; automatic: the best of this machine.");
+                    "Instruction set of the element kernels; automatic: the fastest one of this machine.");
   prm.declare_entry("Number type", "double", Patterns::Selection("double|float"),
-                    "Numbers in which elements are computed. float: twice as many elements at once, to about "
-                    "seven digits; nodes, sums and energies stay double.");
+                    "Precision of the elements. float: twice as many elements at once, with about seven "
+                    "digits; nodes, sums and energies remain double.");
 }
 
 void ExplicitDynamics::parse(Reader &reader) {
@@ -177,7 +177,7 @@ void ExplicitDynamics::parse(Reader &reader) {
   linear_viscosity = reader.not_negative("Linear bulk viscosity");
   quadratic_viscosity = reader.not_negative("Quadratic bulk viscosity");
   scaled_step = reader.not_negative("Mass scaling step");
-  largest_drift = reader.positive("Maximum energy drift");
+  max_drift = reader.positive("Maximum energy drift");
   const std::string chosen_set = reader.text("Instruction set");
   instructions = chosen_set == "automatic" ? Instructions::automatic
                  : chosen_set == "scalar"  ? Instructions::scalar
@@ -232,51 +232,48 @@ const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_na
 void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Contact tangent", "automatic", Patterns::Selection(selection(tangent_names)),
-      "automatic: exact with friction and between bodies, else consistent, so that the matrix is symmetric, "
-      "as "
-      "also between bodies without friction if a linear solver for symmetric matrices is chosen; "
-      "exact: the full derivative of the contact forces, with the turning of the tool's normal and the "
-      "change of area; "
-      "numerical: the same by central differences, eq. (43), slow, for comparison; consistent, "
-      "continuum: Bittencourt & "
-      "Creus (1998), eqs. (55)-(57) and (50), areas held; symmetrised: the upper, the lower "
-      "triangle or the mean of "
-      "the consistent one in the contact frame, meant for mu <= 0.1.");
+      "Tangent of the contact forces. automatic: exact with friction and between bodies, otherwise "
+      "consistent, which keeps the matrix symmetric; also consistent between bodies without friction if the "
+      "linear solver requires a symmetric matrix. exact: full derivative, with rotation of the tool's normal "
+      "and change of area. numerical: exact by central differences, eq. (43), slow, for comparison. "
+      "consistent, continuum: Bittencourt & Creus (1998), eqs. (55)-(57) and (50), with constant areas. "
+      "symmetrised: upper triangle, lower triangle or mean of the consistent tangent in the contact frame, "
+      "for mu <= 0.1.");
   prm.declare_entry("Material tangent", "automatic", Patterns::Selection(selection(material_tangent_names)),
                     "Tangent of bodies whose exact one is unsymmetric: hypoelastic ones, and plastic ones "
-                    "that are neo-Hookean. Without such bodies only automatic is allowed. automatic: the "
-                    "symmetric part where the matrix is symmetric otherwise, else exact.");
+                    "that are neo-Hookean. Scenes without such bodies allow automatic only. automatic: "
+                    "symmetric part if the rest of the matrix is symmetric, otherwise exact.");
   prm.declare_entry(
       "Force tolerance", "5e-3", Patterns::Double(),
       "A step converges when the norm of the residual, over all nodes, is at most this part of the norm of "
       "the nodal forces. In the last iteration, nodes that change their contact status may carry at most "
-      "this part of the contact force. For comparisons to many digits use 1e-6 or less.");
-  prm.declare_entry(
-      "Energy tolerance", "5e-5", Patterns::Double(),
-      "A step converges when the work of the residual along the last correction is at most this part of the "
-      "norm of the nodal forces times that of the step's displacements. For comparisons use 1e-10 or less.");
+      "this part of the contact force. For comparisons with many digits use 1e-6 or less.");
+  prm.declare_entry("Energy tolerance", "5e-5", Patterns::Double(),
+                    "A step converges when the work of the residual along the last correction is at most "
+                    "this part of a reference. The reference is the norm of the nodal forces times that of "
+                    "the step's displacements. For comparisons use 1e-10 or less.");
   prm.declare_entry(
       "Displacement tolerance", "1e-2", Patterns::Double(),
-      "A step converges when the last correction moves no node by more than this part of the largest "
-      "displacement in the step. This is not required if the residual is below 5e-6 of the forces.");
+      "A step converges when the last correction moves no node by more than this part of the maximum "
+      "displacement in the step. A residual below 5e-6 of the forces waives this criterion.");
   prm.declare_entry("Maximum iterations", "60", Patterns::Integer(0),
-                    "Newton iterations of a step. A step that would need more fails, as soon as its pace "
-                    "shows that.");
+                    ">= 1. Maximum number of Newton iterations of a step. A step fails as soon as its rate "
+                    "of convergence predicts more.");
   prm.declare_entry("Maximum augmentations", "20", Patterns::Integer(0),
-                    "Augmentations of contact with a 'Penetration tolerance' in a step. A step that needs "
-                    "more fails.");
+                    "Maximum number of augmentations in a step, for contact with a 'Penetration tolerance'. "
+                    "A step that requires more fails.");
   prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
-                    "energy: a correction is shortened while the residual's work along it grows; in any case "
-                    "a correction that turns an element inside out is shortened.");
+                    "energy: the line search shortens a correction while the work of the residual along it "
+                    "grows. none: it shortens corrections that invert an element only.");
   prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
-                    "Guess from which the iterations of a step start. extrapolation: the last increment "
-                    "continued, or in implicit dynamics the motion at constant acceleration; tangent: a "
-                    "linear step with the motion of tools and supports. The tangent is used in any case at "
-                    "the start, after a cut, and where tools or supports change their rate.");
+                    "Initial guess of the iterations of a step. extrapolation: the last increment continued, "
+                    "or in implicit dynamics the motion at constant acceleration; tangent: a linear step "
+                    "with the motion of tools and supports. The tangent always applies at the start, after a "
+                    "cut, and where tools or supports change their rate.");
   prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
                     "Direct solvers are MUMPS, its symmetric form, and KLU, which runs on one rank at a time "
                     "and is slow. Iterative solvers, with multigrid, are CG, for symmetric matrices, and "
-                    "GMRES. automatic: a direct one for small scenes, if the machine's memory suffices.");
+                    "GMRES. automatic: direct for small scenes, if memory suffices.");
   prm.declare_entry(
       "Forcing term", "Eisenstat-Walker", Patterns::Selection("Eisenstat-Walker|fixed"),
       "The relative residual to which iterative solvers solve. Eisenstat-Walker: it falls as Newton's "
@@ -285,8 +282,8 @@ void Solver::declare(ParameterHandler &prm) {
                     "> 0 and < 1. Residual over right-hand side to which iterative solvers solve; with "
                     "Eisenstat-Walker the minimum of it.");
   prm.declare_entry("Maximum linear iterations", "200", Patterns::Integer(0),
-                    "Iterations of an iterative solver. If it needs more, a direct solver replaces it for "
-                    "that matrix.");
+                    "Maximum number of iterations of an iterative solver. If it requires more, a direct "
+                    "solver replaces it for that matrix.");
 }
 
 void Solver::parse(Reader &reader) {
@@ -298,8 +295,8 @@ void Solver::parse(Reader &reader) {
     reader.reject("Force tolerance", "a number > 0 and < 1");
   energy_tolerance = reader.positive("Energy tolerance");
   displacement_tolerance = reader.positive("Displacement tolerance");
-  most_iterations = reader.count("Maximum iterations", 1);
-  most_augmentations = reader.count("Maximum augmentations", 1);
+  max_iterations = reader.count("Maximum iterations", 1);
+  max_augmentations = reader.count("Maximum augmentations", 1);
   line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
   predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
   linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));
@@ -307,7 +304,7 @@ void Solver::parse(Reader &reader) {
   linear_tolerance = reader.positive("Linear tolerance");
   if (linear_tolerance >= 1.)
     reader.reject("Linear tolerance", "a number > 0 and < 1");
-  most_linear_iterations = reader.count("Maximum linear iterations", 1);
+  max_linear_iterations = reader.count("Maximum linear iterations", 1);
   if (linear_solver.value == LinearSolver::mumps || linear_solver.value == LinearSolver::mumps_symmetric ||
       linear_solver.value == LinearSolver::klu)
     for (const std::string key : {"Forcing term", "Linear tolerance", "Maximum linear iterations"})
@@ -316,22 +313,21 @@ void Solver::parse(Reader &reader) {
 }
 
 void Output::declare(ParameterHandler &prm) {
-  prm.declare_entry(
-      "Folder", "results", Patterns::Anything(),
-      "Folder of all output, relative to the current folder. It is created if it does not exist.");
-  prm.declare_entry(
-      "Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
-      "Fields for ParaView: VTU and PVD; HDF5 and XDMF, one file a time on any number of ranks; or none.");
+  prm.declare_entry("Folder", "results", Patterns::Anything(),
+                    "Folder of all output, relative to the current folder. The run creates it if necessary.");
+  prm.declare_entry("Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
+                    "Format of the field output for ParaView. vtu: VTU and PVD; hdf5: HDF5 and XDMF, one "
+                    "file for each output time on any number of ranks; none: no field output.");
   prm.declare_entry("Step interval", "1", Patterns::Integer(0),
-                    "Fields are written each time after this many steps, at the start and at the end. 0, "
-                    "the default of explicit scenes: only there, or by the interval.");
+                    "Number of steps between field outputs, in addition to those at the start and at the "
+                    "end. 0, the default of explicit scenes: none, or by the interval.");
   prm.declare_entry(
       "Interval", "0", Patterns::Double(),
-      "If not 0, fields are written at multiples of this time instead: steps end there; in explicit "
-      "scenes, at the end of the first step that reaches them. [time]");
+      "Time between field outputs, whose times are multiples of it. Implicit steps end there; explicit "
+      "scenes write at the end of the first step that reaches them. 0: by the step interval. [time]");
   prm.declare_entry("History interval", "0", Patterns::Double(),
-                    "Explicit scenes: a line of the history is written at the end of the first step that "
-                    "reaches a multiple of this time; 0: a two hundredth of the end time. [time]");
+                    "Explicit scenes: time between lines of the history, at the end of the first step that "
+                    "reaches a multiple of it. 0: 1/200 of the end time. [time]");
   prm.declare_entry("Stress", "true", Patterns::Bool(),
                     "Write Cauchy stress, von Mises stress and pressure.");
   prm.declare_entry("Plastic strain", "true", Patterns::Bool(),
@@ -343,13 +339,13 @@ void Output::declare(ParameterHandler &prm) {
                     "each iteration, too.");
   prm.enter_subsection("Checkpoint");
   prm.declare_entry("Step interval", "0", Patterns::Integer(0),
-                    "A checkpoint, from which the run can resume, is written each time after this many "
-                    "steps and at the end. 0: not by steps.");
+                    "Number of steps between checkpoints, from which the run can resume; another one follows "
+                    "at the end. 0: not by steps.");
   prm.declare_entry("Interval", "0", Patterns::Double(),
-                    "A checkpoint is written when a step reaches or passes a multiple of this time, and at "
-                    "the end. 0: not by time. [time]");
+                    "Time between checkpoints: the first step that reaches a multiple of it writes one, and "
+                    "so does the end. 0: not by time. [time]");
   prm.declare_entry("Keep", "2", Patterns::Integer(0),
-                    "At least 1: number of checkpoints that are kept. Older ones of this run are removed.");
+                    ">= 1. Number of checkpoints to keep. The run removes its older ones.");
   prm.leave_subsection();
 }
 
@@ -384,10 +380,9 @@ void Restart::declare(ParameterHandler &prm) {
   prm.declare_entry("File", "", Patterns::Anything(),
                     "Checkpoint of an earlier run from which the scene resumes, relative to the scene file. "
                     "--restart on the command line replaces it.");
-  prm.declare_entry(
-      "Release time", "0", Patterns::Double(),
-      "Quasi-static scenes that resume from an explicit run, or without tools that were there: the forces "
-      "that are out of balance then fade over this time; 0: until the end time. [time]");
+  prm.declare_entry("Release time", "0", Patterns::Double(),
+                    "Quasi-static scenes that resume from an explicit run, or without former tools: time "
+                    "over which unbalanced forces fade. 0: until the end time. [time]");
 }
 
 void Restart::parse(Reader &reader) {

@@ -14,22 +14,21 @@ namespace Patterns = dealii::Patterns;
 void ImplicitDynamics::declare(ParameterHandler &prm) {
   declare_selection(
       prm, "Method", "generalised-alpha", time_integrator_types(),
-      "Time integration method. Contact needs some damping of motions that the step does not resolve.");
+      "Time integration method. Contact requires some damping of motions that the step does not resolve.");
   prm.declare_entry("Mass", "consistent", Patterns::Selection("consistent|lumped"),
-                    "consistent: that of the elements' shape functions; lumped: its row sums at the nodes, "
-                    "as in explicit scenes.");
+                    "Mass matrix. consistent: that of the shape functions; lumped: its row sums at the "
+                    "nodes, as in explicit scenes.");
   prm.declare_entry("Error tolerance", "1e-3", Patterns::Double(),
-                    "Automatic steps: a step is cut if the error of its time integration (Zienkiewicz & Xie "
-                    "1991, root mean square over the mass) is above this part of the reference displacement, "
-                    "and grows no faster than the error allows. 0: steps follow the iterations alone.");
-  prm.declare_entry(
-      "Reference displacement", "0", Patterns::Double(),
-      "Displacement to which the error tolerance refers. 0: the largest displacement so far (root mean "
-      "square over the mass), where the motion of whole bodies counts up to the largest one's radius of "
-      "gyration, and no less than a millionth of the scene's radius. [length]");
+                    "Automatic steps: maximum error of the time integration in a step (Zienkiewicz & Xie "
+                    "1991, root mean square over the mass), as a part of the reference displacement. The "
+                    "error cuts steps and limits their growth. 0: steps depend on the iterations only.");
+  prm.declare_entry("Reference displacement", "0", Patterns::Double(),
+                    "Displacement to which the error tolerance refers. 0: maximum displacement so far (root "
+                    "mean square over the mass), at least a millionth of the scene's radius. Rigid-body "
+                    "motion counts up to the maximum radius of gyration. [length]");
   prm.declare_entry("Maximum energy drift", "0.05", Patterns::Double(),
-                    "The run ends if the energies fail to balance by more than this part of the largest "
-                    "energy so far. 0: it continues, and a warning is printed at 5 %.");
+                    "The run fails if the energies are off balance by more than this part of the maximum "
+                    "energy so far. 0: it continues, and prints a warning at 5 %.");
 }
 
 void ImplicitDynamics::parse(Reader &reader, const bool steps_are_fixed) {
@@ -37,7 +36,7 @@ void ImplicitDynamics::parse(Reader &reader, const bool steps_are_fixed) {
   mass = reader.text("Mass") == "lumped" ? Mass::lumped : Mass::consistent;
   error_tolerance = reader.not_negative("Error tolerance");
   reference_displacement = reader.not_negative("Reference displacement");
-  largest_drift = reader.not_negative("Maximum energy drift");
+  max_drift = reader.not_negative("Maximum energy drift");
   if (steps_are_fixed)
     for (const std::string key : {"Error tolerance", "Reference displacement"})
       if (reader.is_set(key))

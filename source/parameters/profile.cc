@@ -87,7 +87,7 @@ constexpr std::array<Row, 34> rows = {{
 }};
 
 constexpr const char *profile_key = "Profile", *target_key = "Target error";
-constexpr double least_target = 1e-6; // smaller targets are below the errors of Newton's method and round-off
+constexpr double min_target = 1e-6; // smaller targets are below the errors of Newton's method and round-off
 
 double number_in(const std::string &text, const double otherwise) {
   try {
@@ -151,10 +151,10 @@ std::vector<Path> paths_of(const std::string &section, const SceneFile &file) {
 }
 
 // Minimum target in single precision: its error of the forces, with a margin.
-constexpr double least_target_of_float = 1e-5;
+constexpr double min_target_of_float = 1e-5;
 
 // Minimum target for which the hypoelastic law may replace Hencky's: doc/results/profiles.md.
-constexpr double least_target_of_rates = 1e-3;
+constexpr double min_target_of_rates = 1e-3;
 
 /// Whether the elastic strain at the yield stress is at most 1 %.
 bool has_small_elastic_strains(const Path &material, const SceneFile &file) {
@@ -177,7 +177,7 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
   if (key == "Elasticity") // hypoelastic laws do not conserve elastic energy
     return file.value(path, "Law", "elastoplastic") != "elastic" &&
-           (target == 0. || (target >= least_target_of_rates && has_small_elastic_strains(path, file)));
+           (target == 0. || (target >= min_target_of_rates && has_small_elastic_strains(path, file)));
   return true;
 }
 
@@ -203,9 +203,9 @@ public:
     if (unit == "T")
       return print(factor * end_time_);
     if (unit == "E") {
-      double most = std::numeric_limits<double>::infinity();
-      words >> most;
-      return print(words ? std::min(factor * target_, most) : factor * target_);
+      double maximum = std::numeric_limits<double>::infinity();
+      words >> maximum;
+      return print(words ? std::min(factor * target_, maximum) : factor * target_);
     }
     return unit == "/" ? print(factor / target_) : text;
   }
@@ -235,8 +235,8 @@ std::string between(const std::string &key, const std::string &value, const Scen
 [[noreturn]] void refuse(const SceneFile &file, const Path &path, const std::string &key,
                          const std::string &allowed) {
   throw InputError(file.where(path, key) + ": '" + key + "'" +
-                   (path.empty() ? "" : " in '" + join(path) + "'") + ": found '" +
-                   file.value(path, key, "") + "', allowed is " + allowed);
+                   (path.empty() ? "" : " in '" + join(path) + "'") + " is '" + file.value(path, key, "") +
+                   "'; allowed is " + allowed);
 }
 
 void check_contradictions(const SceneFile &file, const double target) {
@@ -249,9 +249,9 @@ void check_contradictions(const SceneFile &file, const double target) {
   if (file.value({"Time stepping"}, "Step control", "automatic") == "fixed")
     refuse(file, {"Time stepping"}, "Step control", "automatic" + reason);
   for (const auto &[path, key] : limited) {
-    const double most = key == "Force tolerance" ? 0.3 * target : target;
-    if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > most)
-      refuse(file, path, key, "a number not above " + print(most) + ", or none" + reason);
+    const double maximum = key == "Force tolerance" ? 0.3 * target : target;
+    if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > maximum)
+      refuse(file, path, key, "a number not above " + print(maximum) + ", or none" + reason);
   }
 }
 
@@ -272,24 +272,24 @@ void check_what_is_estimated(const SceneFile &file, const double target) {
     return;
   if (number_in(file.value(dynamics, "Mass scaling step", "0"), 0.) > 0.)
     refuse(file, dynamics, "Mass scaling step",
-           std::string("none beside a '") + target_key + "': what added mass changes no estimate knows");
-  if (target < least_target_of_float && file.value(dynamics, "Number type", "double") == "float")
+           std::string("none beside a '") + target_key + "': no estimate covers the effect of added mass");
+  if (target < min_target_of_float && file.value(dynamics, "Number type", "double") == "float")
     refuse(file, dynamics, "Number type",
-           std::string("double beside a '") + target_key + "' below " + print(least_target_of_float) +
-               ": single precision leaves up to a millionth of the forces");
+           std::string("double beside a '") + target_key + "' below " + print(min_target_of_float) +
+               ": single precision limits the accuracy to 1e-6 of the forces");
 }
 
 } // namespace
 
 void declare_presets(dealii::ParameterHandler &prm) {
   prm.declare_entry(profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
-                    "Choice between speed and accuracy: it sets the defaults of parameters of steps, solver, "
-                    "contact and elements. Values in the scene take precedence; --check lists what the "
-                    "profile sets. balanced: the defaults that are listed here.");
+                    "Choice between speed and accuracy: it sets the defaults of steps, solver, contact and "
+                    "elements. Values in the scene take precedence; --check lists the values of the profile. "
+                    "balanced: the defaults of this list.");
   prm.declare_entry(target_key, "", dealii::Patterns::Anything(),
                     "Maximum error of the force curves, such as '1 percent', '1 %' or '0.01'. Error "
-                    "estimates control steps, tolerances and augmentation during the run. The estimated "
-                    "error is printed at the end; it excludes the error of the mesh. Empty: none.");
+                    "estimates control steps, tolerances and augmentation during the run. The run prints the "
+                    "estimated error at the end; it excludes the error of the mesh. Empty: none.");
 }
 
 double read_target_error(const SceneFile &file) {
@@ -306,11 +306,12 @@ double read_target_error(const SceneFile &file) {
     }
   const double target = factor * number_in(amount, 0.);
   const std::string found =
-      file.where({}, target_key) + ": '" + target_key + "': found '" + text + "', allowed is ";
+      file.where({}, target_key) + ": '" + target_key + "' is '" + text + "'; allowed is ";
   if (!(target > 0. && target < 1.))
     throw InputError(found + "a part > 0 and < 1 of the forces, such as '1 percent' or '0.01'");
-  if (target < least_target)
-    throw InputError(found + "1e-6 or more: rounding and Newton's method leave too much for less");
+  if (target < min_target)
+    throw InputError(found +
+                     "1e-6 or more: round-off and the residual of Newton's method limit the accuracy");
   return target;
 }
 

@@ -17,10 +17,10 @@ namespace billet {
 namespace {
 
 constexpr auto within_reach =
-    "0, or a size from 1e-60 to 1e60: products of others leave the range of the machine's numbers";
+    "0, or a size from 1e-60 to 1e60: products of other numbers exceed the range of the machine";
 
 bool is_beyond_reach(const double value) {
-  return std::abs(value) > largest_number || (value != 0. && std::abs(value) < smallest_number);
+  return std::abs(value) > max_number || (value != 0. && std::abs(value) < min_number);
 }
 
 } // namespace
@@ -42,7 +42,7 @@ std::string Reader::origin(const std::string &key) const {
 std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }
 
 void Reader::reject(const std::string &key, const std::string &allowed) const {
-  throw InputError(origin(key) + ": found '" + prm_.get(key) + "', allowed is " + allowed);
+  throw InputError(origin(key) + " is '" + prm_.get(key) + "'; allowed is " + allowed);
 }
 
 std::string Reader::text(const std::string &key) const { return prm_.get(key); }
@@ -77,10 +77,11 @@ double Reader::not_negative(const std::string &key) const {
   return value;
 }
 
-unsigned int Reader::count(const std::string &key, const unsigned int least, const unsigned int most) const {
+unsigned int Reader::count(const std::string &key, const unsigned int minimum,
+                           const unsigned int maximum) const {
   const long value = prm_.get_integer(key);
-  if (value < static_cast<long>(least) || value > static_cast<long>(most))
-    reject(key, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  if (value < static_cast<long>(minimum) || value > static_cast<long>(maximum))
+    reject(key, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum));
   return static_cast<unsigned int>(value);
 }
 

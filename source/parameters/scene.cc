@@ -44,11 +44,10 @@ struct Outline {
 /// Declares all parameters.
 void declare_all(ParameterHandler &prm, const Outline &outline) {
   const auto &names_below = outline.names_below;
-  prm.declare_entry("Title", "", dealii::Patterns::Anything(), "Shown in the console and in --check.");
-  prm.declare_entry(
-      "Warnings", "report", dealii::Patterns::Selection("report|errors"),
-      "With 'errors' a run that ends with warnings exits with code 6; it is computed to its end "
-      "all the same.");
+  prm.declare_entry("Title", "", dealii::Patterns::Anything(),
+                    "Title of the scene, for the console and --check.");
+  prm.declare_entry("Warnings", "report", dealii::Patterns::Selection("report|errors"),
+                    "errors: a run that ends with warnings exits with code 6, but completes.");
   declare_presets(prm);
   declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
                 [&](const std::string &) { Amplitude::declare(prm); });
@@ -103,8 +102,8 @@ template <class T> std::size_t index_of(const std::vector<T> &list, const Locate
       return i;
     known += (i == 0 ? "" : ", ") + list[i].name;
   }
-  throw InputError(name.origin + ": found '" + name.value +
-                   "', allowed is one of: " + (known.empty() ? "(none is defined)" : known));
+  throw InputError(name.origin + " is '" + name.value +
+                   "'; allowed is one of: " + (known.empty() ? "(none is defined)" : known));
 }
 
 void check_amplitude_name(const std::string &name, const std::string &file_name) {
@@ -115,8 +114,8 @@ void check_amplitude_name(const std::string &name, const std::string &file_name)
       std::isalpha(static_cast<unsigned char>(name[0])) == 0 || name == "x" || name == "y" || name == "z" ||
       name == "t" || name == "pi")
     throw InputError(file_name + ": amplitude '" + name +
-                     "': found a name that expressions cannot use, allowed are letters, digits and '_', "
-                     "first a letter, and not x, y, z, t, pi");
+                     "' has a name that expressions cannot use; allowed are letters, digits and '_', first a "
+                     "letter, but not x, y, z, t, pi");
 }
 
 /// One side of a contact pair: faces of a body.
@@ -166,8 +165,9 @@ void check_twice(const std::vector<ContactPair> &pairs) {
     for (auto first = pairs.begin(); first != second; ++first) {
       const unsigned int id = repeated_id(*first, *second);
       if (id != Side::no_id)
-        throw InputError(second->boundary_ids.origin + ": found boundary id " + std::to_string(id) +
-                         ", allowed are others: pair '" + first->name + "' already has it against the same " +
+        throw InputError(second->boundary_ids.origin + " names boundary id " + std::to_string(id) +
+                         "; allowed are other ids, since pair '" + first->name +
+                         "' already names it against the same " +
                          (first->is_between_bodies() ? "faces" : "tool"));
     }
 }
@@ -185,13 +185,13 @@ public:
       refuse({"Output"}, "History interval");
     if (scene_.is_dynamic())
       refuse({"Restart"}, "Release time");
-    constexpr double most_times = 1e7; // maximum number of outputs; more would fill a disk
+    constexpr double max_times = 1e7; // maximum number of outputs; more would fill a disk
     for (const std::string key : {"Interval", "History interval"}) {
       const double interval = key == "Interval" ? scene_.output.interval : scene_.output.history_interval;
-      if (interval > 0. && interval * most_times < scene_.time_stepping.end_time)
-        throw InputError(file_.where({"Output"}, key) + ": '" + key + "'" + in({"Output"}) + ": found '" +
+      if (interval > 0. && interval * max_times < scene_.time_stepping.end_time)
+        throw InputError(file_.where({"Output"}, key) + ": '" + key + "'" + in({"Output"}) + " is '" +
                          file_.value({"Output"}, key, "0") +
-                         "', allowed is 0, or at least 1e-7 of the end time");
+                         "'; allowed is 0, or at least 1e-7 of the end time");
     }
     for (const auto &body : scene_.bodies)
       check(body, {"Bodies", body.name});
@@ -221,18 +221,18 @@ private:
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
     if (scene_.is_dynamic() && body.is_stabilised.value)
       throw InputError(body.is_stabilised.origin +
-                       ": found 'until contact', allowed is 'none', since 'Scheme' is " + name_of_scheme() +
+                       " is 'until contact'; allowed is 'none', since 'Scheme' is " + name_of_scheme() +
                        ": the mass of a body resists its motion");
     if (scene_.is_explicit() && body.points_through.value > 2)
-      throw InputError(body.points_through.origin + ": found '" + std::to_string(body.points_through.value) +
-                       "', allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
+      throw InputError(body.points_through.origin + " is '" + std::to_string(body.points_through.value) +
+                       "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
     if (scene_.is_explicit())
       return;
     if (!scene_.is_dynamic())
       refuse(path, "Initial velocity");
     if (!scene_.is_dynamic() && !body.loads.empty())
       throw InputError(file_.where({path[0], path[1], "Loads", body.loads.front().name}) +
-                       ": found a load, allowed are loads in dynamic scenes");
+                       ": the scene is quasi-static; allowed are loads in dynamic scenes");
   }
   void refuse(const SceneFile::Path &path, const std::string &key) const {
     if (file_.is_set(path, key))
@@ -243,8 +243,8 @@ private:
       refuse_entry(path, entry->key);
   }
   [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
-    throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + ": found '" +
-                     file_.value(path, key, "") + "', allowed is no value: 'Scheme' in 'Time stepping' is " +
+    throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + " is '" +
+                     file_.value(path, key, "") + "'; allowed is no value: 'Scheme' in 'Time stepping' is " +
                      name_of_scheme());
   }
   std::string name_of_scheme() const {
@@ -258,8 +258,8 @@ private:
   }
   void require(const bool is_there, const SceneFile::Path &path, const std::string &key) const {
     if (!is_there)
-      throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + ": found '" +
-                       file_.value(path, key, "0") + "', allowed is a number > 0, since the scheme is " +
+      throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + " is '" +
+                       file_.value(path, key, "0") + "'; allowed is a number > 0, since the scheme is " +
                        name_of_scheme());
   }
 
@@ -312,7 +312,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   for (const auto &amplitude : scene.amplitudes)
     check_amplitude_name(amplitude.name, file.where({"Amplitudes", amplitude.name}));
   if (scene.bodies.empty())
-    throw InputError(file_name + ": the scene has no body: allowed is at least one subsection in 'Bodies'");
+    throw InputError(file_name + ": the scene has no body; allowed is at least one subsection in 'Bodies'");
   for (const auto &pair : scene.pairs) {
     scene.body_index(pair);
     if (pair.is_between_bodies())
@@ -327,9 +327,9 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   for (const auto &tool : scene.tools)
     if (std::isfinite(tool.motion.removal_time.value) &&
         tool.motion.removal_time.value >= scene.time_stepping.end_time)
-      throw InputError(tool.motion.removal_time.origin + ": found " +
+      throw InputError(tool.motion.removal_time.origin + " is " +
                        dealii::Utilities::to_string(tool.motion.removal_time.value) +
-                       ", allowed is a time before the end time");
+                       "; allowed is a time before the end time");
   return scene;
 }
 

@@ -35,11 +35,9 @@ bool take_keyword(std::string &line, const std::string &keyword) {
 
 [[noreturn]] void refuse_second(const SceneFile::Entry &entry, const SceneFile::Entry &first) {
   if (entry.written_key != first.written_key)
-    throw InputError(entry.where + ": found '" + entry.written_key + "' beside '" + first.written_key +
-                     "' at " + first.where + ", which is the same parameter: allowed is '" + entry.key +
-                     "' alone");
-  throw InputError(entry.where + ": '" + entry.written_key + "' is set twice; the first time at " +
-                   first.where);
+    throw InputError(entry.where + ": '" + entry.written_key + "' is the same parameter as '" +
+                     first.written_key + "' at " + first.where + "; allowed is '" + entry.key + "' alone");
+  throw InputError(entry.where + ": '" + entry.written_key + "' is set twice, first at " + first.where);
 }
 
 std::string single_spaced(const std::string &text) {
@@ -93,7 +91,7 @@ std::string join(const SceneFile::Path &path) {
 SceneFile SceneFile::read(const std::string &file_name) {
   std::ifstream stream(file_name);
   if (!stream || std::filesystem::is_directory(file_name))
-    throw InputError(file_name + ": the scene file cannot be read. Is the name right?");
+    throw InputError(file_name + ": the program cannot read the scene file. Check its name");
   return scan(stream, file_name);
 }
 
@@ -103,8 +101,7 @@ SceneFile SceneFile::scan(std::istream &text, const std::string &name) {
   Path path;
   file.scan_file(text, name, path, 0);
   if (!path.empty())
-    throw InputError(file.last_opened(path) + ": subsection '" + join(path) +
-                     "' is opened but never closed: an 'end' is missing");
+    throw InputError(file.last_opened(path) + ": subsection '" + join(path) + "' has no 'end'");
   return file;
 }
 
@@ -126,7 +123,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       if (statement.empty())
         throw InputError(where + ": 'include' needs the name of a file");
       if (depth == 20)
-        throw InputError(where + ": files include each other without end");
+        throw InputError(where + ": files include each other in a cycle");
       const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
       std::ifstream stream(included);
       if (!stream || std::filesystem::is_directory(included))
@@ -145,7 +142,8 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
     } else if (take_keyword(statement, "set")) {
       const auto equals = statement.find('=');
       if (equals == std::string::npos)
-        throw InputError(where + ": found 'set " + statement + "'; allowed is 'set parameter = value'");
+        throw InputError(where + ": the statement is 'set " + statement +
+                         "'; allowed is 'set parameter = value'");
       const std::string key = single_spaced(trim(statement.substr(0, equals))),
                         value = trim(statement.substr(equals + 1));
       const CurrentNames names = current_names(path, key, value);
@@ -155,15 +153,14 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       entries_.push_back(entry);
     } else if (statement == "end") {
       if (path.size() == outer_depth)
-        throw InputError(where + ": 'end' without a subsection to close");
+        throw InputError(where + ": 'end' closes no subsection");
       path.pop_back();
     } else
-      throw InputError(where + ": found '" + statement +
+      throw InputError(where + ": the statement is '" + statement +
                        "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'");
   }
   if (depth > 0 && path.size() != outer_depth)
-    throw InputError(last_opened(path) + ": subsection '" + join(path) +
-                     "' is opened but never closed: an 'end' is missing in this file");
+    throw InputError(last_opened(path) + ": subsection '" + join(path) + "' has no 'end' in this file");
 }
 
 const SceneFile::Entry *SceneFile::find(const Path &path, const std::string &key) const {
@@ -235,9 +232,9 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
   for (const auto &subsection : subsections_)
     if (!prm.subsection_path_exists(subsection.path)) {
       const Path above(subsection.path.begin(), subsection.path.end() - 1);
-      throw InputError(subsection.where + ": unknown subsection '" + join(subsection.path) + "'; known " +
-                       (above.empty() ? "at the top level" : "in '" + join(above) + "'") + ": " +
-                       known(above));
+      throw InputError(subsection.where + ": there is no subsection '" + join(subsection.path) +
+                       "'; allowed " + (above.empty() ? "at the top level" : "in '" + join(above) + "'") +
+                       " are: " + known(above));
     }
 
   for (const auto &entry : entries_) {
@@ -252,12 +249,12 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
       prm.set(entry.key, entry.value);
     } catch (const ParameterHandler::ExcEntryUndeclared &) {
       leave();
-      throw InputError(entry.where + ": unknown parameter '" + entry.key + "'" + place +
-                       "; known here: " + known(entry.path));
+      throw InputError(entry.where + ": there is no parameter '" + entry.key + "'" + place +
+                       "; allowed here are: " + known(entry.path));
     } catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error) {
       leave();
-      throw InputError(entry.where + ": '" + entry.key + "'" + place + ": found '" + entry.value +
-                       "', allowed is " + describe_pattern(error.what()));
+      throw InputError(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value +
+                       "'; allowed is " + describe_pattern(error.what()));
     }
     leave();
   }

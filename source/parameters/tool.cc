@@ -20,42 +20,42 @@ namespace Patterns = dealii::Patterns;
 
 void Motion::declare(ParameterHandler &prm) {
   prm.declare_entry("Translation", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Three muParser expressions of the time t and the names of amplitudes. [length]");
+                    "Translation of the tool: three muParser expressions of the time t and the names of "
+                    "amplitudes. [length]");
   prm.declare_entry("Rotation angle", "0", Patterns::Anything(),
-                    "Expression of t and the names of amplitudes; right-handed about the axis. [radians]");
-  prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(), "Direction of the axis.");
+                    "Rotation of the tool, right-handed about the axis: expression of t and the names of "
+                    "amplitudes. [radians]");
+  prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(), "Direction of the axis of rotation.");
   prm.declare_entry(
       "Centre", "0, 0, 0", Patterns::Anything(),
-      "A point on the axis before the motion; moments on the tool refer to where it has moved. [length]");
+      "Point on the axis before the motion. Moments on the tool refer to its current position. [length]");
   prm.declare_entry(
       "Force", "", Patterns::Anything(),
-      "Expression of t and the names of amplitudes. Unless empty, the tool moves on from where its "
-      "translation takes it, along the force direction, until it presses on the bodies with this force. "
-      "[force]");
+      "Expression of t and the names of amplitudes. The tool moves beyond its translation, along the force "
+      "direction, until it presses on the bodies with this force. Empty: no force. [force]");
   prm.declare_entry("Force direction", "", Patterns::Anything(),
                     "Direction in which a tool with a force, or a stop force, presses.");
-  prm.declare_entry(
-      "Moment", "", Patterns::Anything(),
-      "The same for the rotation: it turns on about its axis until it twists the bodies with this moment. "
-      "[force length]");
-  prm.declare_entry(
-      "Stop force", "", Patterns::Anything(),
-      "Expression of t and the names of amplitudes. Unless empty, the tool stops for good where it presses "
-      "along the force direction with this force. [force]");
+  prm.declare_entry("Moment", "", Patterns::Anything(),
+                    "Expression of t and the names of amplitudes. The tool turns beyond its rotation until "
+                    "it acts on the bodies with this moment. Empty: no moment. [force length]");
+  prm.declare_entry("Stop force", "", Patterns::Anything(),
+                    "Expression of t and the names of amplitudes. The tool stops permanently once it presses "
+                    "along the force direction with this force. Empty: no stop. [force]");
   prm.declare_entry("Mass", "0", Patterns::Double(),
-                    "Mass of a tool with a force, in dynamic scenes: > 0. With 'Force = 0' the tool moves by "
+                    "> 0. Mass of a tool with a force, in dynamic scenes. With 'Force = 0' the tool moves by "
                     "its inertia and contact alone. [mass]");
   prm.declare_entry(
       "Moment of inertia", "0", Patterns::Double(),
-      "Moment of inertia of a tool with a moment about its axis, in dynamic scenes: > 0. [mass length^2]");
+      "> 0. Moment of inertia of a tool with a moment about its axis, in dynamic scenes. [mass length^2]");
   prm.declare_entry(
       "Initial speed", "0", Patterns::Double(),
       "Initial speed of a tool with a force or moment, in dynamic scenes: along the force direction, or "
       "about its axis, in addition to its translation and rotation. [length/time, or radians/time]");
-  prm.declare_entry("Removal time", "", Patterns::Anything(),
-                    "The tool is removed at this time, so that the bodies spring back; empty: never. [time]");
+  prm.declare_entry(
+      "Removal time", "", Patterns::Anything(),
+      "Time of the removal of the tool, after which the bodies spring back. Empty: never. [time]");
   prm.declare_entry("Release time", "0", Patterns::Double(),
-                    ">= 0, in which the forces of a removed tool fade. [time]");
+                    ">= 0. Time over which the forces of a removed tool fade. [time]");
 }
 
 void Motion::parse(Reader &reader) {
@@ -149,7 +149,7 @@ void Tool::parse(Reader &reader) {
       });
   });
   if (patches.empty())
-    throw InputError(origin + ": the tool has no surface: allowed is at least one subsection in 'Surfaces'");
+    throw InputError(origin + ": the tool has no surface; allowed is at least one subsection in 'Surfaces'");
   surface = std::make_shared<const RigidSurface>(std::move(patches));
   reader.in("Motion", [&] { motion.parse(reader); });
 }
@@ -163,77 +163,74 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Tool", "", Patterns::Anything(),
                     "Name of the tool; a pair has a tool or a second body.");
   prm.declare_entry("Second body", "", Patterns::Anything(),
-                    "Name of another body, or of the same one: then its faces may touch each other.");
+                    "Name of another body, or of the same body for self-contact.");
   prm.declare_entry("Second boundary ids", "", Patterns::Anything(),
                     "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
                     "'Boundary ids' among themselves.");
   prm.declare_entry(
       "Facets", "automatic", Patterns::Selection("automatic|planed|mean gap|bilinear|overlap"),
-      "Pairs of bodies: planed: the planed contact element, no iterations (Bittencourt & Creus "
-      "1998), with the gap to the warped face; mean gap: to its mean plane, as published, which "
-      "can create energy; bilinear: the closest point on the bilinear face, iterated; overlap: faces touch "
-      "as a whole, in their common polygon on the planed face: a uniform pressure is exact, and edges are "
-      "seen; automatic: planed in explicit scenes, overlap in implicit ones.");
-  prm.declare_entry(
-      "Passes", "automatic", Patterns::Selection("automatic|one|two"),
-      "Pairs of bodies: two: the nodes of both are kept out of the other's facets, each with "
-      "half the penalty; one: those of 'Body' alone; automatic: one where faces overlap, else two.");
+      "Contact formulation of pairs of bodies. planed: planed contact element without iterations "
+      "(Bittencourt & Creus 1998), with the gap to the warped face. mean gap: gap to its mean plane, as "
+      "published, which can create energy. bilinear: closest point on the bilinear face, by iteration. "
+      "overlap: contact over the common polygon of two faces on the planed face, which is exact for uniform "
+      "pressure and detects edges. automatic: planed in explicit scenes, overlap in implicit ones.");
+  prm.declare_entry("Passes", "automatic", Patterns::Selection("automatic|one|two"),
+                    "Passes of pairs of bodies. two: the nodes of each body are slaves to the facets of the "
+                    "other, with half the penalty each. one: the nodes of 'Body' only. automatic: one with "
+                    "'Facets = overlap', otherwise two.");
   prm.declare_entry("Edge contact", "automatic", Patterns::Selection("automatic|true|false|yes|no"),
                     "Pairs of bodies, nodes against facets. true: contact of edges with edges, which nodes "
-                    "against facets miss; automatic: true in explicit scenes.");
+                    "against facets do not detect; automatic: true in explicit scenes.");
+  prm.declare_entry("Smoothing", "0.1", Patterns::Double(),
+                    "> 0 and <= 0.5. Pairs of bodies, nodes against facets: width at the edges of a facet, "
+                    "as a part of its size, over which normal and gap blend into those of its neighbour. "
+                    "0.5: over the whole facet, a smooth surface of mean normals.");
   prm.declare_entry(
-      "Smoothing", "0.1", Patterns::Double(),
-      "Pairs of bodies, nodes against facets, > 0 and <= 0.5: within this part of a facet's size "
-      "from its border normal and gap go over into those of its neighbour. 0.5: across the whole "
-      "facet, a smooth surface of mean normals.");
-  prm.declare_entry("Search margin", "0.5", Patterns::Double(),
-                    "Pairs of bodies, > 0: facets up to this distance from a node are its candidates. The "
-                    "search is repeated when nodes have moved farther towards each other. The margin changes "
-                    "the cost, not the result. [smallest facet size]");
-  prm.declare_entry("Reference stiffness", "automatic", Patterns::Selection("automatic|stiffer|series"),
-                    "Pairs of bodies, penalty as a factor: the E/h that it multiplies. stiffer: that of the "
-                    "stiffer body; series: both in series; automatic: stiffer in explicit scenes, series "
-                    "in implicit ones.");
+      "Search margin", "0.5", Patterns::Double(),
+      "> 0. Pairs of bodies: maximum distance of candidate facets from a node. The search is repeated when "
+      "nodes approach by more. The margin affects the cost, not the result. [minimum facet size]");
+  prm.declare_entry(
+      "Reference stiffness", "automatic", Patterns::Selection("automatic|stiffer|series"),
+      "Pairs of bodies, penalty as a factor: E/h for this factor. stiffer: that of the stiffer body; series: "
+      "both in series; automatic: stiffer in explicit scenes, series in implicit ones.");
   declare_selection(prm, "Friction law", "Coulomb", friction_law_types(),
-                    "The shear stress at which nodes slide under a pressure p.");
+                    "Shear stress at which nodes slide under a pressure p.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
                     "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "
                     "absolute: they are pressures "
                     "per penetration.");
-  prm.declare_entry("Normal penalty", "10", Patterns::Double(),
-                    "k_n > 0: pressure = k_n times penetration. Unless it is set, h is the elements' "
-                    "thickness in dynamics where that is less, and see Penetration tolerance. [1 or "
-                    "stress/length, see Penalty unit]");
+  prm.declare_entry(
+      "Normal penalty", "10", Patterns::Double(),
+      "k_n > 0: pressure = k_n times penetration. By default, in dynamics, h is the thickness of the "
+      "elements if that is less; see also Penetration tolerance. [1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
-                    "k_t > 0, stiffness while sticking; empty: as the normal penalty. [1 or stress/length]");
+                    "k_t > 0: stiffness while sticking. Empty: the normal penalty. [1 or stress/length]");
   prm.declare_entry(
       "Penetration tolerance", "", Patterns::Anything(),
-      ">= 0. 0: penalties as they are; else, in implicit scenes, tractions are augmented in each step "
-      "(Uzawa) until no node in contact is farther from its facet, and none that sticks has "
-      "slipped elastically by more; where that takes long, or fails, penalties are adapted. "
-      "automatic: in statics, until penetration takes no more than 0.2 % of the force of the pair; in "
-      "dynamics penalties rise while it takes more than 0.4 % of the deformation. Empty: 0 beside a Normal "
-      "penalty, else automatic. [facet sizes]");
-  prm.declare_entry(
-      "Allowed initial penetration", "1e-3", Patterns::Double(),
-      "A body that starts deeper than this inside the tool, or another body, is refused. [facet "
-      "sizes]");
+      ">= 0. 0: pure penalty method. > 0, in implicit scenes: augmented Lagrangian (Uzawa) in each step, "
+      "until penetration and elastic slip of all nodes are below this tolerance. If augmentation is slow or "
+      "fails, the penalty changes. automatic: in statics, until penetration takes at most 0.2 % of the force "
+      "of the pair; in dynamics, penalties rise while it takes more than 0.4 % of the deformation. Empty: 0 "
+      "with a Normal penalty, otherwise automatic. [facet sizes]");
+  prm.declare_entry("Allowed initial penetration", "1e-3", Patterns::Double(),
+                    ">= 0. Maximum initial penetration of a body into the tool or another body; above it the "
+                    "scene is refused. [facet sizes]");
   prm.declare_entry(
       "Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
       "Treatment of an initial penetration above the allowed one. error: the scene is refused; shift, in "
-      "implicit scenes: gaps are measured from where nodes start, without stress; ramp, in implicit scenes: "
-      "the same at the start, but the shift vanishes until the 'Ramp time', as in a press fit.");
+      "implicit scenes: gaps count from the initial positions, without stress; ramp, in implicit scenes: the "
+      "same at the start, but the shift vanishes until the 'Ramp time', as in a press fit.");
   prm.declare_entry("Ramp time", "0", Patterns::Double(),
-                    "> 0: time at which an initial penetration is resolved. [time]");
-  prm.declare_entry("Initial gap", "open", Patterns::Anything(),
-                    "open; or 'close within D', D > 0: faces that start apart by no more than D count as "
-                    "touching, without stress, and their gap is measured from there. For assemblies that "
-                    "were drawn with a little play. [length]");
+                    "> 0. Time at which an initial penetration is resolved. [time]");
+  prm.declare_entry(
+      "Initial gap", "open", Patterns::Anything(),
+      "open; or 'close within D', D > 0: faces with an initial gap of up to D are in contact without stress, "
+      "and gaps count from there. For assemblies with small clearances. [length]");
   prm.declare_entry(
       "Surface correction", "none", Patterns::Anything(),
-      "Pairs of two bodies: none; 'cylinder : x, y, z ; a, b, c', a point of the axis and its "
-      "direction, also of cones; or 'sphere : x, y, z', the centre. The nodes of both faces lie "
-      "on such surfaces: gaps are those between these, not between the chords of facets.");
+      "True surface of the faces of two bodies: none; 'cylinder : x, y, z ; a, b, c', a point and the "
+      "direction of the axis, also of cones; or 'sphere : x, y, z', the centre. The nodes of both faces lie "
+      "on it, and gaps are those of the true surfaces instead of the chords of facets.");
 }
 
 namespace {
@@ -332,7 +329,7 @@ void ContactPair::parse_initial_state(Reader &reader) {
   if (!is_between_bodies() || second_body.value == body.value)
     reader.reject("Surface correction", "'none': the pair is not of two bodies");
   if (facets.value == Facets::mean_gap)
-    reader.reject("Surface correction", "'none': mean gaps do not know where on a facet a node is");
+    reader.reject("Surface correction", "'none': 'Facets = mean gap' has no position on a facet");
   const auto vectors = dealii::Utilities::split_string_list(text.substr(colon + 1), ';');
   std::array<dealii::Tensor<1, 3>, 2> values;
   bool is_sound = vectors.size() == (is_cylinder ? 2 : 1);
@@ -376,18 +373,18 @@ void ContactPair::parse_bodies(Reader &reader) {
   const std::string chosen_passes = reader.text("Passes");
   passes = chosen_passes == "one" ? Passes::one : chosen_passes == "two" ? Passes::two : Passes::automatic;
   if (passes == Passes::one && second_body.value == body.value)
-    reader.reject("Passes", "two: of a body that touches itself, every node is kept out");
+    reader.reject("Passes", "two: in self-contact every node is a slave");
   const std::string edge_contact = reader.text("Edge contact");
   edges = edge_contact == "automatic"                       ? Edges::automatic
           : edge_contact == "true" || edge_contact == "yes" ? Edges::held
                                                             : Edges::free;
   if (edges == Edges::held && facets.value == Facets::overlap)
-    reader.reject("Edge contact", "no value: faces that overlap see edges");
+    reader.reject("Edge contact", "no value: 'Facets = overlap' detects edges");
   smoothing = reader.positive("Smoothing");
   if (smoothing > 0.5)
     reader.reject("Smoothing", "a number > 0 and <= 0.5");
   if (facets.value == Facets::overlap && reader.is_set("Smoothing"))
-    reader.reject("Smoothing", "no value: faces that overlap go over into each other by their areas");
+    reader.reject("Smoothing", "no value: 'Facets = overlap' blends facets by their areas");
   search_margin = reader.positive("Search margin");
   const std::string chosen_penalty = reader.text("Reference stiffness");
   penalty_of = chosen_penalty == "stiffer"  ? PenaltyOf::stiffer

@@ -47,8 +47,8 @@ DiagnosticList check_outline(const Scene &scene, MPI_Comm communicator) {
     messages = check_plausibility(scene, outline, MPI_COMM_SELF);
   });
   messages.emplace_back(diagnostic::outline_checked,
-                        "The mesh is too large to be built for a check: overlaps of bodies and the shapes of "
-                        "elements were not checked");
+                        "The mesh is too large to build for a check, so overlaps of bodies and shapes of "
+                        "elements remain unchecked");
   return messages;
 }
 

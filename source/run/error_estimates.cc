@@ -10,24 +10,23 @@
 namespace billet {
 
 ErrorReport make_report(const ErrorWatch &watch, const StepReport &report) {
-  const ErrorWatch::Belief belief = watch.belief();
-  const ErrorControl::Estimate &estimate = belief.estimate;
+  const ErrorWatch::EstimatedError estimated_error = watch.estimated_error();
+  const ErrorControl::Estimate &estimate = estimated_error.estimate;
   ErrorReport result;
-  result.of_what = belief.of_what;
-  result.since = belief.since;
-  result.is_known = belief.has_results;
+  result.of_what = estimated_error.of_what;
+  result.since = estimated_error.since;
+  result.is_known = estimated_error.has_results;
   result.sources = {
       {"steps", estimate.steps,
-       "Reduce 'Maximum step' or 'Initial step': no step is rejected for its error, and where contacts open "
-       "and "
-       "close the estimate is on the safe side",
+       "Reduce 'Maximum step' or 'Initial step': the run rejects no step for its error, and the estimate is "
+       "conservative where contacts open and close",
        !watch.measures_steps() || watch.n_measurements() > 0},
       {"penetrations", estimate.penetration,
        watch.controls_penetration()
            ? "Reduce 'Initial step', or set a 'Penetration tolerance' in every pair: penetration at first "
              "contact is measured after the step"
-           : "Increase 'Normal penalty', or leave 'Penetration tolerance' to the target error in all pairs",
-       !watch.measures_penetration() || belief.knows_penetration},
+           : "Increase 'Normal penalty', or let 'Target error' set 'Penetration tolerance' in all pairs",
+       !watch.measures_penetration() || estimated_error.knows_penetration},
       {"iterations", estimate.iterations, "Reduce 'Force tolerance'"}};
   result.costs = {{"steps taken", report.step},
                   {"Newton iterations", report.total_iterations},
@@ -50,7 +49,7 @@ void report_errors(ErrorReport report, const Solution &solution, const Discretiz
   report.target = parameters.target_error;
   if (review.element_error() > 0.)
     report.sources.push_back(
-        {"elements", review.element_error(), "Choose the element that the warnings about them name"});
+        {"elements", review.element_error(), "Choose the element that the warnings name"});
   if (review.penalty_error() > 0.)
     report.sources.push_back(
         {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});

@@ -15,7 +15,7 @@ namespace billet {
 
 namespace {
 
-constexpr unsigned int steps_between_looks = ExplicitDynamics::steps_between_looks;
+constexpr unsigned int steps_between_checks = ExplicitDynamics::steps_between_checks;
 
 Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
   std::ostringstream text;
@@ -119,12 +119,12 @@ void ExplicitRun::after_step(RunOutput &output) {
   if (problem_.n_steps() == 0)
     show_number_of_steps(output);
   const bool is_row_due = history_times_.is_due(problem_.time()) || problem_.n_steps() == 0;
-  const bool is_look_due = problem_.n_steps() % steps_between_looks == 0;
+  const bool is_check_due = problem_.n_steps() % steps_between_checks == 0;
   if (is_row_due)
     write_row(output);
-  else if (is_look_due)
+  else if (is_check_due)
     problem_.update_ledger();
-  if (is_row_due || is_look_due) {
+  if (is_row_due || is_check_due) {
     output.report(problem_.check_steps());
     check_stability(output);
     check_drift(output);
@@ -170,19 +170,19 @@ void ExplicitRun::write_fields(RunOutput &output) {
 }
 
 void ExplicitRun::check_stability(RunOutput &output) {
-  constexpr double n_looks = 100.; // in a run: each costs one to a few steps
-  if (problem_.time() < next_look_ || !std::isfinite(problem_.relative_drift()))
+  constexpr double n_checks = 100.; // in a run: each costs one to a few steps
+  if (problem_.time() < next_check_ || !std::isfinite(problem_.relative_drift()))
     return;
   problem_.update_state();
   output.report(stability_.check(problem_.time(), problem_.state().displacements));
-  next_look_ = problem_.time() + stops_.end() / n_looks;
+  next_check_ = problem_.time() + stops_.end() / n_checks;
 }
 
 std::string ExplicitRun::advise_on_law(RunOutput &output) {
   output.report(stability_.check(problem_.time(), problem_.state().displacements));
   if (stability_.has_unstable_bodies())
     return EnergyWatch::advise(EnergyWatch::Cause::unstable_law);
-  if (!problem_.has_soft_penalties() && has_inexact_dissipation(scene_, discretization_, problem_))
+  if (!problem_.has_low_penalties() && has_inexact_dissipation(scene_, discretization_, problem_))
     return EnergyWatch::advise(EnergyWatch::Cause::inexact_dissipation);
   return "";
 }
@@ -191,9 +191,9 @@ std::string ExplicitRun::advise_on_law(RunOutput &output) {
 // penetrates. This fraction soon becomes small, whereas an instability keeps growing.
 void ExplicitRun::check_drift(RunOutput &output) {
   const bool is_finite = std::isfinite(problem_.relative_drift());
-  if (std::abs(problem_.relative_drift()) <= parameters_.explicit_dynamics.largest_drift)
+  if (std::abs(problem_.relative_drift()) <= parameters_.explicit_dynamics.max_drift)
     balanced_step_ = problem_.n_steps();
-  if (is_finite && problem_.n_steps() < balanced_step_ + (is_finished_ ? 1 : steps_between_looks))
+  if (is_finite && problem_.n_steps() < balanced_step_ + (is_finished_ ? 1 : steps_between_checks))
     return;
   problem_.update_state();
   output.snapshots().write(problem_);

@@ -21,14 +21,14 @@ std::string describe_incompressibility(const parameters::Scene &parameters) {
     return "";
   std::ostringstream text;
   text << ". Body '" << body->name
-       << "' is all but incompressible ('Poisson ratio' = " << body->material.law->elastic().poisson_ratio()
-       << "): 0.4999 differs from that by a ten-thousandth of the bulk modulus, and is easier to solve";
+       << "' is nearly incompressible ('Poisson ratio' = " << body->material.law->elastic().poisson_ratio()
+       << "). A ratio of 0.4999 has a bulk modulus of 5000 times the shear modulus, and is easier to solve";
   return text.str();
 }
 
 /// Returns a statement of where the results so far are stored.
 std::string describe_saved_results(const parameters::Scene &parameters) {
-  return "What was computed until then is in '" + parameters.output.folder.value + "'.";
+  return "Results until then are in '" + parameters.output.folder.value + "'.";
 }
 
 } // namespace
@@ -51,12 +51,11 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
     return "";
   const bool turns = has_tool && tool->motion.control == Control::moment;
   return "Body '" + body->name + "' yields without hardening, and " +
-         (has_tool ? "tool '" + tool->name +
-                         (turns ? "' turns it with a given moment" : "' presses with a given force")
-                   : "loads are given") +
-         (parameters.is_dynamic() ? ": above the limit load it flows on and on"
-                                  : ": above the limit load nothing is in balance") +
-         ". If that is what ends the run, " +
+         (has_tool ? "tool '" + tool->name + (turns ? "' applies a given moment" : "' applies a given force")
+                   : "loads act on it") +
+         (parameters.is_dynamic() ? ". Above the limit load, plastic flow is unbounded"
+                                  : ". Above the limit load, no equilibrium exists") +
+         ". If that is the cause, " +
          (!has_tool
               ? std::string()
               : std::string("move the tool by its '") + (turns ? "Rotation" : "Translation") + "', or ") +
@@ -66,17 +65,17 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
 bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
                              const Solution &solution) {
   constexpr double large = 0.02;
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
     if (!body.law->has_plasticity() || body.law->has_exact_dissipation())
       continue;
     for (const ElementSummary &summary : solution.summarize(b))
       if (summary.equivalent_plastic_strain > 0.)
-        largest = std::max(largest,
+        maximum = std::max(maximum,
                            dealii::deviator(summary.cauchy_stress).norm() / (2. * body.law->elastic().shear));
   }
-  return dealii::Utilities::MPI::max(largest, discretization.communicator()) > large;
+  return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > large;
 }
 
 std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
@@ -85,31 +84,26 @@ std::string explain_failed_step(const parameters::Scene &parameters, const StepR
   message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
           << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure;
   std::ostringstream computed;
-  computed << ". What was computed until time " << from << " is in '" << parameters.output.folder.value
-           << "'.";
+  computed << ". Results until time " << from << " are in '" << parameters.output.folder.value << "'.";
   if (report.newton.is_lost_in_round_off || report.newton.is_explained)
     return message.str() + computed.str();
   message << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria << ". "
           << describe_limit_load(parameters);
-  const bool goes_round = report.newton.goes_round && !parameters.pairs.empty();
-  if (goes_round)
-    message << "Nodes that touch and let go by turns, or stick and slip, do that: where a body snaps, or "
-               "friction "
-               "is strong. Try a penalty that is a half or twice as stiff, normal or tangential, or a "
-               "'Penetration "
-               "tolerance'. ";
+  const bool is_cycling = report.newton.is_cycling && !parameters.pairs.empty();
+  if (is_cycling)
+    message << "Likely cause: contact chatter (open/closed or stick/slip), as in snap-through or with strong "
+               "friction. Try half or twice the normal or tangential penalty, or a 'Penetration tolerance'. ";
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
-    message << "Steps are fixed: try a smaller 'Initial step' or 'Step control = automatic'";
+    message << "Steps are fixed. Try a smaller 'Initial step' or 'Step control = automatic'";
   else
-    message << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.smallest_step
-            << (parameters.is_dynamic() ? ": where it is for accuracy, try a larger 'Error tolerance'; else"
-                                        : ":")
-            << (report.newton.goes_round   ? ""
-                : parameters.pairs.empty() ? " try a larger 'Maximum iterations', or"
-                                           : " try a softer penalty, a larger 'Maximum iterations', or")
-            << " look at the last picture for an unstable or torn mesh";
+    message << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.min_step << ". "
+            << (parameters.is_dynamic() ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
+            << (report.newton.is_cycling   ? ""
+                : parameters.pairs.empty() ? "Try a larger 'Maximum iterations'. "
+                                           : "Try a lower penalty or a larger 'Maximum iterations'. ")
+            << "Check the last field output for an unstable or distorted mesh";
   return message.str() + describe_incompressibility(parameters) +
-         (is_unstable ? ". Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
+         (is_unstable ? ". In addition, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
          computed.str();
 }
 
@@ -127,19 +121,19 @@ std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, c
   message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
           << " steps the energies ";
   if (std::isfinite(problem.relative_drift()))
-    message << "fail to balance by " << 100. * problem.relative_drift()
-            << " % of the largest energy so far, allowed are "
-            << 100. * parameters.explicit_dynamics.largest_drift << " % ('Maximum energy drift'): "
-            << (!advice.empty() ? advice
-                : problem.has_soft_penalties()
-                    ? "contact pairs are soft, and nodes that are deep make energy: try a larger 'Normal "
-                      "penalty'"
+    message << "are off balance by " << 100. * problem.relative_drift()
+            << " % of the maximum energy so far; allowed are "
+            << 100. * parameters.explicit_dynamics.max_drift << " % ('Maximum energy drift'): "
+            << (!advice.empty()               ? advice
+                : problem.has_low_penalties() ? "penalties are too low, and nodes with large penetration "
+                                                "create energy. Increase 'Normal penalty'"
                 : scene.capabilities().friction && !scene.body_pairs().empty()
-                    ? "bodies with friction that stick and hop make energy: try a larger 'Normal penalty', "
-                      "such as 1000 E/h; else a smaller 'Safety factor' or more bulk viscosity"
-                    : "try a smaller 'Safety factor', a softer penalty or more bulk viscosity");
+                    ? "contact chatter with friction creates energy. Try a larger 'Normal penalty', such as "
+                      "1000 E/h, else a smaller 'Safety factor' or more bulk viscosity"
+                    : "steps may be too long, or a penalty too high. Try a smaller 'Safety factor', a lower "
+                      "penalty or more bulk viscosity");
   else
-    message << "are not finite; a velocity, a load or a penalty may be too large for its units";
+    message << "are not finite. Check the units of velocities, loads and penalties";
   message << ". " << describe_limit_load(parameters) << describe_saved_results(parameters);
   return message.str();
 }
@@ -147,7 +141,7 @@ std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, c
 std::string explain_failed_step(const parameters::Scene &parameters, const std::string &reason,
                                 const bool is_unstable) {
   return reason + ". " +
-         (is_unstable ? "Besides, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". " : "") +
+         (is_unstable ? "In addition, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". " : "") +
          describe_limit_load(parameters) + describe_saved_results(parameters);
 }
 

@@ -13,9 +13,9 @@ namespace billet {
 namespace {
 
 EnergyWatch make_energy_watch(const parameters::Scene &parameters) {
-  const double largest_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.largest_drift : 0.;
-  return largest_drift > 0.        ? EnergyWatch(EnergyWatch::Balance::is_kept, largest_drift)
-         : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_told)
+  const double max_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.max_drift : 0.;
+  return max_drift > 0.            ? EnergyWatch(EnergyWatch::Balance::is_kept, max_drift)
+         : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_reported)
                                    : EnergyWatch(EnergyWatch::Balance::is_left);
 }
 
@@ -118,17 +118,17 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   if (watch_)
     watch_->after_failure();
   // If round-off limits the residual, smaller load steps make it worse.
-  bool may_go_on = control_.reject() && !newton.is_lost_in_round_off;
+  bool may_continue = control_.reject() && !newton.is_lost_in_round_off;
   report_.total_cuts = control_.n_cuts();
-  if (!may_go_on && !newton.is_lost_in_round_off && !newton.is_explained) {
-    may_go_on = problem_.take_exact_tangent();
-    if (may_go_on)
+  if (!may_continue && !newton.is_lost_in_round_off && !newton.is_explained) {
+    may_continue = problem_.take_exact_tangent();
+    if (may_continue)
       output.report(Diagnostic(diagnostic::exact_tangent,
-                               "Newton's method failed with this 'Contact tangent'; from here on it is "
-                               "the exact one, with an unsymmetric matrix")
+                               "Newton's method failed with this 'Contact tangent'; the run "
+                               "uses the exact one from here on, with an unsymmetric matrix")
                         .time(from));
   }
-  if (may_go_on)
+  if (may_continue)
     return;
   output.snapshots().write(problem_);
   throw SolutionFailure(
@@ -166,7 +166,7 @@ void ImplicitRun::control_errors(RunOutput &output) {
 
 EnergyWatch::Cause ImplicitRun::find_cause_of_imbalance() const {
   return stability_.has_unstable_bodies() ? EnergyWatch::Cause::unstable_law
-         : problem_.has_soft_penalties()  ? EnergyWatch::Cause::soft_penalties
+         : problem_.has_low_penalties()   ? EnergyWatch::Cause::low_penalties
          : has_inexact_dissipation(scene_, discretization_, problem_)
              ? EnergyWatch::Cause::inexact_dissipation
          : has_sticking_overlaps(scene_)   ? EnergyWatch::Cause::sticking_overlaps

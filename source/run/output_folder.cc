@@ -16,15 +16,15 @@ void check_output_folder(const parameters::Scene &parameters) {
   while (!fs::exists(folder, error) && folder.has_relative_path())
     folder = folder.parent_path();
   if (!fs::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError(parameters.output.folder.origin + ": found '" + parameters.output.folder.value +
-                     "', allowed is a folder that can be made and written to; '" + folder.string() + "' is " +
-                     (fs::is_directory(folder, error) ? "not writable" : "not a folder"));
+    throw InputError(parameters.output.folder.origin + " is '" + parameters.output.folder.value +
+                     "'; allowed is a folder that the program can create and write to; '" + folder.string() +
+                     "' is " + (fs::is_directory(folder, error) ? "not writable" : "not a folder"));
   for (const std::string name : {"scene.prm", "history.csv"}) {
     const fs::path file = fs::path(parameters.output.folder.value) / name;
     if (fs::exists(file, error) && (fs::is_directory(file, error) || access(file.c_str(), W_OK) != 0))
-      throw InputError(parameters.output.folder.origin + ": found '" + parameters.output.folder.value +
-                       "', allowed is a folder that can be made and written to; '" + file.string() +
-                       "' cannot be written over");
+      throw InputError(parameters.output.folder.origin + " is '" + parameters.output.folder.value +
+                       "'; allowed is a folder that the program can create and write to; '" + file.string() +
+                       "' cannot be overwritten");
   }
 }
 
@@ -35,7 +35,7 @@ void prepare_output_folder(const parameters::Scene &parameters) {
   std::ofstream copy(folder / "scene.prm");
   copy << parameters.text;
   if (error || !copy.flush())
-    throw InputError(parameters.output.folder.origin + ": nothing can be written to '" + folder.string() +
+    throw InputError(parameters.output.folder.origin + ": the program cannot write to '" + folder.string() +
                      "'");
 }
 

@@ -31,20 +31,20 @@ void Resumption::load(const Scene &scene, const Discretization &discretization,
   if (report.time < parameters.time_stepping.end_time)
     return;
   std::ostringstream message;
-  message << parameters.file_name << ": found 'End time' = " << parameters.time_stepping.end_time
-          << ", allowed is a time after that of the checkpoint, " << report.time;
+  message << parameters.file_name << ": 'End time' is " << parameters.time_stepping.end_time
+          << "; allowed is a time after that of the checkpoint, " << report.time;
   throw InputError(message.str());
 }
 
 Diagnostic Resumption::describe(const double force_tolerance) const {
   std::ostringstream text;
-  text << "Resumed from " << reader.file_name() << " at time " << report.time;
+  text << "The run resumes from " << reader.file_name() << " at time " << report.time;
   for (const auto &part : report.gone)
     text << ", without " << part;
   if (report.kinetic_energy > 0.)
-    text << ". The kinetic energy there, " << report.kinetic_energy << ", is dropped";
+    text << ". The kinetic energy there, " << report.kinetic_energy << ", is discarded";
   if (report.imbalance > force_tolerance * report.force_scale)
-    text << ". Forces out of balance, " << 100. * report.imbalance / report.force_scale
+    text << ". Unbalanced forces, " << 100. * report.imbalance / report.force_scale
          << " % of those in the scene, fade until time " << report.release_end;
   return Diagnostic(diagnostic::resumed, text.str());
 }

@@ -38,13 +38,13 @@ namespace {
 bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
   const Checkpoints &checkpoints = output.checkpoints();
   const bool is_finished = run.is_finished();
-  const Signals::Wish wish = output.signals().look();
+  const Signals::Request request = output.signals().poll();
   const bool is_last = is_finished && checkpoints.is_regular();
-  const bool is_demanded = wish != Signals::Wish::none && run.is_resumable();
+  const bool is_demanded = request != Signals::Request::none && run.is_resumable();
   const bool is_due = run.time() < run.end_time() && checkpoints.is_due(run.n_steps(), run.time());
   has_checkpoint = (is_last || is_demanded || is_due) &&
                    output.write_checkpoint(run.time(), [&](StateWriter &writer) { run.save(writer); });
-  return wish == Signals::Wish::end && !is_finished;
+  return request == Signals::Request::end && !is_finished;
 }
 
 } // namespace

@@ -27,7 +27,7 @@ bool console_is_terminal() {
 }
 
 /// Returns the interval between checks for signals [s]; 0 for implicit runs, whose steps are long.
-double seconds_between_looks(const parameters::Scene &parameters) {
+double seconds_between_checks(const parameters::Scene &parameters) {
   return parameters.is_explicit() ? 0.1 : 0.;
 }
 
@@ -41,18 +41,18 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
       snapshots_(scene.parameters(), writer_),
       progress_(scene, is_first_ ? std::cout : silence_, is_first_ && console_is_terminal()),
       diagnostics_(diagnostics), checkpoints_(scene.parameters().output, communicator),
-      signals_(communicator, seconds_between_looks(scene.parameters())) {
+      signals_(communicator, seconds_between_checks(scene.parameters())) {
   const std::string &folder = scene.parameters().output.folder.value;
-  const bool goes_on = resumption != nullptr && resumption->is_from(folder);
+  const bool continues = resumption != nullptr && resumption->is_from(folder);
   HistoryFile::Mark mark;
   if (resumption != nullptr)
     resumption->reader.in("output", [&] {
       mark = {resumption->reader.read_text("columns"), resumption->reader.number("bytes")};
-      checkpoints_.load(resumption->reader, resumption->report.time, goes_on);
+      checkpoints_.load(resumption->reader, resumption->report.time, continues);
       snapshots_.load(resumption->reader);
-      if (goes_on && resumption->reader.read_text("format") == format())
+      if (continues && resumption->reader.read_text("format") == format())
         writer_.load(resumption->reader);
-      if (goes_on && resumption->reader.has("diagnostics"))
+      if (continues && resumption->reader.has("diagnostics"))
         diagnostics_.load(resumption->reader.read_text("diagnostics"));
     });
   diagnostics_.set_print([this](const Severity severity, const std::string &text) {
@@ -61,9 +61,9 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
   fail_together(communicator, [&] {
     if (is_first_) {
       prepare_output_folder(scene.parameters());
-      diagnostics_.open(folder + "/diagnostics.jsonl", goes_on);
-      history_ = goes_on ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
-                         : std::make_unique<HistoryFile>(scene, folder);
+      diagnostics_.open(folder + "/diagnostics.jsonl", continues);
+      history_ = continues ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
+                           : std::make_unique<HistoryFile>(scene, folder);
     }
   });
 }
@@ -107,25 +107,26 @@ bool RunOutput::write_checkpoint(const double time, const std::function<void(Sta
     });
   });
   if (!failure.empty())
-    diagnostics_.report(
-        Diagnostic(
-            diagnostic::checkpoint_failed,
-            "No checkpoint was written: " + failure +
-                (checkpoints_.last().empty() ? "" : " The last one, " + checkpoints_.last() + ", stays"))
-            .time(time));
+    diagnostics_.report(Diagnostic(diagnostic::checkpoint_failed,
+                                   "The program cannot write a checkpoint: " + failure +
+                                       (checkpoints_.last().empty() ? ""
+                                                                    : ". The last complete one, " +
+                                                                          checkpoints_.last() + ", remains"))
+                            .time(time));
   return failure.empty();
 }
 
 ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bool has_checkpoint) const {
   std::ostringstream message;
-  message << scene_.parameters().file_name << ": stopped by " << signals_.name() << " at time " << time
+  message << scene_.parameters().file_name << ": " << signals_.name() << " stops the run at time " << time
           << " after " << n_steps << " steps";
   const std::string what = message.str();
   if (!has_checkpoint)
-    throw SolutionFailure(what + ", and no checkpoint could be written" +
-                          (checkpoints_.last().empty() ? "" : "; the last one is " + checkpoints_.last()));
+    throw SolutionFailure(
+        what + ", and the program cannot write a checkpoint" +
+        (checkpoints_.last().empty() ? "" : "; the last complete one is " + checkpoints_.last()));
   if (is_first_)
-    std::cerr << "billet: " << what << ". To resume: billet --restart " << checkpoints_.last() << " "
+    std::cerr << "billet: " << what << ". Resume by: billet --restart " << checkpoints_.last() << " "
               << scene_.parameters().file_name << std::endl;
   return ExitCode::stopped;
 }

@@ -25,7 +25,8 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
   }
   fail_together(communicator, [&] {
     if (!diagnostics.write_summary(static_cast<int>(code)))
-      throw SolutionFailure("'" + diagnostics.file_name() + "' cannot be written: is the disk full?");
+      throw SolutionFailure("'" + diagnostics.file_name() +
+                            "' cannot be written. Check whether the disk is full");
   });
   write_capabilities(parameters.output.folder.value, communicator);
   return code;

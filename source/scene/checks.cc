@@ -44,8 +44,8 @@ void check_ids(const Located<std::vector<unsigned int>> &asked, const std::set<u
       std::string allowed;
       for (const unsigned int p : present)
         allowed += (allowed.empty() ? "" : ", ") + std::to_string(p);
-      throw InputError(asked.origin + ": found boundary id " + std::to_string(id) +
-                       ", allowed are those of body '" + body + "': " + allowed);
+      throw InputError(asked.origin + " names boundary id " + std::to_string(id) +
+                       "; allowed are those of body '" + body + "': " + allowed);
     }
 }
 
@@ -115,10 +115,10 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     });
     for (std::size_t h = 0; h < used.size(); ++h)
       if (!used[h] && bodies_[b].holds[h].on_plane)
-        throw InputError(parameters_.bodies[b].symmetry_planes.origin + ": found '" +
+        throw InputError(parameters_.bodies[b].symmetry_planes.origin + " is '" +
                          bodies_[b].holds[h].name.substr(std::string("symmetry plane ").size()) +
-                         "', allowed are planes that hold boundary faces of body '" + bodies_[b].name +
-                         "'; none lies in it");
+                         "'; allowed are planes that hold boundary faces of body '" + bodies_[b].name +
+                         "', but this plane holds none");
     const bool may_touch_bodies =
         std::any_of(body_pairs_.begin(), body_pairs_.end(), [b](const BodyPair &pair) {
           return pair.bodies[0] != pair.bodies[1] && (pair.bodies[0] == b || pair.bodies[1] == b);
@@ -126,7 +126,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const auto &is_stabilised = parameters_.bodies[b].is_stabilised;
     if (is_stabilised.value && !may_touch_bodies &&
         std::none_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; }))
-      throw InputError(is_stabilised.origin + ": found 'until contact', allowed is 'none': body '" +
+      throw InputError(is_stabilised.origin + " is 'until contact'; allowed is 'none', since body '" +
                        bodies_[b].name +
                        "' has no contact pair with a tool or another body that could support it");
     if (may_touch_bodies)
@@ -139,9 +139,9 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const auto free_motion = find_free_motion(touching, centre, size);
     if (free_motion && !may_touch && !is_stabilised.value)
       throw InputError(parameters_.bodies[b].origin +
-                       ": the body is without support: at the start neither supports, nor symmetry planes, "
-                       "nor tools that it touches hold its rigid motion with " +
-                       print(*free_motion) + ". Allowed in a static scene: none that is free");
+                       ": the body has no support: at the start neither supports, nor symmetry planes, "
+                       "nor tools in contact constrain its rigid-body mode with " +
+                       print(*free_motion) + ". A static scene allows no free mode");
 
     double last_removal = 0.; // of the tools in its pairs; infinite if one is never removed
     for (const auto &pair : pairs_)
@@ -150,10 +150,11 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     const auto motion = find_free_motion(holding, centre, size);
     if (motion && std::isfinite(last_removal)) {
       std::ostringstream message;
-      message << parameters_.bodies[b].origin << ": the body is without support from time " << last_removal
-              << " on, when all tools that it may touch are removed ('Removal time'): neither supports nor "
-                 "symmetry planes hold its rigid motion with "
-              << print(*motion) << ". Allowed in a static scene: none that is free";
+      message
+          << parameters_.bodies[b].origin << ": the body has no support from time " << last_removal
+          << " on, when all tools of its contact pairs are removed ('Removal time'): neither supports nor "
+             "symmetry planes constrain its rigid-body mode with "
+          << print(*motion) << ". A static scene allows no free mode";
       throw InputError(message.str());
     }
   }
@@ -186,11 +187,12 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
     const auto &allowed = pair.input->allowed_penetration;
     if (-deepest > allowed.value * size_there) {
       std::ostringstream message;
-      message
-          << pair.input->origin << ": body '" << bodies_[pair.body].name << "' starts " << -deepest
-          << " deep (" << -deepest / size_there << " facet sizes) inside tool '" << tool.name()
-          << "', deepest at " << print(where) << "; allowed are " << allowed.value
-          << " facet sizes ('Allowed initial penetration'). Does the tool's normal point towards the body?";
+      message << pair.input->origin << ": body '" << bodies_[pair.body].name
+              << "' starts with a penetration of " << -deepest << " (" << -deepest / size_there
+              << " facet sizes) in tool '" << tool.name() << "', deepest at " << print(where)
+              << "; allowed are " << allowed.value
+              << " facet sizes ('Allowed initial penetration'). Check whether the tool's normal points "
+                 "towards the body";
       throw InputError(message.str());
     }
   }

@@ -32,8 +32,8 @@ std::vector<double> corners(const parameters::Amplitude &amplitude) {
   const std::vector<double> &t = amplitude.times, &values = amplitude.values;
   // Relative to the greater of two rates, and to the range of values.
   constexpr double notable = 0.5, rounding = 1e-9;
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  const double range = *greatest - *least;
+  const auto [minimum, greatest] = std::minmax_element(values.begin(), values.end());
+  const double range = *greatest - *minimum;
   std::vector<double> found;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double length = std::max(i > 0 ? t[i] - t[i - 1] : 0., i + 1 < t.size() ? t[i + 1] - t[i] : 0.);
@@ -101,7 +101,7 @@ Expression::Expression(const std::string &text, const Variables variables,
     std::string allowed = variables == Variables::time ? "t, pi" : "x, y, z, t, pi";
     for (const auto &amplitude : amplitudes_)
       allowed += ", " + amplitude.name;
-    throw InputError(origin + ": found '" + text + "', allowed is a muParser expression of " + allowed);
+    throw InputError(origin + " contains '" + text + "'; allowed is a muParser expression of " + allowed);
   }
 }
 

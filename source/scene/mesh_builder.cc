@@ -39,8 +39,8 @@ std::string essence(const std::exception &error) {
 }
 
 template <int dim> std::string describe_refusal(const parameters::Mesh &parameters) {
-  return parameters.primitive.origin + ": found '" + parameters.primitive.value + "' with arguments '" +
-         parameters.arguments + "', allowed is the name of a " + std::to_string(dim) +
+  return parameters.primitive.origin + " is '" + parameters.primitive.value + "' with arguments '" +
+         parameters.arguments + "'; allowed is the name of a " + std::to_string(dim) +
          "-dimensional function of deal.II's GridGenerator with all its arguments without default. ";
 }
 
@@ -58,7 +58,7 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
                                        {"subdivided_cylinder", 0, 1},
                                        {"cheese", 0, dim},
                                        {"moebius", 0, 1}}};
-  constexpr double most = 1e9;
+  constexpr double maximum = 1e9;
   for (const Counts &counts : all) {
     if (parameters.primitive.value != counts.primitive)
       continue;
@@ -75,10 +75,10 @@ template <int dim> void check_counts(const parameters::Mesh &parameters) {
       is_sound = is_sound && !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
       product *= is_sound ? std::stod(number) : 1.;
     }
-    if (!is_sound || product < 1. || product > most)
+    if (!is_sound || product < 1. || product > maximum)
       throw InputError(describe_refusal<dim>(parameters) + "Argument " + std::to_string(counts.argument + 1) +
-                       " is " + std::to_string(counts.n) + " whole number" + (counts.n > 1 ? "s" : "") +
-                       " of elements > 0, not '" + argument + "'");
+                       " has to be " + std::to_string(counts.n) + " whole number" +
+                       (counts.n > 1 ? "s" : "") + " of elements > 0, not '" + argument + "'");
   }
 }
 
@@ -102,9 +102,9 @@ template <int dim> void generate_primitive(const parameters::Mesh &parameters, T
     throw InputError(describe_refusal<dim>(parameters) + essence(error));
   }
   if (mesh.n_active_cells() == 0)
-    throw InputError(parameters.primitive.origin + ": found '" + parameters.primitive.value +
+    throw InputError(parameters.primitive.origin + " is '" + parameters.primitive.value +
                      "' with arguments '" + parameters.arguments +
-                     "', allowed are arguments for which GridGenerator makes a mesh; it made none of these");
+                     "'; allowed are arguments for which GridGenerator makes a mesh");
 }
 
 void generate_extruded(const parameters::Mesh &parameters, const MeshDetail detail, Triangulation<3> &mesh) {
@@ -127,13 +127,13 @@ void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
   try {
     grid_in.read(parameters.file_name.value);
   } catch (const std::exception &error) {
-    throw InputError(parameters.file_name.origin + ": found '" + parameters.file_name.value +
-                     "', allowed is a hexahedral mesh in one of the formats .msh, .vtk, .ucd, .inp, .vtu. " +
+    throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
+                     "'; allowed is a hexahedral mesh in one of the formats .msh, .vtk, .ucd, .inp, .vtu. " +
                      essence(error));
   }
   if (!mesh.all_reference_cells_are_hyper_cube())
-    throw InputError(parameters.file_name.origin + ": found '" + parameters.file_name.value +
-                     "' with other cells than hexahedra, allowed are hexahedra alone");
+    throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
+                     "', which has cells other than hexahedra; allowed are hexahedra only");
 }
 
 /// Replaces `mesh` by a copy of its active cells, without manifolds.

@@ -47,9 +47,9 @@ private:
 /// Dimensions, speeds and penetrations of the scene at its start.
 struct Start {
   std::vector<double> sizes, speeds, sections; ///< by body
-  std::vector<double> steps;  ///< by body: minimum time in which a wave crosses an element, up to a factor
-  double size = 0.;           ///< of all bodies together
-  std::vector<double> depths; ///< penetration by pair with a tool [facet sizes]
+  std::vector<double> steps; ///< by body: minimum time in which a wave crosses an element, up to a factor
+  double size = 0.;          ///< of all bodies together
+  std::vector<double> penetrations; ///< penetration by pair with a tool [facet sizes]
 };
 
 Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator) {
@@ -57,7 +57,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
   Box all;
   Start start;
   start.speeds.resize(boxes.size());
-  start.depths.resize(scene.pairs().size());
+  start.penetrations.resize(scene.pairs().size());
   start.steps.resize(boxes.size(), std::numeric_limits<double>::infinity());
   for (const auto &cell : mesh.active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -65,11 +65,11 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
     const std::size_t b = cell->material_id();
     const Body &body = scene.bodies()[b];
     if (scene.parameters().is_explicit()) {
-      double largest_face = 0.;
+      double max_face = 0.;
       for (const unsigned int f : cell->face_indices())
-        largest_face = std::max(largest_face, cell->face(f)->measure());
-      start.steps[b] = std::min(start.steps[b], cell->measure() / largest_face /
-                                                    std::sqrt(body.largest_modulus / body.density));
+        max_face = std::max(max_face, cell->face(f)->measure());
+      start.steps[b] =
+          std::min(start.steps[b], cell->measure() / max_face / std::sqrt(body.max_modulus / body.density));
     }
     for (const unsigned int v : cell->vertex_indices()) {
       boxes[b].add(cell->vertex(v));
@@ -96,7 +96,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
           const auto projection =
               scene.tools()[pair.tool].surface().project(placement.to_tool(face->vertex(v)));
           if (projection.exists)
-            start.depths[p] = std::max(start.depths[p], -projection.gap / size);
+            start.penetrations[p] = std::max(start.penetrations[p], -projection.gap / size);
         }
       }
     }
@@ -109,7 +109,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
   all.gather(communicator);
   start.size = all.diagonal();
   dealii::Utilities::MPI::max(start.speeds, communicator, start.speeds);
-  dealii::Utilities::MPI::max(start.depths, communicator, start.depths);
+  dealii::Utilities::MPI::max(start.penetrations, communicator, start.penetrations);
   dealii::Utilities::MPI::min(start.steps, communicator, start.steps);
   return start;
 }
@@ -147,23 +147,23 @@ std::string ratio(const std::string &what, const double number) {
 }
 
 void check_yield_stress(const Body &body, DiagnosticList &diagnostics) {
-  constexpr double least = 1e-7, most = 0.1;
+  constexpr double minimum = 1e-7, maximum = 0.1;
   const FlowStress *flow = body.law->flow_stress();
   const double stress = flow != nullptr ? flow->stress(0.) : 0.;
   const double part = stress / body.young_modulus;
-  if (stress > 0. && !(part > least && part < most))
-    diagnostics.push_back(
-        Diagnostic(diagnostic::implausible_yield_stress, ratio("Yield stress / Young's modulus is", part))
-            .body(body.name)
-            .measure("yield stress / Young's modulus", part));
+  if (stress > 0. && !(part > minimum && part < maximum))
+    diagnostics.push_back(Diagnostic(diagnostic::implausible_yield_stress,
+                                     ratio("The ratio of yield stress to Young's modulus is", part))
+                              .body(body.name)
+                              .measure("yield stress / Young's modulus", part));
 }
 
 void check_friction(const parameters::ContactPair &pair, DiagnosticList &diagnostics) {
-  constexpr double most = 1.5;
+  constexpr double maximum = 1.5;
   const double coefficient = pair.friction != nullptr ? pair.friction->coefficient() : 0.;
-  if (coefficient > most)
+  if (coefficient > maximum)
     diagnostics.push_back(
-        Diagnostic(diagnostic::implausible_friction, ratio("Friction coefficient is", coefficient))
+        Diagnostic(diagnostic::implausible_friction, ratio("The friction coefficient is", coefficient))
             .pair(pair.name)
             .measure("friction coefficient", coefficient));
 }
@@ -175,7 +175,7 @@ void check_number_of_steps(const Scene &scene, const Start &start, DiagnosticLis
   const double n_steps = scene.parameters().time_stepping.end_time / step;
   if (n_steps > too_many_steps)
     diagnostics.push_back(
-        Diagnostic(diagnostic::many_steps, ratio("Explicit steps of the run: about", n_steps))
+        Diagnostic(diagnostic::many_steps, ratio("The estimated number of explicit steps is", n_steps))
             .value("steps", n_steps));
 }
 
@@ -185,7 +185,8 @@ void check_motion(const Scene &scene, const Tool &tool, const double size, Diagn
   const double part = course.travel / size;
   if (part > far || (part > 0. && part < hardly))
     diagnostics.push_back(
-        Diagnostic(diagnostic::implausible_travel, ratio("Travel of the tool / size of all bodies is", part))
+        Diagnostic(diagnostic::implausible_travel,
+                   ratio("The ratio of the tool's travel to the size of all bodies is", part))
             .tool(tool.name())
             .measure("travel / size", part));
   if (course.turn > 2. * pi * turns)
@@ -214,7 +215,7 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
       borne = std::max(borne, borne_force(scene.bodies()[pair.body], start.sections[pair.body]));
   if (borne > 0. && force > many_times_borne * borne)
     diagnostics.push_back(Diagnostic(diagnostic::implausible_force,
-                                     ratio("The given force of the tool is", force) + ", which is " +
+                                     ratio("The prescribed force of the tool is", force) + ", which is " +
                                          ratio("", force / borne).substr(1) +
                                          " times what the largest section of the body bears as it yields")
                               .tool(tool.name())
@@ -229,37 +230,39 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
   double fastest_wave = 0.;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    const double wave = std::sqrt(body.largest_modulus / body.density);
+    const double wave = std::sqrt(body.max_modulus / body.density);
     fastest_wave = std::max(fastest_wave, wave);
     if (start.speeds[b] > fast * wave)
       diagnostics.push_back(
           Diagnostic(diagnostic::implausible_speed,
-                     ratio("Initial speed / speed of elastic waves is", start.speeds[b] / wave))
+                     ratio("The ratio of initial speed to elastic wave speed is", start.speeds[b] / wave))
               .body(body.name)
               .measure("speed / wave speed", start.speeds[b] / wave));
     const double crossing = start.sizes[b] / wave;
     if (steps.end_time < crossing)
-      diagnostics.push_back(Diagnostic(diagnostic::run_shorter_than_wave,
-                                       ratio("'End time' / time of an elastic wave through the body is",
-                                             steps.end_time / crossing))
-                                .body(body.name)
-                                .value("end time / crossing time", steps.end_time / crossing));
+      diagnostics.push_back(
+          Diagnostic(diagnostic::run_shorter_than_wave,
+                     ratio("The ratio of 'End time' to the time of an elastic wave through the body is",
+                           steps.end_time / crossing))
+              .body(body.name)
+              .value("end time / crossing time", steps.end_time / crossing));
     if (!scene.parameters().is_explicit() && steps.control == parameters::TimeStepping::Control::fixed &&
         start.speeds[b] > 0. && scene.capabilities().contact && steps.initial_step > coarse * crossing)
-      diagnostics.push_back(Diagnostic(diagnostic::step_longer_than_period,
-                                       ratio("Step / time of an elastic wave through the body is",
-                                             steps.initial_step / crossing))
-                                .body(body.name)
-                                .value("step / crossing time", steps.initial_step / crossing));
+      diagnostics.push_back(
+          Diagnostic(diagnostic::step_longer_than_period,
+                     ratio("The ratio of the step to the time of an elastic wave through the body is",
+                           steps.initial_step / crossing))
+              .body(body.name)
+              .value("step / crossing time", steps.initial_step / crossing));
   }
   for (const Tool &tool : scene.tools()) {
     const double speed = follow(tool, steps.end_time).speed;
     if (speed > fast * fastest_wave)
-      diagnostics.push_back(
-          Diagnostic(diagnostic::implausible_speed,
-                     ratio("Speed of the tool / speed of elastic waves is", speed / fastest_wave))
-              .tool(tool.name())
-              .measure("speed / wave speed", speed / fastest_wave));
+      diagnostics.push_back(Diagnostic(diagnostic::implausible_speed,
+                                       ratio("The ratio of the tool's speed to the elastic wave speed is",
+                                             speed / fastest_wave))
+                                .tool(tool.name())
+                                .measure("speed / wave speed", speed / fastest_wave));
   }
 }
 
@@ -289,14 +292,14 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   }
   constexpr double deep = 2.;
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
-    if (start.depths[p] > deep)
+    if (start.penetrations[p] > deep)
       diagnostics.push_back(
           Diagnostic(diagnostic::starts_behind_tool,
-                     ratio("At the start nodes lie behind the surface of the tool by facet sizes of",
-                           start.depths[p]))
+                     ratio("The initial penetration of nodes into the tool, in facet sizes, is",
+                           start.penetrations[p]))
               .pair(scene.pairs()[p].name)
               .tool(scene.tools()[scene.pairs()[p].tool].name())
-              .measure("depth [facet sizes]", start.depths[p]));
+              .measure("depth [facet sizes]", start.penetrations[p]));
   return diagnostics;
 }
 
@@ -361,7 +364,7 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold>
 
 DiagnosticList check_bricks(const Scene &scene) {
   constexpr std::size_t too_many = 100000;
-  constexpr double most = 0.5, enough_layers = 4., long_brick = 1.5;
+  constexpr double maximum = 0.5, enough_layers = 4., long_brick = 1.5;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
@@ -374,13 +377,13 @@ DiagnosticList check_bricks(const Scene &scene) {
       continue;
     build_body_mesh(input, MeshDetail::full, mesh);
     const ThinPart part = measure_thin_part(mesh, body.holds);
-    if (part.area < most || (part.mean_layers >= enough_layers && part.mean_aspect <= long_brick))
+    if (part.area < maximum || (part.mean_layers >= enough_layers && part.mean_aspect <= long_brick))
       continue;
     std::ostringstream text;
     text.precision(3);
-    text << "A body " << part.slenderness << " times as long as thick has " << part.mean_layers
-         << (part.mean_layers == 1. ? " brick" : " bricks") << " through its thickness, " << part.mean_aspect
-         << " times as long as high";
+    text << "The body is " << part.slenderness << " times as long as thick, and has " << part.mean_layers
+         << (part.mean_layers == 1. ? " brick" : " bricks") << " through its thickness, which are "
+         << part.mean_aspect << " times as long as high";
     diagnostics.push_back(Diagnostic(diagnostic::bricks_may_lock, text.str())
                               .body(body.name)
                               .value("layers", part.mean_layers)

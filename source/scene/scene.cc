@@ -22,7 +22,7 @@ std::string describe_solver(const parameters::Solver::LinearSolver solver, const
                     iterative = unsymmetric ? "GMRES with multigrid" : "CG with multigrid";
   switch (solver) {
   case Kind::automatic:
-    return direct + ", above " + std::to_string(parameters::Solver::most_direct_dofs) + " unknowns " +
+    return direct + ", above " + std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
            iterative;
   case Kind::mumps_symmetric:
     return "MUMPS, which factorises half";
@@ -67,7 +67,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   body.formulation = make_formulation(parameters);
   body.young_modulus = parameters.material.elasticity->young_modulus();
   const ElasticModuli &moduli = body.law->elastic();
-  body.largest_modulus = moduli.bulk + 4. / 3. * moduli.shear;
+  body.max_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
@@ -188,7 +188,7 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
        (capabilities_.friction &&
         (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
   if (capabilities_.unsymmetric_matrix && wants_symmetry)
-    throw InputError(parameters.solver.linear_solver.origin + ": found '" +
+    throw InputError(parameters.solver.linear_solver.origin + " is '" +
                      (solver == LinearSolver::conjugate_gradients ? "CG" : "MUMPS symmetric") +
                      "', but this scene's contact tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
@@ -204,7 +204,7 @@ void Scene::choose_material_tangents() {
   const auto &[wanted, origin] = parameters_.solver.material_tangent;
   const auto is_symmetric = [](const Body &body) { return body.law->has_symmetric_moduli(); };
   if (wanted != Tangent::automatic && std::all_of(bodies_.begin(), bodies_.end(), is_symmetric))
-    throw InputError(origin + ": found '" + (wanted == Tangent::exact ? "exact" : "symmetrised") +
+    throw InputError(origin + " is '" + (wanted == Tangent::exact ? "exact" : "symmetrised") +
                      "', but the exact material tangent of every body is symmetric; allowed is automatic");
   const auto &solver = parameters_.solver.linear_solver;
   for (auto &body : bodies_) {
@@ -215,7 +215,7 @@ void Scene::choose_material_tangents() {
     if (body.formulation.is_symmetrised)
       continue;
     if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
-      throw InputError(solver.origin + ": found '" +
+      throw InputError(solver.origin + " is '" +
                        (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
                        "', but the exact material tangent of body '" + body.name +
                        "' is unsymmetric; allowed are automatic, MUMPS, KLU, GMRES, or another 'Material "
@@ -232,7 +232,7 @@ void Scene::allow_for_loads() {
         const auto &solver = parameters_.solver.linear_solver;
         using Kind = parameters::Solver::LinearSolver;
         if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
-          throw InputError(solver.origin + ": found '" +
+          throw InputError(solver.origin + " is '" +
                            (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
                            "', but the " + load.type + " on body '" + body.name +
                            "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU, GMRES");
@@ -290,8 +290,8 @@ void Scene::make_pairs() {
     if (body == second && !second_ids.empty())
       for (const unsigned int id : ids[0])
         if (std::count(ids[1].begin(), ids[1].end(), id) > 0)
-          throw InputError(pair.second_boundary_ids.origin + ": found boundary id " + std::to_string(id) +
-                           " on both sides of the pair, allowed are two sets without a common id, or none "
+          throw InputError(pair.second_boundary_ids.origin + " names boundary id " + std::to_string(id) +
+                           " on both sides of the pair; allowed are two sets without a common id, or no id "
                            "here: the faces of 'Boundary ids' among themselves");
   }
 }
@@ -363,7 +363,7 @@ void Scene::add_corners(std::vector<double> &times) const {
   const bool is_fixed = stepping.control == parameters::TimeStepping::Control::fixed;
   // Times closer than this need no step of their own.
   constexpr double little = 1e-3;
-  const double apart = little * (is_fixed ? stepping.initial_step : stepping.largest_step);
+  const double apart = little * (is_fixed ? stepping.initial_step : stepping.max_step);
   std::vector<double> known = times;
   known.insert(known.end(), stepping.stops.begin(), stepping.stops.end());
   known.push_back(0.);
@@ -439,7 +439,7 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   const auto n_driven = std::count_if(
       tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.control() != Tool::Control::motion; });
   add("Driven tools", n_driven > 0,
-      "travel of " + part(n_driven, tools_.size(), "tools follows from a force or moment"));
+      "travel of " + part(n_driven, tools_.size(), "tools with a force or moment"));
   const auto n_loaded =
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body &body) { return !body.loads.empty(); });
   add("Loads", n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
@@ -476,12 +476,12 @@ void Scene::describe(std::ostream &stream) const {
     stream << "Target error   " << 100. * parameters_.target_error << " % of the "
            << (parameters_.is_dynamic() ? "energies"
                : std::any_of(tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.is_driven(); })
-                   ? "forces, or of the travel of tools that loads drive"
+                   ? "forces, or of the travel of driven tools"
                    : "forces")
-           << ", the mesh left out; controlled during the run, from\n";
+           << ", without the error of the mesh; controlled during the run, from\n";
   else
     stream << "Profile        " << parameters_.profile
-           << (parameters_.presets.empty() ? ": the defaults\n" : "\n");
+           << (parameters_.presets.empty() ? " (defaults)\n" : "\n");
   for (const auto &preset : parameters_.presets)
     stream << "               " << parameters::to_string(preset) << "\n";
   std::size_t n_elements = 0;
@@ -492,7 +492,7 @@ void Scene::describe(std::ostream &stream) const {
     stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_law(body) << ", "
            << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
            << " supports, " << body.loads.size() << " loads"
-           << (body.is_stabilised.value ? ", stabilised until contact\n" : "\n");
+           << (body.is_stabilised.value ? ", contact stabilisation until contact\n" : "\n");
   }
   for (const auto &tool : tools_) {
     stream << "Tool           " << tool.name() << ": rigid " << tool.shapes();
@@ -518,11 +518,11 @@ void Scene::describe(std::ostream &stream) const {
     text << ", penalties " << pair.normal_penalty << ", " << pair.tangential_penalty
          << (pair.penalty_is_factor ? " E/h" : " (absolute)");
     if (pair.limits_softness())
-      text << ", augmented where penetration counts";
+      text << ", automatic augmentation";
     else if (pair.is_augmented())
       text << ", augmented to " << *pair.penetration_tolerance << " facet sizes";
     if (pair.overlap.is_allowed)
-      text << ", initial overlap "
+      text << ", initial penetration "
            << (pair.overlap.ramp_time > 0. ? "resolved until time " + std::to_string(pair.overlap.ramp_time)
                                            : std::string("kept"));
     if (pair.overlap.closed_gap > 0.)

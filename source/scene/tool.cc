@@ -46,8 +46,8 @@ double Tool::load(const double t) const {
   const double load = load_->value(t);
   if (load < 0. && control_ != Control::moment) {
     std::ostringstream message;
-    message << load_origin_ << ": found " << load << " at time " << t
-            << ", allowed are forces >= 0: where to, the force direction says";
+    message << load_origin_ << " is " << load << " at time " << t
+            << "; allowed are forces >= 0, since 'Force direction' sets the direction";
     throw SolutionFailure(message.str());
   }
   return load;

@@ -18,10 +18,10 @@ struct Description {
   const char *name, *advice;
 };
 constexpr std::array<Description, 3> descriptions{
-    {{"impacts within a step, which are damped",
-      "Where bodies should bounce, reduce 'Error tolerance', 'Maximum step' or 'Normal penalty'"},
-     {"springs of friction in damped steps", "Reduce 'Maximum step' or 'Tangential penalty'"},
-     {"nodes that enter or leave contact within a step, and contact areas that change",
+    {{"damped impacts within a step",
+      "If bodies should rebound, reduce 'Error tolerance', 'Maximum step' or 'Normal penalty'"},
+     {"tangential penalties in damped steps", "Reduce 'Maximum step' or 'Tangential penalty'"},
+     {"nodes that open or close within a step, and changing contact areas",
       "Reduce 'Maximum step' or 'Normal penalty'"}}};
 
 } // namespace
@@ -38,10 +38,10 @@ double ContactLosses::give_back(const double energy) {
   return energy - left;
 }
 
-DiagnosticList ContactLosses::watch(const double largest_energy, const double time) {
-  if (!(largest_energy > 0.))
+DiagnosticList ContactLosses::watch(const double max_energy, const double time) {
+  if (!(max_energy > 0.))
     return {};
-  const double part = total() / largest_energy;
+  const double part = total() / max_energy;
   if (part <= std::max(much, 2. * reported_))
     return {};
   reported_ = part;
@@ -50,18 +50,18 @@ DiagnosticList ContactLosses::watch(const double largest_energy, const double ti
             [this](const std::size_t a, const std::size_t b) { return energies_[a] > energies_[b]; });
   std::ostringstream what;
   what.precision(2);
-  what << "Contact has removed " << 100. * part << " % of the largest energy so far";
+  what << "Contact removes " << 100. * part << " % of the maximum energy so far";
   constexpr double small = 0.05; // of the total; not reported
   for (const std::size_t cause : order)
     if (cause == order[0] || energies_[cause] > small * total())
-      what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / largest_energy << " % by "
+      what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / max_energy << " % by "
            << descriptions[cause].name;
   return {Diagnostic(diagnostic::contact_dissipates, what.str())
               .time(time)
               .measure("part of the largest energy", part)
-              .value("by impacts", energies_[impacts] / largest_energy)
-              .value("by friction springs", energies_[friction] / largest_energy)
-              .value("by crossings", energies_[crossings] / largest_energy)
+              .value("by impacts", energies_[impacts] / max_energy)
+              .value("by friction springs", energies_[friction] / max_energy)
+              .value("by crossings", energies_[crossings] / max_energy)
               .advice(descriptions[order[0]].advice)};
 }
 

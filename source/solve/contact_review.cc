@@ -152,17 +152,17 @@ void ContactReview::add(const Solution &solution) {
     Pair &pair = pairs_[p];
     const double force = sticking[p].pressure;
     if (!pair.is_augmented) { // augmentation stiffens the springs; judge_paths() reports softness of both
-      pair.largest_friction.friction = std::max(pair.largest_friction.friction, sticking[p].friction);
-      pair.largest_friction.lost = std::max(pair.largest_friction.lost, sticking[p].lost);
+      pair.max_friction.friction = std::max(pair.max_friction.friction, sticking[p].friction);
+      pair.max_friction.lost = std::max(pair.max_friction.lost, sticking[p].lost);
     }
     // Crossing edges bear forces, too, without slave nodes.
     const std::size_t n_with_tools = scene_.pairs().size();
     const double of_all = p < n_with_tools ? 0. : state.body_pair_loads[p - n_with_tools].force.norm();
     pair.has_touched = pair.has_touched || force > 0. || of_all > 0.;
-    pair.largest_of_edges = std::max(pair.largest_of_edges, of_all - force);
-    if (!(force > grown * pair.largest_force))
+    pair.max_of_edges = std::max(pair.max_of_edges, of_all - force);
+    if (!(force > grown * pair.max_force))
       continue;
-    pair.largest_force = force;
+    pair.max_force = force;
     pair.time = state.time;
     pair.spread = spread_of(pair, reports[p]);
     const EnergyLedger &energies = state.energies;
@@ -205,9 +205,9 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
     text << "Penetration takes " << (part > all ? "more than 99" : print_part(part))
          << " % of the deformation along the load path of " << names << ": ";
     if (part > all)
-      text << "the bodies hardly deform, and forces and displacements are those of the penalties alone";
+      text << "the bodies hardly deform, and the penalties alone determine forces and displacements";
     else
-      text << "forces of driven tools and supports are about that much too small, or displacements under "
+      text << "forces of driven tools and supports are too small by about that part, or displacements under "
               "given loads "
            << 1. / (1. - part) << " times too large";
     Diagnostic message(diagnostic::contact_too_soft, text.str());
@@ -225,21 +225,21 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
                      [&](const Pair &pair) { return is_of_tool(pair) && pair.has_touched; })) {
       const Tool &tool = scene_.tools()[t];
       std::ostringstream text;
-      text << "No step ended with a force on the tool";
+      text << "No step ends with a force on the tool";
       const bool is_removed = std::isfinite(tool.removal_time());
       if (is_removed)
-        text << " before it was removed at time " << tool.removal_time();
+        text << " before its removal at time " << tool.removal_time();
       Diagnostic message(diagnostic::tool_without_force, text.str());
       if (is_removed)
-        message.advice("Check its position and motion; if it is to act before, reduce 'Initial step' so that "
+        message.advice("Check its position and motion; if it acts earlier, reduce 'Initial step' so that "
                        "steps end earlier");
       diagnostics.push_back(message.tool(tool.name()));
     }
   }
-  std::vector<bool> is_told(pairs_.size(), false); // reported as too soft, including friction
+  std::vector<bool> is_reported(pairs_.size(), false); // reported as too soft, including friction
   for (std::size_t i = 0; i < paths_.size(); ++i)
     for (const std::size_t pair : paths_[i].pairs)
-      is_told[pair] = softness_[i].part() > notable_softness && !pairs_[pair].is_softer_tangentially;
+      is_reported[pair] = softness_[i].part() > notable_softness && !pairs_[pair].is_softer_tangentially;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair &pair = pairs_[p];
     const bool has_idle_tool =
@@ -248,23 +248,24 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
         });
     if (!pair.has_touched && !pair.is_self_contact && !has_idle_tool)
       diagnostics.push_back(
-          Diagnostic(diagnostic::pair_never_touched, "The pair had no contact").pair(pair.name));
+          Diagnostic(diagnostic::pair_never_touched, "The pair has no contact in the whole run")
+              .pair(pair.name));
     const ForceSpread &spread = pair.spread;
     if (spread.has_few_nodes()) {
       std::ostringstream text;
       text.precision(2);
-      text << "At its largest, the force is spread as over " << spread.effective_nodes()
-           << " nodes, mirror images included";
+      text << "At the maximum of the force, it acts on the equivalent of " << spread.effective_nodes()
+           << " nodes, including mirror images";
       diagnostics.push_back(Diagnostic(diagnostic::few_contact_nodes, text.str())
                                 .pair(pair.name)
                                 .time(pair.time)
                                 .value("nodes", spread.effective_nodes()));
     }
-    if (pair.largest_of_edges > pair.largest_force) {
+    if (pair.max_of_edges > pair.max_force) {
       std::ostringstream text;
       text.precision(3);
-      text << "Edges that cross carry up to " << pair.largest_of_edges
-           << ", with two nodes on each side, and all nodes on facets at most " << pair.largest_force;
+      text << "Crossing edges carry up to " << pair.max_of_edges
+           << ", with two nodes on each side; all nodes on facets carry at most " << pair.max_force;
       diagnostics.push_back(
           Diagnostic(diagnostic::few_contact_nodes, text.str()).pair(pair.name).value("nodes", 2.));
     }
@@ -279,16 +280,16 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
                                 .measure("facet size / radius", spread.coarsest));
     }
     constexpr double allowed = 0.03, counts = 0.002; // of friction, and of the normal force
-    const double lost = pair.largest_friction.lost, part = pair.largest_friction.part();
-    if (!is_told[p] && part > allowed && lost > counts * pair.largest_force) {
+    const double lost = pair.max_friction.lost, part = pair.max_friction.part();
+    if (!is_reported[p] && part > allowed && lost > counts * pair.max_force) {
       std::ostringstream text;
       text.precision(3);
-      text << "Tangential springs are soft beside the bodies: friction that sticks is too small by up to "
+      text << "The tangential penalty is too low: friction forces while sticking are too small by up to "
            << 100. * part << " %";
       diagnostics.push_back(Diagnostic(diagnostic::tangential_penalty_too_low, text.str())
                                 .pair(pair.name)
                                 .measure("lost friction / friction", part)
-                                .value("lost friction / normal force", lost / pair.largest_force));
+                                .value("lost friction / normal force", lost / pair.max_force));
     }
   }
 }
@@ -325,12 +326,11 @@ void ContactReview::save(StateWriter &writer) const {
   for (const auto &softness : softness_)
     softness.save(numbers);
   for (const Pair &pair : pairs_)
-    numbers.insert(numbers.end(),
-                   {pair.has_touched ? 1. : 0., pair.largest_force, pair.time, pair.spread.force,
-                    pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
-                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
-                    pair.spread.indentation, pair.spread.deformation, pair.largest_friction.friction,
-                    pair.largest_friction.lost, pair.largest_of_edges});
+    numbers.insert(numbers.end(), {pair.has_touched ? 1. : 0., pair.max_force, pair.time, pair.spread.force,
+                                   pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
+                                   pair.spread.pressure_squares, pair.spread.on_coarse_curves,
+                                   pair.spread.coarsest, pair.spread.indentation, pair.spread.deformation,
+                                   pair.max_friction.friction, pair.max_friction.lost, pair.max_of_edges});
   writer.write("contact review", numbers);
 }
 
@@ -349,12 +349,12 @@ void ContactReview::load(const StateReader &reader) {
   }
   for (Pair &pair : pairs_) {
     pair.has_touched = next[0] > 0.;
-    pair.largest_force = next[1];
+    pair.max_force = next[1];
     pair.time = next[2];
     pair.spread = {next[3], next[4], next[5], next[6], next[7], next[8], next[9], next[10], next[11]};
-    pair.largest_friction.friction = next[12];
-    pair.largest_friction.lost = next[13];
-    pair.largest_of_edges = next[14];
+    pair.max_friction.friction = next[12];
+    pair.max_friction.lost = next[13];
+    pair.max_of_edges = next[14];
     next += of_pair;
   }
 }

@@ -21,8 +21,8 @@ bool is_of_taper(const ElementEnergies &energies) {
 /// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
   return is_of_taper(energies) || formulation.element != Brick::mean_dilatation
-             ? "Use bricks whose opposite edges are parallel, also in plan, or shorter ones beside their "
-               "thickness"
+             ? "Use bricks whose opposite edges are parallel, also in plan, or bricks shorter relative to "
+               "their thickness"
              : "Use 'Element = assumed strain'";
 }
 
@@ -120,8 +120,8 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
            << " this factor";
     else // no bound and no direction: skewed bricks may still be too stiff
       text << "store " << 1. / factor
-           << " times less energy in this deformation than they should: forces or displacements may be off "
-              "by this factor";
+           << " times less energy in this deformation than exact elements: the error of forces or "
+              "displacements may reach this factor";
     Diagnostic message(is_first   ? diagnostic::element_unfit_at_start
                        : is_stiff ? diagnostic::element_too_stiff
                                   : diagnostic::element_too_soft,
@@ -129,7 +129,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
     const std::string advice =
         is_stiff ? advise_on_stiffness(formulation, energies_[b]) : "Use 'Element = assumed strain'";
-    message.advice(is_first ? "If that stays so until the end: " + advice : advice);
+    message.advice(is_first ? "If it remains until the end: " + advice : advice);
     diagnostics.push_back(message);
   }
   return diagnostics;
@@ -153,15 +153,15 @@ DiagnosticList ElementWatch::judge_bending() const {
         is_hourglass ? energies.hourglass / energies.used : energies.plastic / energies.plastic_within;
     std::ostringstream text;
     text.precision(3);
-    text << "The body yields as it bends within single elements: ";
+    text << "The body yields in bending within single elements: ";
     if (is_hourglass)
       text << 100. * share
-           << " % of the energy is in modes that one-point elements see only by their stabilisation, which "
-              "has one yield stress for the whole element. Forces may be off by tens of per cent";
+           << " % of the energy is in hourglass modes, whose stabilisation has one yield stress for the "
+              "whole element. The error of forces may be tens of per cent";
     else
-      text << "their points see " << 100. * share
-           << " % of what flow dissipates between them. Forces may be off by ten per cent, and springback by "
-              "far more";
+      text << "their points capture " << 100. * share
+           << " % of the plastic dissipation between them. The error of forces may be ten per cent, that of "
+              "springback far larger";
     Diagnostic message(diagnostic::plastic_bending_coarse, text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", share);
     message.advice(is_hourglass ? "Use four or more bricks through the thickness, and shorter ones where the "
@@ -183,11 +183,11 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   const double growth = is_static ? 1.1 : 2.;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||
-       (is_last && energy >= (is_static ? still_loaded * largest_energy_ : compared_energy_)))) {
+       (is_last && energy >= (is_static ? still_loaded * max_energy_ : compared_energy_)))) {
     compare(state);
     compared_energy_ = energy;
   }
-  largest_energy_ = std::isfinite(energy) ? std::max(largest_energy_, energy) : largest_energy_;
+  max_energy_ = std::isfinite(energy) ? std::max(max_energy_, energy) : max_energy_;
   if (is_last) {
     DiagnosticList diagnostics = judge(false);
     append(diagnostics, judge_bending());
@@ -208,7 +208,7 @@ double ElementWatch::error() const {
 }
 
 void ElementWatch::save(StateWriter &writer) const {
-  std::vector<double> values = {compared_energy_, compared_time_, largest_energy_};
+  std::vector<double> values = {compared_energy_, compared_time_, max_energy_};
   for (const auto &energies : energies_)
     add_numbers(energies, values);
   writer.write("element energies", values);
@@ -220,7 +220,7 @@ void ElementWatch::load(const StateReader &reader) {
     return;
   compared_energy_ = values[0];
   compared_time_ = values[1];
-  largest_energy_ = values[2];
+  max_energy_ = values[2];
   values.erase(values.begin(), values.begin() + 3);
   for (std::size_t b = 0; b < energies_.size(); ++b)
     energies_[b] = energies_in(values, b);

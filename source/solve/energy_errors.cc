@@ -7,26 +7,43 @@
 
 namespace billet {
 
+namespace {
+
+/// Constants of error control by energies; factors unless they say otherwise. See "Dynamics" under "Target
+/// error" in doc/theory.md.
+struct Factors {
+  /// Part of all energy below which energies that are not carried count as zero.
+  static constexpr double rounding = 1e-9;
+  /// Error by penetration over the energy E_c in springs: 2 E_c by the delay, and E_c that they store.
+  static constexpr double late_and_stored = 3.;
+  /// Waves carry the delay on after the springs have unloaded: measurements on tubes and bars show the same
+  /// amount again.
+  static constexpr double carried_on = 2.;
+  /// Part of the tolerance above which drift by steps shortens them, ...
+  static constexpr double matters = 0.2;
+  /// ... if it grows by this factor since the last energies. Drift by first contact stays constant.
+  static constexpr double growth = 1.1;
+  /// Factor of steps each time, and its lower limit for all times together.
+  static constexpr double shorter = 0.8, min_step = 0.5;
+};
+
+} // namespace
+
 void EnergyErrors::add(const double time, const EnergyLedger &energies, const double carried) {
   Usage::count(Capability::error_control, 1);
   const double whole = std::max(energies.total(), std::abs(energies.initial)), at_stake = whole - carried;
-  constexpr double rounding = 1e-9; // smaller parts of the whole count as zero
-  const bool is_something = at_stake > rounding * whole;
+  const bool is_something = at_stake > Factors::rounding * whole;
   const double drift = is_something ? std::abs(energies.drift()) + std::abs(energies.numerical) : 0.,
                contact = is_something ? std::abs(energies.contact) : 0., total = is_something ? at_stake : 0.;
   if (has_begun_) {
-    // Waves carry the delay on after the springs have unloaded: measurements on tubes and bars show the same
-    // amount again.
-    constexpr double late_and_stored = 3., carried_on = 2.;
     const double half = 0.5 * (time - time_);
     drift_ += half * (last_drift_ + drift);
-    penetration_ += half * carried_on * late_and_stored * (last_contact_ + contact);
+    penetration_ += half * Factors::carried_on * Factors::late_and_stored * (last_contact_ + contact);
     total_ += half * (last_total_ + total);
   }
-  // Drift by first contact stays constant; drift by steps grows.
-  constexpr double part = 0.2, growth = 1.1, shorter = 0.8, least = 0.5;
-  if (has_begun_ && total > 0. && drift > part * tolerance_ * total && drift > growth * last_drift_)
-    step_factor_ = std::max(least, shorter * step_factor_);
+  if (has_begun_ && total > 0. && drift > Factors::matters * tolerance_ * total &&
+      drift > Factors::growth * last_drift_)
+    step_factor_ = std::max(Factors::min_step, Factors::shorter * step_factor_);
   has_begun_ = true;
   time_ = time;
   last_drift_ = drift;

@@ -2,6 +2,7 @@
 #include "billet/solve/error_watch.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/solve/error_budget.h"
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
 
@@ -13,20 +14,6 @@
 namespace billet {
 
 namespace {
-
-// Part of the target error for penetration; 0.4 of it is for the steps, the rest is a margin for poor
-// estimates.
-constexpr double part_of_penetration = 0.3;
-
-// The same part if steps cause no error.
-constexpr double part_of_penetration_alone = 0.5;
-
-// Returns the residual of steps that are compared. Their difference, which falls with the square of the
-// target, must exceed it.
-double residual_of_measurements(const double target) {
-  constexpr double most = 0.1, slope = 10.;
-  return std::min(most, slope * target) * target;
-}
 
 /// Whether the penetration tolerances of all pairs are left to the target error.
 bool may_choose_penetration(const parameters::Scene &parameters) {
@@ -56,9 +43,8 @@ ErrorControl::Tolerances tolerances_of(const Scene &scene) {
   const parameters::Scene &parameters = scene.parameters();
   const double target = parameters.target_error;
   return {parameters.time_stepping.error_tolerance,
-          !may_choose_penetration(parameters) ? 0.
-          : depends_on_steps(scene)           ? part_of_penetration * target
-                                              : part_of_penetration_alone * target,
+          may_choose_penetration(parameters) ? ErrorBudget::of_penetration(target, depends_on_steps(scene))
+                                             : 0.,
           !stresses_depend_on_steps(scene)};
 }
 
@@ -85,7 +71,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
                             !(scene.pairs().empty() && scene.body_pairs().empty())),
       controls_penetration_(may_choose_penetration(scene.parameters())),
       accuracy_of_measurements_(scene.parameters().target_error > 0.
-                                    ? std::min(1., residual_of_measurements(scene.parameters().target_error) /
+                                    ? std::min(1., ErrorBudget::residual(scene.parameters().target_error) /
                                                        scene.parameters().solver.force_tolerance)
                                     : 1.) {
   controls_.resize(problem.result_names().size(), ErrorControl(tolerances_of_travels(scene), end_time_));
@@ -98,11 +84,11 @@ void ErrorWatch::begin(const double time) {
     control.begin(time);
 }
 
-double ErrorWatch::least(double (ErrorControl::*bound)() const) const {
-  double least = std::numeric_limits<double>::infinity();
+double ErrorWatch::minimum(double (ErrorControl::*bound)() const) const {
+  double minimum = std::numeric_limits<double>::infinity();
   for (const auto &control : controls_)
-    least = std::min(least, (control.*bound)());
-  return least;
+    minimum = std::min(minimum, (control.*bound)());
+  return minimum;
 }
 
 bool ErrorWatch::wants_measurement(const double length) const {
@@ -120,22 +106,23 @@ void ErrorWatch::miss_measurement(const double length, const bool failed) {
     control.miss_measurement(length, failed);
 }
 
-ErrorWatch::Belief ErrorWatch::belief() const {
+ErrorWatch::EstimatedError ErrorWatch::estimated_error() const {
   const std::vector<std::string> names = problem_.result_names();
-  Belief belief;
+  EstimatedError estimated_error;
   for (std::size_t i = 0; i < controls_.size(); ++i) {
     const ErrorControl::Estimate estimate = controls_[i].estimate();
-    if (controls_[i].has_forces() && (!belief.has_results || estimate.total() > belief.estimate.total()))
-      belief = {estimate, names[i], controls_[i].start(), true, controls_[i].knows_penetration()};
+    if (controls_[i].has_forces() &&
+        (!estimated_error.has_results || estimate.total() > estimated_error.estimate.total()))
+      estimated_error = {estimate, names[i], controls_[i].start(), true, controls_[i].knows_penetration()};
   }
-  if (!belief.has_results)
-    belief.of_what = names.front();
-  return belief;
+  if (!estimated_error.has_results)
+    estimated_error.of_what = names.front();
+  return estimated_error;
 }
 
 void ErrorWatch::allow_penetration() {
   if (controls_penetration_)
-    problem_.set_penetration_allowed(least(&ErrorControl::penetration_allowed));
+    problem_.set_penetration_allowed(minimum(&ErrorControl::penetration_allowed));
 }
 
 void ErrorWatch::demand_accuracy(const bool is_measured) {
@@ -148,7 +135,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
   // Not in the first of the steps that are compared: they need the same penetration.
   if (measures_penetration_ && wants_penetration() && (is_second || probe_length_ == 0.))
-    problem_.measure_penetration(least(&ErrorControl::allowed_at_first));
+    problem_.measure_penetration(minimum(&ErrorControl::allowed_at_first));
   return n_iterations;
 }
 
@@ -157,9 +144,8 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
     return 0;
   const double first = control.next_step(), end = control.time_after_next(),
                second = end - control.next_time();
-  constexpr double alike = 0.01;
-  if (control.ends_at_stop() ||                       // the longer step would cross the stop
-      !(std::abs(second - first) <= alike * first)) { // a stop is near: measure after it
+  if (control.ends_at_stop() ||                 // the longer step would cross the stop
+      !ErrorBudget::are_equal(first, second)) { // a stop is near: measure after it
     miss_measurement(first, false);
     return 0;
   }
@@ -173,7 +159,7 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
   } else {
     demand_accuracy(false);
     miss_measurement(first, true);
-    control.limit(least(&ErrorControl::longest_step));
+    control.limit(minimum(&ErrorControl::longest_step));
   }
   return n_iterations;
 }
@@ -211,7 +197,7 @@ void ErrorWatch::after_step(StepControl &control, const double length, const New
   probe_length_ = 0.;
   demand_accuracy(false);
   last_residual_ = report.force;
-  control.limit(least(&ErrorControl::longest_step));
+  control.limit(minimum(&ErrorControl::longest_step));
 }
 
 void ErrorWatch::after_failure() {
@@ -226,21 +212,19 @@ DiagnosticList ErrorWatch::check(const StepControl &control) const {
                                         [](const ErrorControl &errors) { return errors.has_given_up(); });
   DiagnosticList messages;
   if (has_given_up)
-    messages.push_back(
-        Diagnostic(diagnostic::comparison_failed,
-                   "The error of the steps is unknown from here on: steps of twice the length, "
-                   "with which they are compared, do not converge")
-            .time(control.time()));
-  constexpr double very_many = 2000.;
+    messages.push_back(Diagnostic(diagnostic::comparison_failed,
+                                  "There is no error estimate of the steps from here on, since the steps of "
+                                  "twice the length for comparison do not converge")
+                           .time(control.time()));
   if (control.is_finished() || !(control.next_step() > 0.) || probe_length_ > 0.)
     return messages;
   const double to_come = (end_time_ - control.time()) / control.next_step();
-  if (to_come < very_many)
+  if (!ErrorBudget::is_expensive(to_come))
     return messages;
   std::ostringstream text;
   text.precision(2);
-  text << "The error that is allowed needs steps of " << control.next_step() << " now; at that length "
-       << to_come << " more of them are to come";
+  text << "The allowed error requires steps of " << control.next_step()
+       << " now; at that length the run needs " << to_come << " more";
   messages.push_back(Diagnostic(diagnostic::target_error_expensive, text.str())
                          .time(control.time())
                          .measure("steps to come", to_come));

@@ -3,6 +3,17 @@
 
 namespace billet {
 
+namespace {
+
+/// Limits of the extrapolation of forces.
+struct Limits {
+  /// Maximum growth of forces until the end by extrapolation, over the force now: the rate of the last step
+  /// may be that of a single event.
+  static constexpr double max_growth = 10.;
+};
+
+} // namespace
+
 void ForceCourse::accept(const double h, const double force) {
   work_ += 0.5 * (force_ + force) * h;
   time_ += h;
@@ -11,9 +22,8 @@ void ForceCourse::accept(const double h, const double force) {
 }
 
 double ForceCourse::scale() const {
-  constexpr double max_growth = 10.; // limit of the growth until the end
   return std::max({force_, time_ > start_ ? work_ / (time_ - start_) : 0.,
-                   force_ + std::min(0.5 * force_rate_ * left(), max_growth * force_)});
+                   force_ + std::min(0.5 * force_rate_ * left(), Limits::max_growth * force_)});
 }
 
 void ForceCourse::save(std::vector<double> &numbers) const {

@@ -31,9 +31,9 @@ InertiaWatch::InertiaWatch(const Scene &scene, const Discretization &discretizat
       lumped_(scene.bodies().size()), consistent_(lumped_) {}
 
 void InertiaWatch::add(const SolutionState &state) {
-  constexpr double most_samples = 100.;
+  constexpr double max_samples = 100.;
   const double dt = state.time - time_;
-  if (!is_lumped_ || !(dt > 0.) || dt < scene_.parameters().time_stepping.end_time / most_samples)
+  if (!is_lumped_ || !(dt > 0.) || dt < scene_.parameters().time_stepping.end_time / max_samples)
     return;
   time_ = state.time;
   duration_ += dt;
@@ -62,20 +62,19 @@ void InertiaWatch::add(const SolutionState &state) {
   }
 }
 
-DiagnosticList InertiaWatch::judge(const double largest_energy) const {
+DiagnosticList InertiaWatch::judge(const double max_energy) const {
   constexpr double little = 0.01;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < lumped_.size(); ++b) {
     const double ratio = lumped_[b] / consistent_[b];
-    if (!(lumped_[b] > little * largest_energy * duration_) || !(ratio > doubtful_ratio))
+    if (!(lumped_[b] > little * max_energy * duration_) || !(ratio > doubtful_ratio))
       continue;
     std::ostringstream text;
     text.precision(3);
-    text
-        << "Masses at the nodes have " << ratio
-        << " times the kinetic energy of the bricks between them: the motion changes from brick to brick, as "
-           "where a bar of one brick across twists. Periods are too long by up to "
-        << 100. * (std::sqrt(ratio) - 1.) << " %";
+    text << "Lumped masses have " << ratio
+         << " times the kinetic energy of the bricks: the motion varies from brick to brick, as in torsion "
+            "of a bar with one brick across. Periods are too long by up to "
+         << 100. * (std::sqrt(ratio) - 1.) << " %";
     diagnostics.push_back(Diagnostic(diagnostic::lumped_inertia, text.str())
                               .body(scene_.bodies()[b].name)
                               .measure("ratio", ratio));

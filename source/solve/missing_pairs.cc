@@ -83,7 +83,7 @@ std::vector<unsigned int> count_elements(const std::vector<Corners> &elements,
 }
 
 /// Returns the depth below this facet from which on a node counts as inside, the smaller of two lengths.
-double allowed_depth(const BoundaryFacet &facet) {
+double allowed_penetration(const BoundaryFacet &facet) {
   return std::min(0.1 * std::sqrt(facet.area_vector().norm()), 0.2 * facet.thickness);
 }
 
@@ -316,7 +316,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
       if (!(other < square))
         return;
       square = other;
-      found = {std::sqrt(other), allowed_depth(facets_[b][f]), named_b.facets[f] ? 1. : 0.};
+      found = {std::sqrt(other), allowed_penetration(facets_[b][f]), named_b.facets[f] ? 1. : 0.};
     });
     nearest.push_back(found);
   }
@@ -379,7 +379,7 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   const bool is_first = couple.is_in_front.empty();
   const std::vector<bool> &is_named = couple.named[0].nodes;
   // Depths of nodes that were in front at the last check, or may have been before a restart.
-  std::vector<double> depths(nodes.size());
+  std::vector<double> penetrations(nodes.size());
   std::vector<bool> is_in_front(nodes.size());
   double followed = 0.; // penetration of nodes in pairs
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -388,20 +388,20 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
       continue;
     is_in_front[n] = projection.gap >= 0.;
     if (is_first ? scene_.parameters().restart.is_wanted() : couple.is_in_front[n])
-      depths[n] = std::max(0., -projection.gap);
+      penetrations[n] = std::max(0., -projection.gap);
     if (is_named[n])
-      followed = std::max(followed, depths[n]);
+      followed = std::max(followed, penetrations[n]);
   }
   followed = dealii::Utilities::MPI::max(followed, discretization_.communicator());
   std::array<double, 5> own{}; // relative, depth, position
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const double allowed = followed + part * nodes[n].facet_size;
-    const bool is_inside = !is_first && !is_named[n] && depths[n] >= allowed;
+    const bool is_inside = !is_first && !is_named[n] && penetrations[n] >= allowed;
     // A node that enters slowly counts as in front until it is inside.
-    is_in_front[n] = is_in_front[n] || (depths[n] > 0. && !is_inside);
+    is_in_front[n] = is_in_front[n] || (penetrations[n] > 0. && !is_inside);
     const Tensor<1, 3> &x = positions[couple.body][n];
     if (is_inside)
-      own = std::max(own, {depths[n] / allowed, depths[n], x[0], x[1], x[2]});
+      own = std::max(own, {penetrations[n] / allowed, penetrations[n], x[0], x[1], x[2]});
   }
   couple.is_in_front = std::move(is_in_front);
   const auto of_ranks = dealii::Utilities::MPI::all_gather(discretization_.communicator(), own);
@@ -421,18 +421,18 @@ std::string MissingPairs::name_of(const Couple &couple, const std::string &other
   return scene_.bodies()[couple.body].name + " and " + other + "\n";
 }
 
-void MissingPairs::save(StateWriter &writer) const { writer.write_text("missing pairs", told_); }
+void MissingPairs::save(StateWriter &writer) const { writer.write_text("missing pairs", reported_); }
 
 void MissingPairs::load(const StateReader &reader) {
-  told_ = reader.read_text("missing pairs");
-  const auto is_told = [&](const std::string &name) {
-    return ("\n" + told_).find("\n" + name) != std::string::npos;
+  reported_ = reader.read_text("missing pairs");
+  const auto is_reported = [&](const std::string &name) {
+    return ("\n" + reported_).find("\n" + name) != std::string::npos;
   };
   for (auto *couples : {&bodies_, &selves_})
     for (Couple &couple : *couples)
-      couple.is_open = couple.is_open && !is_told(name_of(couple, describe_body(couple)));
+      couple.is_open = couple.is_open && !is_reported(name_of(couple, describe_body(couple)));
   for (Couple &couple : tools_)
-    couple.is_open = couple.is_open && !is_told(name_of(couple, describe_tool(couple)));
+    couple.is_open = couple.is_open && !is_reported(name_of(couple, describe_tool(couple)));
 }
 
 DiagnosticList MissingPairs::check(const SolutionState &state) {
@@ -446,20 +446,20 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
   const auto boxes = boxes_around(positions);
   const auto report = [&](Couple &couple, const std::string &other, const Deepest &deepest) {
     couple.is_open = false;
-    told_ += name_of(couple, other);
+    reported_ += name_of(couple, other);
     const std::string &body = scene_.bodies()[couple.body].name;
     std::ostringstream text;
     text.precision(3);
     text << "Body '" << body << "' and " << other;
     if (couple.has_pair)
-      text << " are " << deepest.depth << " deep in each other at faces that no contact pair of theirs names";
+      text << " penetrate by " << deepest.penetration << " at faces that no contact pair of theirs names";
     else
-      text << " share no contact pair, and are " << deepest.depth << " deep in each other";
+      text << " share no contact pair, and penetrate by " << deepest.penetration;
     diagnostics.push_back(Diagnostic(diagnostic::missing_pair, text.str())
                               .body(body)
                               .at(deepest.position)
                               .time(state.time)
-                              .value("depth [length]", deepest.depth));
+                              .value("depth [length]", deepest.penetration));
   };
   for (Couple &couple : bodies_)
     if (couple.is_open)
@@ -471,11 +471,11 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
     if (couple.is_open)
       if (const auto position = find_self_overlap(couple, &state.displacements)) {
         couple.is_open = false;
-        told_ += name_of(couple, describe_body(couple));
+        reported_ += name_of(couple, describe_body(couple));
         const std::string &body = scene_.bodies()[couple.body].name;
         diagnostics.push_back(
             Diagnostic(diagnostic::missing_pair,
-                       "Body '" + body + "' goes into itself, and has no contact pair with itself")
+                       "Body '" + body + "' penetrates itself, and has no contact pair with itself")
                 .body(body)
                 .at(*position)
                 .time(state.time));
@@ -485,7 +485,7 @@ DiagnosticList MissingPairs::check(const SolutionState &state) {
     if (!couple.is_open || state.time >= tool.removal_time())
       continue;
     const Deepest deepest = enter_tool(couple, positions, state.placements[couple.other]);
-    if (deepest.depth > 0.) {
+    if (deepest.penetration > 0.) {
       report(couple, describe_tool(couple), deepest);
       diagnostics.back().tool(tool.name());
     }

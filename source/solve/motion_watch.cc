@@ -75,8 +75,8 @@ void MotionWatch::add(Track track, const double rounding) {
 std::string MotionWatch::find_unseen(const double from, const double to) const {
   // L of an arc of 15 degrees is 1.00286 times its chord.
   constexpr double longer = 1.003, trifle = 0.05, per_run = 200.;
-  constexpr unsigned int least = 16;
-  const auto n = std::max(least, static_cast<unsigned int>(std::ceil(per_run * (to - from) / end_time_)));
+  constexpr unsigned int minimum = 16;
+  const auto n = std::max(minimum, static_cast<unsigned int>(std::ceil(per_run * (to - from) / end_time_)));
   const std::vector<double> times = times_between(from, to, n);
   std::string found;
   for (const Track &track : tracks_) {

@@ -39,7 +39,7 @@ public:
              (n == 0 ||
               std::abs(residual_work) <= (settings_.energy_tolerance * scale + round_off) * increment_);
     };
-    const double contact = problem_.contact_round_off_force(), cap = most_round_off * scale;
+    const double contact = problem_.contact_round_off_force(), cap = max_round_off * scale;
     const bool is_near = norm <= max_stalled_residual * scale;
     NewtonVerdict verdict = NewtonVerdict::unconverged;
     if (!std::isfinite(norm)) {
@@ -47,7 +47,7 @@ public:
       verdict = NewtonVerdict::failed;
     } else if (is_small(std::min(contact, cap))) {
       verdict = NewtonVerdict::converged;
-    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > most_in_round_off_) {
+    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > max_in_round_off_) {
       report_.is_stalled = is_near;
       report_.is_lost_in_round_off = !is_near;
       verdict = NewtonVerdict::converged;
@@ -56,31 +56,31 @@ public:
       verdict = accepts_stalled_ ? NewtonVerdict::converged : NewtonVerdict::failed;
       if (!accepts_stalled_)
         report_.failure = "after " + std::to_string(n) + " iterations the residual no longer falls";
-    } else if (n >= settings_.most_iterations) {
-      report_.failure = "no convergence in " + std::to_string(n) + " iterations";
+    } else if (n >= settings_.max_iterations) {
+      report_.failure = "Newton's method does not converge in " + std::to_string(n) + " iterations";
       verdict = NewtonVerdict::failed;
     } else if (n >= 3 * window_ && has_stalled(n)) { // later, drift is a small part of the way it has made
       report_.failure =
-          "given up after " + std::to_string(n) + " iterations, since the residual no longer falls";
+          "the solver stops after " + std::to_string(n) + " iterations, since the residual no longer falls";
       verdict = NewtonVerdict::failed;
     } else if (is_hopeless(n) && !may_still_settle(n)) {
-      report_.failure = "given up after " + std::to_string(n) + " iterations, since at their pace " +
-                        std::to_string(settings_.most_iterations) + " will not do";
+      report_.failure = "the solver stops after " + std::to_string(n) + " iterations, since at their rate " +
+                        std::to_string(settings_.max_iterations) + " iterations are too few";
       verdict = NewtonVerdict::failed;
     }
     if (report_.is_stalled || verdict == NewtonVerdict::failed)
       report_.criteria = measures.describe(settings_);
-    if (verdict == NewtonVerdict::failed && std::isfinite(norm) && go_round(report_.iterations)) {
-      report_.goes_round = true;
+    if (verdict == NewtonVerdict::failed && std::isfinite(norm) && is_cycling(report_.iterations)) {
+      report_.is_cycling = true;
       report_.failure = "after " + std::to_string(n) +
-                        " iterations they go to and fro between the same states, of which none is in balance";
+                        " iterations they cycle between the same states, and none is in equilibrium";
     }
     // Residuals slightly above the estimate are also due to round-off.
     constexpr double by_much = 10.;
-    largest_round_off_ = std::max(largest_round_off_, contact); // nodes may just have opened
+    max_round_off_ = std::max(max_round_off_, contact); // nodes may just have opened
     if (verdict == NewtonVerdict::failed)
       report_.is_lost_in_round_off =
-          !report_.is_stalled && largest_round_off_ > cap && norm <= by_much * largest_round_off_;
+          !report_.is_stalled && max_round_off_ > cap && norm <= by_much * max_round_off_;
     return verdict;
   }
   /// Whether an iteration has reached the round-off limit, above the permitted part of the forces.
@@ -108,11 +108,10 @@ private:
                                   full_length > 0. ? length / full_length : 1.});
     // The full correction counts, even if it was shortened: the shortened length does not measure the
     // remaining distance.
-    const double largest_correction = last->full.linfty_norm();
-    const double largest_increment =
-        std::max(increment.linfty_norm(), least_increment_ * now.x.linfty_norm());
+    const double max_correction = last->full.linfty_norm();
+    const double max_increment = std::max(increment.linfty_norm(), min_increment_ * now.x.linfty_norm());
     measures.has_correction = true;
-    measures.correction = largest_increment > 0. ? largest_correction / largest_increment : 0.;
+    measures.correction = max_increment > 0. ? max_correction / max_increment : 0.;
     measures.energy = scale * increment_ > 0. ? std::abs(residual_work) / (scale * increment_) : 0.;
     const StatusChanges changes = problem_.status_changes();
     measures.status = changes.part();
@@ -121,7 +120,7 @@ private:
   }
   /// Whether the residual no longer falls.
   bool has_stalled(const unsigned int n) const {
-    const bool is_last = n >= settings_.most_iterations;
+    const bool is_last = n >= settings_.max_iterations;
     return (n >= 2 * window_ && is_stagnant(report_.iterations, report_.force, window_)) ||
            (is_last && n >= window_ && is_stagnant(report_.iterations, report_.force, window_ / 2));
   }
@@ -143,7 +142,7 @@ private:
     const double before = report_.iterations[n - window].force;
     const double to_go = std::log(report_.force / settings_.force_tolerance);
     const double pace = std::log(before / report_.force) / window; // per iteration
-    return to_go > 0. && pace * (settings_.most_iterations - n) < to_go;
+    return to_go > 0. && pace * (settings_.max_iterations - n) < to_go;
   }
 
   const NonlinearProblem &problem_;
@@ -154,13 +153,13 @@ private:
   static constexpr unsigned int window_ = 10; // number of iterations to judge convergence by
   // Part of the largest displacement: smaller increments, as in a scene at rest, cannot normalise
   // corrections.
-  static constexpr double least_increment_ = 1e-3;
-  static constexpr unsigned int most_in_round_off_ = 3; // iterations to recover from it
-  static constexpr double slow_ = 0.1;                  // of the last residual
-  static constexpr double certain_ = 0.01;              // of the estimate of round-off: its last bit
-  double last_norm_ = 0., increment_ = 0.;              // |Δu|
+  static constexpr double min_increment_ = 1e-3;
+  static constexpr unsigned int max_in_round_off_ = 3; // iterations to recover from it
+  static constexpr double slow_ = 0.1;                 // of the last residual
+  static constexpr double certain_ = 0.01;             // of the estimate of round-off: its last bit
+  double last_norm_ = 0., increment_ = 0.;             // |Δu|
   unsigned int n_in_round_off_ = 0;
-  double largest_round_off_ = 0.;
+  double max_round_off_ = 0.;
 };
 
 } // namespace
@@ -198,7 +197,7 @@ bool is_stagnant(const std::vector<NewtonIteration> &iterations, const double la
   return now > hardly_better * before;
 }
 
-bool go_round(const std::vector<NewtonIteration> &iterations) {
+bool is_cycling(const std::vector<NewtonIteration> &iterations) {
   constexpr std::size_t longest = 4, window = 2 * longest;
   constexpr double alike = 0.02, apart = 0.2;
   if (iterations.size() < window + longest)
@@ -206,13 +205,13 @@ bool go_round(const std::vector<NewtonIteration> &iterations) {
   const auto force = [&](const std::size_t back) { return iterations[iterations.size() - 1 - back].force; };
   for (std::size_t period = 2; period <= longest; ++period) {
     bool returns = true;
-    double least = force(0), most = force(0);
+    double minimum = force(0), maximum = force(0);
     for (std::size_t back = 0; back < window; ++back) {
       returns = returns && std::abs(force(back) - force(back + period)) <= alike * force(back);
-      least = std::min(least, force(back));
-      most = std::max(most, force(back));
+      minimum = std::min(minimum, force(back));
+      maximum = std::max(maximum, force(back));
     }
-    if (returns && most - least > apart * most)
+    if (returns && maximum - minimum > apart * maximum)
       return true;
   }
   return false;
@@ -224,7 +223,7 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
   NewtonOptions options{};
   options.residual_tolerance = settings.force_tolerance;
   options.linear_tolerance = settings.linear_tolerance;
-  options.max_linear_tolerance = largest_forcing_term;
+  options.max_linear_tolerance = max_forcing_term;
   options.adapts_tolerance = settings.forcing == parameters::Solver::Forcing::eisenstat_walker;
   options.searches_lines = settings.line_search == parameters::Solver::LineSearch::energy;
   Convergence convergence(problem, settings, x_n, accepts_stalled, report);
@@ -235,7 +234,7 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
       },
       x);
   if (end == NewtonEnd::not_admissible_at_start) {
-    report.failure = "the step's first guess is not admissible (det F <= 0 or not a number)";
+    report.failure = "the step's initial guess is not admissible (det F <= 0 or not a number)";
     return report;
   }
   report.converged = end == NewtonEnd::converged;

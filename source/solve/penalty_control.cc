@@ -14,14 +14,21 @@ namespace billet {
 
 namespace {
 
-/// Limits of (L8): the allowed part of penetration, the target of raises, and the irrelevant part.
-constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
-/// The same for sticking, (L9): as parts of friction, and of the normal force. Friction lost before a raise
-/// stays lost.
-constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
-constexpr double most_at_once = 4.;   ///< softness is measured anew after that
-constexpr double slow = 0.01;         ///< largest kinetic energy so far beside what deformation takes now
-constexpr double notable_pair = 0.05; ///< of the energy in the springs of a path
+/// Limits of penalties that rise.
+struct Limits {
+  /// Part of penetration in the deformation of a path above which penalties rise, the part that raises aim
+  /// at, and the part of all energy below which penetration is irrelevant, (L8).
+  static constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
+  /// The same for sticking, (L9): the lost part of friction, the part that raises aim at, and the part of the
+  /// normal force below which lost friction is irrelevant. Friction lost before a raise stays lost.
+  static constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
+  /// Maximum factor of a raise. Softness is measured anew after it.
+  static constexpr double max_at_once = 4.;
+  /// Largest kinetic energy so far over the energy of deformation now, below which motion is slow.
+  static constexpr double slow = 0.01;
+  /// Part of a path's energy of penetration above which a pair's penalty rises with it.
+  static constexpr double notable_pair = 0.05;
+};
 constexpr double percent = 100.;
 
 template <class ContactPair> bool raises_tangential(const ContactPair &pair) {
@@ -40,16 +47,16 @@ std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {
 } // namespace
 
 PenaltyControl::PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths,
-                               const double largest_raise)
-    : largest_raise_(largest_raise), pairs_(std::move(pairs)) {
+                               const double max_raise)
+    : max_raise_(max_raise), pairs_(std::move(pairs)) {
   for (const LoadPath &path : paths)
     if (!path.bears_given_loads)
       paths_.push_back({path, 1., {}});
 }
 
 PenaltyControl::PenaltyControl(const Scene &scene, const Discretization &discretization,
-                               const double largest_raise)
-    : PenaltyControl(pairs_of(scene), find_load_paths(scene), largest_raise) {
+                               const double max_raise)
+    : PenaltyControl(pairs_of(scene), find_load_paths(scene), max_raise) {
   if (is_used())
     stick_springs_.emplace(scene, discretization);
 }
@@ -66,10 +73,10 @@ bool PenaltyControl::is_used() const {
 }
 
 void PenaltyControl::judge(Controlled &path, const Energies &energies, const std::vector<Factors> &room) {
-  const double part = path.softness.part(counts);
-  if (!(part > allowed))
+  const double part = path.softness.part(Limits::counts);
+  if (!(part > Limits::allowed))
     return;
-  const double raise = std::min(part / aim, most_at_once);
+  const double raise = std::min(part / Limits::aim, Limits::max_at_once);
   for (const std::size_t pair : path.parts.pairs) {
     if (!pairs_[pair].may_be_raised || !(energies.of_pairs[pair] > 0.) || !(room[pair].normal > 1.))
       continue;
@@ -85,30 +92,31 @@ void PenaltyControl::describe(const std::string &penalty, const std::size_t pair
                               const double factor, const double room, const std::string &reason) {
   std::ostringstream text;
   text.precision(3);
-  text << "The " << penalty << " of the pair is raised to "
-       << enough_penalty * most_in_all / room * std::min(factor, room) << " E/h, since " << reason;
+  text << "The " << penalty << " of the pair rises to "
+       << enough_penalty * max_in_all / room * std::min(factor, room) << " E/h, since " << reason;
   const bool is_enough = factor < room;
   diagnostics_.push_back(
       Diagnostic(diagnostic::penalty_raised, text.str())
           .pair(pairs_[pair].name)
           .time(time)
           .value("factor", factor)
-          .advice(std::string(is_enough
-                                  ? "Nothing has to be done."
-                                  : "It rises no farther: see what the end of the run says of the pair.") +
+          .advice(std::string(
+                      is_enough
+                          ? "No action is necessary."
+                          : "It rises no further: check the messages about the pair at the end of the run.") +
                   " Time steps may be shorter from now on; 'Penetration tolerance = 0' keeps the penalty"));
 }
 
 double PenaltyControl::tangential_raise(const std::size_t pair, const Energies &energies, const double room) {
   const StickSoftness &softness = energies.sticking[pair];
   const double part = softness.part();
-  if (!pairs_[pair].may_be_raised_tangentially || !(part > allowed_in_friction) ||
-      !(softness.lost > counts_in_friction * softness.pressure) || !(room > 1.))
+  if (!pairs_[pair].may_be_raised_tangentially || !(part > Limits::allowed_in_friction) ||
+      !(softness.lost > Limits::counts_in_friction * softness.pressure) || !(room > 1.))
     return 1.;
-  const double raise = std::min({part / aim_in_friction, most_at_once, room});
+  const double raise = std::min({part / Limits::aim_in_friction, Limits::max_at_once, room});
   std::ostringstream reason;
   reason.precision(3);
-  reason << "friction that sticks lacks up to " << percent * part << " %";
+  reason << "friction forces while sticking are too small by up to " << percent * part << " %";
   describe("tangential penalty", pair, energies.time, raise, room, reason.str());
   return raise;
 }
@@ -126,13 +134,13 @@ PenaltyControl::Energies PenaltyControl::measure(const Solution &solution, const
 std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &energies,
                                                             const std::vector<Factors> &room) {
   std::vector<Factors> factors(pairs_.size());
-  largest_kinetic_ = std::max(largest_kinetic_, energies.all.kinetic);
+  max_kinetic_ = std::max(max_kinetic_, energies.all.kinetic);
   if (!(energies.time > time_))
     return factors;
   time_ = energies.time;
   const EnergyLedger &all = energies.all;
   const double deformed = all.of_elements() + all.contact;
-  const bool is_slow = largest_kinetic_ < slow * deformed;
+  const bool is_slow = max_kinetic_ < Limits::slow * deformed;
   for (std::size_t pair = 0; is_slow && pair < pairs_.size(); ++pair)
     factors[pair].tangential = tangential_raise(pair, energies, room[pair].tangential);
   for (Controlled &path : paths_) {
@@ -148,10 +156,10 @@ std::vector<PenaltyControl::Factors> PenaltyControl::raises(const Energies &ener
       judge(path, energies, room);
     if (path.left == 1.)
       continue;
-    const double factor = std::min(path.left, largest_raise_);
+    const double factor = std::min(path.left, max_raise_);
     path.left /= factor;
     for (const std::size_t pair : path.parts.pairs)
-      if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > notable_pair * penetration)
+      if (pairs_[pair].may_be_raised && energies.of_pairs[pair] > Limits::notable_pair * penetration)
         factors[pair].normal = std::max(1., std::min(factor, room[pair].normal));
     path.softness.restart();
   }
@@ -165,7 +173,7 @@ DiagnosticList PenaltyControl::take_diagnostics() {
 }
 
 void PenaltyControl::save(StateWriter &writer) const {
-  std::vector<double> numbers{time_, largest_kinetic_};
+  std::vector<double> numbers{time_, max_kinetic_};
   for (const Controlled &path : paths_) {
     numbers.push_back(path.left);
     path.softness.save(numbers);
@@ -181,7 +189,7 @@ void PenaltyControl::load(const StateReader &reader) {
   if (numbers.size() != 2 + of_path * paths_.size())
     return; // of other pairs
   time_ = numbers[0];
-  largest_kinetic_ = numbers[1];
+  max_kinetic_ = numbers[1];
   const double *next = numbers.data() + 2;
   for (Controlled &path : paths_) {
     path.left = next[0];

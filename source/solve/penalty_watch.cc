@@ -9,34 +9,46 @@
 
 namespace billet {
 
+namespace {
+
+/// Signs of penalties that are too low.
+struct Limits {
+  /// Penetration that is too deep [facet sizes]: deeper nodes are visible in field output and affect areas.
+  static constexpr double deep = 0.1;
+  /// Penetration over the largest displacement, or energy of springs over all work: a fifth of what bodies
+  /// would bear.
+  static constexpr double much_taken = 0.2;
+  /// Penetration below which these parts are irrelevant, in slow and in sudden motion [facet sizes].
+  static constexpr double min_in_slow_motion = 1e-6, min_in_sudden_motion = 2e-2;
+  /// Part of all work in springs below which a short penetration in an impact is irrelevant.
+  static constexpr double counts = 0.01;
+};
+
+} // namespace
+
 DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, const Penetration &deepest,
                                    const double displacement, const double part_of_work) {
-  constexpr double deep = 0.1;       // of a facet: deeper nodes are visible in field output and affect areas
-  constexpr double much_taken = 0.2; // of the motion: a fifth of what bodies would bear
   const bool is_slow = motion_ == Motion::slow;
-  // Depth that may matter for the second sign [facet sizes].
-  const double least = is_slow ? 1e-6 : 2e-2;
-  double &largest = displacements_[pair];
-  largest = std::max(largest, displacement);
-  const bool is_deep = deepest.of_facet > deep;
-  const bool takes_motion = deepest.of_facet > least && deepest.length > much_taken * largest;
-  const bool takes_work = is_slow && deepest.of_facet > least && part_of_work > much_taken;
-  // A short penetration in an impact, with next to no energy, is irrelevant.
-  constexpr double counts = 0.01;
+  const double minimum = is_slow ? Limits::min_in_slow_motion : Limits::min_in_sudden_motion;
+  double &maximum = displacements_[pair];
+  maximum = std::max(maximum, displacement);
+  const bool is_deep = deepest.of_facet > Limits::deep;
+  const bool takes_motion = deepest.of_facet > minimum && deepest.length > Limits::much_taken * maximum;
+  const bool takes_work = is_slow && deepest.of_facet > minimum && part_of_work > Limits::much_taken;
   const bool was_deep = are_deep_[pair];
   are_deep_[pair] = is_deep;
-  const bool matters = is_slow || was_deep || part_of_work > counts;
-  has_soft_pairs_ = has_soft_pairs_ || is_deep || takes_motion || takes_work;
+  const bool matters = is_slow || was_deep || part_of_work > Limits::counts;
+  has_low_penalties_ = has_low_penalties_ || is_deep || takes_motion || takes_work;
   if (!((is_deep && matters) || takes_work || (is_slow && takes_motion)))
     return {};
   std::ostringstream text;
   text.precision(3);
   text << "Nodes penetrate by " << deepest.of_facet << " facet sizes";
   if (takes_motion)
-    text << ", " << std::round(100. * std::min(1., deepest.length / largest))
-         << " % of the largest displacement so far";
+    text << ", " << std::round(100. * std::min(1., deepest.length / maximum))
+         << " % of the maximum displacement so far";
   else if (takes_work)
-    text << "; the penalty holds " << std::round(100. * part_of_work) << " % of the work done so far";
+    text << "; the penalty stores " << std::round(100. * part_of_work) << " % of the work done so far";
   return {Diagnostic(diagnostic::penalty_too_low, text.str())
               .pair(pair)
               .time(time)
@@ -47,10 +59,10 @@ DiagnosticList PenaltyWatch::check(const std::string &pair, const double time, c
 
 void PenaltyWatch::save(StateWriter &writer) const {
   std::string pairs; // a line each
-  std::vector<double> values{has_soft_pairs_ ? 1. : 0.};
-  for (const auto &[pair, largest] : displacements_) {
+  std::vector<double> values{has_low_penalties_ ? 1. : 0.};
+  for (const auto &[pair, maximum] : displacements_) {
     pairs += pair + "\n";
-    values.push_back(largest);
+    values.push_back(maximum);
     values.push_back(are_deep_.at(pair) ? 1. : 0.);
   }
   writer.write_text("watched pairs", pairs);
@@ -60,7 +72,7 @@ void PenaltyWatch::save(StateWriter &writer) const {
 void PenaltyWatch::load(const StateReader &reader) {
   std::istringstream pairs(reader.read_text("watched pairs"));
   const std::vector<double> values = reader.read("watched depths");
-  has_soft_pairs_ = values.at(0) != 0.;
+  has_low_penalties_ = values.at(0) != 0.;
   std::size_t i = 1;
   for (std::string pair; std::getline(pairs, pair);) {
     displacements_[pair] = values.at(i++);
@@ -68,7 +80,7 @@ void PenaltyWatch::load(const StateReader &reader) {
   }
 }
 
-double largest_motion(const Placement &from, const Placement &to, const double radius) {
+double max_motion(const Placement &from, const Placement &to, const double radius) {
   return (to.moved_centre() - from.moved_centre()).norm() + (to.rotation - from.rotation).norm() * radius;
 }
 

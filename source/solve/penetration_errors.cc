@@ -37,7 +37,7 @@ void PenetrationErrors::measure(const ForceCourse &course, const double penetrat
   if (tolerance_ == 0. || !(error > 0.))
     return;
   // The error is proportional to penetration; the smallest tolerance is the lower limit.
-  const double allowed = most_over_mean * tolerance_ * std::max(course.scale(), force);
+  const double allowed = max_over_mean * tolerance_ * std::max(course.scale(), force);
   allowed_ = std::max(1., penetration * allowed / error);
 }
 

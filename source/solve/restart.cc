@@ -75,7 +75,7 @@ std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std
   return {};
 }
 
-constexpr std::uint64_t most_ranks = 1U << 20U;
+constexpr std::uint64_t max_ranks = 1U << 20U;
 
 } // namespace
 
@@ -92,22 +92,22 @@ void save_scene(StateWriter &writer, const Scene &scene, const Discretization &d
 void check_scene(StateReader &reader, const Scene &scene, const Discretization &discretization) {
   const double n_bodies = reader.number("bodies");
   if (n_bodies != static_cast<double>(scene.bodies().size()))
-    throw InputError("it has " + std::to_string(std::lround(n_bodies)) + " bodies, this scene has " +
+    throw InputError("it has " + std::to_string(std::lround(n_bodies)) + " bodies, but this scene has " +
                      std::to_string(scene.bodies().size()));
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
     reader.in(group("body", b), [&] {
       const Body &body = scene.bodies()[b];
       const std::string name = reader.read_text("name"), material = reader.read_text("material");
       if (name != body.name)
-        throw InputError("its body " + std::to_string(b + 1) + " is '" + name + "', here it is '" +
+        throw InputError("its body " + std::to_string(b + 1) + " is '" + name + "', but here it is '" +
                          body.name + "'");
       if (material != body.law->description())
-        throw InputError("its body '" + name + "' is " + material + ", here it is " +
+        throw InputError("its body '" + name + "' is " + material + ", but here it is " +
                          body.law->description());
       const std::vector<double> then = reader.read("mesh"), now = measure(discretization, b);
       if (then.at(0) != now[0])
         throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +
-                         " elements, here it has " + std::to_string(std::lround(now[0])));
+                         " elements, but here it has " + std::to_string(std::lround(now[0])));
       // They may contain round-off of another machine.
       constexpr double tolerance = 1e-9;
       const double radius = discretization.radius() + discretization.centre().norm();
@@ -115,8 +115,8 @@ void check_scene(StateReader &reader, const Scene &scene, const Discretization &
       for (unsigned int i = 2; i < 5; ++i)
         is_same = is_same && std::abs(then.at(i) - now[i]) <= tolerance * radius * now[0];
       if (!is_same)
-        throw InputError("its body '" + name + "' has another mesh: the elements stand elsewhere, or are " +
-                         "numbered in another order");
+        throw InputError("its body '" + name +
+                         "' has another mesh: elements have other positions or another order");
     });
 }
 
@@ -203,7 +203,7 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
   }
   const auto formulation = find_formulation(words, law);
   if (!formulation)
-    throw InputError("the history of its body '" + scene.bodies()[body].name + "' is of unknown kind: '" +
+    throw InputError("the history of its body '" + scene.bodies()[body].name + "' has an unknown type: '" +
                      words + "'");
   const LocalNodes nodes(discretization);
   NodalVectors u = nodes.make_vectors();
@@ -273,8 +273,8 @@ bool load_pair(StateReader &reader, const ContactInterface &contact, const std::
   reader.in(group(contact.group_kind(), *found), [&] {
     const std::string then = reader.read_text("partners");
     if (then != contact.partners())
-      throw InputError("its contact pair '" + contact.name() + "' joins " + then + ", here it joins " +
-                       contact.partners() + "; give a new pair a new name");
+      throw InputError("its contact pair '" + contact.name() + "' joins " + then + ", but here it joins " +
+                       contact.partners() + ". Give a new pair a new name");
     load();
   });
   return true;
@@ -346,7 +346,7 @@ void save_parts(StateWriter &writer, const std::string &name, const unsigned int
                 const std::vector<std::uint64_t> &keys, const std::vector<double> &values) {
   std::vector<std::uint64_t> own = keys;
   for (auto &key : own)
-    key = key * most_ranks + rank;
+    key = key * max_ranks + rank;
   writer.write_rows(name, 3, own, values);
 }
 
@@ -354,7 +354,7 @@ std::vector<double> load_part(const StateReader &reader, const std::string &name
                               const std::vector<std::uint64_t> &keys) {
   std::vector<std::uint64_t> own = keys;
   for (auto &key : own)
-    key = key * most_ranks + rank;
+    key = key * max_ranks + rank;
   std::vector<bool> found;
   return reader.read_rows(name, 3, own, &found);
 }

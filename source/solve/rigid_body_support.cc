@@ -247,21 +247,21 @@ void RigidBodySupport::add_spent_contact(const SupportingPoint &point, const Sid
 
 RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
   Mode mode{0, {}};
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const double square = std::inner_product(&motion[6 * body], &motion[6 * body] + 6, &motion[6 * body], 0.);
-    if (square > largest) {
-      largest = square;
+    if (square > maximum) {
+      maximum = square;
       mode.body = body;
     }
   }
-  double most = 0.; // largest component, which is made positive
+  double max_component = 0.; // largest component, which is made positive
   for (unsigned int i = 0; i < 6; ++i)
-    if (std::abs(motion[6 * mode.body + i]) > (1. + 1e-6) * std::abs(most))
-      most = motion[6 * mode.body + i];
+    if (std::abs(motion[6 * mode.body + i]) > (1. + 1e-6) * std::abs(max_component))
+      max_component = motion[6 * mode.body + i];
   const auto component = [&](const unsigned int i) {
     constexpr double none = 1e-2;
-    const double value = motion[6 * mode.body + i] / (std::sqrt(largest) * (most < 0. ? -1. : 1.));
+    const double value = motion[6 * mode.body + i] / (std::sqrt(maximum) * (max_component < 0. ? -1. : 1.));
     return std::abs(value) < none ? 0. : value;
   };
   mode.motion = {Tensor<1, 3>({component(0), component(1), component(2)}),
@@ -274,11 +274,11 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
   std::vector<double> gram(gram_);
   dealii::Utilities::MPI::sum(gram_, communicator_, gram);
   dealii::LAPACKFullMatrix<double> matrix(size, size);
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t j = 0; j < size; ++j) {
       matrix(i, j) = gram[i * size + j];
-      largest = std::max(largest, i == j ? gram[i * size + j] : 0.);
+      maximum = std::max(maximum, i == j ? gram[i * size + j] : 0.);
     }
   dealii::Vector<double> values(size);
   dealii::FullMatrix<double> vectors(size, size);
@@ -287,7 +287,7 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
   constexpr double none = 1e-10, alike = 1e-3;
   Unresisted found;
   Rows bodies;
-  for (std::size_t k = 0; k < size && (largest == 0. || values[k] <= none * largest); ++k) {
+  for (std::size_t k = 0; k < size && (maximum == 0. || values[k] <= none * maximum); ++k) {
     Row motion(size), of_bodies;
     for (std::size_t i = 0; i < size; ++i)
       motion[i] = vectors(i, k);

@@ -23,15 +23,15 @@ DiagnosticList RoundOffWatch::finish(const double tolerance, const bool accepts_
   const double part = round_off_ / forces_;
   std::ostringstream text;
   text.precision(2);
-  text << "Round-off of contact's penalties may be " << part
-       << " of the largest forces, 'Force tolerance' is " << tolerance;
+  text << "Round-off in the penalty forces may be " << part << " of the maximum forces; 'Force tolerance' is "
+       << tolerance;
   const bool is_notable = part > notable_round_off;
   if (!is_notable)
-    text << ". Forces are in balance to that part only";
+    text << ". Forces balance to that part only";
   else if (part > 1. && !accepts_all)
-    text << ": the forces of the scene are lost in it";
+    text << ": it exceeds the forces of the scene";
   else if (part > max_stalled_residual && !accepts_all)
-    text << ": forces are known to this part only";
+    text << ": forces are accurate to this part only";
   else
     text << "; residuals up to " << max_stalled_residual << " are accepted";
   return {Diagnostic(is_notable ? diagnostic::round_off_limits_forces : diagnostic::balanced_to_round_off,

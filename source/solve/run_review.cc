@@ -26,9 +26,9 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   contacts_.add(solution);
   inertia_.add(solution.state());
   const EnergyLedger &energies = solution.state().energies;
-  largest_kinetic_ = std::max(largest_kinetic_, energies.kinetic);
-  largest_internal_ = std::max(largest_internal_, energies.of_elements());
-  largest_energy_ = std::max(largest_energy_, energies.total());
+  max_kinetic_ = std::max(max_kinetic_, energies.kinetic);
+  max_internal_ = std::max(max_internal_, energies.of_elements());
+  max_energy_ = std::max(max_energy_, energies.total());
   numerical_ = energies.numerical;
   DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
   append(diagnostics, missing_pairs_.check(solution.state()));
@@ -54,15 +54,15 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
 
 DiagnosticList RunReview::finish() const {
   DiagnosticList diagnostics = contacts_.finish();
-  append(diagnostics, inertia_.judge(largest_energy_));
+  append(diagnostics, inertia_.judge(max_energy_));
   constexpr double much = 0.05;
-  if (const double size = std::abs(numerical_); size > much * largest_energy_) {
+  if (const double size = std::abs(numerical_); size > much * max_energy_) {
     std::ostringstream text;
     text.precision(3);
-    text << "Time integration has " << (numerical_ > 0. ? "dissipated " : "made ")
-         << 100. * size / largest_energy_ << " % of the largest energy";
+    text << "Time integration " << (numerical_ > 0. ? "dissipates " : "creates ") << 100. * size / max_energy_
+         << " % of the maximum energy";
     diagnostics.push_back(Diagnostic(diagnostic::numerical_dissipation, text.str())
-                              .measure("part of the largest energy", size / largest_energy_));
+                              .measure("part of the largest energy", size / max_energy_));
   }
   return diagnostics;
 }
@@ -73,7 +73,7 @@ void RunReview::save(StateWriter &writer) const {
     inertia_.save(writer);
     contacts_.save(writer);
     missing_pairs_.save(writer);
-    writer.write("energies", {largest_kinetic_, largest_internal_, largest_energy_});
+    writer.write("energies", {max_kinetic_, max_internal_, max_energy_});
   });
 }
 
@@ -84,10 +84,10 @@ void RunReview::load(StateReader &reader) {
       inertia_.load(reader);
       contacts_.load(reader);
       missing_pairs_.load(reader);
-      const std::vector<double> largest = reader.read("energies");
-      largest_kinetic_ = largest.at(0);
-      largest_internal_ = largest.at(1);
-      largest_energy_ = largest.at(2);
+      const std::vector<double> maximum = reader.read("energies");
+      max_kinetic_ = maximum.at(0);
+      max_internal_ = maximum.at(1);
+      max_energy_ = maximum.at(2);
     });
 }
 

@@ -9,34 +9,43 @@ namespace billet {
 
 namespace {
 
-constexpr double allowed = 2e-3; // of the forces
+/// Constants of (L7), as parts of forces unless they say otherwise.
+struct Limits {
+  /// Missing part of a force up to which nothing is augmented.
+  static constexpr double allowed = 2e-3;
+  /// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the pressure.
+  static constexpr double min_of_max = 0.01, min_friction = 0.02;
+  /// Minimum of the friction that is still allowed, as part of the allowed one. Slip persists: the allowance
+  /// that one step uses is lost for the next ones.
+  static constexpr double min_left = 0.1;
+  /// Part of the force above which springs hold so much that the state is unlike the one in which `counts`
+  /// was measured.
+  static constexpr double unlike = 0.5;
+  /// Maximum of ρ, the ratio of the geometric series of all further augmentations.
+  static constexpr double max_ratio = 0.8;
+  /// Minimum part that springs hold for ρ to be measured. Smaller parts of a force are not significant.
+  static constexpr double min_held = 1e-4;
+};
 
-// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the pressure.
-constexpr double least_of_largest = 0.01, least_friction = 0.02;
-
-double largest_force(const std::vector<ContactSprings> &springs) {
-  double largest = 0.;
+double max_force(const std::vector<ContactSprings> &springs) {
+  double maximum = 0.;
   for (const auto &of_pair : springs)
-    largest = std::max(largest, of_pair.normal.force);
-  return largest;
+    maximum = std::max(maximum, of_pair.normal.force);
+  return maximum;
 }
 
 } // namespace
 
 double SoftnessLimit::Direction::missing(const ContactSprings::Direction &springs, const double force) const {
-  // `counts` is known only for similar states. All further augmentations form a geometric series.
-  constexpr double unlike = 0.5, most = 0.8;
-  const double in_all = counts / (1. - std::min(counts, most));
-  return std::min(changed, springs.held > unlike * force ? springs.held : in_all * springs.held);
+  const double in_all = counts / (1. - std::min(counts, Limits::max_ratio));
+  return std::min(changed, springs.held > Limits::unlike * force ? springs.held : in_all * springs.held);
 }
 
 void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change) {
-  // Smaller parts of a force are not significant. Only the first augmentation counts: facets that do not fit
-  // keep gaps.
-  constexpr double least_held = 1e-4;
+  // Only the first augmentation counts: facets that do not fit keep gaps.
   const bool is_first = std::isinf(changed);
   changed = change.in_all;
-  if (is_first && before.held > least_held * before.force && before.held > 0.)
+  if (is_first && before.held > Limits::min_held * before.force && before.held > 0.)
     counts = std::min(1., change.of_nodes / before.held);
 }
 
@@ -56,22 +65,21 @@ bool SoftnessLimit::is_used() const {
 }
 
 std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs) const {
-  // Slip persists: the allowance that one step uses is lost for the next ones.
-  constexpr double least_left = 0.1;
-  const double least = least_of_largest * largest_force(springs);
+  const double minimum = Limits::min_of_max * max_force(springs);
   std::vector<double> result(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair &pair = pairs_[i];
     if (!pair.limits)
       continue;
     const auto &[normal, tangential] = springs[i];
-    const double pressure = std::max(least, normal.force),
-                 friction = std::max(least_friction * pressure, tangential.force);
+    const double pressure = std::max(minimum, normal.force),
+                 friction = std::max(Limits::min_friction * pressure, tangential.force);
     const double of_pressure = pair.normal.missing(normal, pressure),
                  of_friction = pair.tangential.missing(tangential, friction),
-                 left = std::max(least_left * allowed * friction, allowed * friction - pair.let_in);
+                 left = std::max(Limits::min_left * Limits::allowed * friction,
+                                 Limits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
-      result[i] += of_pressure / (allowed * pressure);
+      result[i] += of_pressure / (Limits::allowed * pressure);
     if (of_friction > 0.)
       result[i] += of_friction / left;
   }
@@ -93,7 +101,7 @@ void SoftnessLimit::commit(const std::vector<ContactSprings> &springs) {
   for (std::size_t i = 0; i < springs.size(); ++i) {
     Pair &pair = pairs_[i];
     pair.let_in += pair.tangential.counts * springs[i].tangential.held;
-    pair.largest_force = std::max(pair.largest_force, springs[i].normal.force);
+    pair.max_force = std::max(pair.max_force, springs[i].normal.force);
     if (excess_left[i] > 1. && std::isfinite(pair.normal.changed))
       pair.unsettled = std::max(pair.unsettled, pair.normal.changed);
   }
@@ -102,15 +110,15 @@ void SoftnessLimit::commit(const std::vector<ContactSprings> &springs) {
 std::vector<double> SoftnessLimit::unsettled() const {
   std::vector<double> result;
   for (const Pair &pair : pairs_)
-    result.push_back(pair.unsettled > 0. ? pair.unsettled / pair.largest_force : 0.);
+    result.push_back(pair.unsettled > 0. ? pair.unsettled / pair.max_force : 0.);
   return result;
 }
 
 std::vector<double> SoftnessLimit::save() const {
   std::vector<double> numbers;
   for (const Pair &pair : pairs_)
-    numbers.insert(numbers.end(), {pair.normal.counts, pair.tangential.counts, pair.let_in,
-                                   pair.largest_force, pair.unsettled});
+    numbers.insert(numbers.end(),
+                   {pair.normal.counts, pair.tangential.counts, pair.let_in, pair.max_force, pair.unsettled});
   return numbers;
 }
 
@@ -123,7 +131,7 @@ void SoftnessLimit::load(const std::vector<double> &numbers) {
     pair.normal.counts = next[0];
     pair.tangential.counts = next[1];
     pair.let_in = next[2];
-    pair.largest_force = next[3];
+    pair.max_force = next[3];
     pair.unsettled = next[4];
     next += of_pair;
   }

@@ -35,7 +35,7 @@ StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discret
     : discretization_(discretization) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    if (body.law->least_wave_stiffness({1., 1., 1.}))
+    if (body.law->min_wave_stiffness({1., 1., 1.}))
       bodies_.push_back({b, body.name, body.law, false});
   }
 }
@@ -51,13 +51,13 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
     watched.is_unstable = has_unstable_bodies_ = true;
     std::ostringstream text;
     text.precision(2);
-    text << "The law has lost its ellipticity at principal stretches of " << stretches[2] << ", "
-         << stretches[1] << " and " << stretches[0] << "; results depend on the mesh";
+    text << "The law loses its ellipticity at principal stretches of " << stretches[2] << ", " << stretches[1]
+         << " and " << stretches[0] << "; results depend on the mesh";
     messages.push_back(
         Diagnostic(diagnostic::unstable_law, text.str())
             .body(watched.name)
             .time(time)
-            .advice(NeoHookeanElasticity(watched.law->elastic()).least_wave_stiffness(stretches) > 0.
+            .advice(NeoHookeanElasticity(watched.law->elastic()).min_wave_stiffness(stretches) > 0.
                         ? "Choose 'Elasticity = neo-Hookean', which is stable there, or reduce "
                           "the strains"
                         : ""));
@@ -76,15 +76,15 @@ StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
         principal_stretches((J + middle_jacobian(gather(displacements, element.dofs))) * dealii::invert(J));
     if (stretches[2] > surely_above && stretches[0] < surely_below)
       continue;
-    const double stiffness = watched.law->least_wave_stiffness(stretches).value_or(1.);
+    const double stiffness = watched.law->min_wave_stiffness(stretches).value_or(1.);
     if (stiffness < weakest.stiffness)
       weakest = {stiffness, stretches};
   }
   const auto of_ranks = dealii::Utilities::MPI::all_gather(
       discretization_.communicator(), std::array<double, 4>{weakest.stiffness, weakest.stretches[0],
                                                             weakest.stretches[1], weakest.stretches[2]});
-  const auto &least = *std::min_element(of_ranks.begin(), of_ranks.end());
-  return {least[0], {least[1], least[2], least[3]}};
+  const auto &minimum = *std::min_element(of_ranks.begin(), of_ranks.end());
+  return {minimum[0], {minimum[1], minimum[2], minimum[3]}};
 }
 
 } // namespace billet

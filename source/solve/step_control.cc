@@ -70,11 +70,11 @@ void StepControl::accept(const unsigned int n_iterations, const double error) {
     return;
   }
   if (n_iterations <= parameters_.few_iterations)
-    step_ = std::min(parameters_.largest_step, std::max(step_, taken) * parameters_.growth_factor);
+    step_ = std::min(parameters_.max_step, std::max(step_, taken) * parameters_.growth_factor);
   else if (n_iterations >= parameters_.many_iterations)
-    step_ = std::max(parameters_.smallest_step, taken * parameters_.shrink_factor);
+    step_ = std::max(parameters_.min_step, taken * parameters_.shrink_factor);
   if (error > 0.)
-    step_ = std::max(parameters_.smallest_step, std::min(step_, Rules::safety / std::cbrt(error) * taken));
+    step_ = std::max(parameters_.min_step, std::min(step_, Rules::safety / std::cbrt(error) * taken));
 }
 
 double StepControl::time_after_next() const {
@@ -85,7 +85,7 @@ double StepControl::time_after_next() const {
 }
 
 void StepControl::limit(const double length) {
-  step_ = std::max(parameters_.smallest_step, std::min(step_, length));
+  step_ = std::max(parameters_.min_step, std::min(step_, length));
 }
 
 void StepControl::plan(const double length) { step_ = length; }
@@ -94,9 +94,9 @@ bool StepControl::reject() {
   ++n_cuts_;
   const double failed = next_step();
   if (parameters_.control == parameters::TimeStepping::Control::fixed ||
-      failed <= parameters_.smallest_step * (1. + Rules::slack))
+      failed <= parameters_.min_step * (1. + Rules::slack))
     return false;
-  step_ = std::max(parameters_.smallest_step, failed * parameters_.cut_factor);
+  step_ = std::max(parameters_.min_step, failed * parameters_.cut_factor);
   return true;
 }
 
@@ -104,8 +104,8 @@ std::vector<double> StepControl::rules() const {
   const parameters::TimeStepping &p = parameters_;
   return {p.control == parameters::TimeStepping::Control::fixed ? 1. : 0.,
           p.initial_step,
-          p.smallest_step,
-          p.largest_step,
+          p.min_step,
+          p.max_step,
           static_cast<double>(p.few_iterations),
           static_cast<double>(p.many_iterations),
           p.growth_factor,

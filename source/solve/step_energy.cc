@@ -20,7 +20,7 @@ StepEnergy::Verdict StepEnergy::judge(const double t_n, const double length, con
     rejected_until_ = t_n + length;
     first_length_ = length;
   }
-  return length <= least_cut * first_length_ * (1. + rounding) ? Verdict::jump : Verdict::rejected;
+  return length <= min_cut * first_length_ * (1. + rounding) ? Verdict::jump : Verdict::rejected;
 }
 
 } // namespace billet

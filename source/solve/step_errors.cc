@@ -42,8 +42,15 @@ struct Factors {
   /// Steps that are `shorter` than the last ones, but cause `as_much` error in the same time, are useless.
   /// Then nodes touch, or begin to slip, one by one.
   static constexpr double shorter = 0.75, as_much = 0.8;
+  /// Minimum step after a measurement, over the maximum that `max_span` gives.
+  static constexpr double min_of_max_span = 0.5;
   /// Factor of a step at which comparisons fail twice in a row.
   static constexpr double cut = 0.5;
+  /// Steps that are `longer` than the measured ones are measured anew.
+  static constexpr double longer = 1.5;
+  /// Remaining steps below which the first comparison cannot wait: it takes two, and one more would be taken
+  /// before it. A part `rounding` of the end time does not count.
+  static constexpr double last_chance = 3., rounding = 1e-9;
 };
 
 /// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h² and
@@ -73,11 +80,11 @@ void StepErrors::accept(const double h, const std::size_t n_forces) {
 }
 
 bool StepErrors::wants_measurement(const ForceCourse &course, const double h) const {
-  constexpr double longer = 1.5, rounding = 1e-9;
-  if (n_measurements_ == 0 && course.time() + 3. * h > course.end_time() * (1. + rounding))
+  if (n_measurements_ == 0 &&
+      course.time() + Factors::last_chance * h > course.end_time() * (1. + Factors::rounding))
     return true;
   return wants_measurement(course) ||
-         (n_measurements_ > 0 && course.force() > 0. && h > longer * measured_step_);
+         (n_measurements_ > 0 && course.force() > 0. && h > Factors::longer * measured_step_);
 }
 
 double StepErrors::allowed_rate(const ForceCourse &course) const {
@@ -113,9 +120,9 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
                                        const double noise) const {
   const bool is_first = slopes_.size() != forces.size();
   // The slope lies between the differences with and without noise: keep the last value if it is between them.
-  const double least_slope = std::max(0., difference - noise) / (2. * h * h),
-               most_slope = (difference + noise) / (2. * h * h);
-  const double value = is_first ? least_slope : std::max(least_slope, std::min(last_slope_, most_slope)),
+  const double min_slope = std::max(0., difference - noise) / (2. * h * h),
+               max_slope = (difference + noise) / (2. * h * h);
+  const double value = is_first ? min_slope : std::max(min_slope, std::min(last_slope_, max_slope)),
                last = is_first ? value : last_slope_;
   // If the difference is within the noise, not even its direction is known.
   ResultGroup now = difference > noise || is_first ? forces : slopes_;
@@ -125,7 +132,7 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
   else if (last_slope_ > 0.)
     for (auto &part : now)
       part *= value / last_slope_;
-  return {value, last, most_slope, is_first, difference > noise, std::move(now)};
+  return {value, last, max_slope, is_first, difference > noise, std::move(now)};
 }
 
 void StepErrors::take(const Slope &slope, const double h) {
@@ -160,8 +167,8 @@ void StepErrors::take(const Slope &slope, const double h) {
 }
 
 void StepErrors::schedule(const ForceCourse &course, const Slope &slope, const double h) {
-  is_little_ =
-      left_at_the_end(course, slope.most, h) <= MeasurementInterval::little * rough_target() * course.scale();
+  is_little_ = left_at_the_end(course, slope.maximum, h) <=
+               MeasurementInterval::little * rough_target() * course.scale();
   const bool is_steady = MeasurementInterval::is_steady(slope.value, slope.last) && !slope.is_first;
   if (is_steady || is_little_)
     interval_.start_longer();
@@ -184,7 +191,7 @@ void StepErrors::measure(const ForceCourse &course, const double h, const Result
   if (rules_.tolerance == 0.)
     return;
   const bool may_matter =
-      left_at_the_end(course, slope.most, h) > Factors::matters * rough_target() * course.scale();
+      left_at_the_end(course, slope.maximum, h) > Factors::matters * rough_target() * course.scale();
   choose_longest_step(course, h, may_matter && !rules_.fade, slope.is_known);
   if (h < Factors::shorter * last_step && part_ > Factors::as_much * last_part)
     longest_step_ = std::max(longest_step_, last_step);
@@ -195,11 +202,12 @@ void StepErrors::choose_longest_step(const ForceCourse &course, const double h, 
   longest_step_ = h * allowed_stretch(course, h);
   if (!matter)
     return;
-  const double span = course.span(), most_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
-  longest_step_ = std::min(longest_step_, is_known ? most_span : std::max(most_span, h));
+  const double span = course.span(), max_span = Factors::max_span * std::sqrt(rules_.tolerance) * span;
+  longest_step_ = std::min(longest_step_, is_known ? max_span : std::max(max_span, h));
   if (longest_step_ < h)
-    longest_step_ = std::max(
-        longest_step_, std::min(h, std::min(0.5 * most_span, Factors::min_span * rules_.tolerance * span)));
+    longest_step_ =
+        std::max(longest_step_, std::min(h, std::min(Factors::min_of_max_span * max_span,
+                                                     Factors::min_span * rules_.tolerance * span)));
 }
 
 void StepErrors::miss(const double h, const bool failed) {

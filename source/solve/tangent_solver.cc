@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <sstream>
 #include <utility>
 
@@ -36,10 +35,10 @@ Kind choose(const Kind wanted, const bool symmetric, const Matrix &matrix, MPI_C
   const Kind direct = symmetric ? Kind::mumps_symmetric : Kind::mumps;
   const double n_dofs = matrix.m();
   // The smallest machine of all ranks counts.
-  const double least = dealii::Utilities::MPI::min(machine_memory(), communicator);
+  const double minimum = dealii::Utilities::MPI::min(machine_memory(), communicator);
   constexpr double part_of_memory = 0.5;
-  if (n_dofs > parameters::Solver::most_direct_dofs ||
-      direct_memory(n_dofs, symmetric) > part_of_memory * least)
+  if (n_dofs > parameters::Solver::max_direct_dofs ||
+      direct_memory(n_dofs, symmetric) > part_of_memory * minimum)
     return symmetric ? Kind::conjugate_gradients : Kind::gmres;
   return direct;
 }
@@ -65,7 +64,7 @@ TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symm
     IterativeSolver::Settings iterative;
     iterative.method =
         kind == Kind::gmres ? IterativeSolver::Method::gmres : IterativeSolver::Method::conjugate_gradients;
-    iterative.most_iterations = settings.most_linear_iterations;
+    iterative.max_iterations = settings.max_linear_iterations;
     iterative_ = std::make_unique<IterativeSolver>(iterative, matrix, communicator);
     name_ = iterative_->name();
   } else {
@@ -95,11 +94,7 @@ bool TangentSolver::factorize_directly() {
     direct_ = make_direct_solver(direct_method_, *matrix_, communicator_);
   is_direct_now_ = true;
   if (direct_->factorize()) {
-    norm_ = is_ill_conditioned_ ? 0. : matrix_->linfty_norm();
-    condition_ = 0.;
-    ++n_factorized_;
-    if ((n_factorized_ & (n_factorized_ - 1)) == 0) // at the 1st, 2nd, 4th, ...
-      estimate_condition();
+    condition_.start(*matrix_, *direct_);
     note_memory();
     return true;
   }
@@ -171,54 +166,15 @@ bool TangentSolver::solve(const Vector &b, Vector &x, const double relative_tole
       return false;
   }
   if (direct_->solve(b, x, relative_tolerance)) {
-    watch_condition(b, x);
+    condition_.update(b, x);
     return true;
   }
   failure_ = direct_->failure();
   return false;
 }
 
-void TangentSolver::estimate_condition() {
-  if (is_ill_conditioned_)
-    return;
-  // Inverse iteration: the second solution is nearly along the direction that A^-1 amplifies most.
-  constexpr unsigned int n_solutions = 2;
-  const dealii::IndexSet owned = matrix_->locally_owned_range_indices();
-  Vector b(owned, communicator_), x(b);
-  for (std::size_t i = 0; i < owned.n_elements(); ++i) { // oscillating, whatever the number of ranks
-    const auto row = static_cast<std::uint64_t>(owned.nth_index_in_set(i)) + 1;
-    b.begin()[i] = ((row * 0x9e3779b97f4a7c15ULL) >> 63) == 0 ? 1. : -1.;
-  }
-  for (unsigned int n = 0; n < n_solutions; ++n) {
-    const double of_b = b.l2_norm();
-    if (!(of_b > 0.) || !std::isfinite(of_b))
-      return;
-    b *= 1. / of_b;
-    if (!direct_->solve(b, x, 1.))
-      return;
-    watch_condition(b, x);
-    b = x;
-  }
-}
-
-void TangentSolver::watch_condition(const Vector &b, const Vector &x) {
-  if (is_ill_conditioned_)
-    return;
-  const double of_b = b.l2_norm(), of_x = x.l2_norm();
-  if (of_b > 0.)
-    condition_ = std::max(condition_, norm_ * of_x / of_b);
-}
-
 DiagnosticList TangentSolver::check_condition() {
-  constexpr double largest = 1e12; // four digits are left
-  if (is_ill_conditioned_ || !is_direct_now_ || !(condition_ > largest))
-    return {};
-  std::ostringstream text;
-  text.precision(1);
-  text << "The condition of the matrix is " << std::scientific << condition_
-       << " or more: few of the sixteen digits of a correction are right";
-  is_ill_conditioned_ = true;
-  return {Diagnostic(diagnostic::ill_conditioned, text.str()).measure("condition", condition_)};
+  return is_direct_now_ ? condition_.check() : DiagnosticList();
 }
 
 unsigned int TangentSolver::take_iterations() {

@@ -50,7 +50,7 @@ struct Run {
   unsigned int n = 0;
 };
 
-Run run(Root &root, const double guess, const NewtonOptions &options, const unsigned int most = 20) {
+Run run(Root &root, const double guess, const NewtonOptions &options, const unsigned int maximum = 20) {
   Vector x(dealii::complete_index_set(1), MPI_COMM_WORLD);
   x.begin()[0] = guess;
   Run result{};
@@ -61,7 +61,7 @@ Run run(Root &root, const double guess, const NewtonOptions &options, const unsi
       result.lengths.push_back((now.x.begin()[0] - last->from.x.begin()[0]) / last->full.begin()[0]);
     result.n = n;
     return now.norm <= options.residual_tolerance * now.scale ? NewtonVerdict::converged
-           : n == most                                        ? NewtonVerdict::failed
+           : n == maximum                                     ? NewtonVerdict::failed
                                                               : NewtonVerdict::unconverged;
   };
   result.end = solve_by_newton(root, options, judge, x);

@@ -78,7 +78,7 @@ class Run:
                 if "inadmissible" in done.stderr
                 else (
                     "no convergence"
-                    if re.search("no convergence|given up", done.stderr)
+                    if re.search("does not converge|solver stops", done.stderr)
                     else done.stderr.strip()
                 )
             )

@@ -116,7 +116,7 @@ publish(
         "[`prm/cartridge.prm`](../../prm/cartridge.prm), after Bittencourt & Creus (1998), example 9.4: the"
         " case comes to lie against the chamber at its thin mouth first, and from there the contact goes to"
         f" the bottom. {r.steps} steps, {number(r.seconds)} s of CPU time; largest drift of energy"
-        f" {percent(r.largest_drift())}; largest penetration"
+        f" {percent(r.max_drift())}; largest penetration"
         f" {percent(max(p.penetration for p in pictures))} of the wall there, 0.9 − 0.62 (z − 3)/29 mm."
     ),
     f"![Contact pressure along the axis, hoop strain over the pressure](../images/{NAME}.png)",

@@ -71,7 +71,7 @@ def run(geometry, facets, passes, slave, penalty=10):
         percent(float(numpy.sqrt((e**2).mean()))),
         percent(abs(error).max()),
         percent(r.rows[-1]["patch.deepest_penetration"] / 2),
-        percent(r.largest_drift()),
+        percent(r.max_drift()),
         f"{motion:.0e}",
     ]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy
 
 from billet_runs import PROGRAM, read_scene, variant
-from billet_tools.output import largest_drift, pictures_of, read_grid, read_history, read_numbers
+from billet_tools.output import max_drift, pictures_of, read_grid, read_history, read_numbers
 from billet_tools.program import FAILED, Measured, command_of
 
 
@@ -33,9 +33,9 @@ class ExplicitRun:
     def steps(self):
         return int(self.rows[-1]["step"]) if self.rows else 0
 
-    def largest_drift(self):
+    def max_drift(self):
         """Of the energy ledger, relative to the largest sum of energies."""
-        return largest_drift(read_history(self.folder / "results/history.csv"))
+        return max_drift(read_history(self.folder / "results/history.csv"))
 
     def picture(self, number=-1):
         """Points of a written picture, and its fields by name."""

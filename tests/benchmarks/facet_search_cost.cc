@@ -89,11 +89,11 @@ void measure(const unsigned int n, const bool is_shown = true) {
 } // namespace
 
 int main(int argc, char *argv[]) {
-  const double largest = argc > 1 ? std::stod(argv[1]) : 1e6;
+  const double maximum = argc > 1 ? std::stod(argv[1]) : 1e6;
   std::printf("%9s %12s %12s %12s %10s %9s %8s\n", "facets", "lists", "planed", "bilinear", "candidates",
               "touching", "steps");
   measure(70, false); // so that the first row does not pay for a machine that was asleep
-  for (double n_facets = 1e3; n_facets < 1.01 * largest; n_facets *= std::sqrt(10.))
+  for (double n_facets = 1e3; n_facets < 1.01 * maximum; n_facets *= std::sqrt(10.))
     measure(static_cast<unsigned int>(std::lround(std::sqrt(0.5 * n_facets))));
   return 0;
 }

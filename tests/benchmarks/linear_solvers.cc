@@ -58,7 +58,7 @@ int main(int argc, char *argv[]) {
     IterativeSolver::Settings settings;
     settings.method =
         name == "CG" ? IterativeSolver::Method::conjugate_gradients : IterativeSolver::Method::gmres;
-    settings.most_iterations = 400;
+    settings.max_iterations = 400;
     settings.solve_contact = preconditioner != "plain";
     if (preconditioner == "block")
       settings.contact_stiffness = 0.;

@@ -93,7 +93,7 @@ for label, path, changes in SCENES:
     off, was = error(run, exact), error(old, exact)
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
     worst.setdefault(kind, []).append((off, label, "contact-too-soft" in warnings))
-    raised = re.findall(r"raised to ([0-9.e+]+) E/h", run.said)
+    raised = re.findall(r"rises to ([0-9.e+]+) E/h", run.said)
     rows.append(
         [
             label,

@@ -32,7 +32,7 @@ def run(refinements, changes=None):
         number(points[:, 2].max(), 4),
         number(norm(points, (0, 1)).max(), 3),
         number(fields["equivalent_plastic_strain"].max(), 3),
-        percent(r.largest_drift()),
+        percent(r.max_drift()),
         number(r.seconds),
     ]
 

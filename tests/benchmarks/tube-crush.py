@@ -301,7 +301,7 @@ publish(
     (
         "[`prm/tube_crush.prm`](../../prm/tube_crush.prm): a quarter of a tube of 50 x 50 x 150 mm with 2 mm"
         f" wall, {len(last.bricks)} bricks, under a plane that comes at 25 m/s. {r.steps} steps; largest"
-        f" drift of energy {percent(r.largest_drift())} of the largest sum of energies."
+        f" drift of energy {percent(r.max_drift())} of the largest sum of energies."
     ),
     "![Sections through the middles of the sides](../images/tube_crush.png)",
     (

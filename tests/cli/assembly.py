@@ -110,7 +110,7 @@ def _() -> None:
     at = "(abs(x-13.3333)<0.01 && abs(y-90)<0.01)"  # one row of nodes goes beyond a diagonal
     r, a = f"(x+2*{at})", f"(pi/180*(y+9*{at}))"
     ran = billet(PIN, f"lug / Mesh: Positions = {r}*cos({a}) ; {r}*sin({a}) ; z{SHIFT}", 1, "--check")
-    says(r"^warning\[inverted-corners\]: 1 element is inside out at a corner.*\(body 'lug'", ran.said)
+    says(r"^warning\[inverted-corners\]: 1 element is inverted at a corner.*\(body 'lug'", ran.said)
 
 
 sys.exit(check.finish())

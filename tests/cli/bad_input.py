@@ -8,7 +8,7 @@ Each line of TABLE is a scene that billet must refuse:    EDIT -> MESSAGE
 
 EDIT of block.prm, or of the file that a line 'scene FILE' names: see edits.py. MESSAGE: all that is printed,
 where '...' stands for anything, '@' for the file and the line of the last edit, '@{name}' for those of that
-subsection. 'allowed ...' alone stands for "@: 'Key' in 'Path': found 'value', allowed ...". After NAME :=
+subsection. 'allowed ...' alone stands for "@: 'Key' in 'Path' is 'value'; allowed ...". After NAME :=
 EDIT, NAME at the start of a line stands for EDIT. '#' begins a comment.
 
 One start of the program with --check reads the whole table: it must say the messages and nothing else. Every
@@ -60,7 +60,8 @@ def read_cases(table: Path, base: str) -> list[Case]:
         write_text(file, edited.text)
         if expected.startswith("allowed "):
             place = f" in '{edited.path}'" if edited.path else ""
-            expected = f"@: '{edited.key}'{place}: found '{edited.value}', {expected}"
+            verb = "contains" if "muParser" in expected else "is"  # an expression may be a part of a value
+            expected = f"@: '{edited.key}'{place} {verb} '{edited.value}'; {expected}"
         expected = re.sub(r"@\{(.*?)\}", lambda word: f"{file}:{line_of(edited.text, word[1])}", expected)
         expected = re.sub(r"\bscene\.prm\b(?=:)", file, expected.replace("@", f"{file}:{edited.line}"))
         cases.append(Case(name, file, expected))

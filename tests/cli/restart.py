@@ -171,7 +171,7 @@ for begun, resumed in (("double", "float"), ("float", "double")):
         edits = f"Output: Folder = to_{resumed} & Explicit dynamics: Number type = {resumed}"
         write_scene(f"to_{resumed}.prm", IMPACT, edits)
         text = resumes(1, f"in_{begun}/checkpoint_00002.h5", f"to_{resumed}.prm")
-        says(rf"^note\[resumed\]: Resumed from in_{begun}", text)
+        says(rf"^note\[resumed\]: The run resumes from in_{begun}", text)
         equal("end", rows_of(f"to_{resumed}/history.csv")[-1][1], rows_of(f"in_{begun}/history.csv")[-1][1])
 
 
@@ -179,7 +179,7 @@ for begun, resumed in (("double", "float"), ("float", "double")):
 def _() -> None:
     write_scene("aimed_late.prm", BLOCK, f"Output: Folder = aimed_late{AIMED}")
     text = resumes(1, "block1.whole/checkpoint_00003.h5", "aimed_late.prm")
-    start = re.escape(says(r"^note\[resumed\]: Resumed from .* at time (\S+)\.$", text)[1])
+    start = re.escape(says(r"^note\[resumed\]: The run resumes from .* at time (\S+)\.$", text)[1])
     estimate = r"^note\[error-estimate\]: Estimated error [\d.e-]+ % of the forces, target 1 %, from time "
     says(estimate + start + " on:", text)
     says(f"^since,{start}$", read_text("aimed_late/error_estimate.csv"))
@@ -235,7 +235,7 @@ def _() -> None:
     text = runs(0, 1, "named.prm")
     rows = rows_of("named/history.csv")
     start = rows_of("block1.whole/history.csv")[2][1]
-    says(rf"^note\[resumed\]: Resumed from .*checkpoint_00001.h5 at time {re.escape(start)}\.$", text)
+    says(rf"^note\[resumed\]: The run resumes from .*checkpoint_00001.h5 at time {re.escape(start)}\.$", text)
     equal("first step", f"{float(rows[1][1]) - float(start):.6g}", "0.05")
     equal("end", rows[-1][1], "1")
 
@@ -265,8 +265,8 @@ def _() -> None:
         "without tool 'hammer', without contact pair 'hammer on block', without contact pair 'block on slab'",
         text,
     )
-    says(r" The kinetic energy there, \d\S*, is dropped", text)
-    says(r" Forces out of balance, .* % of those in the scene, fade until time 1\.$", text)
+    says(r" The kinetic energy there, \d\S*, is discarded", text)
+    says(r" Unbalanced forces, .* % of those in the scene, fade until time 1\.$", text)
 
 
 @check("quasi-static, then explicit, into the same folder")
@@ -322,8 +322,8 @@ for sent, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGUSR1, 2)
         code, text = signalled(sent, f"{folder}/history.csv", *program.on(ranks, "long.prm"))
         require(code == 5, f"exit code is '{code}', not '5'\n{text}")
         how = (
-            rf"^billet: long.prm: stopped by {sent.name} at time \S+ after \d+ steps."
-            r" To resume: billet (--restart \S+ \S+)$"
+            rf"^billet: long.prm: {sent.name} stops the run at time \S+ after \d+ steps."
+            r" Resume by: billet (--restart \S+ \S+)$"
         )
         runs(0, ranks, *says(how, text)[1].split(" "))
         is_same = read_text(f"{folder}/history.csv") == read_text(f"{folder}.whole/history.csv")
@@ -370,31 +370,33 @@ ELASTIC = (
     "Material: Law = elastic & Material: - Hardening & Material: - Yield stress"
     " & Material: - Hardening modulus"
 )
-UNFIT = "does not fit this scene: its body"
+UNFIT = "does not match this scene: its body"
 REFUSED = [
-    Refused("no such file", "nowhere.h5", "", "cannot be read; allowed is a checkpoint that is whole"),
+    Refused(
+        "no such file", "nowhere.h5", "", "cannot be read; allowed is a complete checkpoint of this program"
+    ),
     Refused("a folder", "folder.h5", "", "is a folder;"),
-    Refused("a scene", "block1.prm", "", "is no checkpoint of billet;"),
-    Refused("an empty file", spoiled("empty.h5", b""), "", "is no checkpoint of billet;"),
-    Refused("cut short", spoiled("short.h5", WHOLE[:-100]), "", r"is cut short: \d+ of \d+ bytes are there;"),
-    Refused("a flipped bit", spoiled("flipped.h5", FLIPPED), "", "is damaged: its checksum does not fit;"),
+    Refused("a scene", "block1.prm", "", "is not a checkpoint of billet;"),
+    Refused("an empty file", spoiled("empty.h5", b""), "", "is not a checkpoint of billet;"),
+    Refused("cut short", spoiled("short.h5", WHOLE[:-100]), "", r"is truncated: it has \d+ of \d+ bytes;"),
+    Refused("a flipped bit", spoiled("flipped.h5", FLIPPED), "", "is damaged: its checksum does not match;"),
     Refused(
         "another format",
         spoiled("format.h5", WHOLE.replace(b"format 7", b"format 9", 1)),
         "",
-        "has format 9, this program reads format 7;",
+        "has format 9, but this program reads format 7;",
     ),
     Refused(
         "another version",
         spoiled("version.h5", re.sub(rb"program \d", b"program 7", WHOLE, count=1)),
         "",
-        r"was written by billet 7\S+, this is billet \S+;",
+        r"was written by billet 7\S+, but this is billet \S+;",
     ),
     Refused(
         "another mesh",
         GOOD,
         "Mesh: Arguments = 2, 2, 2 : 0, 0, 0 : 2, 1, 2 : true",
-        f"{UNFIT} 'block' has 4 elements, here it has 8",
+        f"{UNFIT} 'block' has 4 elements, but here it has 8",
     ),
     Refused(
         "another shape",
@@ -409,14 +411,14 @@ REFUSED = [
         "another law",
         GOOD,
         ELASTIC,
-        f"{UNFIT} 'block' is elastoplastic with linear hardening, here it is elastic",
+        f"{UNFIT} 'block' is elastoplastic with linear hardening, but here it is elastic",
     ),
-    Refused("another name", GOOD, "", f"{UNFIT} 1 is 'block', here it is 'brick'", renames=True),
+    Refused("another name", GOOD, "", f"{UNFIT} 1 is 'block', but here it is 'brick'", renames=True),
     Refused(
         "too late",
         GOOD,
         "Time stepping: End time = 0.2",
-        r"found 'End time' = 0.2, allowed is a time after that of the checkpoint, \S+",
+        r"'End time' is 0.2; allowed is a time after that of the checkpoint, \S+",
     ),
 ]
 for case in REFUSED:
@@ -443,7 +445,7 @@ def _() -> None:
     write_scene("refused.prm", BLOCK, edits)
     code, _, errors = run(*program.on(1, "--check", "refused.prm"))
     equal("exit code", code, 2)
-    says(r"\Aerror\[bad-input\]: refused.prm:\d+: 'File' in 'Restart': 'short.h5' is cut short", errors)
+    says(r"\Aerror\[bad-input\]: refused.prm:\d+: 'File' in 'Restart': 'short.h5' is truncated", errors)
 
 
 @check("a pair with other partners")
@@ -457,7 +459,7 @@ def _() -> None:
     says(
         (
             "its contact pair 'top on die' joins body 'block' and tool 'die',"
-            " here it joins body 'block' and tool 'stamp'; give"
+            " but here it joins body 'block' and tool 'stamp'. Give"
         ),
         errors,
     )
@@ -465,7 +467,7 @@ def _() -> None:
 
 # --- a full disk ----------------------------------------------------------------------------------
 
-FAILED = r"^warning\[checkpoint-failed\]: No checkpoint was written: "
+FAILED = r"^warning\[checkpoint-failed\]: The program cannot write a checkpoint: "
 LARGE = " & Mesh: Arguments = 20, 10, 10 : 0, 0, 0 : 2, 1, 2 : true"
 for limit, room, edits in ((16, "none of it", ""), (700, "a part of it", LARGE)):
 
@@ -482,7 +484,8 @@ for limit, room, edits in ((16, "none of it", ""), (700, "a part of it", LARGE))
         equal("exit code", ended.code, 0)
         equal("left", " ".join(glob("full/checkpoint*")), "")
         message = (
-            r"full/checkpoint_00000.h5.tmp cannot be made as long as it has to be: is the disk full\? \(time"
+            r"full/checkpoint_00000.h5.tmp cannot be extended to its full size\. Check whether the"
+            r" disk is full \(time"
         )
         says(FAILED + message, ended.output)
 
@@ -498,8 +501,8 @@ def _() -> None:
     ended = run(*program.on(1, "fuller.prm"))
     equal("exit code", ended.code, 0)
     message = (
-        r"fuller/checkpoint_00002.h5.tmp cannot be made: is the disk full\?"
-        " The last one, fuller/checkpoint_00001.h5, stays"
+        r"fuller/checkpoint_00002.h5.tmp cannot be made\. Check whether the disk is full\."
+        " The last complete one, fuller/checkpoint_00001.h5, remains"
     )
     says(FAILED + message, ended.output)
 

@@ -116,7 +116,7 @@ for scene in OLD:
 
         again = update("scene.prm")
         equal("the update of what is updated", again.output, new)
-        equal("its report", again.errors, "scene.prm: all names are today's\n")
+        equal("its report", again.errors, "scene.prm: all names are current\n")
 
 
 @check("a new scene stays as it is")
@@ -183,7 +183,7 @@ def _() -> None:
 def _() -> None:
     write_text("short.prm", STEPS + "end\n")
     says(
-        "found 'nowhere/new.prm', allowed is a file that can be written",
+        "'nowhere/new.prm' cannot be written; allowed is the name of a writable file",
         update("short.prm", "nowhere/new.prm", code=2).errors,
     )
 

@@ -19,40 +19,41 @@ constexpr double width = 0.05;
 const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
 
 /// The surface z = 0, which ends at x = 0.
-RigidSurface::Border beside_straight_edge(const Tensor<1, 3> &x) {
-  RigidSurface::Border border{};
-  border.normal[2] = 1.;
-  border.gap = x[2];
-  border.beyond = x[0];
-  border.outward[0] = 1.;
-  return border;
+RigidSurface::EdgePoint beside_straight_edge(const Tensor<1, 3> &x) {
+  RigidSurface::EdgePoint edge_point{};
+  edge_point.normal[2] = 1.;
+  edge_point.gap = x[2];
+  edge_point.beyond = x[0];
+  edge_point.outward[0] = 1.;
+  return edge_point;
 }
 
 /// The surface z = 0, which ends `radius` away from the z axis; 0: at a corner on it.
-RigidSurface::Border beside_round_edge(const Tensor<1, 3> &x, const double radius) {
-  RigidSurface::Border border{};
-  border.normal[2] = 1.;
-  border.gap = x[2];
+RigidSurface::EdgePoint beside_round_edge(const Tensor<1, 3> &x, const double radius) {
+  RigidSurface::EdgePoint edge_point{};
+  edge_point.normal[2] = 1.;
+  edge_point.gap = x[2];
   const Tensor<1, 3> across({x[0], x[1], 0.});
-  border.beyond = across.norm() - radius;
-  border.outward = across / across.norm();
-  const Tensor<2, 3> plane = identity - dealii::outer_product(border.normal, border.normal);
-  border.spreading = 1. / across.norm() * (plane - dealii::outer_product(border.outward, border.outward));
-  return border;
+  edge_point.beyond = across.norm() - radius;
+  edge_point.outward = across / across.norm();
+  const Tensor<2, 3> plane = identity - dealii::outer_product(edge_point.normal, edge_point.normal);
+  edge_point.spreading =
+      1. / across.norm() * (plane - dealii::outer_product(edge_point.outward, edge_point.outward));
+  return edge_point;
 }
 
-template <class BorderAt>
+template <class EdgeAt>
 void check_edge(const std::string &name, const HardeningSpring &spring, const double radius,
-                const BorderAt &border_at) {
+                const EdgeAt &edge_at) {
   const auto fade = [&](const Tensor<1, 3> &x) {
-    const RigidSurface::Border border = border_at(x);
-    return compute_edge_fading(border, width, spring, border.gap);
+    const RigidSurface::EdgePoint edge_point = edge_at(x);
+    return compute_edge_fading(edge_point, width, spring, edge_point.gap);
   };
-  const auto energy = [&](const Tensor<1, 3> &x) { return fade(x).share * spring.energy(-border_at(x).gap); };
+  const auto energy = [&](const Tensor<1, 3> &x) { return fade(x).share * spring.energy(-edge_at(x).gap); };
   const auto pressure = [&](const Tensor<1, 3> &x) {
-    return fade(x).share * spring.pressure(-border_at(x).gap);
+    return fade(x).share * spring.pressure(-edge_at(x).gap);
   };
-  const auto force = [&](const Tensor<1, 3> &x) { return fade(x).push + pressure(x) * border_at(x).normal; };
+  const auto force = [&](const Tensor<1, 3> &x) { return fade(x).push + pressure(x) * edge_at(x).normal; };
   billet::testing::Random random;
   WorstError of_force, of_slope, of_tangent;
   bool is_bounded = true;
@@ -60,11 +61,11 @@ void check_edge(const std::string &name, const HardeningSpring &spring, const do
     const double beyond = random(0.1 * width, 0.9 * width), angle = random(-0.5, 0.5);
     const Tensor<1, 3> x(
         {(radius + beyond) * std::cos(angle), (radius + beyond) * std::sin(angle), random(-0.02, -1e-3)});
-    if (!(border_at(x).beyond > 0.05 * width && border_at(x).beyond < 0.95 * width))
+    if (!(edge_at(x).beyond > 0.05 * width && edge_at(x).beyond < 0.95 * width))
       continue;
     const EdgeFading fading = fade(x);
     const double scale = spring.pressure(-x[2]), stiffness = spring.slope(-x[2]);
-    const Tensor<1, 3> n = border_at(x).normal;
+    const Tensor<1, 3> n = edge_at(x).normal;
     Tensor<2, 3> added = fading.tangent; // and what p changes by at a fixed s
     added += fading.share * stiffness * dealii::outer_product(n, n);
     is_bounded = is_bounded && fading.tangent.norm() <= fading.stiffness;

@@ -119,9 +119,9 @@ void check_known_force(const FacetMethod method, const std::string &name) {
     // Rigid sheets: ω² of the contact is below its bound, and not by far.
     std::vector<double> row_sums(positions.size());
     contact.bounds().add_row_sums(row_sums);
-    const double largest = *std::max_element(row_sums.begin(), row_sums.end());
+    const double maximum = *std::max_element(row_sums.begin(), row_sums.end());
     const double spring = penalty.normal / 35.; // of one node inside the smaller sheet
-    report(pass + ": bound of the time step", largest < 2. * spring || largest > 10. * spring ? 1. : 0., 0.);
+    report(pass + ": bound of the time step", maximum < 2. * spring || maximum > 10. * spring ? 1. : 0., 0.);
   }
 }
 
@@ -132,7 +132,7 @@ void check_balance(const FacetMethod method, const FrictionPointer &law, const s
   RandomMotion motion(random, 2, 2e-3);
   FacetContact contact = make_contact(MPI_COMM_SELF, make_settings(method, law, true), part);
   WorstError force, moment, reported;
-  double least_touching = 1e3, dissipation = 0.;
+  double min_touching = 1e3, dissipation = 0.;
   Positions whole = surface.positions;
   for (unsigned int step = 0; step < 30; ++step) {
     const Positions positions_n = part.take(whole);
@@ -146,10 +146,10 @@ void check_balance(const FacetMethod method, const FrictionPointer &law, const s
     force.add(sums.force.norm() / sums.scale);
     moment.add(sums.moment.norm() / sums.scale);
     reported.add((load.residual_force.norm() + load.residual_moment.norm()) / load.absolute_force);
-    least_touching = std::min(least_touching, load.n_touching);
+    min_touching = std::min(min_touching, load.n_touching);
     dissipation += load.dissipation;
   }
-  report(name + ": many nodes touch", 1. / least_touching, 0.1);
+  report(name + ": many nodes touch", 1. / min_touching, 0.1);
   report(name + ": forces balance", force.value(), 1e-15);
   report(name + ": moments balance", moment.value(), 1e-15);
   report(name + ": so says the load", reported.value(), 1e-14);
@@ -191,7 +191,7 @@ void check_impact(const FacetMethod method, const std::string &name) {
                        std::vector<double>(x.size(), 0.1));
   const double energy = kinetic(), dt = 1e-3;
   const Sums before = momentum();
-  double most_stored = 0.;
+  double max_stored = 0.;
   for (unsigned int step = 0; step < 500; ++step) {
     const Positions x_n = x;
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -199,7 +199,7 @@ void check_impact(const FacetMethod method, const std::string &name) {
     forces.assign(x.size(), {});
     contact.add_forces(x_n, x, dt, forces);
     contact.commit();
-    most_stored = std::max(most_stored, contact.works().compute_load().stored_energy);
+    max_stored = std::max(max_stored, contact.works().compute_load().stored_energy);
     for (std::size_t i = 0; i < x.size(); ++i)
       v[i] += dt / mass[i] * forces[i];
   }
@@ -207,7 +207,7 @@ void check_impact(const FacetMethod method, const std::string &name) {
   report(name + ": impact: momentum", (after.force - before.force).norm() / before.scale, 1e-14);
   report(name + ": impact: angular momentum", (after.moment - before.moment).norm() / before.scale, 1e-14);
   report(name + ": impact: a rebound",
-         most_stored > 0.5 * energy && contact.works().compute_load().n_touching == 0. ? 0. : 1., 0.);
+         max_stored > 0.5 * energy && contact.works().compute_load().n_touching == 0. ? 0. : 1., 0.);
   // What is lost, or won, over the facets' seams, and by mean planes, whose gap has not quite this gradient.
   report(name + ": impact: energy after it", std::abs(kinetic() / energy - 1.),
          method == FacetMethod::planed ? 5e-3 : 1e-3);
@@ -349,7 +349,7 @@ void check_sliding(const FacetMethod method, const double zone, const bool expec
   FacetContactSettings settings = make_settings(method, nullptr, false);
   settings.limits.zone = zone;
   const Positions start = part.take(surface.positions);
-  double largest = 0., jump = 0.;
+  double maximum = 0., jump = 0.;
   Tensor<1, 3> last;
   const unsigned int n_steps = 2000;
   for (unsigned int step = 0; step <= n_steps; ++step) {
@@ -363,12 +363,12 @@ void check_sliding(const FacetMethod method, const double zone, const bool expec
     Positions forces(positions.size());
     contact.add_forces(positions, positions, 0., forces);
     const Tensor<1, 3> force = contact.works().compute_load().force;
-    largest = std::max(largest, force.norm());
+    maximum = std::max(maximum, force.norm());
     if (step > 0)
       jump = std::max(jump, (force - last).norm());
     last = force;
   }
-  report(name, (jump < 0.01 * largest) == expected && largest > 0. ? 0. : 1., 0.);
+  report(name, (jump < 0.01 * maximum) == expected && maximum > 0. ? 0. : 1., 0.);
 }
 
 /// Nodes around the corner of four facets: the same from whichever facet, and in whichever order.
@@ -381,7 +381,7 @@ template <class Facet> void check_sharing(const std::string &name) {
   const ContactLimits limits;
   Random random;
   WorstError differ, sum_of_shares;
-  double most_shares = 0.;
+  double max_shares = 0.;
   for (unsigned int i = 0; i < 1000; ++i) {
     const Tensor<1, 3> x = warped(0.5 + random(-0.02, 0.02), 0.5 + random(-0.02, 0.02)) -
                            Tensor<1, 3>({0., 0., random(0., 0.01)});
@@ -400,14 +400,14 @@ template <class Facet> void check_sharing(const std::string &name) {
         for (const auto &share : shares)
           sum += share.share;
         sum_of_shares.add(std::abs(sum - 1.));
-        most_shares = std::max(most_shares, static_cast<double>(shares.size()));
+        max_shares = std::max(max_shares, static_cast<double>(shares.size()));
         if (is_first)
           expected = result;
         is_first = false;
         differ.add((result.normal - expected.normal).norm() + std::abs(result.gap - expected.gap));
       }
   }
-  report(name + ": corner: four facets share a node", std::abs(most_shares - 4.), 0.);
+  report(name + ": corner: four facets share a node", std::abs(max_shares - 4.), 0.);
   report(name + ": corner: all of it", sum_of_shares.value(), 1e-15);
   report(name + ": corner: whichever facet was chosen", differ.value(), 1e-14);
 }
@@ -424,9 +424,9 @@ void check_restless() {
   const Part part = everything(surface);
   const Positions above = part.take(surface.positions);
   constexpr unsigned int n_iterations = 30;
-  for (const unsigned int most : {0u, 4u}) {
+  for (const unsigned int maximum : {0u, 4u}) {
     FacetContactSettings settings = make_settings(FacetMethod::planed, nullptr, false);
-    settings.most_changes = most;
+    settings.max_changes = maximum;
     FacetContact contact = make_contact(MPI_COMM_SELF, settings, part);
     contact.restart();
     unsigned int n_changes = 0;
@@ -443,12 +443,12 @@ void check_restless() {
       n_changes += last * sideways < 0. ? 1 : 0;
       last = sideways;
     }
-    const std::string name = most == 0 ? "a node may flip as it likes" : "or so often, and is held then";
-    report(name, std::abs(n_changes - (most == 0 ? n_iterations - 1. : most + 1.)), 0.);
+    const std::string name = maximum == 0 ? "a node may flip as it likes" : "or so often, and is held then";
+    report(name, std::abs(n_changes - (maximum == 0 ? n_iterations - 1. : maximum + 1.)), 0.);
     double worst = 0.;
     for (const auto &node : contact.measures().find_restless())
       worst = std::max<double>(worst, node.n_changes);
-    report(name + ": so it is reported", std::abs(worst - (most == 0 ? 0. : most + 1.)), 0.);
+    report(name + ": so it is reported", std::abs(worst - (maximum == 0 ? 0. : maximum + 1.)), 0.);
   }
 }
 
@@ -496,7 +496,7 @@ void check_ranks(const Surface &surface, const FacetContactSettings &settings, c
   FacetContact serial = make_contact(MPI_COMM_SELF, settings, whole),
                contact = make_contact(MPI_COMM_WORLD, settings, part);
   WorstError forces_differ, rows_differ, loads_differ;
-  double most_touching = 0.;
+  double max_touching = 0.;
   Positions positions = surface.positions;
   for (unsigned int step = 0; step < 30; ++step) {
     const Positions positions_n = positions;
@@ -519,12 +519,12 @@ void check_ranks(const Surface &surface, const FacetContactSettings &settings, c
     std::vector<double> sums = evaluate(contact, part);
     dealii::Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
     const FacetContactLoad serial_load = serial.works().compute_load(), load = contact.works().compute_load();
-    double largest_row = 0.;
+    double max_row = 0.;
     for (std::size_t i = 3; i < expected.size(); i += 4)
-      largest_row = std::max(largest_row, expected[i]);
+      max_row = std::max(max_row, expected[i]);
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (i % 4 == 3)
-        rows_differ.add(std::abs(sums[i] - expected[i]) / largest_row);
+        rows_differ.add(std::abs(sums[i] - expected[i]) / max_row);
       else
         forces_differ.add(std::abs(sums[i] - expected[i]) / serial_load.absolute_force);
     loads_differ.add((load.force - serial_load.force).norm() / serial_load.absolute_force);
@@ -533,11 +533,11 @@ void check_ranks(const Surface &surface, const FacetContactSettings &settings, c
     loads_differ.add(std::abs(load.area / serial_load.area - 1.));
     loads_differ.add(std::abs(load.deepest - serial_load.deepest));
     loads_differ.add(std::abs(load.deepest_relative - serial_load.deepest_relative));
-    most_touching = std::max(most_touching, serial_load.n_touching);
+    max_touching = std::max(max_touching, serial_load.n_touching);
     serial.commit();
     contact.commit();
   }
-  report(name + ": nodes touch", 1. / most_touching, 0.1);
+  report(name + ": nodes touch", 1. / max_touching, 0.1);
   report(name + ": forces are those of one rank", forces_differ.value(), 1e-12);
   report(name + ": sums of rows too", rows_differ.value(), 1e-12);
   report(name + ": loads too", loads_differ.value(), 1e-12);
@@ -564,7 +564,7 @@ int main(int argc, char *argv[]) {
     settings.edges = true;
     check_ranks(make_balls(), settings, name);
     settings.partners = FacetSearch::Partners::other_surfaces_and_self;
-    settings.limits.largest_alignment = 0.;
+    settings.limits.max_alignment = 0.;
     check_ranks(make_strip(0.015), settings, name + ", self-contact");
   }
   check_sharing<PlanedFacet>("planed");

@@ -57,7 +57,7 @@ void check_cycles(const FacetMethod method, const std::string &name) {
 
   WorstError force_changes, work_changes;
   Tensor<1, 3> expected_force;
-  double expected_work = 0., least = 1e300, most = 0.;
+  double expected_work = 0., minimum = 1e300, maximum = 0.;
   FacetContact::Positions forces(keys.size());
   for (unsigned int cycle = 0; cycle < n_cycles; ++cycle) {
     double work = 0.;
@@ -69,8 +69,8 @@ void check_cycles(const FacetMethod method, const std::string &name) {
       const double taken = contact.works().local_dissipation();
       work += taken;
       if (cycle == settled) {
-        least = std::min(least, taken);
-        most = std::max(most, taken);
+        minimum = std::min(minimum, taken);
+        maximum = std::max(maximum, taken);
       }
       contact.commit();
     }
@@ -85,7 +85,7 @@ void check_cycles(const FacetMethod method, const std::string &name) {
       work_changes.add(std::abs(work / expected_work - 1.));
     }
   }
-  check(name + ": it slips, here more, there less", most > 1.1 * least && expected_work > 0.);
+  check(name + ": it slips, here more, there less", maximum > 1.1 * minimum && expected_work > 0.);
   check(name + ": and is held sideways",
         std::hypot(expected_force[0], expected_force[1]) > 0.1 * expected_force[2]);
   check(name + ": each cycle ends as the tenth", force_changes.value(), 1e-9);

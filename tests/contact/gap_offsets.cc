@@ -46,16 +46,16 @@ void check_multipliers() {
         offsets.is_empty() && offsets.was_empty() && !offsets.is_used());
 }
 
-void check_depths() {
+void check_penetrations() {
   GapOffsets offsets;
   check("without offsets there is no lift", offsets.of(0).now == 0. && !offsets.are_used());
-  offsets.depths.start(2);
-  offsets.depths.add(0, 0.2);
-  offsets.depths.set(1, -0.05);
-  offsets.depths.set_allowed_part(0.75, 0.5);
+  offsets.penetrations.start(2);
+  offsets.penetrations.add(0, 0.2);
+  offsets.penetrations.set(1, -0.05);
+  offsets.penetrations.set_allowed_part(0.75, 0.5);
   check("a depth counts by its part",
         offsets.of(0).now == -0.1 && near(offsets.of(0).at_start, -0.15, 1e-14));
-  check("  and what the ramp takes of it in a step", near(offsets.depths.ramp(0), 0.05, 1e-14));
+  check("  and what the ramp takes of it in a step", near(offsets.penetrations.ramp(0), 0.05, 1e-14));
   check("a closed gap counts for good", offsets.of(1).now == 0.05 && offsets.of(1).at_start == 0.05);
   augment(offsets.augmentation, {-0.3, std::nullopt});
   check("offsets add up", near(offsets.of(0).now, 0.3 - 0.1, 1e-14) && offsets.of(1).now == 0.05);
@@ -84,7 +84,7 @@ void check_restless() {
 
 int main() {
   check_multipliers();
-  check_depths();
+  check_penetrations();
   check_restless();
   return exit_code();
 }

@@ -77,9 +77,9 @@ void check_start() {
   check("facets are found again by their keys",
         start.touched(0).facet == 0 && start.touched(0).offset == 0.25);
   check("  and what is no longer near is not touched", !start.touched(1).exists());
-  start.divide_depth(0, 2.);
+  start.divide_penetration(0, 2.);
   check("a stiffer penalty is pressed less deep",
-        start.pressed(0).depth == 0.25 && start.pressed(0).pressure == 3.);
+        start.pressed(0).penetration == 0.25 && start.pressed(0).pressure == 3.);
 }
 
 } // namespace

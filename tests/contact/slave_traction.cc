@@ -31,7 +31,7 @@ Tensor<1, 3> point_on(Random &random, const FacetCorners &corners) {
 template <class Facet> void check_balance(const std::string &name) {
   Random random;
   WorstError force_error, moment_error, pressure_error;
-  double largest_couple = 0.;
+  double max_couple = 0.;
   for (unsigned int i = 0; i < 3000; ++i) {
     const double size = std::pow(10., random(-6., 6.));
     FacetCorners corners = random_facet(random, size, 0.2);
@@ -55,14 +55,14 @@ template <class Facet> void check_balance(const std::string &name) {
       moments.add(moment.norm() / (F.norm() * size));
       return couple;
     };
-    largest_couple = std::max(largest_couple, balance(force, force_error, moment_error));
+    max_couple = std::max(max_couple, balance(force, force_error, moment_error));
     // The weights balance a pressure without the couple.
     pressure_error.add(balance(force[0] * p.normal, force_error, moment_error));
   }
   check(name + ": forces on a node and a facet balance", force_error.value(), 1e-15);
   check(name + ": their moments balance", moment_error.value(), 4e-15);
   check(name + ": a pressure needs no couple", pressure_error.value(), 1e-14);
-  check(name + ": friction does", largest_couple > 0.01);
+  check(name + ": friction does", max_couple > 0.01);
 }
 
 void check_rotation() {
@@ -251,7 +251,7 @@ void check_account(const double start_weight, const std::string &rule_name) {
     const Tensor<1, 3> start = point_on(random, pair.corners);
     pair.x = start + 0.001 * n;
     Tensor<1, 3> force_n;
-    double work = 0., dissipated = 0., damped = 0., largest = 0., area_n = 0.;
+    double work = 0., dissipated = 0., damped = 0., maximum = 0., area_n = 0.;
     constexpr unsigned int n_steps = 30;
     for (unsigned int k = 1; k <= n_steps; ++k) {
       const SlaveHistory history_n = pair.history;
@@ -274,11 +274,11 @@ void check_account(const double start_weight, const std::string &rule_name) {
       // With the area of the start, which changes what the spring holds by itself.
       negative.add(std::max(0., -account.dissipated(1., 1.)));
       work -= (start_weight * force_n + (1. - start_weight) * area * traction) * (x - x_n);
-      largest = std::max(largest, std::abs(work));
+      maximum = std::max(maximum, std::abs(work));
       force_n = area * traction;
       area_n = area;
     }
-    balance.add(std::abs(dissipated + damped - work) / largest);
+    balance.add(std::abs(dissipated + damped - work) / maximum);
     still.add(start_weight == 0.5 ? std::abs(damped) : std::max(0., -damped));
 
     // Moved as one rigid body it dissipates nothing; sliding steadily, what the return map says.

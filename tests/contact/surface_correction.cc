@@ -28,12 +28,12 @@ BoundaryFacet facet(const unsigned int i, const Tensor<1, 3> &at, const double l
   return result;
 }
 
-double largest_tilt_around(const Correction &correction, const Tensor<1, 3> &at, const double low,
-                           const double high) {
-  double largest = 0.;
+double max_tilt_around(const Correction &correction, const Tensor<1, 3> &at, const double low,
+                       const double high) {
+  double maximum = 0.;
   for (unsigned int i = 0; i < n_around; ++i)
-    largest = std::max(largest, tilt_of(facet(i, at, low, high), correction));
-  return largest;
+    maximum = std::max(maximum, tilt_of(facet(i, at, low, high), correction));
+  return maximum;
 }
 
 } // namespace
@@ -41,17 +41,17 @@ double largest_tilt_around(const Correction &correction, const Tensor<1, 3> &at,
 int main() {
   const Tensor<1, 3> at({1., 2., 3.}), z({0., 0., 1.});
   const Correction axis{Correction::Kind::cylinder, at, z};
-  check("cylinder", largest_tilt_around(axis, at, 5., 5.), 1e-12);
-  check("cone", largest_tilt_around(axis, at, 5., 4.), 1e-12);
+  check("cylinder", max_tilt_around(axis, at, 5., 5.), 1e-12);
+  check("cone", max_tilt_around(axis, at, 5., 4.), 1e-12);
   for (const double off : {0.1, 0.5, 1.}) {
     const Tensor<1, 3> other = at + off * Tensor<1, 3>({0.6, 0.8, 0.});
     // The middles of facets lie nearer to the axis than R, and in finitely many places.
-    check("axis beside, by d/R", std::abs(largest_tilt_around(axis, other, 5., 5.) / (off / 5.) - 1.), 0.01);
+    check("axis beside, by d/R", std::abs(max_tilt_around(axis, other, 5., 5.) / (off / 5.) - 1.), 0.01);
   }
   const Correction centre{Correction::Kind::sphere, at + Tensor<1, 3>({0., 0., 0.5}), {}};
   const double radius = std::hypot(5., 0.5);
-  check("sphere", largest_tilt_around(centre, at, 5., 5.), 1e-12);
+  check("sphere", max_tilt_around(centre, at, 5., 5.), 1e-12);
   const Correction below{Correction::Kind::sphere, at, {}};
-  check("centre below", std::abs(largest_tilt_around(below, at, 5., 5.) / (0.5 / radius) - 1.), 0.01);
+  check("centre below", std::abs(max_tilt_around(below, at, 5., 5.) / (0.5 / radius) - 1.), 0.01);
   return exit_code();
 }

@@ -15,7 +15,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double margin = 0.1, largest_reach = 0.08;
+constexpr double margin = 0.1, max_reach = 0.08;
 
 /// Sorted keys of a node's candidates.
 std::vector<std::uint64_t> candidate_keys(const FacetSearch &search, const std::size_t slave) {
@@ -40,7 +40,7 @@ void check_split(const std::string &name, const FacetSearch::Partners partners, 
   Random random;
   Surface whole;
   add_ball(whole, 12, 0, 0.05, Tensor<1, 3>(), 1.);
-  add_ball(whole, 9, 1, largest_reach, Tensor<1, 3>({0.9, 0.2, 0.3}), 0.6);
+  add_ball(whole, 9, 1, max_reach, Tensor<1, 3>({0.9, 0.2, 0.3}), 0.6);
   add_sheet(whole, 8, 8, 2, 0.05, [](const double s, const double t) {
     return Tensor<1, 3>({2. * s - 1., 2. * t - 1., 0.3 * s * t});
   });
@@ -62,7 +62,7 @@ void check_split(const std::string &name, const FacetSearch::Partners partners, 
     Positions own_n = part.take(positions_n), own = part.take(positions);
     if (step % 4 == 0) {
       serial.rebuild(positions_n, positions);
-      exchange.rebuild(own_n, own, largest_reach + margin);
+      exchange.rebuild(own_n, own, max_reach + margin);
       std::vector<SlaveNode> own_slaves(part.nodes.size());
       for (const auto &facet : part.facets)
         for (const unsigned int node : facet.nodes)

@@ -73,7 +73,7 @@ void check_cone_and_return() {
       stick_error.add(
           std::abs(t.tangential[i] - (s.tangential_n[i] - stiffness.tangential * s.increment[i])));
   }
-  double least_dissipation = 1.;
+  double min_dissipation = 1.;
   for (const auto &s : make_samples(true)) {
     const FrameTraction t = evaluate(s, ContactTangent::consistent);
     statuses = statuses && t.status == ContactStatus::slip;
@@ -86,15 +86,14 @@ void check_cone_and_return() {
       split_error.add(std::abs(t.tangential[i] - s.tangential_n[i] +
                                stiffness.tangential * (s.increment[i] - t.slip[i])) /
                       size);
-    least_dissipation =
-        std::min(least_dissipation, -(t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]));
+    min_dissipation = std::min(min_dissipation, -(t.tangential[0] * t.slip[0] + t.tangential[1] * t.slip[1]));
   }
   check("status follows the cone", statuses);
   check("sticking traction is the trial traction", stick_error.value(), 0.);
   check("slipping traction lies on the cone", cone_error.value(), 1e-14);
   check("slip returns along the trial traction", direction_error.value(), 1e-12);
   check("increment splits into elastic part and slip", split_error.value(), 1e-12);
-  check("friction dissipates", least_dissipation > 0.);
+  check("friction dissipates", min_dissipation > 0.);
 }
 
 void check_tangents() {

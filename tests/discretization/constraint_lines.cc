@@ -3,6 +3,9 @@
 // the plane: a linear field passes, hanging nodes count first, and condensing forces is the transpose of
 // distributing displacements, on any number of ranks.
 #include "billet/discretization/constraint_lines.h"
+#include "billet/discretization/hanging_nodes.h"
+#include "billet/errors.h"
+
 #include "../testing.h"
 
 #include <deal.II/base/mpi.h>
@@ -41,6 +44,32 @@ void make_mesh(dealii::parallel::fullydistributed::Triangulation<3> &mesh) {
 /// A linear displacement of a point.
 dealii::Tensor<1, 3> field(const dealii::Point<3> &x) {
   return dealii::Tensor<1, 3>({0.3 + x[0] - 2. * x[1], 0.5 * x[2] - x[0], 1. + x[0] + 2. * x[1] + 3. * x[2]});
+}
+
+/// Whether this rank learns that a method does not support hanging nodes.
+bool is_refused(const dealii::DoFHandler<3> &dof_handler) {
+  try {
+    billet::require_no_hanging_nodes(dof_handler, "This method");
+  } catch (const billet::InputError &error) {
+    return std::string(error.what()).find("This method") != std::string::npos;
+  }
+  return false;
+}
+
+/// Whether a cube refined as a whole is refused.
+bool refuses_uniform_mesh(const MPI_Comm communicator) {
+  dealii::Triangulation<3> whole(dealii::Triangulation<3>::limit_level_difference_at_vertices);
+  dealii::GridGenerator::subdivided_hyper_cube(whole, 2);
+  whole.refine_global(1);
+  dealii::GridTools::partition_triangulation(dealii::Utilities::MPI::n_mpi_processes(communicator), whole);
+  dealii::parallel::fullydistributed::Triangulation<3> mesh(communicator);
+  mesh.create_triangulation(
+      dealii::TriangulationDescription::Utilities::create_description_from_triangulation(
+          whole, communicator, dealii::TriangulationDescription::Settings::default_setting));
+  dealii::DoFHandler<3> dof_handler(mesh);
+  const dealii::FE_Q<3> element(1);
+  dof_handler.distribute_dofs(element);
+  return is_refused(dof_handler);
 }
 
 double sum(const Vector &vector, const MPI_Comm communicator) {
@@ -149,6 +178,9 @@ int main(int argc, char *argv[]) {
   billet::condense(only_hanging, billet::couple_ranks(only_hanging, owned, communicator), balanced);
   const double change = std::abs(sum(balanced, communicator) - sum(f, communicator));
 
+  const bool refused = all(is_refused(dof_handler)),
+             refused_in_error = !all(!refuses_uniform_mesh(communicator));
+
   left_on_constrained = dealii::Utilities::MPI::max(left_on_constrained, communicator);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0) {
     using billet::testing::check;
@@ -162,6 +194,8 @@ int main(int argc, char *argv[]) {
           std::abs(by_forces - by_motion) / std::abs(by_motion), 1e-12);
     check("No force is left on constrained dofs", left_on_constrained, 0.);
     check("Hanging nodes keep the sum of forces", change, 1e-12);
+    check("All ranks learn that a method does not support hanging nodes", refused);
+    check("A mesh refined as a whole has none", !refused_in_error);
   }
   const int code = billet::testing::exit_code();
   return dealii::Utilities::MPI::max(code, communicator);

@@ -647,8 +647,8 @@ class Frames(unittest.TestCase):
 
 class Words(unittest.TestCase):
     def test_messages(self):
-        self.assertEqual(messages.lacks(2, "scene.prm:3: 'a' in 'b': found '1', allowed is a number > 2"), [])
-        self.assertEqual(messages.lacks(2, "found '1'"), ["where", "what to do"])
+        self.assertEqual(messages.lacks(2, "scene.prm:3: 'a' in 'b' is '1'; allowed is a number > 2"), [])
+        self.assertEqual(messages.lacks(2, "'a' is '1'"), ["where", "what to do"])
         self.assertEqual(messages.lacks(3, "scene.prm: it failed: try another"), ["when"])
         self.assertEqual(
             messages.lacks(3, "scene.prm: the step to 1 failed; residual nan: try another"), ["a number"]

@@ -21,7 +21,7 @@ struct Expected {
 };
 
 template <class Expect>
-void check_border(const std::string &name, const RigidSurface &surface, const Expect &expect) {
+void check_edge(const std::string &name, const RigidSurface &surface, const Expect &expect) {
   billet::testing::Random random;
   WorstError gap, beyond, directions, spreading, turning;
   bool is_beyond = true, knows_side = true;
@@ -32,14 +32,15 @@ void check_border(const std::string &name, const RigidSurface &surface, const Ex
     const auto projection = surface.project(x);
     is_beyond = is_beyond && !projection.exists;
     knows_side = knows_side && projection.is_behind == (g < 0.);
-    const auto border = surface.border(x, projection.patch, width);
-    gap.add(std::abs(border.gap - expected.gap));
-    beyond.add(std::abs(border.beyond - expected.beyond) + std::abs(projection.beyond - expected.beyond));
-    directions.add((border.normal - expected.normal).norm() + (border.outward - expected.outward).norm());
+    const auto edge_point = surface.edge_point(x, projection.patch, width);
+    gap.add(std::abs(edge_point.gap - expected.gap));
+    beyond.add(std::abs(edge_point.beyond - expected.beyond) + std::abs(projection.beyond - expected.beyond));
+    directions.add((edge_point.normal - expected.normal).norm() +
+                   (edge_point.outward - expected.outward).norm());
     const Tensor<1, 3> along = dealii::cross_product_3d(expected.normal, expected.outward);
     const Tensor<2, 3> twice = dealii::outer_product(along, along);
-    spreading.add((border.spreading - expected.spreading * twice).norm() / (1. + expected.spreading));
-    turning.add((border.turning - expected.turning * twice).norm());
+    spreading.add((edge_point.spreading - expected.spreading * twice).norm() / (1. + expected.spreading));
+    turning.add((edge_point.turning - expected.turning * twice).norm());
   }
   check(name + ": the surface does not lie before the points", is_beyond);
   check(name + ": which side they are on", knows_side);
@@ -51,15 +52,16 @@ void check_border(const std::string &name, const RigidSurface &surface, const Ex
 }
 
 /// However near x is to the border, d ∂²d/∂x² is known; where coordinates are large, round-off is.
-void check_near_border() {
+void check_near_edge() {
   const auto disc = make_surface("disc", "set Centre = 100, 0, 0\nset Radius = 1");
   WorstError error;
   for (int k = 2; k <= 9; ++k) {
     const double d = std::pow(10., -k), angle = 0.3 * k;
     const Tensor<1, 3> e({std::cos(angle), std::sin(angle), 0.}),
         along({-std::sin(angle), std::cos(angle), 0.}), centre({100., 0., 0.}), below({0., 0., -1e-3});
-    const auto border = disc->border(centre + (1. + d) * e + below, 0, width);
-    error.add((border.beyond * border.spreading - d / (1. + d) * dealii::outer_product(along, along)).norm());
+    const auto edge_point = disc->edge_point(centre + (1. + d) * e + below, 0, width);
+    error.add((edge_point.beyond * edge_point.spreading - d / (1. + d) * dealii::outer_product(along, along))
+                  .norm());
   }
   check("disc: next to its border", error.value(), 1e-6);
 }
@@ -69,32 +71,31 @@ void check_near_border() {
 int main() {
   const Tensor<1, 3> up({0., 0., 1.});
   const auto rectangle = make_surface("rectangle", "set Length = 2\nset Width = 1");
-  check_border("side of a rectangle", *rectangle,
-               [&](const double u, const double d, const double g, auto &x) {
-                 x = Tensor<1, 3>({1. + d, u, g});
-                 return Expected{g, d, 0., 0., up, Tensor<1, 3>({1., 0., 0.})};
-               });
-  check_border("corner of a rectangle", *rectangle,
-               [&](const double u, const double d, const double g, auto &x) {
-                 const double angle = 0.8 + u;
-                 const Tensor<1, 3> e({std::cos(angle), std::sin(angle), 0.});
-                 x = Tensor<1, 3>({1., 0.5, g}) + d * e;
-                 return Expected{g, d, 1. / d, 0., up, e};
-               });
+  check_edge("side of a rectangle", *rectangle, [&](const double u, const double d, const double g, auto &x) {
+    x = Tensor<1, 3>({1. + d, u, g});
+    return Expected{g, d, 0., 0., up, Tensor<1, 3>({1., 0., 0.})};
+  });
+  check_edge("corner of a rectangle", *rectangle,
+             [&](const double u, const double d, const double g, auto &x) {
+               const double angle = 0.8 + u;
+               const Tensor<1, 3> e({std::cos(angle), std::sin(angle), 0.});
+               x = Tensor<1, 3>({1., 0.5, g}) + d * e;
+               return Expected{g, d, 1. / d, 0., up, e};
+             });
   constexpr double radius = 0.7;
-  check_border("disc", *make_surface("disc", "set Radius = 0.7"),
-               [&](const double u, const double d, const double g, auto &x) {
-                 const Tensor<1, 3> e({std::cos(5. * u), std::sin(5. * u), 0.});
-                 x = (radius + d) * e + g * up;
-                 return Expected{g, d, 1. / (radius + d), 0., up, e};
-               });
-  check_border("end of a cylinder",
-               *make_surface("cylinder", "set Radius = 0.7\nset Length = 3\nset Axis = 0, 0, 1"),
-               [&](const double u, const double d, const double g, auto &x) {
-                 const Tensor<1, 3> n({std::cos(5. * u), std::sin(5. * u), 0.});
-                 x = (radius + g) * n + (1.5 + d) * up;
-                 return Expected{g, d, 0., 1. / (radius + g), n, up};
-               });
-  check_near_border();
+  check_edge("disc", *make_surface("disc", "set Radius = 0.7"),
+             [&](const double u, const double d, const double g, auto &x) {
+               const Tensor<1, 3> e({std::cos(5. * u), std::sin(5. * u), 0.});
+               x = (radius + d) * e + g * up;
+               return Expected{g, d, 1. / (radius + d), 0., up, e};
+             });
+  check_edge("end of a cylinder",
+             *make_surface("cylinder", "set Radius = 0.7\nset Length = 3\nset Axis = 0, 0, 1"),
+             [&](const double u, const double d, const double g, auto &x) {
+               const Tensor<1, 3> n({std::cos(5. * u), std::sin(5. * u), 0.});
+               x = (radius + g) * n + (1.5 + d) * up;
+               return Expected{g, d, 0., 1. / (radius + g), n, up};
+             });
+  check_near_edge();
   return billet::testing::exit_code();
 }

@@ -17,10 +17,10 @@ inline void check_surface(const std::string &name, const RigidSurface &surface,
                           const unsigned int n_points = 400, const double accuracy = 1e-9) {
   using dealii::Tensor;
   Random random;
-  const SurfacePicture picture = surface.picture({centre, size});
+  const SurfaceMesh surface_mesh = surface.surface_mesh({centre, size});
   WorstError on_surface, nearer, gradient, turning, guess, outside_box, unit;
   unsigned int n_exist = 0, n_smooth = 0;
-  for (const auto &point : picture.points)
+  for (const auto &point : surface_mesh.points)
     outside_box.add(std::sqrt(surface.bounding_box().distance_square(point)) / size);
   for (unsigned int i = 0; i < n_points; ++i) {
     // A tenth of the points far away.
@@ -28,7 +28,7 @@ inline void check_surface(const std::string &name, const RigidSurface &surface,
     const Tensor<1, 3> x = centre + random.vector(reach);
     const auto here = surface.project(x);
     double nearest = std::numeric_limits<double>::infinity();
-    for (const auto &point : picture.points)
+    for (const auto &point : surface_mesh.points)
       nearest = std::min(nearest, (x - point).norm());
     nearer.add(std::max(0., std::abs(here.gap) - nearest) / reach);
     const auto other = surface.project(x, static_cast<unsigned int>(i % surface.n_patches()));

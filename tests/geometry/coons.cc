@@ -240,10 +240,10 @@ void check_degenerate() {
     normals.add((patch.normal(patch.at(u, 1.), u, 1.) - Point({0., 0., 1.})).norm());
   check("pole: the normal is a limit", normals.value(), 1e-14);
   const ClosestPoint above = patch.closest_point(Point({0., 0., 3.}));
-  check("pole: a point above", std::abs(above.gap - 1.) + above.is_beyond_border, 1e-14);
+  check("pole: a point above", std::abs(above.gap - 1.) + above.is_beyond_edge, 1e-14);
   check("pole: curvatures are finite there", std::abs(dealii::trace(above.turning)) < 1.);
   const ClosestPoint beside = patch.closest_point(Point({-0.1, -0.1, 3.}));
-  check("pole: a point beside", beside.is_beyond_border ? (beside.position - Point({0., 0., 2.})).norm() : 1.,
+  check("pole: a point beside", beside.is_beyond_edge ? (beside.position - Point({0., 0., 2.})).norm() : 1.,
         1e-13);
   // In all directions between the sides, very near to the pole: the foot is not the pole.
   WorstError feet;
@@ -252,7 +252,7 @@ void check_degenerate() {
     const Point x(
         {3. * sine * std::cos(angle), 3. * sine * std::sin(angle), 3. * std::sqrt(1. - sine * sine)});
     const ClosestPoint closest = patch.closest_point(x);
-    feet.add(closest.is_beyond_border ? 1. : (x - closest.position - closest.gap * closest.normal).norm());
+    feet.add(closest.is_beyond_edge ? 1. : (x - closest.position - closest.gap * closest.normal).norm());
   }
   check("pole: points just beside it, all around", feet.value(), 1e-12);
   // Where Newton's method runs into the pole along a wrong side.

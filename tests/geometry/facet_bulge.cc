@@ -34,7 +34,7 @@ void check_heights() {
         },
         1e-3);
     slope.add(std::abs(difference - gradient[0] * v[0] - gradient[1] * v[1]));
-    corners.add(std::max(0., facet::height<double>(bulge, x) - facet::largest_height(bulge)));
+    corners.add(std::max(0., facet::height<double>(bulge, x) - facet::max_height(bulge)));
   }
   check("0 at the corners, and nowhere above the largest height", corners.value(), 1e-15);
   check("edges in their order", middles.value(), 1e-15);

@@ -22,9 +22,9 @@ int main() {
     const Tensor<1, 3> foot = x - projection.gap * projection.normal;
     gap_error.add(std::abs((foot - point) * normal)); // the contact point lies in the plane
     normal_error.add((projection.normal - normal).norm());
-    SurfacePicture picture;
-    plane.draw({x, 3.}, picture);
-    for (const auto &corner : picture.points)
+    SurfaceMesh surface_mesh;
+    plane.draw({x, 3.}, surface_mesh);
+    for (const auto &corner : surface_mesh.points)
       picture_error.add(std::abs(plane.closest_point(corner).gap));
 
     Placement placement;

@@ -59,7 +59,7 @@ void check_closest_point(const std::string &name, const double bend, const doubl
       for (unsigned int a = 0; a <= n; ++a)
         for (unsigned int b = 0; a + b <= n; ++b)
           nearer.add((distance - (x - triangle.position(double(a) / n, double(b) / n)).norm()) / reach);
-      if (!closest.is_beyond_border)
+      if (!closest.is_beyond_edge)
         not_square.add(std::abs(std::abs(closest.gap) - distance) / reach);
       const bool is_refused = triangle.is_farther(x, distance * distance * (1. - 1e-9));
       const bool is_kept = !triangle.is_farther(x, distance * distance * (1. + 1e-9));
@@ -78,13 +78,13 @@ struct Errors {
 };
 template <class Approximation>
 Errors errors_near(const Surface &exact, const Approximation &surface, const double size,
-                   const double least_z) {
+                   const double min_z) {
   Random random;
   WorstError gap, normal;
   for (unsigned int n = 0; n < 2000;) {
     Tensor<1, 3> x = random.vector(size);
     auto truth = exact->project(x);
-    if (!truth.exists || std::abs(truth.gap) > 0.1 * size || x[2] < least_z)
+    if (!truth.exists || std::abs(truth.gap) > 0.1 * size || x[2] < min_z)
       continue;
     x -= (truth.gap + random(-1e-3, 1e-3)) * truth.normal;
     truth = exact->project(x);
@@ -101,13 +101,13 @@ Errors errors_near(const Surface &exact, const Approximation &surface, const dou
 template <class Mesh>
 void check_order(const std::string &name, const Surface &exact, const Mesh &mesh, const double size,
                  const std::string &lines, const double gap_order, const double normal_order,
-                 const double least_gain, const double least_z = -1e9) {
+                 const double min_gain, const double min_z = -1e9) {
   std::array<Errors, 3> errors{};
   for (unsigned int i = 0; i < 3; ++i)
-    errors[i] = errors_near(exact, read(mesh(i), lines), size, least_z);
+    errors[i] = errors_near(exact, read(mesh(i), lines), size, min_z);
   const Errors flat = errors_near(
       exact, read(mesh(2), lines.substr(0, lines.find("set Feature angle")) + "set Smoothing = false\n"),
-      size, least_z);
+      size, min_z);
   double gap = 10., normal = 10.;
   for (unsigned int i = 0; i < 2; ++i) {
     gap = std::min(gap, std::log2(errors[i].gap / errors[i + 1].gap));
@@ -115,7 +115,7 @@ void check_order(const std::string &name, const Surface &exact, const Mesh &mesh
   }
   check(name + ": the gap's error falls with the mesh", std::max(0., gap_order - gap), 0.);
   check(name + ": the normal's error falls with the mesh", std::max(0., normal_order - normal), 0.);
-  check(name + ": better than flat facets", errors[2].gap * least_gain / flat.gap, 1.);
+  check(name + ": better than flat facets", errors[2].gap * min_gain / flat.gap, 1.);
 }
 
 void check_cube() {
@@ -202,7 +202,7 @@ void check_closed(const double sharp_angle) {
 }
 
 /// Largest difference between the normals of two triangles along their edge.
-double largest_kink(const TriangleMesh &mesh) {
+double max_kink(const TriangleMesh &mesh) {
   const TriangleEdges edges(mesh);
   const CurvedTriangles triangles(mesh, edges, 1., true);
   WorstError kink;
@@ -223,9 +223,9 @@ double largest_kink(const TriangleMesh &mesh) {
 }
 
 void check_kinks() {
-  check("sphere of 320 triangles: one normal along edges", largest_kink(icosphere(2)), 1e-8);
-  const double coarse = largest_kink(weld(torus(3., 1., 16), 1e-9)),
-               fine = largest_kink(weld(torus(3., 1., 32), 1e-9));
+  check("sphere of 320 triangles: one normal along edges", max_kink(icosphere(2)), 1e-8);
+  const double coarse = max_kink(weld(torus(3., 1., 16), 1e-9)),
+               fine = max_kink(weld(torus(3., 1., 32), 1e-9));
   check("torus of 1024 triangles: nearly one normal along edges", coarse, 2e-4);
   check("torus: of fifth order in their size", fine / coarse, 1. / 25.);
 }

@@ -124,7 +124,7 @@ void test_stretch() {
 template <class Law> void test_moduli(const std::string &name, const Law &law, const double size) {
   WorstError error;
   Random random;
-  double largest_asymmetry = 0.;
+  double max_asymmetry = 0.;
   for (unsigned int path = 0; path < 10; ++path) {
     const Tensor<2, 3> F_n = unit + random.tensor(size),
                        F = (path % 2 == 0 ? random.rotation() : unit) * (unit + random.tensor(size)) * F_n;
@@ -141,7 +141,7 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
     for (unsigned int i = 0; i < 3; ++i) // of the normal components
       for (unsigned int j = 0; j < 3; ++j)
         skew = std::max(skew, std::abs(A[i][std::size_t{4} * j] - A[j][std::size_t{4} * i]) / scale);
-    largest_asymmetry = std::max(largest_asymmetry, skew);
+    max_asymmetry = std::max(max_asymmetry, skew);
     for (unsigned int j = 0; j < 9; ++j) {
       Tensor<2, 3> L;
       L[j / 3][j % 3] = 1.;
@@ -158,7 +158,7 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
     }
   }
   check(name + ", differences", error.value(), 1e-8);
-  check(name + ", not symmetric", largest_asymmetry > 1e-6);
+  check(name + ", not symmetric", max_asymmetry > 1e-6);
 }
 
 int main() {

@@ -53,7 +53,7 @@ void test_simple_shear() {
 template <class Law>
 void test_law(const std::string &name, const Law &law, const std::vector<double> &sizes) {
   WorstError error, turned, again, volume, returned;
-  double largest_asymmetry = 0.;
+  double max_asymmetry = 0.;
   typename Law::History fresh;
   for (const auto &history_n : {fresh, work(law)})
     for (const double size : sizes)
@@ -61,7 +61,7 @@ void test_law(const std::string &name, const Law &law, const std::vector<double>
         const State<Law> state = make_state<Law>(history_n, strains);
         SymmetricTensor<2, 3> tau, turned_tau;
         const SpatialModuli c = state.moduli(law, tau);
-        largest_asymmetry = std::max(largest_asymmetry, asymmetry(c));
+        max_asymmetry = std::max(max_asymmetry, asymmetry(c));
         Random random;
         for (unsigned int i = 0; i < 9; ++i) {
           Tensor<2, 3> L;
@@ -94,9 +94,9 @@ void test_law(const std::string &name, const Law &law, const std::vector<double>
     check(name + ", plastic flow has no volume", volume.value(), 1e-12);
     check(name + ", standing still changes nothing", again.value(), 1e-11);
     check(name + ", history found from the stress", returned.value(), 1e-10);
-    check(name + ", unsymmetric where it yields", largest_asymmetry > 1e-5);
+    check(name + ", unsymmetric where it yields", max_asymmetry > 1e-5);
   } else
-    check(name + ", symmetry", largest_asymmetry, 1e-14);
+    check(name + ", symmetry", max_asymmetry, 1e-14);
 }
 
 int main() {

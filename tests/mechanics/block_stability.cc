@@ -95,11 +95,11 @@ double stability(const Moduli &moduli, const double pressed, const unsigned int 
 }
 
 template <class ModuliOf>
-double continuum_instability(const ModuliOf &moduli_of, const unsigned int most_waves) {
+double continuum_instability(const ModuliOf &moduli_of, const unsigned int max_waves) {
   double first = 0.;
   constexpr double step = 1e-4;
   constexpr unsigned int n_steps = 8000;
-  for (unsigned int waves = 1; waves <= most_waves; ++waves)
+  for (unsigned int waves = 1; waves <= max_waves; ++waves)
     for (unsigned int i = 100; i < n_steps; ++i) {
       const double before = 1. - step * (i - 1), pressed = 1. - step * i;
       if (stability(moduli_of(before), before, waves) * stability(moduli_of(pressed), pressed, waves) <= 0.) {

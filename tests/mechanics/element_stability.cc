@@ -18,7 +18,7 @@ constexpr unsigned int n_modes = 12;
 
 /// Of the symmetric part of the tangent at the block's history, over the shear modulus and the edge; nodal
 /// values ±1/√8 are orthogonal to every linear field of a parallelepiped.
-double least_eigenvalue(ElementBlock &block, const NodalTensor &u) {
+double min_eigenvalue(ElementBlock &block, const NodalTensor &u) {
   ElementMatrix K;
   compute_force(block, u, &K);
   std::array<NodalTensor, n_modes> modes;
@@ -46,7 +46,7 @@ Tensor<2, 3> stretch(const double x, const double y, const double z) {
 
 double elastic(const LawFormulation &formulation, const Tensor<2, 3> &F) {
   const auto block = make_block({steel, {}}, cube(), formulation);
-  return least_eigenvalue(*block, displace(F, cube()));
+  return min_eigenvalue(*block, displace(F, cube()));
 }
 
 /// In the middle of ideal flow along a path of 50 small steps; the tangent is that of the next one.
@@ -57,7 +57,7 @@ double flowing(const LawFormulation &formulation, const Tensor<2, 3> &rate) {
     compute_force(*block, displace(unit + 1e-3 * step * rate, cube()));
     block->commit();
   }
-  return least_eigenvalue(*block, displace(unit + 1e-3 * (n_steps + 1) * rate, cube()));
+  return min_eigenvalue(*block, displace(unit + 1e-3 * (n_steps + 1) * rate, cube()));
 }
 
 } // namespace

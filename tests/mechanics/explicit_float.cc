@@ -86,11 +86,11 @@ Errors compare(const Mesh &mesh, const MaterialLaw &material, const Formulation 
     const NodalArray forces = exact.advance(u, path.dt);
     errors.force.add(difference(rounded.advance(u, path.dt), forces) / norm(forces));
     const auto &a = exact.result(), &b = rounded.result();
-    const double largest =
+    const double maximum =
         std::max({a.elastic_energy, std::abs(a.plastic_work), std::abs(a.viscous_work), a.hourglass_energy});
     for (const double d : {a.elastic_energy - b.elastic_energy, a.plastic_work - b.plastic_work,
                            a.viscous_work - b.viscous_work, a.hourglass_energy - b.hourglass_energy})
-      errors.energy.add(std::abs(d) / largest);
+      errors.energy.add(std::abs(d) / maximum);
     errors.step.add(std::abs(a.stable_step / b.stable_step - 1.));
     errors.step.add(a.inverted == b.inverted ? 0. : 1.);
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
@@ -171,15 +171,15 @@ void test_small_strain(const Formulation &formulation) {
     const MaterialLaw material =
         is_plastic ? MaterialLaw{steel, LinearHardening{0.2, 100.}} : MaterialLaw{steel, {}};
     Body exact(mesh, material, formulation), rounded(far, material, in_float(formulation));
-    double largest = 0.;
+    double maximum = 0.;
     for (std::size_t k = 0; k < path.displacements.size(); ++k) {
       const NodalArray f = exact.advance(path.displacements[k], path.dt);
       const double error = difference(rounded.advance(path.displacements[k], path.dt), f);
-      largest = std::max(largest, norm(f));
+      maximum = std::max(maximum, norm(f));
       if (k < 3)
         force.add(error / norm(f));
       else
-        turned.add(error / largest * strain);
+        turned.add(error / maximum * strain);
     }
   }
   check(name_of(formulation) + ", strains of 1e-6, forces", force.value(), 2e-6);

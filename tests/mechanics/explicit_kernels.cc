@@ -35,11 +35,11 @@ Answer run(const Mesh &mesh, const MaterialLaw &material, const Formulation &for
     // Of energies, parts of the largest: plastic strain that has just begun is a difference of stresses.
     const double energies[] = {result.elastic_energy, result.plastic_work, result.viscous_work,
                                result.hourglass_energy};
-    const double largest = *std::max_element(std::begin(energies), std::end(energies));
+    const double maximum = *std::max_element(std::begin(energies), std::end(energies));
     for (const double energy : energies)
-      answer.numbers.push_back(1. + energy / largest);
+      answer.numbers.push_back(1. + energy / maximum);
     answer.numbers.insert(answer.numbers.end(),
-                          {largest, 1e3 * result.stable_step, static_cast<double>(result.inverted)});
+                          {maximum, 1e3 * result.stable_step, static_cast<double>(result.inverted)});
   }
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const ElementSummary summary = body.summarize(e);
@@ -84,13 +84,13 @@ void test_masses(const Formulation &formulation) {
   Body body(make_mesh({2, 3, 2}, 0.3, random), {steel, {}}, formulation);
   std::vector<double> masses(body.mesh().n_nodes(), 0.);
   body.block().add_masses(masses.data());
-  double sum = 0., smallest = 1e300;
+  double sum = 0., minimum = 1e300;
   for (const double mass : masses) {
     sum += mass;
-    smallest = std::min(smallest, mass);
+    minimum = std::min(minimum, mass);
   }
   check(name_of(formulation) + ", masses sum up", std::abs(sum / (12. * density) - 1.), 1e-13);
-  check(name_of(formulation) + ", masses are positive", smallest > 0.);
+  check(name_of(formulation) + ", masses are positive", minimum > 0.);
 }
 
 void test_inverted(const Formulation &formulation) {

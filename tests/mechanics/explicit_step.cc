@@ -30,8 +30,8 @@ Body reach(const State &state, const MaterialLaw &material, const Formulation &f
 }
 
 /// The largest eigenvalue of M⁻¹ᐟ² sym(K Δt²/4 + C Δt/2) M⁻¹ᐟ², where K and C are found by differences.
-double largest_eigenvalue(const State &state, const MaterialLaw &material, const Formulation &formulation,
-                          const double dt) {
+double max_eigenvalue(const State &state, const MaterialLaw &material, const Formulation &formulation,
+                      const double dt) {
   Formulation inviscid = formulation;
   inviscid.linear_viscosity = inviscid.quadratic_viscosity = 0.;
   const double h = 1e-6;
@@ -61,10 +61,10 @@ double largest_eigenvalue(const State &state, const MaterialLaw &material, const
   dealii::FullMatrix<double> vectors;
   dealii::Vector<double> values;
   matrix.compute_eigenvalues_symmetric(-1e300, 1e300, 0., values, vectors);
-  double largest = 0.;
+  double maximum = 0.;
   for (const double value : values)
-    largest = std::max(largest, value);
-  return largest;
+    maximum = std::max(maximum, value);
+  return maximum;
 }
 
 /// At a stable step that is safe the eigenvalue is at most 1; 1 is sharp.
@@ -76,7 +76,7 @@ void test_bound(const std::string &name, const MaterialLaw &material, const Form
     const Body body = reach(state, material, formulation, NodalTensor(), force);
     if (body.result().inverted != 1)
       excess.add(NAN);
-    excess.add(largest_eigenvalue(state, material, formulation, body.result().stable_step));
+    excess.add(max_eigenvalue(state, material, formulation, body.result().stable_step));
   }
   check(name_of(formulation) + ", " + name + ", stable step is safe", excess.value(), 1. + 1e-6);
 }
@@ -114,7 +114,7 @@ void test_sharpness(Formulation formulation) {
       const State state{cube(), NodalTensor(), NodalTensor(), 1e-7};
       NodalTensor force;
       const double dt = reach(state, material, formulation, NodalTensor(), force).result().stable_step;
-      const double eigenvalue = largest_eigenvalue(state, material, formulation, dt);
+      const double eigenvalue = max_eigenvalue(state, material, formulation, dt);
       pessimism.add(1. - eigenvalue);
       excess.add(eigenvalue);
     }
@@ -201,17 +201,17 @@ void test_vibration(const Formulation &formulation) {
   const double start = kinetic();
   body.advance(u, 0.);
   const double dt = body.result().stable_step;
-  double largest = 0.;
+  double maximum = 0.;
   for (unsigned int step = 0; step < 2000; ++step) {
     for (std::size_t k = 0; k < u.size(); ++k)
       u[k] += dt * v[k];
     const NodalArray forces = body.advance(u, dt);
     for (std::size_t k = 0; k < u.size(); ++k)
       v[k] -= k % 4 == 3 ? 0. : dt * forces[k] / masses[k / 4];
-    largest = std::max(largest, kinetic());
+    maximum = std::max(maximum, kinetic());
   }
   check(name_of(formulation) + ", 2000 steps of free vibration",
-        largest < 2. * start && kinetic() > 0.1 * start);
+        maximum < 2. * start && kinetic() > 0.1 * start);
 }
 
 /// The smallest step of `body`'s elements, at rest.

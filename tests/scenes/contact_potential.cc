@@ -81,7 +81,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
           contact.update(moved);
-          return contact.compute_load().stored_energy;
+          return contact.measures().compute_load().stored_energy;
         },
         1e-4);
     error.add(std::abs(power + slope) / scale);
@@ -90,7 +90,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
 }
 
 /// Blows at the speed of waves, with areas that grow while nodes are deep.
-void test_blows() {
+void test_impacts() {
   for (const double penalty : {10., 1.}) {
     parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
     scene.pairs[0].normal_penalty = penalty;
@@ -122,7 +122,7 @@ void test_bar() {
 }
 
 /// The block stands under its weight, is thrown along the floor, tumbles and hops.
-void test_hops() {
+void test_chatter() {
   struct Case {
     std::string name;
     FrictionPointer friction;
@@ -187,9 +187,9 @@ int main(int argc, char *argv[]) {
   test("sphere", {"sphere", "set Centre = 0.1, 0.2, -3\nset Radius = 3"});
   test("bowl", {"sphere", "set Centre = 0.1, 0.2, 3.85\nset Radius = 4\nset Side = inside"});
   test("cylinder", {"cylinder", "set Point = 0, 0, -3\nset Radius = 3\nset Axis = 1, 0.4, 0"});
-  test_blows();
+  test_impacts();
   test_bar();
-  test_hops();
+  test_chatter();
   test_deep_friction();
   test_long_steps();
   return testing::exit_code();

@@ -79,7 +79,7 @@ Course run(parameters::Scene parameters, const std::vector<SurfacePart> &parts) 
   scene.finish([&](const NewtonReport &) {
     course.forces.push_back(scene.load().force);
     course.tractions.emplace_back();
-    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].report()) {
+    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].measures().report()) {
       course.tractions.back().push_back(node.traction);
       course.n_slip += node.status == ContactStatus::slip;
       course.n_stick += node.status == ContactStatus::stick;
@@ -98,18 +98,18 @@ Course run(parameters::Scene parameters, const std::vector<SurfacePart> &parts) 
 
 void compare(const std::string &name, const Course &whole, const Course &pieces) {
   testing::WorstError force, traction;
-  double largest_force = 0., largest_traction = 0.;
+  double max_force = 0., max_traction = 0.;
   for (std::size_t step = 0; step < whole.forces.size(); ++step) {
-    largest_force = std::max(largest_force, whole.forces[step].norm());
+    max_force = std::max(max_force, whole.forces[step].norm());
     force.add((pieces.forces.at(step) - whole.forces[step]).norm());
     for (std::size_t i = 0; i < whole.tractions[step].size(); ++i) {
-      largest_traction = std::max(largest_traction, whole.tractions[step][i].norm());
+      max_traction = std::max(max_traction, whole.tractions[step][i].norm());
       traction.add((pieces.tractions.at(step).at(i) - whole.tractions[step][i]).norm());
     }
   }
   check(name + ": nodes cross seams", pieces.n_crossings > 8 && whole.n_crossings == 0);
-  check(name + ": the force is the same", force.value() / largest_force, 1e-9);
-  check(name + ": nodal tractions are the same", traction.value() / largest_traction, 1e-9);
+  check(name + ": the force is the same", force.value() / max_force, 1e-9);
+  check(name + ": nodal tractions are the same", traction.value() / max_traction, 1e-9);
 }
 
 } // namespace

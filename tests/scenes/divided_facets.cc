@@ -86,7 +86,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
   const ContactLoad load = block.press();
   Tensor<1, 3> sum, moment;
   bool are_nodes_free = true;
-  for (const auto &report : block.contact.report())
+  for (const auto &report : block.contact.measures().report())
     are_nodes_free = are_nodes_free && report.gap > 0.;
   double scale = 0.;
   for (unsigned int node = 0; node < nodes.size(); ++node) {
@@ -115,7 +115,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
           block.contact.update(moved);
-          return block.contact.compute_load().stored_energy;
+          return block.contact.measures().compute_load().stored_energy;
         },
         1e-6);
     error.add(std::abs(power + slope) / scale);
@@ -131,13 +131,13 @@ void test_patch() {
                  0.1 * get_vector(block->nodes.positions().data(), node) + Tensor<1, 3>({0., 0., -0.005}));
     block->press();
   }
-  double error = 0., largest = 0., bound = 0.;
+  double error = 0., maximum = 0., bound = 0.;
   for (std::size_t i = 0; i < on_plane.forces.size(); ++i) {
     error = std::max(error, std::abs(on_plane.forces[i] - on_box.forces[i]));
-    largest = std::max(largest, std::abs(on_plane.forces[i]));
+    maximum = std::max(maximum, std::abs(on_plane.forces[i]));
     bound = std::max(bound, on_plane.bounds[i] - 1.05 * on_box.bounds[i]);
   }
-  check("uniform pressure on divided facets: that of whole ones", error / largest, 1e-12);
+  check("uniform pressure on divided facets: that of whole ones", error / maximum, 1e-12);
   check("uniform pressure on divided facets: as stiff", bound <= 0.);
 }
 

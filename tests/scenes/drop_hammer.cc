@@ -14,16 +14,16 @@ using billet::testing::check;
 
 namespace {
 
-struct Blow {
+struct Impact {
   double depth = 0., force = 0., drift = 0., speed = 0.;
   EnergyLedger energies;
 };
 
-void look(const SolutionState &state, Blow &blow) {
-  blow.depth = std::max(blow.depth, -state.placements[1].translation[2]);
-  blow.force = std::max(blow.force, state.tool_loads[1].force.norm());
-  blow.drift = std::max(blow.drift, std::abs(state.energies.drift()));
-  blow.energies = state.energies;
+void inspect(const SolutionState &state, Impact &impact) {
+  impact.depth = std::max(impact.depth, -state.placements[1].translation[2]);
+  impact.force = std::max(impact.force, state.tool_loads[1].force.norm());
+  impact.drift = std::max(impact.drift, std::abs(state.energies.drift()));
+  impact.energies = state.energies;
 }
 
 } // namespace
@@ -31,22 +31,22 @@ void look(const SolutionState &state, Blow &blow) {
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parameters::Scene scene = testing::read_shipped_scene("drop_hammer.prm");
-  Blow blow, quick;
+  Impact impact, quick;
   testing::SceneRun run(scene);
-  run.finish([&](const NewtonReport &) { look(run.problem.state(), blow); });
+  run.finish([&](const NewtonReport &) { inspect(run.problem.state(), impact); });
   scene.time_stepping.scheme = parameters::TimeStepping::Scheme::explicit_dynamics;
   testing::ExplicitRun explicit_run(scene);
-  explicit_run.finish(4e-5, [&] { look(explicit_run.state(), quick); });
+  explicit_run.finish(4e-5, [&] { inspect(explicit_run.state(), quick); });
   const double energy = 0.5 * 0.1 * 5000. * 5000.;
   if (std::getenv("SHOW") != nullptr)
-    for (const Blow &b : {blow, quick})
+    for (const Impact &b : {impact, quick})
       std::cout << b.depth << " " << b.force << " " << b.drift / energy << " " << b.energies.plastic / energy
                 << " " << b.energies.friction / energy << " " << b.energies.numerical / energy << std::endl;
-  check("depth", std::abs(blow.depth / quick.depth - 1.), 2e-3);
-  check("force", std::abs(blow.force / quick.force - 1.), 0.01);
-  check("plastic work", std::abs(blow.energies.plastic / quick.energies.plastic - 1.), 2e-3);
-  check("energy", blow.drift / energy, 1e-3);
-  check("numerical dissipation", std::abs(blow.energies.numerical) / energy, 1e-3);
+  check("depth", std::abs(impact.depth / quick.depth - 1.), 2e-3);
+  check("force", std::abs(impact.force / quick.force - 1.), 0.01);
+  check("plastic work", std::abs(impact.energies.plastic / quick.energies.plastic - 1.), 2e-3);
+  check("energy", impact.drift / energy, 1e-3);
+  check("numerical dissipation", std::abs(impact.energies.numerical) / energy, 1e-3);
   check("all of it in less than 200 steps", run.control.n_steps() < 200);
   return testing::exit_code();
 }

@@ -49,7 +49,7 @@ History run(parameters::Scene scene, const NumberType number_type, const double 
   return history;
 }
 
-double largest(const std::vector<double> &values) {
+double maximum(const std::vector<double> &values) {
   double result = 0.;
   for (const double value : values)
     result = std::max(result, std::abs(value));
@@ -69,7 +69,7 @@ void test_taylor_bar(const BrickElement element) {
     if (column == "momentum" || column == "angular momentum" || column == "energy")
       continue;
     const bool is_energy = column != "height" && column != "width" && column != "force" && column != "drift";
-    const double scale = is_energy ? energy : column == "drift" ? 1. : largest(values);
+    const double scale = is_energy ? energy : column == "drift" ? 1. : maximum(values);
     WorstError error;
     for (std::size_t k = 0; k < values.size(); ++k)
       error.add(std::abs(values[k] - rounded.at(column)[k]) / scale);

@@ -125,14 +125,14 @@ void test_pressure() {
     momentum.add(run.state().momentum.norm() / (2e8 * 4e-4 * 1e-3));
     if (run.state().time < 1.5e-3) // the mean of ringing that is left
       return;
-    double least = 0., most = 0.;
+    double minimum = 0., maximum = 0.;
     for (const auto &element : run.discretization.elements(0))
       for (unsigned int a = 0; a < n_element_nodes; ++a) {
         const double u = run.state().displacements(element.dofs[std::size_t{3} * a]);
-        least = std::min(least, u);
-        most = std::max(most, u);
+        minimum = std::min(minimum, u);
+        maximum = std::max(maximum, u);
       }
-    change += (most - least) / 11.;
+    change += (maximum - minimum) / 11.;
   });
   check("pressure: no resultant", momentum.value(), 1e-12);
   check("pressure: strain", std::abs(change / 0.2 / 1e-3 - 1.), 0.01);

@@ -65,13 +65,13 @@ int main(int argc, char *argv[]) {
       continue; // one rank compares
     std::cout << n << " ranks:" << std::endl;
     for (std::size_t c = 0; c < one.size(); ++c) {
-      double largest = 0.;
+      double maximum = 0.;
       testing::WorstError error;
       for (std::size_t i = 0; i < one[c].second.size(); ++i) {
-        largest = std::max(largest, std::abs(one[c].second[i]));
+        maximum = std::max(maximum, std::abs(one[c].second[i]));
         error.add(std::abs(several[c].second[i] - one[c].second[i]));
       }
-      check("  " + one[c].first, largest > 0. ? error.value() / largest : 1., 1e-10);
+      check("  " + one[c].first, maximum > 0. ? error.value() / maximum : 1., 1e-10);
     }
   }
   return testing::exit_code();

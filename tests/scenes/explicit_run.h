@@ -21,7 +21,7 @@ public:
 
   /// Runs to the end time, and calls look() at the start, at every multiple of `interval` and at the end,
   /// with the state up to date.
-  template <class Look> void finish(const double interval, const Look &look) {
+  template <class Check> void finish(const double interval, const Check &inspect) {
     const double end = scene.parameters().time_stepping.end_time;
     for (;;) {
       const double time = problem.time();
@@ -31,7 +31,7 @@ public:
       if (time >= end || std::abs(time / interval - std::round(time / interval)) < 1e-9) {
         problem.update_state();
         worst_drift = std::max(worst_drift, std::abs(problem.relative_drift()));
-        look();
+        inspect();
       }
       if (time >= end)
         return;

@@ -21,7 +21,7 @@ struct FoldState {
 
 /// Steps end at the multiples of 1/n, and may be cut on the way.
 void set_grid(parameters::Scene &parameters, const unsigned int n) {
-  parameters.time_stepping.initial_step = parameters.time_stepping.largest_step = 1. / n;
+  parameters.time_stepping.initial_step = parameters.time_stepping.max_step = 1. / n;
   parameters.output.interval = 1. / n;
 }
 
@@ -76,25 +76,25 @@ void test(const std::string &name, const std::string &scene, const unsigned int 
 void test_with_friction(const std::string &name, const std::string &scene, const unsigned int n) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
   parameters.pairs[2].friction = make_coulomb(0.3);
-  parameters.time_stepping.initial_step = parameters.time_stepping.largest_step = 1. / n;
+  parameters.time_stepping.initial_step = parameters.time_stepping.max_step = 1. / n;
   SceneRun run(parameters);
-  double largest_force = 0., largest_stored = 0.;
+  double max_force = 0., max_stored = 0.;
   run.finish([&](const NewtonReport &) {
     const SolutionState &state = run.problem.state();
-    largest_force = std::max(largest_force, -state.tool_loads[0].force[2]);
-    largest_stored = std::max(largest_stored, state.energies.elastic);
+    max_force = std::max(max_force, -state.tool_loads[0].force[2]);
+    max_stored = std::max(max_stored, state.energies.elastic);
   });
   const SolutionState &end = run.problem.state();
   check(name + ": friction has worked", end.energies.friction > 0.);
   check(name + ": which is the work that is lost",
-        std::abs(end.energies.external - end.energies.friction) / largest_stored, 0.01);
-  check(name + ": no energy is left", end.energies.elastic / largest_stored, 1e-12);
+        std::abs(end.energies.external - end.energies.friction) / max_stored, 0.01);
+  check(name + ": no energy is left", end.energies.elastic / max_stored, 1e-12);
   bool is_open = true;
   const auto reports = run.problem.report_contacts();
   for (const auto &node : reports[2])
     is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
   check(name + ": the inside is open", is_open);
-  check(name + ": no force is left", end.tool_loads[0].force.norm() / largest_force, 1e-9);
+  check(name + ": no force is left", end.tool_loads[0].force.norm() / max_force, 1e-9);
 }
 
 /// Each end of a ring is a side of a pair of the ring with itself.

@@ -44,7 +44,7 @@ parameters::Amplitude make_amplitude(const std::string &name, const std::vector<
   return amplitude;
 }
 
-double largest_difference(const std::vector<double> &a, const std::vector<double> &b) {
+double max_difference(const std::vector<double> &a, const std::vector<double> &b) {
   if (a.size() != b.size())
     return 1.;
   testing::WorstError error;
@@ -68,8 +68,8 @@ void press(const std::string &name, const parameters::Scene &given) {
   motion.load.value = "-press";
   SceneRun again(pressed);
   const Curve result = record(again);
-  check(name + ": the same travel", largest_difference(result.travels, curve.travels), 1e-6);
-  check(name + ": the forces asked for", largest_difference(result.forces, curve.forces), 1e-6);
+  check(name + ": the same travel", max_difference(result.travels, curve.travels), 1e-6);
+  check(name + ": the forces asked for", max_difference(result.forces, curve.forces), 1e-6);
   check(name + ": about as many iterations", again.n_iterations < 2 * run.n_iterations);
 
   // A die that the same travel would take further, but that stops at the force of the 15th step.
@@ -119,7 +119,7 @@ int main(int argc, char *argv[]) {
   SceneRun follows(twisted);
   const Curve angles = record(follows);
   check("there is a moment", std::abs(twist.moments.back()) > 1e-3);
-  check("a moment turns the plane by the same angle", largest_difference(angles.angles, twist.angles), 1e-6);
+  check("a moment turns the plane by the same angle", max_difference(angles.angles, twist.angles), 1e-6);
 
   // A holder that has some way to go before it touches.
   parameters::Scene apart = smooth;

@@ -49,13 +49,13 @@ std::array<double, 3> run(const Variant &variant) {
     if (time == 1.)
       errors[1] = error;
   });
-  double least = 1e9, most = 0.;
+  double minimum = 1e9, maximum = 0.;
   for (const auto &element :
        scene.problem.equation().internal().summarize(0, scene.problem.state().displacements)) {
-    least = std::min(least, element.equivalent_plastic_strain);
-    most = std::max(most, element.equivalent_plastic_strain);
+    minimum = std::min(minimum, element.equivalent_plastic_strain);
+    maximum = std::max(maximum, element.equivalent_plastic_strain);
   }
-  errors[2] = most / least - 1.;
+  errors[2] = maximum / minimum - 1.;
   return errors;
 }
 

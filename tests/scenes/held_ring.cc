@@ -15,12 +15,12 @@ std::array<double, 2> run(const parameters::ContactPair::Facets facets) {
   parameters::Scene scene = testing::read_test_scene("held_ring.prm");
   scene.pairs[0].facets.value = facets;
   testing::ExplicitRun rings(scene);
-  double after_blow = 0.;
+  double after_impact = 0.;
   rings.finish(50e-6, [&] {
     if (std::abs(rings.state().time - 50e-6) < 1e-9)
-      after_blow = rings.problem.relative_drift();
+      after_impact = rings.problem.relative_drift();
   });
-  return {after_blow, rings.problem.relative_drift() - after_blow};
+  return {after_impact, rings.problem.relative_drift() - after_impact};
 }
 
 } // namespace
@@ -30,8 +30,8 @@ int main(int argc, char *argv[]) {
   using Facets = parameters::ContactPair::Facets;
   for (const Facets facets : {Facets::planed, Facets::bilinear}) {
     const std::string name = facets == Facets::planed ? "planed" : "bilinear";
-    const auto [blow, change] = run(facets);
-    check(name + ": energy of the blow", blow, 5e-3);
+    const auto [impact, change] = run(facets);
+    check(name + ": energy of the blow", impact, 5e-3);
     check(name + ": energy while it is held", change, 1e-4);
   }
   check("mean gap: energy is made", run(Facets::mean_gap)[1] < -0.1);

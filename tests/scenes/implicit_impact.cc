@@ -104,8 +104,8 @@ int main(int argc, char *argv[]) {
   scene = make_scene();
   scene.time_stepping.control = parameters::TimeStepping::Control::automatic;
   scene.time_stepping.initial_step = 1e-6;
-  scene.time_stepping.smallest_step = 1e-9;
-  scene.time_stepping.largest_step = 20e-6;
+  scene.time_stepping.min_step = 1e-9;
+  scene.time_stepping.max_step = 20e-6;
   scene.time_stepping.few_iterations = 5;
   scene.time_stepping.many_iterations = 9;
   scene.time_stepping.growth_factor = 1.5;

@@ -191,14 +191,14 @@ void check_pressure() {
   scene.bodies[0].supports[0].displacement.value = {"1e-4*(t < 6 ? 0.5*(1 - cos(2*pi*t/6)) : 0)", "0", "0"};
   scene.time_stepping.end_time = 24.;
   SceneRun quiet(scene);
-  double largest = 0.;
+  double maximum = 0.;
   quiet.finish(
-      [&](const NewtonReport &) { largest = std::max(largest, quiet.problem.state().energies.total()); });
+      [&](const NewtonReport &) { maximum = std::max(maximum, quiet.problem.state().energies.total()); });
   if (shows())
-    std::cout << quiet.problem.state().energies.total() / largest << " "
-              << quiet.problem.state().energies.numerical / largest << std::endl;
+    std::cout << quiet.problem.state().energies.total() / maximum << " "
+              << quiet.problem.state().energies.numerical / maximum << std::endl;
   check("dashpot: the wave is gone",
-        (quiet.problem.state().energies.kinetic + quiet.problem.state().energies.elastic) / largest, 0.03);
+        (quiet.problem.state().energies.kinetic + quiet.problem.state().energies.elastic) / maximum, 0.03);
 }
 
 /// Largest error of the free end against steps that are much shorter.
@@ -208,8 +208,8 @@ double error_of(const double tolerance, unsigned int &n_steps, unsigned int &n_c
   scene.time_stepping.end_time = 60.;
   scene.time_stepping.control = parameters::TimeStepping::Control::automatic;
   scene.time_stepping.initial_step = 4.;
-  scene.time_stepping.smallest_step = 1e-6;
-  scene.time_stepping.largest_step = 20.;
+  scene.time_stepping.min_step = 1e-6;
+  scene.time_stepping.max_step = 20.;
   scene.time_stepping.growth_factor = 1.5;
   scene.time_stepping.cut_factor = 0.5;
   scene.time_stepping.shrink_factor = 0.7;
@@ -273,7 +273,7 @@ void check_failed_steps(const bool by_accuracy) {
     scene.implicit_dynamics.error_tolerance = 0.3;
     scene.implicit_dynamics.reference_displacement = 1e-3;
   } else
-    scene.solver.most_iterations = 6;
+    scene.solver.max_iterations = 6;
   SceneRun untried(scene), tried(scene);
   bool failed = true, same = true;
   unsigned int n_inaccurate = 0;

@@ -106,7 +106,7 @@ int main(int argc, char *argv[]) {
       scene.pairs[0].passes = passes;
       scene.pairs[0].normal_penalty = factor * E / edge;
       scene.pairs[0].penetration_tolerance = 1e-9;
-      scene.solver.most_augmentations = 100;
+      scene.solver.max_augmentations = 100;
       SceneRun run(scene);
       run.finish();
       check(name + ", augmented, " + print(factor) + " E/h", stress_error(run, exact_stress(n, 0.3, 0.2, 0.)),
@@ -158,7 +158,7 @@ int main(int argc, char *argv[]) {
     auto scene = cut;
     scene.pairs[0].normal_penalty = scene.pairs[0].tangential_penalty = factor * E / edge;
     scene.pairs[0].penetration_tolerance = 1e-6;
-    scene.solver.most_augmentations = 100;
+    scene.solver.max_augmentations = 100;
     SceneRun run(scene);
     run.finish();
     check("inclined cut, augmented, " + print(factor) + " E/h",

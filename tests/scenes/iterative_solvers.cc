@@ -73,7 +73,7 @@ void compare(const std::string &name, const parameters::Scene &scene, const Kind
         2 * forced.iterations <= 3 * direct.iterations);
   check(name + ", Eisenstat-Walker: fewer linear iterations",
         forced.linear_iterations < exact.linear_iterations);
-  parameters.solver.most_linear_iterations = 1;
+  parameters.solver.max_linear_iterations = 1;
   const Result helped = run(parameters);
   check(name + ", with a direct solver's help: force", std::abs(helped.force / direct.force - 1.), 1e-6);
   check(name + ", with a direct solver's help: reported",

@@ -34,11 +34,11 @@ void test_impact() {
   testing::set_fixed_steps(close, 400);
   close.implicit_dynamics.error_tolerance = 0.;
   const double reference = leave(close, 0.01);
-  const auto check_flight = [&](const char *const name, const double first, const double largest,
+  const auto check_flight = [&](const char *const name, const double first, const double maximum,
                                 const double tolerance) {
     parameters::Scene far = scene;
     far.time_stepping.initial_step = first;
-    far.time_stepping.largest_step = largest;
+    far.time_stepping.max_step = maximum;
     far.implicit_dynamics.error_tolerance = tolerance;
     check(name, std::abs(leave(far, 20.) - reference) / (1. + reference), 0.08);
   };
@@ -52,7 +52,7 @@ void test_spin() {
   scene.pairs.clear();
   scene.bodies[1].initial_velocity.value = {"2*(z - 0.26)", "0", "-1 - 2*x"};
   scene.time_stepping.end_time = 20.;
-  scene.time_stepping.initial_step = scene.time_stepping.largest_step = 2.;
+  scene.time_stepping.initial_step = scene.time_stepping.max_step = 2.;
   scene.implicit_dynamics.error_tolerance = 0.;
   SceneRun flight(scene);
   testing::WorstError drift;

@@ -91,12 +91,12 @@ void check_overlap() {
   } catch (const InputError &error) {
     message = error.what();
   }
-  const auto depth = message.find("start ");
+  const auto depth = message.find("penetration of ");
   const double degree = dealii::numbers::PI / 180.;
   const double thickness = 0.005 * std::cos(6. * degree) * 0.5 * (0.1 + 0.095) / 0.1,
                expected = 0.002 - 2. * 0.1 * (1. - std::cos(6. * degree)) - 1e-3 * thickness;
   check("an overlap is refused, with its depth",
-        depth == std::string::npos ? 1. : std::abs(std::stod(message.substr(depth + 6)) / expected - 1.),
+        depth == std::string::npos ? 1. : std::abs(std::stod(message.substr(depth + 15)) / expected - 1.),
         1e-5);
 }
 

@@ -33,19 +33,19 @@ void test_squares(const std::string &name, const BrickElement element, const std
   parameters.solver.force_tolerance = 1e-11;
   testing::set_fixed_steps(parameters, 25);
   SceneRun scene(parameters);
-  double largest = 0.;
+  double maximum = 0.;
   unsigned int n = 0;
   scene.finish([&](const NewtonReport &report) {
     for (std::size_t i = 0; i < report.iterations.size(); ++i) {
       const double before = report.iterations[i].force;
       const double after = i + 1 < report.iterations.size() ? report.iterations[i + 1].force : report.force;
       if (before < 1e-3 && after > 1e-11) {
-        largest = std::max(largest, after / (before * before));
+        maximum = std::max(maximum, after / (before * before));
         ++n;
       }
     }
   });
-  check(name + ", residuals square", largest, 20.);
+  check(name + ", residuals square", maximum, 20.);
   check(name + ", seen often enough", n >= 5);
 }
 
@@ -64,7 +64,7 @@ int main(int argc, char *argv[]) {
     if (order > 0.)
       orders.push_back(order);
     unsigned int n_slipping = 0, n_sticking = 0;
-    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].report()) {
+    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].measures().report()) {
       n_slipping += node.status == ContactStatus::slip ? 1 : 0;
       n_sticking += node.status == ContactStatus::stick ? 1 : 0;
     }

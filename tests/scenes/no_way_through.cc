@@ -20,12 +20,12 @@ parameters::Scene read(const std::string &name) {
 
 /// Of the body's nodes, the least height at the end.
 double lowest(const SceneRun &run, const std::size_t body) {
-  double least = 1e300;
+  double minimum = 1e300;
   for (const auto &element : run.discretization.elements(body))
     for (const unsigned int v : element.cell->vertex_indices())
-      least = std::min(least, element.cell->vertex(v)[2] +
-                                  run.problem.state().displacements(element.cell->vertex_dof_index(v, 2)));
-  return least;
+      minimum = std::min(minimum, element.cell->vertex(v)[2] + run.problem.state().displacements(
+                                                                   element.cell->vertex_dof_index(v, 2)));
+  return minimum;
 }
 
 } // namespace

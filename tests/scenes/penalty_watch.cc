@@ -30,14 +30,14 @@ std::array<unsigned int, 3> count(const std::string &scene, const double factor,
   parameters.solver.force_tolerance = force_tolerance;
   SceneRun run(parameters);
   std::array<unsigned int, 3> n{};
-  const auto look = [&](const NewtonReport &report) {
+  const auto inspect = [&](const NewtonReport &report) {
     // A penalty that is much too low is warned about.
     n[0] += find(report.diagnostics, diagnostic::penalty_too_low) != nullptr ? 1 : 0;
     n[1] += find(report.diagnostics, diagnostic::round_off_limits_forces) != nullptr ? 1 : 0;
     n[2] += find(report.diagnostics, diagnostic::ill_conditioned) != nullptr ? 1 : 0;
   };
   try {
-    run.finish(look);
+    run.finish(inspect);
   } catch (const SolutionFailure &failure) { // nodes are deeper than contact follows them
     if (std::string(failure.what()).find("a larger 'Normal penalty'") == std::string::npos)
       throw;

@@ -17,10 +17,10 @@ namespace {
 
 /// The largest of a group, as part of it.
 double difference(const ImplicitSolution::Results &a, const ImplicitSolution::Results &b) {
-  double largest = a.size() == b.size() ? 0. : 1.;
-  for (std::size_t group = 0; group < a.size() && largest < 1.; ++group)
-    largest = std::max(largest, distance_of(a[group], b[group]) / size_of(b[group]));
-  return largest;
+  double maximum = a.size() == b.size() ? 0. : 1.;
+  for (std::size_t group = 0; group < a.size() && maximum < 1.; ++group)
+    maximum = std::max(maximum, distance_of(a[group], b[group]) / size_of(b[group]));
+  return maximum;
 }
 
 void check_scene(const std::string &name, parameters::Scene parameters, const unsigned int n_steps) {

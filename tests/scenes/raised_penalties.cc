@@ -24,15 +24,14 @@ Result press(const std::function<void(parameters::ContactPair &)> &change) {
     change(pair);
   SceneRun run(parameters);
   const SolutionState &state = run.problem.state();
-  double largest_kinetic = 0.;
-  run.finish(
-      [&](const NewtonReport &) { largest_kinetic = std::max(largest_kinetic, state.energies.kinetic); });
+  double max_kinetic = 0.;
+  run.finish([&](const NewtonReport &) { max_kinetic = std::max(max_kinetic, state.energies.kinetic); });
   const double energy = state.energies.total();
   return {state.tool_loads[0].force[2],
           -state.tool_loads[1].force[2],
           std::abs(state.energies.drift()) / energy,
           std::abs(state.energies.numerical) / energy,
-          largest_kinetic / energy,
+          max_kinetic / energy,
           run.control.n_steps()};
 }
 

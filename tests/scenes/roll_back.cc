@@ -29,7 +29,7 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   testing::set_fixed_steps(parameters, 20);
-  parameters.solver.most_iterations = 8;
+  parameters.solver.max_iterations = 8;
   SceneRun untried(parameters), tried(parameters);
   bool failed = true, same = true, first_guess = false, correction = false, iterations = false;
   for (unsigned int step = 0; step < 8; ++step) {
@@ -37,7 +37,7 @@ int main(int argc, char *argv[]) {
     const NewtonReport report =
         tried.problem.step(tried.control.time() + (step % 2 == 0 ? 1.45 : 0.45), step == 0 ? 0. : 0.05);
     failed = failed && !report.converged;
-    first_guess = first_guess || report.failure.find("first guess is not admissible") != std::string::npos;
+    first_guess = first_guess || report.failure.find("initial guess is not admissible") != std::string::npos;
     correction = correction || report.failure.find("correction leads to inadmissible") != std::string::npos;
     iterations = iterations || report.failure.find("iterations") != std::string::npos;
     untried.advance();

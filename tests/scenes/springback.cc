@@ -18,8 +18,8 @@ parameters::Scene make_static(parameters::Scene scene) {
   testing::set_elasticity(scene.bodies[0].material, "Hencky");
   scene.time_stepping.control = parameters::TimeStepping::Control::automatic;
   scene.time_stepping.initial_step = 0.1;
-  scene.time_stepping.smallest_step = 1e-6;
-  scene.time_stepping.largest_step = 0.5;
+  scene.time_stepping.min_step = 1e-6;
+  scene.time_stepping.max_step = 0.5;
   scene.time_stepping.few_iterations = 5;
   scene.time_stepping.many_iterations = 9;
   scene.time_stepping.growth_factor = 1.5;
@@ -55,13 +55,13 @@ std::vector<double> plastic_strains(const Solution &solution) {
   return strains;
 }
 
-double largest(const std::vector<double> &values) {
+double maximum(const std::vector<double> &values) {
   return dealii::Utilities::MPI::max(values.empty() ? 0. : *std::max_element(values.begin(), values.end()),
                                      MPI_COMM_WORLD);
 }
 
 /// Of the nodal forces of the stresses, relative to that of a yielding element.
-double largest_force(testing::ImplicitSolutionRun &run) {
+double max_force(testing::ImplicitSolutionRun &run) {
   Vector forces = run.discretization.make_additive_vector();
   InternalForces internal(run.scene, run.discretization);
   for (std::size_t e = 0; e < internal.block(0).size(); ++e) {
@@ -116,7 +116,7 @@ void test(const std::string &name, const parameters::Scene &bending, const doubl
   const double back = bent - way;
   const double worst_transfer = dealii::Utilities::MPI::max(transfer.value(), MPI_COMM_WORLD);
   const double worst_change = dealii::Utilities::MPI::max(change.value(), MPI_COMM_WORLD);
-  const double strain = largest(strains), force = largest_force(run);
+  const double strain = maximum(strains), force = max_force(run);
 
   // It moves on without being driven.
   parameters::Scene moving = without_tools(bending);
@@ -150,7 +150,7 @@ int main(int argc, char *argv[]) {
   double reference = 0.;
   {
     parameters::Scene scene = make_static(bending);
-    scene.time_stepping.initial_step = scene.time_stepping.largest_step = 0.1e-3;
+    scene.time_stepping.initial_step = scene.time_stepping.max_step = 0.1e-3;
     testing::ImplicitSolutionRun run(scene, MPI_COMM_WORLD);
     testing::History ignored;
     run.run(scene.time_stepping.end_time, ignored);

@@ -16,8 +16,8 @@ parameters::TimeStepping make_parameters(const bool automatic) {
   p.control =
       automatic ? parameters::TimeStepping::Control::automatic : parameters::TimeStepping::Control::fixed;
   p.initial_step = 0.1;
-  p.smallest_step = 0.01;
-  p.largest_step = 0.2;
+  p.min_step = 0.01;
+  p.max_step = 0.2;
   p.few_iterations = 4;
   p.many_iterations = 8;
   p.growth_factor = 1.5;
@@ -68,16 +68,16 @@ int main() {
   {
     StepControl control(make_parameters(true), 0.3);
     std::vector<double> times;
-    double least = 1.;
+    double minimum = 1.;
     while (!control.is_finished()) {
       const double step = control.next_step();
-      least = std::min(least, step);
+      minimum = std::min(minimum, step);
       control.accept(4);
       times.push_back(control.time());
     }
     const auto hits = [&](const double t) { return std::find(times.begin(), times.end(), t) != times.end(); };
     check("stops at multiples of the interval", hits(0.3) && hits(0.6) && hits(3 * 0.3) && hits(1.));
-    check("without slivers before them", least >= 0.05);
+    check("without slivers before them", minimum >= 0.05);
   }
   {
     auto p = make_parameters(false);
@@ -99,17 +99,17 @@ int main() {
   for (const bool automatic : {false, true}) {
     auto p = make_parameters(automatic);
     p.end_time = 58.;
-    p.initial_step = p.largest_step = 0.29;
+    p.initial_step = p.max_step = 0.29;
     p.stops = {29.};
     StepControl control(p, 0.29); // 100 times this is less than 29
-    double least = 1.;
+    double minimum = 1.;
     bool stopped = false;
     for (; !control.is_finished(); control.accept(6)) {
-      least = std::min(least, control.next_step());
+      minimum = std::min(minimum, control.next_step());
       stopped = stopped || control.next_time() == 29.;
     }
     check(std::string(automatic ? "automatic" : "fixed") + " steps: none of the length of round-off",
-          stopped && least > 0.28 && control.n_steps() == 200);
+          stopped && minimum > 0.28 && control.n_steps() == 200);
   }
   return billet::testing::exit_code();
 }

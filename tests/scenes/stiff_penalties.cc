@@ -15,7 +15,7 @@ using billet::testing::SceneRun;
 namespace {
 
 struct Drawn {
-  unsigned int n_told = 0;
+  unsigned int n_reported = 0;
   dealii::Tensor<1, 3> force;
   std::map<DofIndex, double> springs; ///< pressure over depth of nodes that press
 };
@@ -28,14 +28,14 @@ parameters::Scene make_scene(const double penalty, const double tangential) {
   return scene;
 }
 
-bool tells(const NewtonReport &report) {
+bool contains(const NewtonReport &report) {
   return find(report.diagnostics, diagnostic::penalty_too_high) != nullptr;
 }
 
 Drawn draw(const double penalty, const double tangential) {
   SceneRun run(make_scene(penalty, tangential));
   Drawn drawn;
-  run.finish([&](const NewtonReport &report) { drawn.n_told += tells(report) ? 1 : 0; });
+  run.finish([&](const NewtonReport &report) { drawn.n_reported += contains(report) ? 1 : 0; });
   const ContactLoad &load = run.problem.state().body_pair_loads[0];
   drawn.force = load.force;
   for (const auto &reports : run.problem.report_contacts())
@@ -54,9 +54,9 @@ double difference(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b) 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const Drawn usual = draw(10., 10.), sticky = draw(10., 1e5), stiff = draw(1e5, 1e5), less = draw(1e3, 1e3);
-  check("the usual penalty needs no other ones", usual.n_told == 0 && less.n_told == 0);
-  check("the stiff one does, which is reported", stiff.n_told >= 1);
-  check("with stiff tangential ones only, too", sticky.n_told >= 1);
+  check("the usual penalty needs no other ones", usual.n_reported == 0 && less.n_reported == 0);
+  check("the stiff one does, which is reported", stiff.n_reported >= 1);
+  check("with stiff tangential ones only, too", sticky.n_reported >= 1);
   check("stick that is stiffer changes no force here", difference(sticky.force, usual.force), 1e-4);
   check("the force is about that of a penalty less stiff", difference(stiff.force, less.force), 0.05);
   testing::WorstError penalty;

@@ -56,7 +56,7 @@ Times stops(const parameters::Amplitude &course, const Times &own, const bool is
   parameters.amplitudes = {course};
   parameters.tools[0].motion.translation.value = {{"0", "0", is_used ? "-course" : "-t"}};
   parameters.time_stepping.end_time = 2.;
-  parameters.time_stepping.largest_step = 0.1;
+  parameters.time_stepping.max_step = 0.1;
   parameters.time_stepping.stops = own;
   Times found = Scene(parameters).stops();
   std::sort(found.begin(), found.end());
@@ -76,8 +76,8 @@ void check_stops() {
   parameters::TimeStepping stepping;
   stepping.control = parameters::TimeStepping::Control::automatic;
   stepping.end_time = 1.;
-  stepping.initial_step = stepping.largest_step = 0.25;
-  stepping.smallest_step = 1e-6;
+  stepping.initial_step = stepping.max_step = 0.25;
+  stepping.min_step = 1e-6;
   StepControl control(stepping, 0., {0.5});
   check("the first step ends at none", !control.ends_at_stop());
   control.accept(3);

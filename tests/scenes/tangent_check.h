@@ -79,7 +79,7 @@ inline void check_curved(const std::string &name, const SurfacePart &part) {
     SceneRun exact(scene);
     check(name + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
     unsigned int n_touch = 0, n_stick = 0;
-    for (const auto &node : exact.problem.equation().contacts().of_tools()[0].report()) {
+    for (const auto &node : exact.problem.equation().contacts().of_tools()[0].measures().report()) {
       n_touch += node.status != ContactStatus::open;
       n_stick += node.status == ContactStatus::stick;
     }

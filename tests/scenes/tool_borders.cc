@@ -17,7 +17,7 @@ unsigned int count_fading(const SceneRun &run) {
   unsigned int n_fading = 0;
   const Tool &tool = run.scene.tools()[0];
   const auto &state = run.problem.state();
-  for (const auto &node : run.problem.equation().contacts().of_tools()[0].report()) {
+  for (const auto &node : run.problem.equation().contacts().of_tools()[0].measures().report()) {
     if (node.status == ContactStatus::open)
       continue;
     for (const auto &element : run.discretization.elements(0))
@@ -34,8 +34,8 @@ unsigned int count_fading(const SceneRun &run) {
 }
 
 /// Nodes that stick stay near the smaller surface's border, those that slide come to the larger one's.
-void check_border(const std::string &name, const testing::SurfacePart &small,
-                  const testing::SurfacePart &large) {
+void check_edge(const std::string &name, const testing::SurfacePart &small,
+                const testing::SurfacePart &large) {
   for (const double friction : {0.8, 0.03, 0.}) {
     const std::string state = friction > 0.5  ? ", much friction"
                               : friction > 0. ? ", little friction"
@@ -58,10 +58,10 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const std::string flat = "set Centre = 0.5, 0.5, 0\n",
                     round = "set Centre = 0.5, 0.5, -4.955\nset Radius = 5\n";
-  check_border("rectangle", {"rectangle", flat + "set Length = 0.994\nset Width = 0.994"},
-               {"rectangle", flat + "set Length = 1.02\nset Width = 1.02"});
-  check_border("disc", {"disc", flat + "set Radius = 0.703"}, {"disc", flat + "set Radius = 0.72"});
-  check_border("zone of a sphere", {"sphere", round + "set From latitude = 81.92"},
-               {"sphere", round + "set From latitude = 81.82"});
+  check_edge("rectangle", {"rectangle", flat + "set Length = 0.994\nset Width = 0.994"},
+             {"rectangle", flat + "set Length = 1.02\nset Width = 1.02"});
+  check_edge("disc", {"disc", flat + "set Radius = 0.703"}, {"disc", flat + "set Radius = 0.72"});
+  check_edge("zone of a sphere", {"sphere", round + "set From latitude = 81.92"},
+             {"sphere", round + "set From latitude = 81.82"});
   return billet::testing::exit_code();
 }

@@ -47,7 +47,7 @@ Result press(const parameters::ContactTangent tangent, const double tolerance) {
   parameters::Scene parameters = testing::read_shipped_scene("wagoner_punch.prm");
   parameters.bodies[0].mesh.refinements = 2;
   parameters.bodies[0].mesh.positions.value.clear(); // bricks of one size, since they are so few
-  parameters.time_stepping.largest_step = 0.025;
+  parameters.time_stepping.max_step = 0.025;
   parameters.output.interval = 0.;
   parameters.time_stepping.stops = {0.5};
   parameters.solver.contact_tangent = tangent;

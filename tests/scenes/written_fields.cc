@@ -93,7 +93,7 @@ int main(int argc, char *argv[]) {
   unsigned int n_slave = 0;
   bool all_slide = true;
   testing::WorstError gap_error, pressure_error, friction_error, idle_error;
-  double least_slip = 1.;
+  double min_slip = 1.;
   for (const auto &[start, i] : nodes) {
     if (start[2] != 0) {
       idle_error.add(std::abs(pressures[i]) + std::abs(gaps[i]) + std::abs(slips[i]) + std::abs(areas[i]) +
@@ -106,7 +106,7 @@ int main(int argc, char *argv[]) {
     gap_error.add(std::abs(gaps[i] - positions[i][2]));
     pressure_error.add(std::abs(pressures[i] + penalty * gaps[i]) / std::abs(pressures[i]));
     friction_error.add(std::abs(std::hypot(tractions[i][0], tractions[i][1]) / (mu * pressures[i]) - 1.));
-    least_slip = std::min(least_slip, slips[i]);
+    min_slip = std::min(min_slip, slips[i]);
     all_slide = all_slide && states[i] == static_cast<double>(ContactStatus::slip) && pairs[i] == 0.;
   }
   check("nodes of the block", nodes.size() == 27);
@@ -115,7 +115,7 @@ int main(int argc, char *argv[]) {
   check("gap: height over the plane", gap_error.value(), 1e-6); // of the size of a float's last bit
   check("pressure: penalty times penetration", pressure_error.value(), 1e-6);
   check("traction: Coulomb's law", friction_error.value(), 1e-6);
-  check("slip: there is some", least_slip > 1e-3);
+  check("slip: there is some", min_slip > 1e-3);
   check("area: the face's, to first order in the strain", std::abs(area - 1.), 0.05);
   check("traction times area: the tool's force", (force - scene.load().force).norm() / force.norm(), 1e-6);
   check("other nodes: nothing", idle_error.value(), 1e-12);

@@ -58,7 +58,7 @@ parameters::Solver make_settings() {
   settings.force_tolerance = 5e-3;
   settings.energy_tolerance = 5e-5;
   settings.displacement_tolerance = 1e-2;
-  settings.most_iterations = 60;
+  settings.max_iterations = 60;
   settings.line_search = parameters::Solver::LineSearch::none;
   settings.forcing = parameters::Solver::Forcing::fixed;
   settings.linear_tolerance = 1e-6;

@@ -4,6 +4,7 @@
 
 #include "../testing.h"
 #include <cmath>
+#include <vector>
 
 using namespace billet;
 using billet::testing::check;
@@ -30,6 +31,57 @@ EnergyErrors watch(const double w) {
   return errors;
 }
 
+/// Energies of 10 at stake beside 90 of a common motion, in a run of length 1 with a tolerance of 1e-2.
+class Run {
+public:
+  /// Adds energies of which `missing` is missing, and which hold `in_springs`, as parts of those at stake.
+  void add(const double missing, const double in_springs = 0.) {
+    EnergyLedger ledger;
+    ledger.initial = 100.;
+    ledger.contact = 10. * in_springs;
+    ledger.kinetic = 100. - 10. * missing - ledger.contact;
+    errors_.add(time_, ledger, 90.);
+    time_ += 0.25;
+  }
+  /// Returns the step factor after these parts are missing, one after the other.
+  static double step_factor(const std::vector<double> &missing) {
+    Run run;
+    for (const double part : missing)
+      run.add(part);
+    return run.errors_.step_factor();
+  }
+  const EnergyErrors &errors() const { return errors_; }
+
+private:
+  EnergyErrors errors_{1e-2};
+  double time_ = 0.;
+};
+
+void check_penetrations() {
+  Run run;
+  for (unsigned int i = 0; i < 5; ++i)
+    run.add(0., 1e-3);
+  // The delay of nodes makes 2 E_c of the kinetic energy, springs hold E_c, and waves carry on as much again.
+  check("energy in springs counts six times", near(run.errors().penetration(), 6e-3, 1e-9));
+  check("and not as an error of steps", run.errors().steps(), 1e-12);
+  Run shared;
+  for (unsigned int i = 0; i < 5; ++i)
+    shared.add(0., i < 3 ? 1e-3 : 0.);
+  check("for as long as they hold it", near(shared.errors().penetration(), 6e-3 * 2.5 / 4., 1e-9));
+}
+
+void check_step_factor() {
+  // A fifth of the tolerance is 2e-3.
+  check("steps stay while less than a fifth of the tolerance is missing",
+        Run::step_factor({0., 1.9e-3}) == 1.);
+  check("then they are a fifth shorter", near(Run::step_factor({0., 2.1e-3}), 0.8, 1e-12));
+  check("again if it grows by more than a tenth",
+        near(Run::step_factor({0., 2.1e-3, 2.1e-3 * 1.12}), 0.64, 1e-12));
+  check("but not if it hardly grows", near(Run::step_factor({0., 2.1e-3, 2.1e-3 * 1.08}), 0.8, 1e-12));
+  check("nor for what was missing at first", Run::step_factor({0.1, 0.1}) == 1.);
+  check("not below half", Run::step_factor({0., 0.01, 0.02, 0.04, 0.08, 0.16}) == 0.5);
+}
+
 } // namespace
 
 int main() {
@@ -50,8 +102,12 @@ int main() {
   };
   check("of one that flies round-off is nothing",
         !flies(1e-8).has_energies() && flies(1e-8).step_factor() == 1.);
+  check("nor is anything below a part of 1e-9",
+        flies(1.1e-3).has_energies() && !flies(0.9e-3).has_energies());
   check("of what is a millionth it is little", flies(1.).has_energies() && flies(1.).steps() < 1e-5);
   check("what is held is no common motion",
         carried_energy({{false, false, false}}, dealii::Tensor<1, 3>({1., 1., 1.}), 1.), 0.);
+  check_penetrations();
+  check_step_factor();
   return testing::exit_code();
 }

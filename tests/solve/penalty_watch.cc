@@ -10,14 +10,16 @@ using billet::testing::check;
 
 namespace {
 
-bool tells(const std::string &text, const std::string &what) { return text.find(what) != std::string::npos; }
+bool contains(const std::string &text, const std::string &what) {
+  return text.find(what) != std::string::npos;
+}
 
 std::string text_of(const billet::DiagnosticList &messages) {
   return messages.empty() ? "" : messages.front().text();
 }
 
 /// In facets of size 2.
-std::string look(PenaltyWatch &watch, const double of_facet, const double displacement) {
+std::string inspect(PenaltyWatch &watch, const double of_facet, const double displacement) {
   return text_of(watch.check("pair", 0.5, {of_facet, 2. * of_facet}, displacement));
 }
 
@@ -26,52 +28,53 @@ std::string look(PenaltyWatch &watch, const double of_facet, const double displa
 int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
-    check("a hundredth of a facet after a motion of one is no matter", look(watch, 0.01, 2.).empty());
-    check("a tenth is, nearly", look(watch, 0.099, 2.).empty() && !watch.has_soft_pairs());
-    const std::string text = look(watch, 0.11, 4.);
-    check(
-        "more is told",
-        tells(text,
+    check("a hundredth of a facet after a motion of one is no matter", inspect(watch, 0.01, 2.).empty());
+    check("a tenth is, nearly", inspect(watch, 0.099, 2.).empty() && !watch.has_low_penalties());
+    const std::string text = inspect(watch, 0.11, 4.);
+    check("more is told",
+          contains(
+              text,
               "Nodes penetrate by 0.11 facet sizes (pair 'pair', time 0.5). Increase 'Normal penalty', or"));
-    check("of each pair", !watch.check("other", 0.6, {0.2, 0.4}, 40.).empty() && watch.has_soft_pairs());
+    check("of each pair", !watch.check("other", 0.6, {0.2, 0.4}, 40.).empty() && watch.has_low_penalties());
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
-    const std::string text = look(watch, 1e-3, 4e-3);
+    const std::string text = inspect(watch, 1e-3, 4e-3);
     check("half of the motion is told, however small",
-          tells(text, "sizes, 50 % of the largest displacement"));
+          contains(text, "sizes, 50 % of the maximum displacement"));
   }
   {
     // A flat body moves aside by much more than it is high.
     PenaltyWatch watch(PenaltyWatch::Motion::slow), sudden(PenaltyWatch::Motion::sudden);
-    const auto look_at = [](PenaltyWatch &at, const double part_of_work) {
+    const auto inspect_at = [](PenaltyWatch &at, const double part_of_work) {
       return text_of(at.check("pair", 0.5, {1e-3, 2e-3}, 1., part_of_work));
     };
-    check("a tenth of the work is no matter", look_at(watch, 0.1).empty() && !watch.has_soft_pairs());
-    check("half of it is told", tells(look_at(watch, 0.5), "the penalty holds 50 % of the work done so far"));
-    check("in a blow it is not", look_at(sudden, 0.5).empty() && !sudden.has_soft_pairs());
+    check("a tenth of the work is no matter", inspect_at(watch, 0.1).empty() && !watch.has_low_penalties());
+    check("half of it is told",
+          contains(inspect_at(watch, 0.5), "the penalty stores 50 % of the work done so far"));
+    check("in a blow it is not", inspect_at(sudden, 0.5).empty() && !sudden.has_low_penalties());
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
-    look(watch, 0., 1.);
-    check("the largest motion so far counts", look(watch, 0.01, 0.).empty());
+    inspect(watch, 0., 1.);
+    check("the largest motion so far counts", inspect(watch, 0.01, 0.).empty());
   }
   {
     PenaltyWatch watch(PenaltyWatch::Motion::sudden);
-    check("a first touch is no matter", look(watch, 1e-2, 2e-2).empty());
+    check("a first touch is no matter", inspect(watch, 1e-2, 2e-2).empty());
     check("one that is deeper is not told, but noticed",
-          !watch.has_soft_pairs() && look(watch, 0.05, 0.1).empty() && watch.has_soft_pairs());
-    check("a deep node is no matter for a moment", look(watch, 0.2, 0.4).empty());
-    check("what stays deep is told", tells(look(watch, 0.2, 0.4), "100 % of the largest displacement"));
+          !watch.has_low_penalties() && inspect(watch, 0.05, 0.1).empty() && watch.has_low_penalties());
+    check("a deep node is no matter for a moment", inspect(watch, 0.2, 0.4).empty());
+    check("what stays deep is told", contains(inspect(watch, 0.2, 0.4), "100 % of the maximum displacement"));
     check("and what takes energy at once", !watch.check("other", 0.5, {0.2, 0.4}, 4., 0.02).empty());
   }
   {
     billet::Placement from, to;
     to.translation[0] = 3.;
-    check("a translation", billet::largest_motion(from, to, 10.) == 3.);
+    check("a translation", billet::max_motion(from, to, 10.) == 3.);
     to.rotation[0][0] = to.rotation[1][1] = std::cos(1e-3);
     to.rotation[0][1] = -(to.rotation[1][0] = std::sin(1e-3));
-    const double motion = billet::largest_motion(from, to, 10.);
+    const double motion = billet::max_motion(from, to, 10.);
     check("and a turn, which moves no point farther than that", motion > 3.01 && motion < 3.02);
   }
   return billet::testing::exit_code();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Round-off of contact is told where it takes a part of the largest forces of a run, not of a light first
+// Round-off of contact is told where it takes a part of the maximum forces of a run, not of a light first
 // step.
 #include "billet/solve/round_off_watch.h"
 #include "billet/diagnostic_kinds.h"
@@ -13,8 +13,8 @@ using billet::testing::check;
 
 namespace {
 
-bool tells(const billet::DiagnosticList &messages, const billet::DiagnosticKind &kind,
-           const std::string &what) {
+bool contains(const billet::DiagnosticList &messages, const billet::DiagnosticKind &kind,
+              const std::string &what) {
   return messages.size() == 1 && &messages.front().kind() == &kind &&
          messages.front().what().find(what) != std::string::npos;
 }
@@ -28,7 +28,8 @@ int main() {
   RoundOffWatch watch;
   watch.add(0.1, 1e-6, 1e-8);
   check("a run that ends with the first touch",
-        tells(watch.finish(tolerance, false), round_off_limits_forces, "may be 1e+02 of the largest forces"));
+        contains(watch.finish(tolerance, false), round_off_limits_forces,
+                 "may be 1e+02 of the maximum forces"));
   watch.add(0.2, 1e-6, 1.);
   check("a light first touch is no matter", watch.finish(tolerance, false).empty());
   watch.add(0.3, 1e-6, 1e-8);
@@ -36,14 +37,14 @@ int main() {
   RoundOffWatch later;
   later.load(watch.save());
   later.add(0.4, 0.01, 1.);
-  check("told with its time", tells(later.finish(tolerance, false), round_off_limits_forces, "accepted") &&
+  check("told with its time", contains(later.finish(tolerance, false), round_off_limits_forces, "accepted") &&
                                   later.finish(tolerance, false).front().time().value() == 0.4);
   later.add(0.5, 0.5, 1.);
   check("more is a doubt in statics",
-        tells(later.finish(tolerance, false), round_off_limits_forces, "to this part only"));
-  check("but not in dynamics", tells(later.finish(tolerance, true), round_off_limits_forces, "accepted"));
+        contains(later.finish(tolerance, false), round_off_limits_forces, "to this part only"));
+  check("but not in dynamics", contains(later.finish(tolerance, true), round_off_limits_forces, "accepted"));
   RoundOffWatch fine;
   fine.add(1., 1e-9, 1.);
-  check("below 1e-8 it is a note", tells(fine.finish(1e-10, false), balanced_to_round_off, "balance"));
+  check("below 1e-8 it is a note", contains(fine.finish(1e-10, false), balanced_to_round_off, "balance"));
   return billet::testing::exit_code();
 }

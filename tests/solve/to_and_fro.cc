@@ -16,7 +16,7 @@ bool go_round_with(const std::function<double(int)> &residual, const int n = 20)
   iterations.reserve(n);
   for (int i = 0; i < n; ++i)
     iterations.push_back({residual(i), 0., 1.});
-  return go_round(iterations);
+  return is_cycling(iterations);
 }
 
 } // namespace

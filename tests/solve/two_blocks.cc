@@ -105,7 +105,7 @@ int main(int argc, char *argv[]) {
       if (penalty < 1e4)
         continue;
       settings.solve_contact = false;
-      settings.most_iterations = 1000;
+      settings.max_iterations = 1000;
       const auto plain =
           solve_and_check(name.str() + ", multigrid alone", blocks, penalty, tie, settings, load, exact);
       check(name.str() + ": multigrid alone needs three times as many",
@@ -114,7 +114,7 @@ int main(int argc, char *argv[]) {
 
   {
     IterativeSolver::Settings settings;
-    settings.most_iterations = 2;
+    settings.max_iterations = 2;
     const auto outcome =
         solve_and_check("two iterations", blocks, 1., Tie::frictionless, settings, load, exact);
     check("two iterations: do not do", !outcome.success && outcome.iterations == 2);
@@ -122,7 +122,7 @@ int main(int argc, char *argv[]) {
 
   { // A hierarchy outlives its matrix as long as it serves.
     IterativeSolver::Settings settings;
-    settings.most_iterations = 1000;
+    settings.max_iterations = 1000;
     IterativeSolver solver(settings, blocks.matrix(), MPI_COMM_WORLD);
     solver.set_geometry(blocks.geometry());
     const auto solves = [&](const double penalty, const bool with_block) {
@@ -155,15 +155,15 @@ int main(int argc, char *argv[]) {
   }
   for (const Kind kind :
        {Kind::automatic, Kind::mumps, Kind::mumps_symmetric, Kind::conjugate_gradients, Kind::gmres})
-    for (const unsigned int most_iterations : {200u, 1u}) {
+    for (const unsigned int max_iterations : {200u, 1u}) {
       const bool is_iterative = kind == Kind::conjugate_gradients || kind == Kind::gmres;
-      if (!is_iterative && most_iterations == 1)
+      if (!is_iterative && max_iterations == 1)
         continue;
       parameters::Solver settings{};
       settings.linear_solver.value = kind;
-      settings.most_linear_iterations = most_iterations;
+      settings.max_linear_iterations = max_iterations;
       TangentSolver solver(settings, true, blocks.matrix(), MPI_COMM_WORLD);
-      const std::string name = solver.name() + ", at most " + std::to_string(most_iterations) + " iterations";
+      const std::string name = solver.name() + ", at most " + std::to_string(max_iterations) + " iterations";
       check(name + ": of its kind", solver.is_iterative() == is_iterative);
       const auto solve_it = [&](const TwoBlocks &system, const Vector &b, const Vector &reference) {
         Vector x = b;
@@ -178,9 +178,9 @@ int main(int argc, char *argv[]) {
         solve_it(blocks, load, exact);
       const unsigned int iterations = solver.take_iterations();
       // The first and the second matrix are tried iteratively, then one is left out.
-      check(name + ": iterations", !is_iterative          ? iterations == 0
-                                   : most_iterations == 1 ? iterations == 2
-                                                          : iterations > 20);
+      check(name + ": iterations", !is_iterative         ? iterations == 0
+                                   : max_iterations == 1 ? iterations == 2
+                                                         : iterations > 20);
       solver.release();
       solver.set_matrix(others.matrix());
       solve_it(others, other_load, other_exact);
@@ -188,7 +188,7 @@ int main(int argc, char *argv[]) {
       check(name + ": reports its memory",
             (find(messages, billet::diagnostic::solver_memory) != nullptr) == is_iterative);
       check(name + ": reports that it failed",
-            (find(messages, billet::diagnostic::direct_solver) != nullptr) == (most_iterations == 1));
+            (find(messages, billet::diagnostic::direct_solver) != nullptr) == (max_iterations == 1));
       check(name + ": has reported", solver.take_diagnostics().empty() && solver.take_iterations() < 200);
     }
   std::cout.rdbuf(console); // `silence` goes first

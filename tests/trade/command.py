@@ -347,7 +347,7 @@ class TestCommand(unittest.TestCase):
             (
                 ["--knobs", "tangent=wrong"],
                 (
-                    "the scene cannot use the knob 'tangent': wrong: 'Contact tangent': found 'wrong',"
+                    "the scene cannot use the knob 'tangent': wrong: 'Contact tangent' is 'wrong';"
                     " allowed is one of"
                 ),
             ),
@@ -355,35 +355,38 @@ class TestCommand(unittest.TestCase):
                 ["--knob", "Solver/Speed=1,2"],
                 "cannot use the knob 'speed': 1: 'Speed': there is no such parameter",
             ),
-            (["--knob", "nonsense"], "--knob: found 'nonsense'"),
+            (["--knob", "nonsense"], "--knob is 'nonsense'"),
             (
                 ["--set", "Solver/Speed=1"],
                 "billet refuses the scene as it would be measured: 'Speed': there is no such parameter",
             ),
-            (["--set", "Speed"], "--set: found 'Speed', allowed is 'path/to/parameter=value'"),
-            (["--until", "2"], "--until: found 2, allowed is a part of the end time"),
+            (["--set", "Speed"], "--set is 'Speed'; allowed is 'path/to/parameter=value'"),
+            (["--until", "2"], "--until is 2; allowed is a part of the end time"),
             (["--mesh", "3"], "--mesh: the mesh of 'bar' changes by factors of 2 only"),
-            (["--outputs", "colour"], "--outputs: found 'colour', allowed are force, strain, shape, rebound"),
+            (["--outputs", "colour"], "--outputs is 'colour'; allowed are force, strain, shape, rebound"),
             (["--outputs", "strain", "--knobs", "predictor"], "the strain profile wants a --line"),
             (["--outputs", "rebound", "--knobs", "predictor"], "nothing rebounds in a static scene"),
             (
                 ["--force", "die.force_x", "--knobs", "predictor"],
                 "the history has no column 'die.force_x'; it has die.force_z",
             ),
-            (["--target", "much"], "--target: found 'much', allowed is an error > 0"),
-            (["--target", "0"], "--target: found '0', allowed is an error > 0"),
-            (["--mesh", "abc"], "--mesh: found 'abc', allowed is a number > 0"),
-            (["--knobs", "penalty=abc"], "the knob 'penalty': found 'abc', allowed is a number > 0"),
-            (["--product", "mesh=1", "steps=0"], "the knob 'steps': found '0', allowed is a number > 0"),
-            (["--outputs", "force=0"], "--outputs: force: found '0', allowed is a weight > 0"),
-            (["--reference-mesh", "1,x"], "--reference-mesh: found 'x', allowed is factors > 0"),
-            (["--time-limit", "0"], "--time-limit: found 0, allowed are seconds > 0"),
-            (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line: found '0,0 to 1,1'"),
-            (["--target", "200%"], "--target: found '200%', allowed is an error below 100 %"),
+            (["--target", "much"], "--target is 'much'; allowed is an error > 0"),
+            (["--target", "0"], "--target is '0'; allowed is an error > 0"),
+            (["--mesh", "abc"], "--mesh is 'abc'; allowed is a number > 0"),
+            (["--knobs", "penalty=abc"], "the knob 'penalty': the value is 'abc'; allowed is a number > 0"),
+            (
+                ["--product", "mesh=1", "steps=0"],
+                "the knob 'steps': the value is '0'; allowed is a number > 0",
+            ),
+            (["--outputs", "force=0"], "--outputs: force is '0'; allowed is a weight > 0"),
+            (["--reference-mesh", "1,x"], "--reference-mesh is 'x'; allowed is factors > 0"),
+            (["--time-limit", "0"], "--time-limit is 0; allowed are seconds > 0"),
+            (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line is '0,0 to 1,1'"),
+            (["--target", "200%"], "--target is '200%'; allowed is an error below 100 %"),
             (["--combine"], "--combine wants a --target"),
             (
                 ["--reference-mesh", "1,2,3"],
-                "--reference-mesh: found '1,2,3', allowed are at least two factors in one ratio",
+                "--reference-mesh is '1,2,3'; allowed are at least two factors in one ratio",
             ),
             (
                 ["--reference-mesh", "given", "--knobs", "mesh"],
@@ -392,16 +395,16 @@ class TestCommand(unittest.TestCase):
             (
                 ["--product", "mesh=1", "tangent=wrong"],
                 (
-                    "--product: the scene cannot use any of it: mesh 1, tangent wrong: 'Contact tangent':"
-                    " found 'wrong'"
+                    "--product: the scene cannot use any of it: mesh 1, tangent wrong: 'Contact tangent'"
+                    " is 'wrong'"
                 ),
             ),
-            (["--reference-steps", "0"], "--reference-steps: found 0, allowed are whole numbers from 1 on"),
+            (["--reference-steps", "0"], "--reference-steps is 0; allowed are whole numbers from 1 on"),
             (
                 ["--knobs", "profile=fast"],
                 "the scene cannot use the knob 'profile': fast: this billet has no such parameter",
             ),
-            (["--repeat", "0"], "--repeat: found 0, allowed are whole numbers from 1 on"),
+            (["--repeat", "0"], "--repeat is 0; allowed are whole numbers from 1 on"),
             (["--program", "/nowhere/billet"], "the program '/nowhere/billet' (--program) was not found"),
         ]
         for arguments, expected in cases:

@@ -79,7 +79,7 @@ def check(file):
         if not known(path) and key not in ("Title", "Old name"):
             return scene, f"{file}:1: '{key}': there is no such parameter"
         if key in WORDS and value not in WORDS[key]:
-            return scene, f"{file}:1: '{key}': found '{value}', allowed is one of: {', '.join(WORDS[key])}"
+            return scene, f"{file}:1: '{key}' is '{value}'; allowed is one of: {', '.join(WORDS[key])}"
     return scene, ""
 
 

@@ -222,8 +222,8 @@ class TestHistory(unittest.TestCase):
             "external_work": numpy.array([9.0, 9.0]),
             "energy_drift": numpy.array([0.0, -0.2]),
         }
-        self.assertAlmostEqual(output.largest_drift(history), 0.05)
-        self.assertTrue(math.isnan(output.largest_drift({})))
+        self.assertAlmostEqual(output.max_drift(history), 0.05)
+        self.assertTrue(math.isnan(output.max_drift({})))
 
     def test_cut_off_line(self):
         with TemporaryDirectory() as folder:

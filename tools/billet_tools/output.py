@@ -59,7 +59,7 @@ def energies_of(history: History) -> Array:
     return total
 
 
-def largest_drift(history: History) -> float:
+def max_drift(history: History) -> float:
     """Returns that of the energies' balance, as part of the largest sum of energies."""
     if "energy_drift" not in history or not len(history["energy_drift"]):
         return math.nan

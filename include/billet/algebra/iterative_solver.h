@@ -31,7 +31,7 @@ struct NodalGeometry {
 /// relative condition number is bounded for any penalty.
 ///
 /// A hierarchy is kept for later matrices while it converges well: per iteration the logarithm of the
-/// residual falls by at least `least_pace` of the initial rate. A_ΓΓ and the residuals on the finest level
+/// residual falls by at least `min_pace` of the initial rate. A_ΓΓ and the residuals on the finest level
 /// always belong to the present matrix. A solve that fails with an old hierarchy is repeated with a new one.
 class IterativeSolver final : public LinearSolver {
 public:
@@ -39,11 +39,11 @@ public:
 
   struct Settings {
     Method method = Method::gmres;
-    unsigned int most_iterations = 200;
+    unsigned int max_iterations = 200;
     // Options that doc/results/linear-solvers.md compares.
     bool solve_contact = true;     ///< apply (1); else a cycle alone
     double contact_stiffness = 3.; ///< mean diagonal of θ C over that of K at the same dofs; 0: θ = 1
-    double least_pace = 0.6; ///< convergence of a kept hierarchy over that of a fresh one; > 1: none is kept
+    double min_pace = 0.6; ///< convergence of a kept hierarchy over that of a fresh one; > 1: none is kept
   };
 
   IterativeSolver(const Settings &settings, const Matrix &matrix, MPI_Comm communicator);
@@ -79,7 +79,7 @@ private:
 
   /// Sets up a new hierarchy for the present matrix.
   bool renew();
-  bool iterate(const Vector &rhs, Vector &solution, double relative_tolerance, unsigned int most_iterations);
+  bool iterate(const Vector &rhs, Vector &solution, double relative_tolerance, unsigned int max_iterations);
 
   Settings settings_;
   const Matrix *matrix_;

@@ -2,13 +2,13 @@
 #ifndef BILLET_CONTACT_BODY_SURFACES_H
 #define BILLET_CONTACT_BODY_SURFACES_H
 
+#include "billet/contact/contact_penalties.h"
 #include "billet/contact/facet_search.h"
 #include "billet/contact/traction.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/scene/scene.h"
 
-#include <limits>
 #include <vector>
 
 namespace billet {
@@ -28,8 +28,8 @@ struct BodySurfaces {
   // For each facet.
 
   std::vector<SurfaceFacet> facets;
-  std::vector<double> areas;  ///< [length²]
-  std::vector<double> depths; ///< maximum penetration of nodes along their paths [length]
+  std::vector<double> areas;        ///< [length²]
+  std::vector<double> penetrations; ///< maximum penetration of nodes along their paths [length]
 
   /// Returns the size of the smallest facet of all ranks [length]. Collective.
   double find_smallest_size(MPI_Comm communicator) const;
@@ -38,10 +38,7 @@ struct BodySurfaces {
 /// Penalties of a pair of bodies.
 struct PairPenalties {
   std::vector<ContactStiffness> of_nodes;
-  /// The factors at which the first of this rank's penalties reaches 10 E/h; the second one is infinite
-  /// without friction.
-  double max_stiffening = std::numeric_limits<double>::infinity(),
-         max_tangential_stiffening = std::numeric_limits<double>::infinity();
+  ContactPenalties::Limits max_stiffening;
 };
 
 /// Computes the penalties of a pair of bodies. Collective.

@@ -33,9 +33,9 @@ struct Penetration {
   double of_facet = 0.; ///< relative to the size of the facets around the node
   double length = 0.;   ///< absolute [length]
 
-  void add(const double depth, const double facet_size) {
-    of_facet = std::max(of_facet, depth / facet_size);
-    length = std::max(length, depth);
+  void add(const double penetration, const double facet_size) {
+    of_facet = std::max(of_facet, penetration / facet_size);
+    length = std::max(length, penetration);
   }
 };
 

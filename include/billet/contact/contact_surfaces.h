@@ -27,9 +27,9 @@ public:
 
   /// Moves this rank's nodes, and ghosts. Returns whether rebuild() must follow. Collective.
   bool update(const Positions &positions_n, const Positions &positions);
-  /// Rebuilds the lists of nearby facets; indices of ghosts change. With `depth` [facet reaches], whole
+  /// Rebuilds the lists of nearby facets; indices of ghosts change. With `penetration` [facet reaches], whole
   /// facets at that distance count, not only nodes within the reach. Collective.
-  void rebuild(const std::vector<SlaveNode> &slaves, const std::optional<double> &depth);
+  void rebuild(const std::vector<SlaveNode> &slaves, const std::optional<double> &penetration);
   /// Whether the last update() required a rebuild().
   bool is_rebuilt() const { return is_rebuilt_; }
 
@@ -46,14 +46,14 @@ public:
   const Positions &positions() const { return positions_; }
 
 private:
-  double find_distance(const std::optional<double> &depth) const;
+  double find_distance(const std::optional<double> &penetration) const;
 
   MPI_Comm communicator_;
   FacetSearch::Partners partners_;
   double margin_;
   SurfaceExchange exchange_;
   FacetSearch search_;
-  double largest_reach_ = 0.;
+  double max_reach_ = 0.;
   Positions positions_n_, positions_;
   MovedFacets moved_{search_, positions_};
   bool is_rebuilt_ = false;

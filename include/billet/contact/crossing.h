@@ -40,8 +40,8 @@ struct SurfaceSide {
 /// of the opposite face instead, the surface is folded, and the node is between the flanks of the fold.
 template <class Locate>
 double find_free_part(const Locate &locate, const double length, const double finest) {
-  constexpr double most_places = 1e4;
-  const double resolution = std::max(finest, length / most_places);
+  constexpr double max_places = 1e4;
+  const double resolution = std::max(finest, length / max_places);
   using Side = SurfaceSide::Side;
   enum class State { outside, inside, hidden };
   SurfaceSide here = locate(0.);

@@ -46,14 +46,15 @@ public:
     std::array<dealii::Tensor<1, 3>, 4> forces(double stiffness) const;
   };
 
-  /// Considers edges where the scalar product of their facets' normals is below `largest_alignment`.
-  EdgeContact(FacetSearch::Partners partners, double largest_alignment);
+  /// Considers edges where the scalar product of their facets' normals is below `max_alignment`.
+  EdgeContact(FacetSearch::Partners partners, double max_alignment);
 
   /// Lists the pairs that may cross before positions move by more than `margin` relative to each other. Their
-  /// gaps may be down to −`depth` times the least reach of their facets. Each pair is listed once over all
-  /// ranks: on the rank that owns the facet (among the first `n_own_facets`) that identifies the slave edge.
+  /// gaps may be down to −`penetration` times the least reach of their facets. Each pair is listed once over
+  /// all ranks: on the rank that owns the facet (among the first `n_own_facets`) that identifies the slave
+  /// edge.
   void rebuild(const std::vector<SurfaceFacet> &facets, std::size_t n_own_facets, const Positions &positions,
-               double margin, double depth);
+               double margin, double penetration);
 
   /// Returns the pairs that cross at these positions, or are about to. Their gaps are less than the lesser
   /// reach of their facets, independently of the margin.
@@ -93,7 +94,7 @@ private:
   bool may_touch(const Edge &slave, const Edge &target) const;
 
   FacetSearch::Partners partners_;
-  double largest_alignment_, depth_ = 0.;
+  double max_alignment_, penetration_ = 0.;
   std::vector<SurfaceFacet> facets_;
   std::vector<Edge> all_edges_, edges_;           ///< of the facets; and the convex ones among them
   std::vector<std::array<std::size_t, 2>> pairs_; ///< slave and target

@@ -9,6 +9,9 @@
 
 namespace billet {
 
+/// Width w of the zone beyond the edge of a tool's surface in which its pressure fades [facet sizes].
+constexpr double fading_width = 0.05;
+
 /// Contact of a node beyond the edge of a tool's surface, where the pressure fades, (T3), (T4) of
 /// doc/theory.md. The energy per area is s(d) e(−g), with s = (1 − d²/w²)² and e that of the spring. The
 /// members are the terms in addition to a pressure p = −s ∂e/∂g along the normal.
@@ -21,9 +24,9 @@ struct EdgeFading {
   double stiffness; ///< bound of the norm of `tangent` [stress/length]
 };
 
-/// Returns the fading at the position `border`, for a `gap` to the surface and a `width` w of the zone in
+/// Returns the fading at the position `edge_point`, for a `gap` to the surface and a `width` w of the zone in
 /// which the pressure fades [length]. Requires border.beyond < width.
-EdgeFading compute_edge_fading(const RigidSurface::Border &border, double width,
+EdgeFading compute_edge_fading(const RigidSurface::EdgePoint &edge_point, double width,
                                const HardeningSpring &penalty, double gap);
 
 } // namespace billet

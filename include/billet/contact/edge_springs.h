@@ -56,7 +56,7 @@ private:
   double stiffness_of(const EdgeContact::Crossing &crossing) const;
 
   EdgeContact edges_;
-  double depth_;
+  double penetration_;
   std::vector<double> stiffness_; ///< of nodes, with ghosts
   const SlavePenalties &penalties_;
   std::vector<EdgeContact::Crossing> crossings_;

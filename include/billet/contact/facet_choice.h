@@ -13,7 +13,7 @@ struct ContactLimits {
   /// FacetLimits::zone.
   double zone = 0.1;
   /// Maximum penetration of a node that touches already, in reaches of the facet.
-  double held_depth = 10.;
+  double held_penetration = 10.;
   /// Tolerance for a node that touches already and lies below the seam of two facets at a concave edge,
   /// behind both and projecting onto neither. It stays with the facet whose edge it exceeds by less than
   /// this.
@@ -22,7 +22,7 @@ struct ContactLimits {
   /// slightly above 0, since an edge or a corner with a mean normal may touch a facet at right angles to it.
   /// The rim of an end, 0.7, or a corner, 0.58, is no partner of the other body's end that continues beside
   /// it.
-  double largest_alignment = 0.2;
+  double max_alignment = 0.2;
 };
 
 /// Makes the limits of a projection that may lie beyond the facet's edge by `tolerance`.
@@ -44,7 +44,7 @@ struct TouchedFacet {
 };
 
 /// Gap offset of a slave node: facets count as raised by this length [length].
-struct FacetLift {
+struct GapOffset {
   double now = 0., at_start = 0.; ///< of the step
 };
 
@@ -68,18 +68,18 @@ struct FacetLift {
 ///
 /// Where facets meet smoothly, either choice is valid: share_facets() combines them.
 ///
-/// Facets count as raised by the gap offset `lift` of the augmented Lagrangian, or as lowered if it is
+/// Facets count as raised by the gap offset `gap_offset` of the augmented Lagrangian, or as lowered if it is
 /// negative.
 template <class Facet>
 TouchedFacet choose_facet(const MovedFacets &facets, std::size_t slave,
                           const FacetSearch::Positions &positions_n, const TouchedFacet &last,
-                          const ContactLimits &limits, const FacetLift &lift = {});
+                          const ContactLimits &limits, const GapOffset &gap_offset = {});
 
 /// Returns the facet of `now` if the node still touches it, even if another facet is nearer.
 template <class Facet>
 TouchedFacet keep_facet(const MovedFacets &facets, std::size_t slave,
                         const FacetSearch::Positions &positions_n, const TouchedFacet &now,
-                        const ContactLimits &limits, const FacetLift &lift = {});
+                        const ContactLimits &limits, const GapOffset &gap_offset = {});
 
 /// Finds the nearest candidate, as a plane, onto which a node without contact projects from the front at less
 /// than the facet's reach. Its gap is >= 0. All such facets are candidates, regardless of the search's

@@ -6,6 +6,7 @@
 #include "billet/contact/facet_contact_parts.h"
 #include "billet/contact/facet_couplings.h"
 #include "billet/contact/facet_measures.h"
+#include "billet/contact/facet_penalties.h"
 #include "billet/contact/facet_works.h"
 #include "billet/contact/slave_evaluation.h"
 #include "billet/contact/slave_tangents.h"
@@ -32,7 +33,7 @@ namespace billet {
 /// of elements.
 ///
 /// This class advances the state, which FacetContactParts contain. Its measures(), works(), bounds(),
-/// tangents() and couplings() evaluate the state of the last add_forces().
+/// tangents() and couplings() evaluate the state of the last add_forces(); penalties() augments and scales.
 class FacetContact {
 public:
   using Positions = FacetSearch::Positions;
@@ -53,6 +54,7 @@ public:
   const SlaveTangents &tangents() const { return *tangents_; }
   FacetCouplings &couplings() { return couplings_; }
   const FacetMeasures &measures() const { return measures_; }
+  FacetPenalties &penalties() { return penalties_; }
   const FacetWorks &works() const { return works_; }
   FacetBounds &bounds() { return bounds_; }
   /// Exchange that brings data of own nodes to ghosts, and sums back.
@@ -70,36 +72,21 @@ public:
 
   /// Closes initial gaps of undeformed surfaces, before any other call. Nodes in front of a facet of the
   /// other surface by at most `within` [length] permanently count as touching it without pressure. Nodes of
-  /// overlapping facets do so by their mean gap; allow_initial_depths() then allows larger penetrations.
-  /// Collective.
+  /// overlapping facets do so by their mean gap; allow_initial_penetrations() then allows larger
+  /// penetrations. Collective.
   void close_initial_gaps(const Positions &positions, double within);
   /// Allows the penetrations at the last add_forces(), before the first commit(). From then on, only the
   /// excess over the allowed part counts; that part is initially 1. Overlapping facets may still find a
   /// penetration, which another call after another add_forces() allows. Returns the maximum new penetration
   /// on this rank [facet sizes].
-  double allow_initial_depths();
+  double allow_initial_penetrations();
   /// Sets the allowed part at the start and the end of the step.
   void set_allowed_part(const double at_start, const double at_end) {
-    parts_.offsets.depths.set_allowed_part(at_start, at_end);
+    parts_.offsets.penetrations.set_allowed_part(at_start, at_end);
   }
-
-  // The augmented Lagrangian by Uzawa's method, see MultiplierOffsets. Likewise, the spring of a sticking
-  // node starts from its augmented traction.
 
   /// Returns to the state of the last commit(), to attempt a step or to repeat it.
   void restart();
-  /// Undoes the augmentations since the last restart() or commit().
-  void take_back_augmentation();
-  /// Sets multiplier offsets and tractions to those of the last add_forces().
-  void augment();
-  /// Multiplies all penalties by these factors; the multipliers stay unchanged. After augment().
-  void scale_penalties(double normal, double tangential);
-  /// Multiplies penalties as ContactInterface::stiffen_under_load() does.
-  void stiffen_under_load(double normal, double tangential);
-  /// Returns the factors on the given penalties so far.
-  double stiffening() const { return parts_.penalties.stiffening(); }
-  double tangential_stiffening() const { return parts_.penalties.tangential_stiffening(); }
-
   /// Saves the state at the start of the step, by the keys of nodes and facets. The caller saves the
   /// positions at the last commit().
   void save(StateWriter &writer) const;
@@ -115,6 +102,7 @@ private:
   std::unique_ptr<SlaveTangents> tangents_;
   FacetCouplings couplings_;
   FacetMeasures measures_;
+  FacetPenalties penalties_;
   FacetWorks works_;
   FacetBounds bounds_;
   Positions nodal_forces_; ///< with ghosts, of one step

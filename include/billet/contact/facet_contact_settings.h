@@ -2,6 +2,7 @@
 #ifndef BILLET_CONTACT_FACET_CONTACT_SETTINGS_H
 #define BILLET_CONTACT_FACET_CONTACT_SETTINGS_H
 
+#include "billet/contact/contact_penalties.h"
 #include "billet/contact/facet_choice.h"
 #include "billet/friction/friction_law.h"
 #include "billet/geometry/bilinear_facet.h"
@@ -51,15 +52,17 @@ struct FacetContactSettings {
   /// Whether edge-to-edge contact keeps crossing edges apart, except flat ones. It has no friction; its
   /// penalty is the mean full penalty of the ends of both edges. It costs nothing if disabled.
   bool edges = false;
-  double flat_edge = 0.99; ///< maximum alignment of normals for EdgeContact
-  double edge_depth = 5.;  ///< its maximum penetration, relative to the facets' reach
+  double flat_edge = 0.99;      ///< maximum alignment of normals for EdgeContact
+  double edge_penetration = 5.; ///< its maximum penetration, relative to the facets' reach
   /// Maximum gap [facet sizes], now and at the start of the step, at which a node counts as touching a facet
   /// without pressure. The stiffness of such nodes may be the only constraint of a body at rest. If < 0, no
   /// node does.
   double touching_gap = -1.;
   /// Maximum number of changes of facet or status of a node in one step's iterations. A node that exceeds it
   /// stays with its facet as long as it touches that. 0: no limit, and no counting.
-  unsigned int most_changes = 0;
+  unsigned int max_changes = 0;
+  double penetration_tolerance = 0.;       ///< of ContactPenalties; 0: none [facet sizes]
+  ContactPenalties::Limits max_stiffening; ///< of the given penalties
 
   bool has_friction() const { return friction != nullptr; }
   bool has_self_contact() const { return partners == FacetSearch::Partners::other_surfaces_and_self; }

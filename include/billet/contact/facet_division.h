@@ -26,7 +26,7 @@ public:
   static constexpr unsigned int max_parts = 16;
 
   /// Samples the surface's triangulation of a region.
-  FacetDivision(const RigidSurface &surface, const PictureRegion &region);
+  FacetDivision(const RigidSurface &surface, const OutputRegion &region);
 
   /// Returns the number of parts along a side of this length: 1, 4, 8 or 16. `is_enough` is false where even
   /// the maximum number is too small.

@@ -17,8 +17,6 @@ public:
   /// The parts must outlive this object.
   explicit FacetMeasures(const FacetContactParts &parts) : parts_(parts) {}
 
-  /// Returns the maximum of penalty times facet size squared [force/length].
-  double largest_spring() const;
   /// Returns the maximum penetration of nodes.
   Penetration penetration() const;
   /// Returns the maximum penetration relative to the reach of the touched facets.
@@ -26,10 +24,6 @@ public:
   /// Returns the maximum closing in the step of a node that presses at its end but not at its start [facet
   /// sizes].
   double closing_of_new_contacts() const;
-  /// Returns the maximum gap of a node that presses, and elastic slip of one that sticks [facet sizes].
-  double augmentation_error() const;
-  /// Computes the spring forces with this rank's areas.
-  ContactSprings compute_springs() const;
   /// Returns the status of each slave, and its traction times its area.
   std::vector<SlaveForce> slave_forces() const;
 

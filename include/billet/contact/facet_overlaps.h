@@ -17,7 +17,7 @@ public:
   /// that at the start of the step. Thus a wall does not stick to its own far side, nor to the far side of a
   /// wall that approaches from the front. Facets that are nearly at right angles at the start of the step do
   /// not count. The face on which a box stands touches none of its sides, whose planes it is far behind.
-  static constexpr double depth = 10.;
+  static constexpr double penetration = 10.;
 
   /// Lists the pairs that may overlap before positions move by more than `margin` relative to each other.
   /// Slave facets are those of all surfaces if `two_pass`, else of surface 0. Pairs of one surface count only
@@ -27,13 +27,13 @@ public:
 
   struct Overlap {
     unsigned int slave, target; ///< facets
-    double depth;               ///< limit of the computation [length]
+    double penetration;         ///< limit of the computation [length]
     FacetOverlapOf<double> integrals;
   };
-  /// Computes the overlaps at these positions, with `lifts` and `augmentation` of nodes, if there are any, as
-  /// for compute_overlap() [length]. The suffix `_n` marks the start of the step.
+  /// Computes the overlaps at these positions, with `gap_offsets` and `augmentation` of nodes, if there are
+  /// any, as for compute_overlap() [length]. The suffix `_n` marks the start of the step.
   void update(const FacetSearch &search, const Positions &positions_n, const Positions &positions,
-              const std::vector<double> &lifts, const std::vector<double> &augmentation);
+              const std::vector<double> &gap_offsets, const std::vector<double> &augmentation);
 
   /// Calls visit(overlap) for each overlap of a slave facet, by ascending keys of the targets.
   template <class Visit> void visit(const unsigned int slave, const Visit &visit) const {

@@ -18,8 +18,8 @@ template <class Number> struct FacetShareOf {
   /// slave node itself is projected.
   unsigned int slave_facet = none;
   std::array<Number, 4> slave_weights{};
-  double depth = 0.; ///< of the overlap
-  Number area = 0.;  ///< of the overlap [length²]
+  double penetration = 0.; ///< of the overlap
+  Number area = 0.;        ///< of the overlap [length²]
 };
 using FacetShare = FacetShareOf<double>;
 
@@ -39,17 +39,17 @@ bool meet_smoothly(const dealii::Tensor<1, 3> &normal, const dealii::Tensor<1, 3
 template <class Number>
 FacetShareOf<Number> share_of_overlap(const FacetOverlapOf<Number> &overlap, const unsigned int corner,
                                       const unsigned int slave_facet, const unsigned int target,
-                                      const double depth, const double rounding) {
+                                      const double penetration, const double rounding) {
   FacetShareOf<Number> result;
   result.facet = target;
   result.area = overlap.areas[corner];
   result.slave_facet = slave_facet;
-  result.depth = depth;
+  result.penetration = penetration;
   result.share = 0.;
   if (!(result.area > 0.))
     return result;
-  if (overlap.depths[corner] > 0.)
-    result.share = overlap.depths[corner];
+  if (overlap.penetrations[corner] > 0.)
+    result.share = overlap.penetrations[corner];
   result.share += rounding * result.area;
   result.projection.exists = true;
   result.projection.normal = overlap.normal;

@@ -18,7 +18,7 @@ public:
   FacetContactLoad compute_load() const;
   /// Returns the dissipation by friction in this step, on this rank [energy].
   double local_dissipation() const;
-  /// Computes the works as ContactInterface::compute_step_works() does. Collective.
+  /// Computes the works as ContactMeasures::compute_step_works() does. Collective.
   StepWorks compute_step_works(double weight) const;
 
 private:

@@ -31,7 +31,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
 double tilt_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
 
 /// Maximum tilt of a facet of the named surface. This is about the relative error of heights above the facet.
-constexpr double largest_tilt = 0.1;
+constexpr double max_tilt = 0.1;
 
 /// Throws InputError if the faces of the pair do not belong to the surface of 'Surface correction'. Then
 /// facets tilt too much, or its heights are on average less than half of those of mean nodal normals.

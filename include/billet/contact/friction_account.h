@@ -62,9 +62,9 @@ struct FrictionAccount {
   FrictionAccount handed_over() const;
 };
 
-/// Returns φ of a node with the penetration `depth` that has since moved by `opening` along the normal.
-inline double part_before_leaving(const double depth, const double opening) {
-  return opening > depth ? depth / opening : 1.;
+/// Returns φ of a node with the penetration `penetration` that has since moved by `opening` along the normal.
+inline double part_before_leaving(const double penetration, const double opening) {
+  return opening > penetration ? penetration / opening : 1.;
 }
 
 FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule);

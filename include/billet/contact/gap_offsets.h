@@ -61,17 +61,23 @@ private:
 
 /// Allowed initial penetrations of slave nodes, and gaps that count as closed (negative values), permanently
 /// or until a ramp ends [length].
-class InitialDepths {
+class InitialPenetrations {
 public:
-  bool is_empty() const { return depths_.empty(); }
+  bool is_empty() const { return penetrations_.empty(); }
   /// Whether any are allowed; the same on all ranks.
   bool is_used() const { return is_used_; }
   /// Returns the allowed penetration now; at_start(): at the start of the step.
-  double now(const std::size_t s) const { return depths_.empty() ? 0. : counted(depths_[s], part_); }
-  double at_start(const std::size_t s) const { return depths_.empty() ? 0. : counted(depths_[s], part_n_); }
+  double now(const std::size_t s) const {
+    return penetrations_.empty() ? 0. : counted(penetrations_[s], part_);
+  }
+  double at_start(const std::size_t s) const {
+    return penetrations_.empty() ? 0. : counted(penetrations_[s], part_n_);
+  }
   /// Returns the reduction of the allowed penetration by the ramp in the step.
-  double ramp(const std::size_t s) const { return depths_.empty() ? 0. : (part_n_ - part_) * depths_[s]; }
-  double operator[](const std::size_t s) const { return depths_.empty() ? 0. : depths_[s]; }
+  double ramp(const std::size_t s) const {
+    return penetrations_.empty() ? 0. : (part_n_ - part_) * penetrations_[s];
+  }
+  double operator[](const std::size_t s) const { return penetrations_.empty() ? 0. : penetrations_[s]; }
 
   /// Sets the part that is allowed at the start and the end of the step.
   void set_allowed_part(const double at_start, const double at_end) {
@@ -79,19 +85,19 @@ public:
     part_ = at_end;
   }
   double allowed_part() const { return part_; }
-  /// Allows `depth` for all of `n` slaves.
-  void assign(std::size_t n, double depth);
+  /// Allows `penetration` for all of `n` slaves.
+  void assign(std::size_t n, double penetration);
   /// Allows 0 for `n` slaves unless values exist already.
   void start(std::size_t n);
-  void set(const std::size_t s, const double depth) { depths_[s] = depth; }
-  void add(const std::size_t s, const double depth) { depths_[s] += depth; }
+  void set(const std::size_t s, const double penetration) { penetrations_[s] = penetration; }
+  void add(const std::size_t s, const double penetration) { penetrations_[s] += penetration; }
   /// Sets all values; none if nothing was allowed.
-  void set(std::optional<std::vector<double>> depths);
+  void set(std::optional<std::vector<double>> penetrations);
 
 private:
-  static double counted(double depth, double part);
+  static double counted(double penetration, double part);
 
-  std::vector<double> depths_;
+  std::vector<double> penetrations_;
   double part_n_ = 1., part_ = 1.;
   bool is_used_ = false;
 };
@@ -99,17 +105,17 @@ private:
 /// Gap offsets of slave nodes, by which facets count as raised.
 struct GapOffsets {
   MultiplierOffsets augmentation;
-  InitialDepths depths;
+  InitialPenetrations penetrations;
 
   /// Whether there are any; the same on all ranks.
-  bool are_used() const { return augmentation.is_used() || depths.is_used(); }
-  FacetLift of(const std::size_t s) const {
-    FacetLift lift{augmentation[s], augmentation.at_start(s)};
-    if (!depths.is_empty()) {
-      lift.now -= depths.now(s);
-      lift.at_start -= depths.at_start(s);
+  bool are_used() const { return augmentation.is_used() || penetrations.is_used(); }
+  GapOffset of(const std::size_t s) const {
+    GapOffset gap_offset{augmentation[s], augmentation.at_start(s)};
+    if (!penetrations.is_empty()) {
+      gap_offset.now -= penetrations.now(s);
+      gap_offset.at_start -= penetrations.at_start(s);
     }
-    return lift;
+    return gap_offset;
   }
 };
 

@@ -12,14 +12,16 @@ namespace billet {
 ///
 /// It has a potential and no history. An infinite d_0 makes it exactly linear.
 struct HardeningSpring {
-  double stiffness;                                       ///< k [stress/length]
-  double depth = std::numeric_limits<double>::infinity(); ///< d_0, at which its secant doubles [length]
+  double stiffness;                                             ///< k [stress/length]
+  double penetration = std::numeric_limits<double>::infinity(); ///< d_0, at which its secant doubles [length]
 
-  double secant(const double d) const { return stiffness * (1. + square(d / depth)); }
-  double slope(const double d) const { return stiffness * (1. + 3. * square(d / depth)); }
+  double secant(const double d) const { return stiffness * (1. + square(d / penetration)); }
+  double slope(const double d) const { return stiffness * (1. + 3. * square(d / penetration)); }
   double pressure(const double d) const { return secant(d) * d; }
   /// Returns the energy per area [energy/length²].
-  double energy(const double d) const { return 0.5 * stiffness * d * d * (1. + 0.5 * square(d / depth)); }
+  double energy(const double d) const {
+    return 0.5 * stiffness * d * d * (1. + 0.5 * square(d / penetration));
+  }
 
 private:
   static double square(const double x) { return x * x; }

@@ -30,7 +30,7 @@ std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretiz
 struct Overlap {
   /// Maximum distance of a node of one body, or of a point below its faces, to the surface of the other,
   /// inside it [length].
-  double depth = 0.;
+  double penetration = 0.;
   dealii::Tensor<1, 3> position; ///< of that point
 };
 
@@ -45,7 +45,7 @@ Overlap find_overlap(const Discretization &discretization, std::size_t body,
                      const std::vector<unsigned int> &other_boundary_ids,
                      const std::vector<Hold> &other_holds);
 
-/// Finds the overlap of a body with itself: `depth` is that of such points below its faces.
+/// Finds the overlap of a body with itself: `penetration` is that of such points below its faces.
 Overlap find_self_overlap(const Discretization &discretization, std::size_t body,
                           const std::vector<unsigned int> &boundary_ids);
 

@@ -26,7 +26,7 @@ public:
   double flush_gap(const std::size_t s) const { return 1e-9 * sizes_[s]; }
   /// Returns the maximum penetration that counts as none: small compared with those at stiff penalties
   /// [length].
-  double depth_rounding(const std::size_t s) const { return 1e-12 * sizes_[s]; }
+  double penetration_rounding(const std::size_t s) const { return 1e-12 * sizes_[s]; }
 
 private:
   std::vector<SlaveNode> list_;

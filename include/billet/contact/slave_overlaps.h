@@ -22,12 +22,12 @@ public:
   const FacetOverlaps &pairs() const { return overlaps_; }
   /// Returns the allowed penetrations of nodes, including ghosts; augmentation() returns their multiplier
   /// offsets. Both are empty if there are none.
-  const std::vector<double> &depth_offsets() const { return depth_offsets_; }
+  const std::vector<double> &gap_offsets() const { return gap_offsets_; }
   const std::vector<double> &augmentation() const { return augmentation_; }
 
 private:
   FacetOverlaps overlaps_;
-  std::vector<double> depth_offsets_, augmentation_;
+  std::vector<double> gap_offsets_, augmentation_;
 };
 
 } // namespace billet

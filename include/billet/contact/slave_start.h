@@ -14,9 +14,9 @@ namespace billet {
 class SlaveStart {
 public:
   struct Pressure {
-    double pressure = 0.; ///< [stress]
-    double depth = 0.;    ///< [length]
-    double area = 0.;     ///< of the facets of all ranks [length²]
+    double pressure = 0.;    ///< [stress]
+    double penetration = 0.; ///< [length]
+    double area = 0.;        ///< of the facets of all ranks [length²]
     dealii::Tensor<1, 3> normal;
   };
 
@@ -37,7 +37,7 @@ public:
   /// is not touched.
   void find_facets(const std::vector<SurfaceFacet> &facets);
   /// Divides the depth of a slave whose penalty was multiplied by `factor` at the same pressure.
-  void divide_depth(const std::size_t s, const double factor) { pressed_[s].depth /= factor; }
+  void divide_penetration(const std::size_t s, const double factor) { pressed_[s].penetration /= factor; }
 
   /// Saves the state under the keys of the slaves.
   void save(StateWriter &writer, const std::vector<std::uint64_t> &keys) const;

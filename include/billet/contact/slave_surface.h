@@ -7,6 +7,7 @@
 #include "billet/discretization/discretization.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/scene/scene.h"
+#include "billet/state.h"
 
 #include <array>
 #include <cstdint>
@@ -26,15 +27,24 @@ struct ContactPoint {
   double spacing;          ///< size of the parts of facets around it; equal to `size` where none is divided
   bool is_divided = false; ///< whether a facet around it is divided
   bool is_fixed = false;   ///< supports prescribe all its motion: it cannot leave the tool
-  double hardening_depth = std::numeric_limits<double>::infinity(); ///< of its normal spring
-  HardeningSpring spring() const { return {stiffness.normal, hardening_depth}; }
+  double hardening_penetration = std::numeric_limits<double>::infinity(); ///< of its normal spring
+  HardeningSpring spring() const { return {stiffness.normal, hardening_penetration}; }
   double touching_gap;    ///< of nodes that start on the tool; far below stiff-penalty penetrations
   double gap_n = 0.;      ///< at the start of the step
   unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
-  double lift = 0., lift_n = 0.;  ///< multiplier offsets of augmentation, now and at the start of the step
-  double initial_depth = 0.;      ///< allowed initial penetration; < 0: a gap that counts as closed
-  bool is_behind = false;         ///< at the start of the step: it has missed the tool's surface, ...
-  dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
+  /// λ/k of augmentation, now and at the start of the step [length]
+  double multiplier_offset = 0., multiplier_offset_n = 0.;
+  double initial_penetration = 0.; ///< allowed initial penetration; < 0: a gap that counts as closed
+  bool is_behind = false;          ///< at the start of the step: it has missed the tool's surface, ...
+  dealii::Tensor<1, 3> behind_at;  ///< ... and was here, in the tool's coordinates
+
+  /// Returns the displacement of a node of the mesh.
+  dealii::Tensor<1, 3> displacement_in(const Vector &displacements) const {
+    dealii::Tensor<1, 3> displacement;
+    for (unsigned int c = 0; c < 3; ++c)
+      displacement[c] = displacements(dofs[c]);
+    return displacement;
+  }
 };
 
 /// A facet of the mesh, or a part of one; nodes ordered so that the area vector points out of the body.
@@ -110,6 +120,26 @@ struct SlaveSurface {
     std::string prefix;
     std::size_t begin, end;
     std::vector<std::uint64_t> keys;
+
+    /// Writes rows of `width` numbers, one for each index from `begin` on.
+    void write(StateWriter &writer, const std::string &name, const std::size_t width,
+               const std::vector<double> &rows) const {
+      writer.write_rows(prefix + name, width, keys, rows);
+    }
+    /// Calls set(index, its row) for the rows that the state contains. With another tool or mesh before the
+    /// restart, the points inside facets may have been different.
+    template <class Set>
+    void read(const StateReader &reader, const std::string &name, const std::size_t width,
+              const Set &set) const {
+      std::vector<bool> is_known(keys.size(), true);
+      const std::vector<double> rows =
+          reader.read_rows(prefix + name, width, keys, prefix.empty() ? nullptr : &is_known);
+      for (std::size_t i = begin; i < end; ++i)
+        if (is_known[i - begin]) {
+          RowReader row(&rows[width * (i - begin)]);
+          set(i, row);
+        }
+    }
   };
   Range mesh_nodes(const NodeKeys &keys) const;
   Range interior_points() const;

@@ -31,7 +31,7 @@ template <class Number> struct SlaveMotionOf {
   dealii::Tensor<1, 3, Number> displacement;
   dealii::Tensor<2, 3, Number> rotation; ///< R, rotation of the facet
   double duration;                       ///< [time]; 0 in a step without duration
-  double lift = 0.;                      ///< multiplier offset: the gap is the distance less this [length]
+  double multiplier_offset = 0.;         ///< multiplier offset: the gap is the distance less this [length]
   double flush = 0.; ///< maximum distance from the facet at which a node counts as touching [length]
 };
 using SlaveMotion = SlaveMotionOf<double>;
@@ -108,8 +108,9 @@ SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const Con
                                                dealii::Tensor<2, 3> *tangent = nullptr) {
   const FrameOf<Number> frame = history_n.is_active ? history_n.frame.transported(motion.rotation, normal)
                                                     : FrameOf<Number>::from_normal(normal);
-  const Number fraction =
-      history_n.is_active ? Number(1.) : part_in_contact(Number(gap + motion.lift), normal, motion);
+  const Number fraction = history_n.is_active
+                              ? Number(1.)
+                              : part_in_contact(Number(gap + motion.multiplier_offset), normal, motion);
   const std::array<Number, 2> slid{fraction * (motion.displacement * frame.q),
                                    fraction * (motion.displacement * frame.r)};
   TangentialIncrement increment{{value_of(slid[0]), value_of(slid[1])}};

@@ -21,17 +21,17 @@ struct StepWorks {
   }
 
   /// Adds the works of a node. Its pressure forces are `force_n` and `force` at the ends of the step, its
-  /// penetrations `depth_n` and `depth`, both 0 where it does not press. `closing` is its approach to the
-  /// surface along the normal in the step, `ramp_depth` the part of that due to the ramp. `weight` is that of
-  /// the force at the end in the mean force.
-  void add(const double force_n, const double force, const double depth_n, const double depth,
-           const double closing, const double ramp_depth, const double weight) {
-    ramp += (weight * force + (1. - weight) * force_n) * ramp_depth;
+  /// penetrations `penetration_n` and `penetration`, both 0 where it does not press. `closing` is its
+  /// approach to the surface along the normal in the step, `ramp_penetration` the part of that due to the
+  /// ramp. `weight` is that of the force at the end in the mean force.
+  void add(const double force_n, const double force, const double penetration_n, const double penetration,
+           const double closing, const double ramp_penetration, const double weight) {
+    ramp += (weight * force + (1. - weight) * force_n) * ramp_penetration;
     // A gap is at most the motion of the node: a node that arrives from elsewhere has not closed it.
     if (force_n == 0. && force > 0.)
-      touching -= 0.5 * force * std::max(0., closing - depth);
+      touching -= 0.5 * force * std::max(0., closing - penetration);
     else if (force_n > 0. && force == 0.)
-      touching += 0.5 * force_n * std::max(0., -closing - depth_n);
+      touching += 0.5 * force_n * std::max(0., -closing - penetration_n);
   }
 };
 

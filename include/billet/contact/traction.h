@@ -18,7 +18,7 @@ enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 /// little penetration.
 constexpr double enough_penalty = 10.;
 /// Maximum factor by which the program may raise penalties beyond that.
-constexpr double most_raise = 100.;
+constexpr double max_raise = 100.;
 
 /// Returns the largest power of 2 not above a factor of penalties. Products of such powers are exact in any
 /// order, so that a restarted run has bitwise identical penalties.

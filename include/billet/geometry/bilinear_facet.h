@@ -39,7 +39,7 @@ private:
                                  std::array<double, 2> at) const;
   std::array<double, 2> compute_step(const dealii::Tensor<1, 3> &arm, double range,
                                      const std::array<double, 2> &at) const;
-  std::array<double, 2> nearest_on_border(const dealii::Tensor<1, 3> &arm) const;
+  std::array<double, 2> nearest_on_edge(const dealii::Tensor<1, 3> &arm) const;
 
   facet::Expansion surface_;
   bool has_area_;

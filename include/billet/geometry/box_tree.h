@@ -15,12 +15,12 @@ public:
   /// Boxes with infinite sides are kept outside the tree.
   explicit BoxTree(const std::vector<BoundingBox> &boxes);
 
-  /// Calls visit(index) for the boxes whose squared distance from x is at most `largest_square`, near ones
-  /// first. visit() may lower `largest_square`.
+  /// Calls visit(index) for the boxes whose squared distance from x is at most `max_square`, near ones
+  /// first. visit() may lower `max_square`.
   template <class Visit>
-  void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const {
+  void visit_near(const dealii::Tensor<1, 3> &x, const double &max_square, const Visit &visit) const {
     for (const Entry &entry : unbounded_)
-      if (entry.box.distance_square(x) <= largest_square)
+      if (entry.box.distance_square(x) <= max_square)
         visit(entry.index);
     struct Candidate {
       unsigned int node;
@@ -32,12 +32,12 @@ public:
       stack[n++] = {0, nodes_[0].box.distance_square(x)};
     while (n > 0) {
       const Candidate candidate = stack[--n];
-      if (candidate.square > largest_square)
+      if (candidate.square > max_square)
         continue;
       const Node &node = nodes_[candidate.node];
       if (node.second == 0) {
         for (unsigned int i = node.begin; i < node.end; ++i)
-          if (bounded_[i].box.distance_square(x) <= largest_square)
+          if (bounded_[i].box.distance_square(x) <= max_square)
             visit(bounded_[i].index);
         continue;
       }

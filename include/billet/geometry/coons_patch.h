@@ -26,7 +26,7 @@ public:
 
   ClosestPoint closest_point(const Point &x) const override;
   BoundingBox bounding_box() const override { return box_; }
-  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+  void draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const override;
 
   /// Position and derivatives with respect to u and v.
   struct Jet {
@@ -39,7 +39,7 @@ public:
   Point normal(const Jet &jet, double u, double v) const;
 
 private:
-  static constexpr std::size_t fewest_cells = 3, most_cells = 64; ///< along a side
+  static constexpr std::size_t fewest_cells = 3, max_cells = 64; ///< along a side
 
   struct Range {
     double low_u, high_u, low_v, high_v;

@@ -45,9 +45,9 @@ public:
   Jet at(double t) const;
 
   /// Returns upper bounds of the absolute components of the second derivative between t = `from` and `to`.
-  Point largest_second(double from, double to) const;
+  Point max_second(double from, double to) const;
   /// Returns an upper bound of the norm of the third derivative between t = `from` and `to`.
-  double largest_third(double from, double to) const;
+  double max_third(double from, double to) const;
 
 private:
   /// Polynomial c_0 + c_1 s + c_2 s² + c_3 s³ with s = t − start.

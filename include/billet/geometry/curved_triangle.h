@@ -87,7 +87,7 @@ private:
   Iterate nearest_on_edge(const Point &x, unsigned int i) const;
   Iterate descend_once(const Point &x) const;
   Iterate descend_from_all(const Point &x) const;
-  double largest_turning_part() const;
+  double max_turning_part() const;
   bool has_one_minimum(const Point &x, const Shape &shape) const;
   static Matrix metric(const SurfacePoint &point) {
     return {point.p_u * point.p_u, point.p_u * point.p_v, point.p_v * point.p_v};

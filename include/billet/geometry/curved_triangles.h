@@ -39,7 +39,7 @@ public:
             seams_[facet]};
   }
   /// Returns the maximum distance between the triangles on both sides of slivers, which are omitted [length].
-  double border_accuracy() const { return facets_.sliver_height; }
+  double edge_accuracy() const { return facets_.sliver_height; }
   const CurvedTriangle::Shape &shape(const unsigned int facet) const { return shapes_[facet]; }
 
 private:

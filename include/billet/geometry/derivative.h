@@ -11,8 +11,8 @@ namespace billet {
 /// Number with its derivatives by at most this many variables (forward automatic differentiation, Sacado).
 /// Results of a template have derivatives that are exact to round-off; the code takes the same branches as
 /// with doubles.
-constexpr int most_variables = 192;
-using Derivative = Sacado::Fad::Exp::SLFad<double, most_variables>;
+constexpr int max_variables = 192;
+using Derivative = Sacado::Fad::Exp::SLFad<double, max_variables>;
 
 inline double value_of(const double x) { return x; }
 inline double value_of(const Derivative &x) { return x.val(); }

@@ -36,7 +36,7 @@ inline bool has_height(const FacetBulge &bulge) {
 }
 
 /// Returns an upper bound of the height.
-inline double largest_height(const FacetBulge &bulge) {
+inline double max_height(const FacetBulge &bulge) {
   return std::max({bulge[0], bulge[2], 0.}) + std::max({bulge[1], bulge[3], 0.});
 }
 

@@ -19,17 +19,17 @@ namespace billet {
 /// Number: double, or Derivative.
 template <class Number> struct FacetOverlapOf {
   bool exists = false;
-  dealii::Tensor<1, 3, Number> normal; ///< unit vector, out of the target's body
-  std::array<Number, 4> areas{};       ///< ∫ φ_a dA [length²]
-  std::array<Number, 4> gaps{};        ///< ∫ φ_a g dA [length³]
-  std::array<Number, 4> depths{};      ///< ∫ φ_a |g| dA of the lowered slave, >= 0 [length³]
+  dealii::Tensor<1, 3, Number> normal;  ///< unit vector, out of the target's body
+  std::array<Number, 4> areas{};        ///< ∫ φ_a dA [length²]
+  std::array<Number, 4> gaps{};         ///< ∫ φ_a g dA [length³]
+  std::array<Number, 4> penetrations{}; ///< ∫ φ_a |g| dA of the lowered slave, >= 0 [length³]
   std::array<std::array<Number, 4>, 4> slave_parts{};  ///< ∫ φ_a φ_b dA, as ...
   std::array<std::array<Number, 4>, 4> target_parts{}; ///< ... ∫ φ_a ψ_I dA [length²]
 };
 
-/// Computes the overlap for `depth` > 0. The polygon and the depths are those of a slave whose corners are
-/// lowered by `lifts` and by the multiplier offsets `augmentation` [length]. The gaps do not include
-/// `augmentation`. Facets without area, or which do not face each other, do not overlap.
+/// Computes the overlap for `penetration` > 0. The polygon and the depths are those of a slave whose corners
+/// are lowered by `gap_offsets` and by the multiplier offsets `augmentation` [length]. The gaps do not
+/// include `augmentation`. Facets without area, or which do not face each other, do not overlap.
 ///
 /// If heights of the smooth surfaces that the facets approximate are given, the gap is that of these
 /// surfaces,
@@ -38,8 +38,8 @@ template <class Number> struct FacetOverlapOf {
 /// the middle of each piece.
 template <class Number>
 FacetOverlapOf<Number>
-compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, double depth,
-                const std::array<double, 4> &lifts = {}, const std::array<double, 4> &augmentation = {},
+compute_overlap(const FacetCornersOf<Number> &slave, const FacetCornersOf<Number> &target, double penetration,
+                const std::array<double, 4> &gap_offsets = {}, const std::array<double, 4> &augmentation = {},
                 const FacetBulge &slave_bulge = {}, const FacetBulge &target_bulge = {});
 
 } // namespace billet

@@ -53,9 +53,9 @@ template <class Number> struct ExpansionOf {
   /// Whether the facet has an area; otherwise it has no normal.
   bool has_area() const {
     // Relative area that round-off of the coordinates may leave for a facet degenerated to a line.
-    constexpr double least = 1e-12;
+    constexpr double minimum = 1e-12;
     const Number size = 2. * mean_area_vector().norm();
-    return size > least * (e_1 + e_2).norm_square() && size > least * (e_1 - e_2).norm_square();
+    return size > minimum * (e_1 + e_2).norm_square() && size > minimum * (e_1 - e_2).norm_square();
   }
 
   dealii::Tensor<1, 3, Number> e_0, e_1, e_2, e_3;

@@ -19,10 +19,10 @@ public:
   };
   Foot nearest(const dealii::Tensor<1, 3> &x) const;
   /// Calls visit(foot) with the nearest point of each facet whose squared distance from x is at most
-  /// `largest_square`, and of some others. visit() may lower `largest_square`.
+  /// `max_square`, and of some others. visit() may lower `max_square`.
   template <class Visit>
-  void visit_near(const dealii::Tensor<1, 3> &x, const double &largest_square, const Visit &visit) const {
-    tree_.visit_near(x, largest_square, [&](const unsigned int facet) { visit(nearest_on(facet, x)); });
+  void visit_near(const dealii::Tensor<1, 3> &x, const double &max_square, const Visit &visit) const {
+    tree_.visit_near(x, max_square, [&](const unsigned int facet) { visit(nearest_on(facet, x)); });
   }
 
   const TriangleMesh &mesh() const { return mesh_; }

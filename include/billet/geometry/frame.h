@@ -26,12 +26,12 @@ template <class Number> struct FrameOf {
   /// Returns an arbitrary frame about the unit vector `n`, always the same for the same n.
   static FrameOf from_normal(const Vector &n) {
     using std::abs;
-    unsigned int least = 0;
+    unsigned int minimum = 0;
     for (unsigned int i = 1; i < 3; ++i)
-      if (abs(n[i]) < abs(n[least]))
-        least = i;
+      if (abs(n[i]) < abs(n[minimum]))
+        minimum = i;
     Vector axis;
-    axis[least] = 1.;
+    axis[minimum] = 1.;
     FrameOf frame;
     frame.n = n;
     frame.q = dealii::cross_product_3d(n, axis);

@@ -51,12 +51,12 @@ public:
                  std::vector<std::array<double, 2>> parameters);
 
   /// Returns the nearest foot of x that `accept` admits and that is nearer than the edge; none if there is no
-  /// such foot. `border_distance` is called only if the foot on the nearest facet is not accepted. Newton's
+  /// such foot. `edge_distance` is called only if the foot on the nearest facet is not accepted. Newton's
   /// method starts at the nearest facet, and at others that may be as near but are far from earlier starting
   /// points.
   std::optional<SurfacePoint> nearest(const dealii::Tensor<1, 3> &x,
                                       const std::function<bool(const SurfaceFoot &)> &accept,
-                                      const std::function<double()> &border_distance) const;
+                                      const std::function<double()> &edge_distance) const;
 
   SurfacePoint at(const double u, const double v) const { return surface_(u, v); }
   const TriangleMesh &mesh() const { return facets_.mesh(); }

@@ -18,7 +18,7 @@ public:
     return {x - gap * normal_, normal_, gap, {}};
   }
   BoundingBox bounding_box() const override;
-  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+  void draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const override;
 
 private:
   dealii::Tensor<1, 3> point_, normal_;

@@ -51,7 +51,7 @@ public:
     Point position, normal;
     double gap;
     double turning; ///< ∂n/∂x along the profile, as in ClosestPoint
-    bool is_beyond_border;
+    bool is_beyond_edge;
   };
   Closest closest_point(const Point &x) const;
 

@@ -36,7 +36,7 @@ public:
 
   /// Geometry of the surface's edge near a point beyond it: the nearest point x_b of the edge, and the
   /// surface's normal n there.
-  struct Border {
+  struct EdgePoint {
     dealii::Tensor<1, 3> normal;    ///< n
     double gap;                     ///< g = (x − x_b)·n [length]
     dealii::Tensor<2, 3> turning;   ///< ∂n/∂x, along the edge [1/length]
@@ -46,11 +46,11 @@ public:
   };
   /// Returns the edge data of a point whose projection does not exist. `patch` is that of the projection,
   /// `width` the maximum relevant distance beyond the edge [length]. The torsion of edges is neglected.
-  Border border(const dealii::Tensor<1, 3> &x, unsigned int patch, double width) const;
+  EdgePoint edge_point(const dealii::Tensor<1, 3> &x, unsigned int patch, double width) const;
 
   std::size_t n_patches() const { return patches_.size(); }
   const BoundingBox &bounding_box() const { return box_; }
-  SurfacePicture picture(const PictureRegion &region) const;
+  SurfaceMesh surface_mesh(const OutputRegion &region) const;
 
 private:
   /// Patches that meet in the nearest point, including the nearest patch itself.
@@ -67,8 +67,8 @@ private:
   };
   Neighbours find_neighbours(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
                              unsigned int patch) const;
-  Projection project_beyond_border(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
-                                   unsigned int patch) const;
+  Projection project_beyond_edge(const dealii::Tensor<1, 3> &x, const ClosestPoint &nearest,
+                                 unsigned int patch) const;
   /// Returns e·∂n/∂x·e near the edge along e between two patches, minus the value 1/gap of a point.
   double turning_along_edge(const Projection &projection, const ClosestPoint &nearest, unsigned int patch,
                             const Neighbours &around) const;

@@ -60,13 +60,13 @@ struct BoundingBox {
 };
 
 /// Triangles and quadrilaterals that represent a surface in field output, in the tool's own coordinates.
-struct SurfacePicture {
+struct SurfaceMesh {
   std::vector<dealii::Tensor<1, 3>> points;
   std::vector<std::vector<unsigned int>> facets;
 };
 
 /// Region that the output of a surface covers; infinite surfaces are cut off there.
-struct PictureRegion {
+struct OutputRegion {
   dealii::Tensor<1, 3> centre;
   double radius;
 };
@@ -89,7 +89,7 @@ struct ClosestPoint {
   /// always finite; see turned().
   dealii::Tensor<2, 3> turning;
   /// Whether x is not directly above the surface, but beyond its edge; the gap is then no distance.
-  bool is_beyond_border = false;
+  bool is_beyond_edge = false;
 };
 
 /// Piece of a rigid surface in the tool's own coordinates, trimmed to its range. It has no mesh and no
@@ -111,10 +111,10 @@ public:
 
   /// Returns the maximum distance between its edge and that of an adjacent patch, due to round-off or the
   /// tolerance of its file [length].
-  virtual double border_accuracy() const { return 0.; }
+  virtual double edge_accuracy() const { return 0.; }
 
-  /// Adds facets to `picture`.
-  virtual void draw(const PictureRegion &region, SurfacePicture &picture) const = 0;
+  /// Adds facets to `surface_mesh`.
+  virtual void draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const = 0;
 };
 
 using SurfacePatches = std::vector<std::unique_ptr<const SurfacePatch>>;

@@ -32,7 +32,7 @@ public:
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
   BoundingBox bounding_box() const override;
-  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+  void draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const override;
 
 private:
   Profile profile_;
@@ -49,7 +49,7 @@ public:
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
   BoundingBox bounding_box() const override;
-  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+  void draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const override;
 
 private:
   Profile profile_;

@@ -53,7 +53,7 @@ struct TriangleEdges {
 
   /// Returns a message such as "12 edges have a facet on one side only, such as that from (0, 0, 0) to (1, 0,
   /// 0)"; empty if there is no free edge.
-  std::string describe_border(const TriangleMesh &mesh) const;
+  std::string describe_open_edges(const TriangleMesh &mesh) const;
 };
 
 } // namespace billet

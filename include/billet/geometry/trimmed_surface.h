@@ -28,8 +28,8 @@ public:
     std::array<double, 2> periods;   ///< periods of the parameters, 0: none
     std::array<double, 2> low, high; ///< bounds of the parameters
     std::vector<Edge> edges;
-    double side;            ///< 1 or −1; the normal is side p,u × p,v
-    double border_accuracy; ///< [length]
+    double side;          ///< 1 or −1; the normal is side p,u × p,v
+    double edge_accuracy; ///< [length]
     BoundingBox box;
   };
 
@@ -37,13 +37,13 @@ public:
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
   BoundingBox bounding_box() const override { return d_.box; }
-  double border_accuracy() const override { return d_.border_accuracy; }
-  void draw(const PictureRegion &region, SurfacePicture &picture) const override;
+  double edge_accuracy() const override { return d_.edge_accuracy; }
+  void draw(const OutputRegion &region, SurfaceMesh &surface_mesh) const override;
 
 private:
   bool is_inside(Parameters parameters) const;
   SurfacePoint regular_point(const Parameters &parameters) const;
-  ClosestPoint nearest_on_border(const dealii::Tensor<1, 3> &x) const;
+  ClosestPoint nearest_on_edge(const dealii::Tensor<1, 3> &x) const;
   /// Surface near a pole that it surrounds smoothly.
   struct Cap {
     dealii::Tensor<1, 3> position, normal;
@@ -58,7 +58,7 @@ private:
 
   Description d_;
   TrimmingLoops loops_;
-  std::vector<Edge> border_;
+  std::vector<Edge> edges_;
   std::vector<Cap> caps_;
 };
 

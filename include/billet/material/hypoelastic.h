@@ -89,8 +89,8 @@ public:
   static double plastic_work(const History &) { return 0.; }
   static double equivalent_plastic_strain(const History &) { return 0.; }
   const ElasticModuli &elastic() const { return elastic_; }
-  double least_wave_stiffness(const Stretches &stretches) const {
-    return least_wave_stiffness_of_rates(elastic_, stretches);
+  double min_wave_stiffness(const Stretches &stretches) const {
+    return min_wave_stiffness_of_rates(elastic_, stretches);
   }
 
 private:

@@ -17,7 +17,7 @@ namespace billet {
 ///   fields(), store(), restore()   names of that state, and the state as numbers; none if History is empty
 ///   update(), elastic_energy(), plastic_work(), equivalent_plastic_strain(), elastic()
 ///   find_history()                 unless History is empty
-///   least_wave_stiffness()         of laws without plasticity
+///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
@@ -90,11 +90,11 @@ public:
   }
 
   std::optional<double>
-  least_wave_stiffness([[maybe_unused]] const std::array<double, 3> &stretches) const override {
+  min_wave_stiffness([[maybe_unused]] const std::array<double, 3> &stretches) const override {
     if constexpr (Law::has_plasticity)
       return {};
     else
-      return law_.least_wave_stiffness(stretches);
+      return law_.min_wave_stiffness(stretches);
   }
 
   std::optional<LaneLaw> lane_law() const override {

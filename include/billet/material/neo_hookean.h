@@ -66,8 +66,8 @@ public:
   static double plastic_work(const History &) { return 0.; }
   static double equivalent_plastic_strain(const History &) { return 0.; }
   const ElasticModuli &elastic() const { return elastic_; }
-  double least_wave_stiffness(const Stretches &stretches) const {
-    return billet::least_wave_stiffness(*this, elastic_.shear, stretches);
+  double min_wave_stiffness(const Stretches &stretches) const {
+    return billet::min_wave_stiffness(*this, elastic_.shear, stretches);
   }
 
 private:

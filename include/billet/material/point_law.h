@@ -93,7 +93,7 @@ public:
   /// Returns the minimum stiffness of plane waves over the shear modulus at these principal stretches, (M2)
   /// of doc/theory.md; nothing if the law cannot compute it. If it is negative, ellipticity is lost and
   /// results depend on the mesh.
-  virtual std::optional<double> least_wave_stiffness(const std::array<double, 3> &stretches) const = 0;
+  virtual std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const = 0;
 
   /// Returns the form in which the explicit kernels compute the law for several elements at once. Returns
   /// nothing if they do not support it; explicit scenes then compute element by element.

@@ -111,7 +111,7 @@ public:
   double elastic_thinning_stiffness(const Reference &reference) const {
     return reference.volume / 3. * (4. / 3. * elastic_.shear + reference.modulus);
   }
-  static double least_thinning_stiffness(const Reference &reference) {
+  static double min_thinning_stiffness(const Reference &reference) {
     return reference.volume / 3. * reference.modulus;
   }
 

@@ -53,9 +53,9 @@ public:
   virtual std::size_t size() const = 0;
 
   /// Scales the density of each element whose stable step, undeformed and at rest, is shorter than
-  /// `smallest_step` [time], so that it is not shorter. Call it after initialize() and before advance().
+  /// `min_step` [time], so that it is not shorter. Call it after initialize() and before advance().
   /// Returns the added mass [mass].
-  virtual double scale_mass(double smallest_step) = 0;
+  virtual double scale_mass(double min_step) = 0;
 
   /// Nodal vectors, x, y, z and an unused number for each node, 32-byte aligned.
   struct Nodes {

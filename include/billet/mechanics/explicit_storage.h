@@ -116,7 +116,7 @@ private:
   bool initialize_element(std::size_t element, double density, double yield_stress);
   /// Initializes an element with the mean gradient: first the common data, then those of its kind. `lambda`
   /// becomes a bound of stiffness over modulus. Returns false if the element is degenerate.
-  bool initialize_mean_gradient(std::size_t element, const ElementVectors &positions, double smallest_mass,
+  bool initialize_mean_gradient(std::size_t element, const ElementVectors &positions, double min_mass,
                                 double yield_stress, double &lambda);
   void initialize_one_point(std::size_t element, const ModalGeometry &geometry,
                             const dealii::Tensor<2, 3> &inverse);

@@ -339,7 +339,7 @@ private:
   bool balance_thinning(const Reference &reference, const History &history_n, Kinematics &kinematics,
                         Stresses &tau, const Update &update_all) const {
     const double elastic = element_.elastic_thinning_stiffness(reference),
-                 least = 0.5 * Element::least_thinning_stiffness(reference), most = 4. * elastic;
+                 minimum = 0.5 * Element::min_thinning_stiffness(reference), maximum = 4. * elastic;
     constexpr double tolerance = 1e-14, max_change = 0.3; // strains; the tolerance is close to round-off
     constexpr unsigned int max_iterations = 60;
     double X = Element::predict_thinning(reference, kinematics, history_n);
@@ -352,7 +352,7 @@ private:
       if (!std::isfinite(residual))
         return false;
       if (i > 0)
-        slope = std::clamp((residual - last_residual) / (X - last_X), least, most);
+        slope = std::clamp((residual - last_residual) / (X - last_X), minimum, maximum);
       (residual > 0. ? high : low) = X;
       last_X = X;
       last_residual = residual;

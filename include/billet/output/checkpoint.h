@@ -118,27 +118,27 @@ private:
 /// checkpoint (SIGUSR2). A second SIGTERM or SIGINT has its default effect.
 class Signals {
 public:
-  /// Installs the handlers. `seconds_between_looks`: interval of the checks [s]; 0: at each call.
-  explicit Signals(MPI_Comm communicator, double seconds_between_looks = 0.);
+  /// Installs the handlers. `seconds_between_checks`: interval of the checks [s]; 0: at each call.
+  explicit Signals(MPI_Comm communicator, double seconds_between_checks = 0.);
   ~Signals();
   Signals(const Signals &) = delete;
   Signals &operator=(const Signals &) = delete;
 
-  enum class Wish { none, checkpoint, end };
+  enum class Request { none, checkpoint, end };
   /// Returns the strongest request of any rank, after a step. Collective.
-  Wish look();
+  Request poll();
   /// Returns the name of the signal that requests the end, for messages.
   const std::string &name() const { return name_; }
 
 private:
   /// Whether enough time has passed, by the first rank's clock. Collective.
-  bool is_time_to_look();
+  bool is_time_to_check();
 
   MPI_Comm communicator_;
-  double seconds_between_looks_;
+  double seconds_between_checks_;
   std::string name_;
-  unsigned int n_calls_ = 0, next_look_ = 1;
-  std::chrono::steady_clock::time_point last_look_;
+  unsigned int n_calls_ = 0, next_check_ = 1;
+  std::chrono::steady_clock::time_point last_check_;
 };
 
 } // namespace billet

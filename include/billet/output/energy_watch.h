@@ -16,14 +16,14 @@ namespace billet {
 class EnergyWatch {
 public:
   /// Reaction to an energy imbalance: none, a warning, or the end of the run.
-  enum class Balance { is_left, is_told, is_kept };
+  enum class Balance { is_left, is_reported, is_kept };
   /// Default of the allowed drift, relative to the maximum energy.
   static constexpr double doubtful_drift = 0.05;
 
   /// Causes of an energy imbalance, with different remedies.
   enum class Cause {
     steps,
-    soft_penalties,
+    low_penalties,
     sticking_overlaps,
     contact_edges,
     unstable_law,
@@ -46,7 +46,7 @@ public:
 private:
   Balance balance_;
   double allowed_drift_;
-  double largest_ = 0.;
+  double maximum_ = 0.;
   std::string imbalance_;
   std::optional<Cause> cause_; ///< cause of the first imbalance
 };

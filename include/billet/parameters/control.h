@@ -28,7 +28,7 @@ struct TimeStepping {
   double end_time;
   // Implicit schemes only, quasi-static or dynamic:
   Control control = Control::automatic;
-  double initial_step = 0., smallest_step = 0., largest_step = 0.;
+  double initial_step = 0., min_step = 0., max_step = 0.;
   double error_tolerance = 0.; ///< for quasi-static steps, relative to the forces; 0: none
   unsigned int few_iterations = 0, many_iterations = 0;
   double growth_factor = 1., shrink_factor = 1., cut_factor = 1.;
@@ -45,8 +45,8 @@ struct ExplicitDynamics {
   double safety_factor;
   double contact_resolution; ///< for the oscillation of nodes on penalty springs, >= 1
   double linear_viscosity, quadratic_viscosity;
-  double scaled_step;   ///< stable step that mass scaling ensures for each element; 0: none
-  double largest_drift; ///< maximum, relative to the energy
+  double scaled_step; ///< stable step that mass scaling ensures for each element; 0: none
+  double max_drift;   ///< maximum, relative to the energy
   Instructions instructions;
   NumberType number_type; ///< for the element kernels
 
@@ -79,21 +79,21 @@ struct Solver {
   enum class Predictor { tangent, extrapolation };
   /// Above this number of unknowns, or if a direct solver would need half of the memory, `automatic` selects
   /// an iterative solver.
-  static constexpr unsigned int most_direct_dofs = 10000;
+  static constexpr unsigned int max_direct_dofs = 10000;
   enum class LinearSolver { automatic, mumps_symmetric, mumps, klu, conjugate_gradients, gmres };
   enum class Forcing { eisenstat_walker, fixed };
 
   ContactTangent contact_tangent;
   Located<MaterialTangent> material_tangent;
   double force_tolerance, energy_tolerance, displacement_tolerance;
-  unsigned int most_iterations;
-  unsigned int most_augmentations; ///< maximum in a step
+  unsigned int max_iterations;
+  unsigned int max_augmentations; ///< maximum in a step
   LineSearch line_search;
   Predictor predictor;
   Located<LinearSolver> linear_solver;
   Forcing forcing;
   double linear_tolerance; ///< |b − A x| / |b|; for Eisenstat and Walker the minimum
-  unsigned int most_linear_iterations;
+  unsigned int max_linear_iterations;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -20,7 +20,7 @@ template <class T> struct Located {
 };
 
 /// Range of input numbers. Powers and products of numbers outside it may leave the range of double.
-constexpr double largest_number = 1e60, smallest_number = 1e-60;
+constexpr double max_number = 1e60, min_number = 1e-60;
 
 /// Returns a whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
 unsigned int parse_count(const std::string &text);
@@ -45,7 +45,8 @@ public:
   double number(const std::string &key) const override;
   double positive(const std::string &key) const override;
   double not_negative(const std::string &key) const override;
-  unsigned int count(const std::string &key, unsigned int least = 0, unsigned int most = 999999999) const;
+  unsigned int count(const std::string &key, unsigned int minimum = 0,
+                     unsigned int maximum = 999999999) const;
   std::vector<double> numbers(const std::string &key) const override;
   std::vector<unsigned int> counts(const std::string &key) const;
   /// Returns three numbers.

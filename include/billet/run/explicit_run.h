@@ -54,7 +54,7 @@ private:
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
   Stopwatch stopwatch_;                                 ///< for the steps, without output
   unsigned int balanced_step_ = 0;                      ///< last step with a balance of energies
-  double next_look_ = 0.;                               ///< time of the next check_stability() [time]
+  double next_check_ = 0.;                              ///< time of the next check_stability() [time]
   bool is_finished_ = false, is_between_steps_ = true;
 };
 

@@ -49,8 +49,8 @@ struct Body {
   std::shared_ptr<const PointLaw> law;
   ElementFormulation formulation; ///< for implicit scenes
   double young_modulus;
-  double largest_modulus; ///< uniaxial-strain modulus, K + 4/3 G [stress]
-  double density;         ///< undeformed
+  double max_modulus; ///< uniaxial-strain modulus, K + 4/3 G [stress]
+  double density;     ///< undeformed
   std::vector<Hold> holds;
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by `holds`
   std::vector<AppliedLoad> loads;
@@ -67,9 +67,11 @@ struct InitialOverlap {
 
   /// Whether a gap counts as closed.
   bool closes(const double gap) const { return gap > 0. && gap <= closed_gap; }
-  /// Returns the part of an initial penetration `depth` that counts as none. A depth < 0 is an initial gap
-  /// that counts as closed permanently.
-  static double counted(const double depth, const double part) { return depth > 0. ? part * depth : depth; }
+  /// Returns the part of an initial penetration `penetration` that counts as none. A depth < 0 is an initial
+  /// gap that counts as closed permanently.
+  static double counted(const double penetration, const double part) {
+    return penetration > 0. ? part * penetration : penetration;
+  }
 
   /// Returns the fraction of the initial penetration that counts as none at time t.
   double allowed_part(const double t) const { return ramp_time > 0. ? std::max(0., 1. - t / ramp_time) : 1.; }

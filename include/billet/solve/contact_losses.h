@@ -27,7 +27,7 @@ public:
 
   /// Returns a warning if the total exceeds a twentieth of the largest energy, and again whenever its part
   /// has doubled.
-  DiagnosticList watch(double largest_energy, double time);
+  DiagnosticList watch(double max_energy, double time);
 
   std::vector<double> save() const;
   void load(const std::vector<double> &numbers);

@@ -64,10 +64,10 @@ private:
     bool is_augmented = false;
     bool is_softer_tangentially = false; ///< than in the normal direction
     bool has_touched = false;
-    double largest_force = 0., time = 0.; ///< of the largest force
-    ForceSpread spread;                   ///< at the largest force
-    StickSoftness largest_friction;       ///< largest friction and largest lost friction, each over the run
-    double largest_of_edges = 0.;         ///< lower bound of the force on crossing edges [force]
+    double max_force = 0., time = 0.; ///< of the largest force
+    ForceSpread spread;               ///< at the largest force
+    StickSoftness max_friction;       ///< largest friction and largest lost friction, each over the run
+    double max_of_edges = 0.;         ///< lower bound of the force on crossing edges [force]
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 

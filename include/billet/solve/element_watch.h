@@ -56,7 +56,7 @@ private:
   std::vector<ElementComparison> comparisons_; ///< by body
   std::vector<double> volumes_;                ///< of the undeformed bodies
   std::vector<ElementEnergies> energies_;      ///< by body
-  double compared_energy_ = 0., compared_time_ = 0., largest_energy_ = 0.;
+  double compared_energy_ = 0., compared_time_ = 0., max_energy_ = 0.;
 };
 
 } // namespace billet

@@ -32,14 +32,14 @@ public:
   void after_failure();
 
   /// Error estimate of the result with the largest error.
-  struct Belief {
+  struct EstimatedError {
     ErrorControl::Estimate estimate;
     std::string of_what;
     double since = 0.;              ///< time from which on errors are known
     bool has_results = false;       ///< whether there are results to normalise errors by
     bool knows_penetration = false; ///< see ErrorControl
   };
-  Belief belief() const;
+  EstimatedError estimated_error() const;
   unsigned int n_measurements() const { return controls_.front().n_measurements(); } ///< of steps
   /// Whether the target error sets the penetration allowed, instead of the scene.
   bool controls_penetration() const { return controls_penetration_; }
@@ -59,7 +59,7 @@ private:
   void allow_penetration();
   void demand_accuracy(bool is_measured);
   /// Returns the smallest value of a bound, such as the maximum step, over all controls.
-  double least(double (ErrorControl::*bound)() const) const;
+  double minimum(double (ErrorControl::*bound)() const) const;
   bool wants_measurement(double length) const;
   bool wants_penetration() const;
   void miss_measurement(double length, bool failed);

@@ -21,9 +21,9 @@ public:
   /// Adds an accepted step; in explicit scenes a step now and then. Collective.
   void add(const SolutionState &state);
 
-  /// Returns warnings. Bodies whose motion has little of `largest_energy`, the largest energy in the run, are
+  /// Returns warnings. Bodies whose motion has little of `max_energy`, the largest energy in the run, are
   /// left out. Collective.
-  DiagnosticList judge(double largest_energy) const;
+  DiagnosticList judge(double max_energy) const;
 
   void save(StateWriter &writer) const;
   /// Loads the sums; they start from zero if the earlier run did not save them.

@@ -57,7 +57,7 @@ private:
   };
   /// Deepest node of one body in another.
   struct Deepest {
-    double depth = 0., relative = 0.; ///< [length], [allowed depth]
+    double penetration = 0., relative = 0.; ///< [length], [allowed depth]
     dealii::Tensor<1, 3> position;
   };
   using Positions = std::vector<std::vector<dealii::Tensor<1, 3>>>; ///< of surface nodes, by body
@@ -88,7 +88,7 @@ private:
   std::vector<std::vector<Node>> nodes_;           ///< of surfaces, by body, on this rank
   std::vector<std::vector<BoundaryFacet>> facets_; ///< of surfaces except symmetry planes
   std::vector<Couple> bodies_, tools_, selves_;    ///< that pairs do not connect completely
-  std::string told_;                               ///< lines of name_of() that have been reported
+  std::string reported_;                           ///< lines of name_of() that have been reported
 };
 
 } // namespace billet

@@ -62,7 +62,7 @@ struct NewtonReport {
   /// Round-off of contact exceeds its permitted part of the forces: residuals come no nearer to their
   /// tolerance.
   bool is_lost_in_round_off = false;
-  bool goes_round = false;   ///< it did not converge: go_round()
+  bool is_cycling = false;   ///< it did not converge: is_cycling()
   bool is_explained = false; ///< `failure` contains advice, and the iterations are not the cause
   unsigned int linear_iterations = 0;
   DiagnosticList diagnostics; ///< messages for the user
@@ -77,7 +77,7 @@ struct NewtonReport {
     makes_energy = next.makes_energy;
     penetrates = next.penetrates;
     is_lost_in_round_off = next.is_lost_in_round_off;
-    goes_round = next.goes_round;
+    is_cycling = next.is_cycling;
     is_explained = next.is_explained;
     is_stalled = next.is_stalled;
     criteria = next.criteria;
@@ -97,12 +97,12 @@ struct NewtonReport {
 
 /// Whether the last residuals rise and fall and repeat those of two to four iterations before: Newton's
 /// method cycles between the same states.
-bool go_round(const std::vector<NewtonIteration> &iterations);
+bool is_cycling(const std::vector<NewtonIteration> &iterations);
 
 /// Maximum part of the force scale that round-off of contact penalties may leave as residual. Below it forces
 /// are as exact as contact by penalties permits, and two digits better than noise. Above it they no longer
 /// represent the scene.
-constexpr double most_round_off = 0.005;
+constexpr double max_round_off = 0.005;
 
 /// Maximum residual, as part of the forces, up to which a stalled step is accepted with a warning, ...
 constexpr double max_stalled_residual = 0.02;
@@ -118,7 +118,7 @@ constexpr double exact_residual = 5e-6;
 bool is_stagnant(const std::vector<NewtonIteration> &iterations, double last_force, std::size_t window);
 
 /// Maximum relative tolerance of a linear system.
-constexpr double largest_forcing_term = 1e-2;
+constexpr double max_forcing_term = 1e-2;
 
 /// Solves by Newton's method. Starts from, and overwrites, `x`; the step's increment is x − x_n. If the
 /// iterations stall close to balance, they converge if `accepts_stalled`, else they fail; `is_stalled` is set

@@ -2,7 +2,7 @@
 #ifndef BILLET_SOLVE_PENALTY_CONTROL_H
 #define BILLET_SOLVE_PENALTY_CONTROL_H
 
-#include "billet/contact/traction.h"
+#include "billet/contact/contact_penalties.h"
 #include "billet/diagnostics.h"
 #include "billet/scene/scene.h"
 #include "billet/solve/load_paths.h"
@@ -37,9 +37,9 @@ public:
   /// nodes settle without an impact; in implicit ones softness is measured anew after a raise.
   static constexpr double in_explicit_scenes = 1.1, in_implicit_scenes = 4.;
   /// Pairs with tools come first.
-  PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths, double largest_raise);
+  PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths, double max_raise);
   /// Collective.
-  PenaltyControl(const Scene &scene, const Discretization &discretization, double largest_raise);
+  PenaltyControl(const Scene &scene, const Discretization &discretization, double max_raise);
 
   /// Whether there is a pair with an automatic penalty.
   bool is_used() const;
@@ -52,13 +52,12 @@ public:
     EnergyLedger all;
     std::vector<StickSoftness> sticking; ///< of pairs
   };
-  /// Returns the factors by which the penalties of a contact, with a tool or between bodies, may still rise.
-  /// Collective.
-  template <class Contact> Factors room_of(const Contact &contact, const MPI_Comm communicator) const {
-    const std::vector<double> left{contact.stiffening_left(), contact.tangential_stiffening_left()};
-    std::vector<double> least(left.size());
-    dealii::Utilities::MPI::min(left, communicator, least);
-    return {most_in_all * least[0], most_in_all * least[1]};
+  /// Returns the factors by which the penalties of a contact may still rise. Collective.
+  Factors room_of(const ContactPenalties &penalties, const MPI_Comm communicator) const {
+    const std::vector<double> left{penalties.stiffening_left(), penalties.tangential_stiffening_left()};
+    std::vector<double> minimum(left.size());
+    dealii::Utilities::MPI::min(left, communicator, minimum);
+    return {max_in_all * minimum[0], max_in_all * minimum[1]};
   }
   /// Returns the energies of a solution whose ledger is that of this time. Collective.
   Energies measure(const Solution &solution, std::size_t n_bodies, double time, MPI_Comm communicator) const;
@@ -74,7 +73,7 @@ public:
 private:
   /// Maximum raise beyond 10 E/h. Bodies that are confined and nearly incompressible are many times as stiff
   /// as E.
-  static constexpr double most_in_all = 1e5;
+  static constexpr double max_in_all = 1e5;
   struct Controlled {
     LoadPath parts;
     double left = 1.;      ///< remaining factor of the present raise
@@ -86,9 +85,9 @@ private:
   void describe(const std::string &penalty, std::size_t pair, double time, double factor, double room,
                 const std::string &reason);
 
-  double largest_raise_;
-  double time_ = 0.;            ///< of the last raises()
-  double largest_kinetic_ = 0.; ///< so far
+  double max_raise_;
+  double time_ = 0.;        ///< of the last raises()
+  double max_kinetic_ = 0.; ///< so far
   std::vector<Pair> pairs_;
   std::vector<Controlled> paths_;
   std::optional<StickSprings> stick_springs_; ///< none if no penalty is automatic

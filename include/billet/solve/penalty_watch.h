@@ -30,20 +30,20 @@ public:
   DiagnosticList check(const std::string &pair, double time, const Penetration &deepest, double displacement,
                        double part_of_work = 0.);
   /// Whether a pair has shown any of the signs.
-  bool has_soft_pairs() const { return has_soft_pairs_; }
+  bool has_low_penalties() const { return has_low_penalties_; }
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
 private:
   Motion motion_;
-  bool has_soft_pairs_ = false;
+  bool has_low_penalties_ = false;
   std::map<std::string, bool> are_deep_;        ///< by pair, at the last check
   std::map<std::string, double> displacements_; ///< by pair, the largest so far [length]
 };
 
 /// Returns an upper bound of a tool's motion at points up to `radius` from its moved centre [length].
-double largest_motion(const Placement &from, const Placement &to, double radius);
+double max_motion(const Placement &from, const Placement &to, double radius);
 
 } // namespace billet
 

@@ -26,7 +26,7 @@ public:
   /// Returns the maximum error by penetration, as part of the forces, in the first step that measures it.
   double allowed_at_first() const {
     return is_measured_ || tolerance_ == 0. ? std::numeric_limits<double>::infinity()
-                                            : most_over_mean * tolerance_;
+                                            : max_over_mean * tolerance_;
   }
   /// Adds a measurement after the last step of `course`; see ErrorControl::measure_penetration().
   void measure(const ForceCourse &course, double penetration, const ResultGroup &forces,
@@ -47,7 +47,7 @@ public:
 
 private:
   /// Augmentation leaves less than allowed, about half of it on average.
-  static constexpr double most_over_mean = 2.;
+  static constexpr double max_over_mean = 2.;
 
   double tolerance_;
   double integral_ = 0.;

@@ -24,7 +24,7 @@ public:
 
   /// Returns the largest kinetic energy of the run over the largest internal energy. It is small in a
   /// quasi-static process.
-  double kinetic_part() const { return largest_internal_ > 0. ? largest_kinetic_ / largest_internal_ : 0.; }
+  double kinetic_part() const { return max_internal_ > 0. ? max_kinetic_ / max_internal_ : 0.; }
 
   /// Returns the relative error of forces by elements that are too stiff or too soft; 0 if none is found.
   double element_error() const { return elements_.error(); }
@@ -43,9 +43,9 @@ private:
   InertiaWatch inertia_;
   ContactReview contacts_;
   MissingPairs missing_pairs_;
-  double largest_kinetic_ = 0., largest_internal_ = 0.,
-         largest_energy_ = 0.; ///< largest_energy_: total
-  double numerical_ = 0.;      ///< dissipated by implicit time integration so far
+  double max_kinetic_ = 0., max_internal_ = 0.,
+         max_energy_ = 0.; ///< max_energy_: total
+  double numerical_ = 0.;  ///< dissipated by implicit time integration so far
 };
 
 } // namespace billet

@@ -52,8 +52,8 @@ private:
   struct Pair {
     bool limits = false;
     Direction normal, tangential;
-    double let_in = 0.;                        ///< missing friction by the slip of all steps so far [force]
-    double largest_force = 0., unsettled = 0.; ///< over the run [force]
+    double let_in = 0.;                    ///< missing friction by the slip of all steps so far [force]
+    double max_force = 0., unsettled = 0.; ///< over the run [force]
   };
 
   std::vector<Pair> pairs_;

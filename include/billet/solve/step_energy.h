@@ -27,7 +27,7 @@ public:
   static constexpr double min_before = 0.1;
   /// Length, as part of the first rejected step, down to which steps are cut. An imbalance that remains then,
   /// anywhere within that step, belongs to the solution.
-  static constexpr double least_cut = 1. / 32.;
+  static constexpr double min_cut = 1. / 32.;
 
   /// Returns the imbalance as part of all work, that of this step included; 0 without work.
   static double part_of_all(const Works &works);

@@ -58,7 +58,7 @@ private:
   /// Slope c of the errors that follows from the difference between one step and two.
   struct Slope {
     double value, last;
-    double most;     ///< upper bound, with all noise
+    double maximum;  ///< upper bound, with all noise
     bool is_first;   ///< of these forces
     bool is_known;   ///< difference exceeds the noise
     ResultGroup now; ///< c of each force

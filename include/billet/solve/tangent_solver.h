@@ -5,6 +5,7 @@
 #include "billet/algebra/iterative_solver.h"
 #include "billet/diagnostics.h"
 #include "billet/parameters/control.h"
+#include "billet/solve/condition_watch.h"
 #include "billet/usage.h"
 
 #include <memory>
@@ -51,10 +52,7 @@ public:
 private:
   bool factorize_directly();
   bool fall_back();
-  /// Estimates the condition of the matrix just factorised, by two solves.
-  void estimate_condition();
-  /// Updates the condition by |A| |x|/|b|, a lower bound without additional cost.
-  void watch_condition(const Vector &b, const Vector &x);
+  void note_memory();
 
   DirectMethod direct_method_;
   bool symmetric_;
@@ -66,16 +64,12 @@ private:
   bool is_nearly_singular_ = false;
   unsigned int n_failures_ = 0; ///< of the iterative solver in succession
   unsigned int pause_ = 0;      ///< remaining matrices for which it is not tried
-  bool has_reported_memory_ = false, is_ill_conditioned_ = false;
-  unsigned int n_factorized_ = 0; ///< directly
-  double norm_ = 0.;              ///< |A|, as factorised directly
-  double condition_ = 0.;         ///< lower bound, of the same matrix
+  bool has_reported_memory_ = false;
+  ConditionWatch condition_; ///< of what is factorised directly
   std::string name_, failure_;
   DiagnosticList diagnostics_;
   HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},
       iterative_memory_{Capability::iterative_solver};
-
-  void note_memory();
 };
 
 } // namespace billet

@@ -6,6 +6,19 @@
 
 namespace billet {
 
+namespace {
+
+struct Limits {
+  /// Maximum error by nodes that come through surfaces in a step, as part of the energy, (E5).
+  static constexpr double allowed = 0.0025;
+};
+
+} // namespace
+
+double CrossingLimit::longest_step(const double step, const double springs, const double energy) {
+  return step * std::sqrt(Limits::allowed * energy / (0.125 * springs));
+}
+
 CrossingLimit::Coming CrossingLimit::at_start(const double stable_step) const {
   // No node has moved yet.
   Coming coming{parts_.forces.crossings(), stable_step, false};
@@ -24,7 +37,6 @@ CrossingLimit::Coming CrossingLimit::at_start(const double stable_step) const {
 }
 
 void CrossingLimit::update(const double stable_step, const double energy) {
-  constexpr double allowed = 0.0025; // of the energy
   value_ = std::numeric_limits<double>::infinity();
   if (parts_.contacts.empty())
     return;
@@ -45,7 +57,7 @@ void CrossingLimit::update(const double stable_step, const double energy) {
   const double speed = dealii::Utilities::MPI::max(fastest, parts_.communicator());
   const double mass = parts_.masses.of_bodies() + parts_.masses.added();
   const double scale = std::max(energy, 0.5 * mass * speed * speed);
-  value_ = coming.step * std::sqrt(allowed * scale / (0.125 * springs));
+  value_ = longest_step(coming.step, springs, scale);
 }
 
 } // namespace billet

@@ -7,19 +7,36 @@
 
 namespace billet {
 
+namespace {
+
+/// Limits of steps, as factors unless they say otherwise.
+struct Limits {
+  /// Growth of steps of the allowed length, as part of them, and maximum factor of shorter steps. The error
+  /// of a step change by a part p scales with p (ω Δt)²: short steps may grow faster.
+  static constexpr double growth = 0.02, max_growth = 2.;
+  /// Parts of the allowed step: below the first, steps begin to grow, and they grow up to the second.
+  static constexpr double short_step = 0.9, long_step = 0.99;
+  /// Part of all steps by which the time to the event may exceed them without one more.
+  static constexpr double rounding = 1e-9;
+  /// Maximum number of planned steps, for the counter's range.
+  static constexpr double max_planned = 1e9;
+  /// Number of steps to the event from which on they are below the resolution of time.
+  static constexpr double too_many = 1e15;
+};
+
+} // namespace
+
 void ExplicitClock::plan(const double event, const double allowed) {
-  // The error of a step change by a part p scales with p (ω Δt)²: short steps may grow faster.
-  constexpr double growth = 0.02, max_growth = 2., short_step = 0.9, long_step = 0.99;
-  constexpr double rounding = 1e-9; // a remainder that exceeds a step by this part is one step
   step_before_ = step_;
   const double length = step_ / allowed;
   const double longest =
-      n_steps_ > 0 ? std::min(allowed, std::min(max_growth, 1. + growth / (length * length)) * step_)
-                   : allowed;
+      n_steps_ > 0
+          ? std::min(allowed, std::min(Limits::max_growth, 1. + Limits::growth / (length * length)) * step_)
+          : allowed;
   const double remaining = event - time_;
-  const double n = std::max(1., std::ceil(remaining / longest * (1. - rounding)));
+  const double n = std::max(1., std::ceil(remaining / longest * (1. - Limits::rounding)));
   const double fresh = remaining / n;
-  is_growing_ = step_ < (is_growing_ ? long_step : short_step) * allowed;
+  is_growing_ = step_ < (is_growing_ ? Limits::long_step : Limits::short_step) * allowed;
   const bool is_planned = n_planned_ > 0 && event_ == event && step_ <= allowed;
   // Near the event, new steps may be shorter than the planned ones: then the planned ones are kept.
   if (is_planned && !(is_growing_ && fresh > step_)) {
@@ -28,13 +45,12 @@ void ExplicitClock::plan(const double event, const double allowed) {
   }
   event_ = event;
   step_ = fresh;
-  n_planned_ = static_cast<unsigned int>(std::min(n, 1e9)) - 1;
-  if (!(time_ + step_ > time_) || !(n < 1e15)) {
+  n_planned_ = static_cast<unsigned int>(std::min(n, Limits::max_planned)) - 1;
+  if (!(time_ + step_ > time_) || !(n < Limits::too_many)) {
     std::ostringstream why;
     why << "the stable step, " << longest
-        << ", is too short for the clock: is an element nearly flat, a density tiny or a penalty huge? 'Mass "
-           "scaling "
-           "step' makes it longer";
+        << ", is below the resolution of the time. Check for nearly flat elements, low densities and high "
+           "penalties; 'Mass scaling step' increases it";
     throw failure(why.str());
   }
 }

@@ -64,7 +64,7 @@ void ExplicitElements::make_blocks() {
       std::ostringstream message;
       message << input.origin << ": the element with its centre at ("
               << nodes_.discretization().elements(b)[offender].cell->center()
-              << ") is degenerate or inside out; allowed are hexahedra with a positive Jacobian";
+              << ") is degenerate or inverted; allowed are hexahedra with a positive Jacobian";
       throw InputError(message.str());
     }
   }
@@ -105,14 +105,14 @@ SolutionFailure ExplicitElements::describe_inverted(const std::size_t body, cons
   }
   std::ostringstream why;
   why << "element " << nodes_.discretization().elements(body)[element].cell->global_active_cell_index()
-      << " of body '" << scene_.bodies()[body].name << "', which started at (" << at_start << "), is ";
+      << " of body '" << scene_.bodies()[body].name << "', with its initial centre at (" << at_start
+      << "), is ";
   if (std::isfinite(centre.norm()))
-    why << "inside out at (" << centre
-        << "): try a smaller 'Safety factor', more bulk viscosity, a softer penalty or a mesh that is "
-           "less "
-           "distorted there";
+    why << "inverted at (" << centre
+        << "). Try a smaller 'Safety factor', more bulk viscosity, a lower penalty or a less distorted mesh "
+           "there";
   else
-    why << "at no finite place: a velocity, a load or a penalty may be too large for its units";
+    why << "not finite in its coordinates. Check the units of velocities, loads and penalties";
   return clock.failure(why.str());
 }
 

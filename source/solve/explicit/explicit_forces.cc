@@ -70,8 +70,8 @@ std::string ExplicitForces::add_contact_forces(const ExplicitClock &clock, const
   for (auto &contact : contacts) {
     contact.start_step(step);
     contact.update(motion.displacements());
-    if (passage.empty() && contact.lets_nodes_through())
-      passage = contact.describe_passage();
+    if (passage.empty() && contact.checks().lets_nodes_through())
+      passage = contact.checks().describe_passage();
     const ContactLoad load = contact.add_forces(forces_, bounds_);
     if (const auto &tool = contact.rigid_tool())
       tools.add_load(contact, *tool, load);
@@ -126,10 +126,10 @@ StepBounds ExplicitForces::bounds(const std::vector<double> &inverse_masses) con
 }
 
 double ExplicitForces::max_stiffness() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (const unsigned int node : bounded_nodes_)
-    largest = std::max(largest, bounds_[std::size_t{nodal_stride} * node]);
-  return largest;
+    maximum = std::max(maximum, bounds_[std::size_t{nodal_stride} * node]);
+  return maximum;
 }
 
 } // namespace billet

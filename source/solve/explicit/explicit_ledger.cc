@@ -107,7 +107,7 @@ void ExplicitLedger::update(SolutionState &state) {
   }
   add_tools(state);
   for (std::size_t i = 0; i < parts_.contacts.of_bodies().size(); ++i) {
-    state.body_pair_loads[i] = parts_.contacts.of_bodies()[i].compute_load();
+    state.body_pair_loads[i] = parts_.contacts.of_bodies()[i].measures().compute_load();
     energies.contact += state.body_pair_loads[i].stored_energy;
   }
   if (parts_.clock.is_at_start())
@@ -121,7 +121,7 @@ void ExplicitLedger::update(SolutionState &state) {
 
 double ExplicitLedger::min_energy(const double stable_step) const {
   const double rounding = std::numeric_limits<double>::epsilon() * extent_;
-  const double rate = 2. / stable_step * 2. * rounding / std::min(parts_.settings().largest_drift, 1.);
+  const double rate = 2. / stable_step * 2. * rounding / std::min(parts_.settings().max_drift, 1.);
   return 0.5 * (parts_.masses.of_bodies() + parts_.masses.added()) * rate * rate;
 }
 

@@ -23,10 +23,10 @@ void ExplicitMotion::begin(const Scene &scene) {
   });
   // Contradictory planes are detected here, if they contradict each other at one of these times.
   const Supports supports(scene, nodes_.discretization());
-  constexpr unsigned int n_looks = 16;
+  constexpr unsigned int n_checks = 16;
   check_before_start([&] {
-    for (unsigned int look = 0; look <= n_looks; ++look)
-      supports.at_time(scene.parameters().time_stepping.end_time * look / n_looks);
+    for (unsigned int check = 0; check <= n_checks; ++check)
+      supports.at_time(scene.parameters().time_stepping.end_time * check / n_checks);
   });
   held_.set_displacements(0., u_);
 }
@@ -46,10 +46,10 @@ NodalVectors ExplicitMotion::displacements_before(const double step) const {
 }
 
 double ExplicitMotion::max_displacement() const {
-  double largest = 0.;
+  double maximum = 0.;
   for (unsigned int node = 0; node < nodes_.size(); ++node)
-    largest = std::max(largest, get_vector(u_.data(), node).norm());
-  return largest;
+    maximum = std::max(maximum, get_vector(u_.data(), node).norm());
+  return maximum;
 }
 
 void ExplicitMotion::kick(const ExplicitClock &clock, const NodalMasses &masses, NodalVectors &node_forces) {

@@ -12,14 +12,14 @@ void ExplicitPenalties::raise(const Solution &solution, double &external_work) {
   const MPI_Comm communicator = parts_.communicator();
   const PenaltyControl::Energies energies =
       control_.measure(solution, parts_.scene.bodies().size(), parts_.clock.time(), communicator);
-  const auto room =
-      parts_.contacts.collect([&](const auto &contact) { return control_.room_of(contact, communicator); });
+  const auto room = parts_.contacts.collect(
+      [&](const auto &contact) { return control_.room_of(contact.penalties(), communicator); });
   const std::vector<PenaltyControl::Factors> factors = control_.raises(energies, room);
   for (std::size_t p = 0; p < factors.size(); ++p) {
     if (!factors[p].raises())
       continue;
     const auto [normal, tangential] = factors[p];
-    parts_.contacts[p].scale_penalties(normal, tangential);
+    parts_.contacts[p].penalties().scale(normal, tangential);
     // Compressed springs receive the energy that stiffer ones store. The force of friction stays, and its
     // springs store less.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -33,7 +33,7 @@ DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   // Maxima over all ranks: the displacement, and for each pair the penetration, in facet sizes and as length.
   std::vector<double> maxima{parts_.motion.max_displacement()};
   for (const auto &contact : parts_.contacts) {
-    const Penetration deepest = contact.penetration();
+    const Penetration deepest = contact.measures().penetration();
     maxima.insert(maxima.end(), {deepest.of_facet, deepest.length});
   }
   dealii::Utilities::MPI::max(maxima, parts_.communicator(), maxima);
@@ -44,11 +44,11 @@ DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   for (const auto &contact : parts_.contacts) {
     double moved = maxima[0];
     if (const auto &tool = contact.rigid_tool())
-      moved = std::max(moved, largest_motion(parts_.scene.tools()[*tool].placement(0.),
-                                             parts_.tools[*tool].now(), parts_.discretization.radius()));
+      moved = std::max(moved, max_motion(parts_.scene.tools()[*tool].placement(0.), parts_.tools[*tool].now(),
+                                         parts_.discretization.radius()));
     append(messages, watch_.check(contact.name(), time, {next[0], next[1]}, moved, part));
     next += 2;
-    append(messages, contact.check_step());
+    append(messages, contact.checks().check_step());
   }
   return messages;
 }

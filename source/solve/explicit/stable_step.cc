@@ -14,7 +14,7 @@ namespace billet {
 namespace {
 
 constexpr const char *flat_element_advice =
-    "try a mesh that is finer, or of better shape, where it deforms most, or a material that hardens";
+    "Try a finer mesh, or better shaped elements, where deformation is largest, or a hardening material";
 
 } // namespace
 
@@ -45,8 +45,8 @@ double StableStep::allowed(const double crossing_step) const {
 std::string StableStep::describe_flat_elements() const {
   std::ostringstream text;
   text.precision(3);
-  text << "the stable step of the elements has fallen to " << of_elements_ << ", from " << of_elements_first_
-       << " at the start, as one is nearly flat";
+  text << "the stable step of the elements falls to " << of_elements_ << ", from " << of_elements_first_
+       << " at the start, since one element is nearly flat";
   return text.str();
 }
 
@@ -54,7 +54,7 @@ std::string StableStep::describe_collapse() const {
   constexpr double collapsed = 1e-5;
   if (!(of_elements_ < collapsed * of_elements_first_))
     return "";
-  return describe_flat_elements() + ". So the run would hardly end: " + flat_element_advice;
+  return describe_flat_elements() + ", so the run cannot finish in reasonable time. " + flat_element_advice;
 }
 
 DiagnosticList StableStep::check(const double t, const Contacts &contacts,
@@ -63,7 +63,7 @@ DiagnosticList StableStep::check(const double t, const Contacts &contacts,
   DiagnosticList messages;
   if (value_ < much_shorter * of_elements_) {
     std::vector<double> room = // by pair, on all ranks
-        contacts.collect([](const auto &contact) { return contact.stiffening_left(); });
+        contacts.collect([](const auto &contact) { return contact.penalties().stiffening_left(); });
     dealii::Utilities::MPI::min(room, communicator, room);
     const auto stiffest = std::min_element(room.begin(), room.end());
     const auto i = static_cast<std::size_t>(stiffest - room.begin());

@@ -23,10 +23,10 @@ public:
   double ratio() const {
     return std::pow(errors_.back() / errors_[errors_.size() - 1 - window], 1. / window);
   }
-  /// Whether, at this rate, the error will be above 1 after `most` augmentations.
-  bool is_hopeless(const unsigned int most) const {
+  /// Whether, at this rate, the error will be above 1 after `maximum` augmentations.
+  bool is_hopeless(const unsigned int maximum) const {
     const auto n = static_cast<unsigned int>(errors_.size()) - 1;
-    return n >= 2 * window && std::log(errors_.back()) + (most - n) * std::log(ratio()) > 0.;
+    return n >= 2 * window && std::log(errors_.back()) + (maximum - n) * std::log(ratio()) > 0.;
   }
   /// Returns the number of further augmentations until convergence; the error has to fall.
   double to_go() const { return std::ceil(-std::log(errors_.back()) / std::log(ratio())); }
@@ -97,7 +97,7 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
     factors[i] = whole_octaves(
         left < 1. ? std::min(room[i], left / (1. - left) * (1. - Limits::wanted) / Limits::wanted) : room[i]);
     is_stiffer = true;
-    contacts[i].stiffen(factors[i]);
+    contacts[i].penalties().scale(factors[i], factors[i]);
   }
   if (is_stiffer)
     problem_.scales().spring_round_off = contacts.find_spring_round_off();
@@ -112,11 +112,11 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
     if (!(room[i] < 1.) || !contacts[i].settings().is_augmented())
       continue;
     const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
-    contacts[i].stiffen(factor);
+    contacts[i].penalties().scale(factor, factor);
     has_softened = true;
     std::ostringstream text;
-    text << "The penalty was reduced to " << penalty
-         << " E/h, since Newton's method failed; augmentation makes up for that";
+    text << "The penalty is reduced to " << penalty
+         << " E/h, since Newton's method failed; augmentation enforces the constraint";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(contacts[i].name())
                            .time(problem_.step().time)
@@ -133,13 +133,13 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
     demand /= penetration_allowed_;
     demands.by_tolerances = std::max(demands.by_tolerances, demand);
   }
-  demands.largest = demands.by_tolerances;
+  demands.maximum = demands.by_tolerances;
   if (springs.empty())
     return demands;
   const std::vector<double> excess = softness_.excess(springs);
   for (std::size_t i = 0; i < excess.size(); ++i) {
     demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
-    demands.largest = std::max(demands.largest, excess[i]);
+    demands.maximum = std::max(demands.maximum, excess[i]);
   }
   return demands;
 }
@@ -147,7 +147,8 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
 std::vector<ContactSprings> Augmentation::contact_springs() const {
   if (!softness_.is_used())
     return {};
-  auto springs = problem_.contacts().collect([](const auto &contact) { return contact.compute_springs(); });
+  auto springs =
+      problem_.contacts().collect([](const auto &contact) { return contact.penalties().compute_springs(); });
   std::vector<double> sums;
   for (const auto &[normal, tangential] : springs)
     sums.insert(sums.end(), {normal.force, normal.held, tangential.force, tangential.held});
@@ -192,24 +193,24 @@ Augmentation::changes_of(const std::vector<ContactSprings> &before,
 void Augmentation::give_up(const Series &series, const unsigned int n, const double error,
                            NewtonReport &report) const {
   std::ostringstream message;
-  message << "after " << n << " augmentations contact is still " << error
-          << " times its 'Penetration tolerance' from what it should be";
-  const unsigned int most = problem_.parameters().solver.most_augmentations;
-  if (n < most && series.pace.ratio() < 1.)
-    message << ", and at their pace, each leaves " << series.pace.ratio() << " of that, it would take "
+  message << "after " << n << " augmentations the penetration or elastic slip is still " << error
+          << " times the 'Penetration tolerance' from its target";
+  const unsigned int maximum = problem_.parameters().solver.max_augmentations;
+  if (n < maximum && series.pace.ratio() < 1.)
+    message << ". At the present rate of " << series.pace.ratio() << " for each augmentation, it would take "
             << series.pace.to_go() << " more";
-  else if (n < most)
-    message << ", and they no longer lessen it";
-  message << ": try a larger penalty or 'Penetration tolerance', "
+  else if (n < maximum)
+    message << ", and no longer falls";
+  message << ". Try a larger penalty or 'Penetration tolerance', "
           << (problem_.scheme().has_inertia()
-                  ? "or none: nodes that have come in would have to stop within a step"
+                  ? "or no tolerance: in dynamics it requires penetrating nodes to stop within a step"
                   : "or a larger 'Maximum augmentations'");
   report.converged = false;
   report.failure = message.str();
 }
 
 void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
-  const unsigned int most = problem_.parameters().solver.most_augmentations;
+  const unsigned int maximum = problem_.parameters().solver.max_augmentations;
   const double accuracy = solver_.accuracy();
   double last_error = std::numeric_limits<double>::infinity();
   Series series(problem_.contacts().size());
@@ -218,7 +219,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
   series.springs = contact_springs();
   for (unsigned int n = 0; report.converged; ++n) {
     const Demands demands = find_demands(series.springs);
-    const double error = demands.largest;
+    const double error = demands.maximum;
     const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)
       break;
@@ -229,7 +230,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
     if (is_of_softness &&
         (n >= Limits::max_for_softness || series.pace.is_hopeless(Limits::max_for_softness)))
       break;
-    if (n == most || series.pace.is_hopeless(most)) {
+    if (n == maximum || series.pace.is_hopeless(maximum)) {
       if (!may_leave_penetration_)
         give_up(series, n, error, report);
       break;
@@ -251,7 +252,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   ContactSet &contacts = problem_.contacts();
   for (auto &contact : contacts)
     if (contact.settings().is_augmented())
-      contact.augment();
+      contact.penalties().augment();
   if (!series.before.empty()) {
     const std::vector<double> factors =
         stiffen_slow_contacts(series.before, demands.of_contacts, series.added);
@@ -263,7 +264,7 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   if (!report.converged && series.soft && is_of_softness) { // restore the former state
     for (std::size_t i = 0; i < series.stiffer.size(); ++i)
       if (series.stiffer[i] != 1.)
-        contacts[i].stiffen(1. / series.stiffer[i]);
+        contacts[i].penalties().scale(1. / series.stiffer[i], 1. / series.stiffer[i]);
     contacts.take_back_augmentation();
     displacements = *series.soft;
     offsets = series.soft_offsets;
@@ -302,8 +303,8 @@ DiagnosticList Augmentation::finish() const {
       continue;
     std::ostringstream text;
     text.precision(2);
-    text << "Augmentation was given up while it still changed the force by " << percent * unsettled[i]
-         << " % of the largest: facets of the two sides do not fit, or a sharp edge bears";
+    text << "Augmentation stops while it still changes the force by " << percent * unsettled[i]
+         << " % of the maximum. Facets of the two sides do not match, or a sharp edge carries the force";
     messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
                            .pair(problem_.contacts()[i].name())
                            .measure("change / force", unsettled[i]));

@@ -17,9 +17,19 @@ namespace {
 // diameters of the scene.
 constexpr double max_step = 1., max_path = 10.;
 
+/// Whether supports constrain a dof. A hanging node, which depends on dofs of other nodes, moves as they do.
+bool is_held(const Constraints &constraints, const DofIndex dof) {
+  if (!constraints.is_constrained(dof))
+    return false;
+  const auto *entries = constraints.get_constraint_entries(dof);
+  return entries == nullptr || std::all_of(entries->begin(), entries->end(), [dof](const auto &entry) {
+           return entry.first / 3 == dof / 3; // the dofs of a node are consecutive
+         });
+}
+
 } // namespace
 
-std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const std::size_t body) {
+std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
   std::vector<Resistance> resistances;
   for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization())) {
     dealii::Tensor<1, 3> position = entry.second.position;
@@ -30,7 +40,7 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
         resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
   }
   for (const auto &contact : problem.contacts())
-    contact.add_resistances(body, resistances);
+    contact.measures().add_resistances(body, resistances);
 
   // Gather the resistances of all ranks in the same order on each, so that all find the same mode.
   std::vector<double> numbers;
@@ -55,36 +65,33 @@ std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, const st
   return find_free_motion(resistances, 0.5 * (box.low + box.high), size);
 }
 
-void check_freedom(const ImplicitProblem &problem) {
+void check_free_modes(const ImplicitProblem &problem) {
   for (std::size_t body = 0; body < problem.scene().bodies().size(); ++body)
     if (const auto motion =
-            problem.stabilisation().acts_on(body) ? std::nullopt : find_freedom(problem, body))
+            problem.stabilisation().acts_on(body) ? std::nullopt : find_free_mode(problem, body))
       throw InputError(
           problem.scene().parameters().bodies[body].origin +
-          ": the body is without support: at the start neither supports, nor symmetry planes, "
-          "nor tools or bodies that it touches hold its rigid motion with " +
+          ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
+          "bodies in contact constrain its rigid-body mode with " +
           print(*motion) +
-          ". Allowed in a static scene: none that is free; hold it, or let it touch at the start");
+          ". A static scene allows no free mode. Add a support, or let the body touch at the start");
 }
 
-std::string describe_freedom(const ImplicitProblem &problem, const std::size_t body,
-                             const std::set<std::string> &removed) {
-  const auto motion = find_freedom(problem, body);
+std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t body,
+                               const std::set<std::string> &removed) {
+  const auto motion = find_free_mode(problem, body);
   if (!motion)
     return "";
   std::ostringstream message;
   message << problem.scene().parameters().file_name << ": at time " << problem.state().time << ", without ";
   for (const auto &name : removed)
     message << "tool '" << name << "', ";
-  message
-      << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
-      << problem.scene().bodies()[body].name
-      << "' is left without support: neither supports, nor symmetry planes, nor tools that it touches hold "
-         "its rigid motion with "
-      << print(*motion)
-      << ". Hold it there by a support or a symmetry plane, or let a tool stay. What was computed until "
-         "time "
-      << problem.state().time << " is in '" << problem.scene().parameters().output.folder.value << "'.";
+  message << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
+          << problem.scene().bodies()[body].name
+          << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
+             "rigid-body mode with "
+          << print(*motion) << ". Add a support or a symmetry plane, or keep a tool. Results until time "
+          << problem.state().time << " are in '" << problem.scene().parameters().output.folder.value << "'.";
   return message.str();
 }
 
@@ -96,46 +103,45 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   for (const auto &tool : problem.scene().tools()) {
     const Placement start = tool.placement(0.), before = tool.placement(problem.state().time),
                     after = tool.placement(t);
-    driven = std::max(driven, largest_motion(before, after, radius));
-    driven_so_far = std::max(
-        {driven_so_far, largest_motion(start, before, radius), largest_motion(start, after, radius)});
+    driven = std::max(driven, max_motion(before, after, radius));
+    driven_so_far =
+        std::max({driven_so_far, max_motion(start, before, radius), max_motion(start, after, radius)});
   }
-  std::array<double, 5> largest{0., 0., 0., 0., -1.}; // held in the step, so far; all in it, so far; body
+  std::array<double, 5> maximum{0., 0., 0., 0., -1.}; // held in the step, so far; all in it, so far; body
   const Constraints &held = problem.supports().homogeneous();
   for (const DofIndex dof : problem.discretization().owned_dofs()) {
     const double now = step.trial.displacements(dof), change = now - step.start.displacements(dof);
-    if (held.is_constrained(dof)) {
-      largest[0] = std::max(largest[0], std::abs(change));
-      largest[1] = std::max({largest[1], std::abs(now), std::abs(step.start.displacements(dof))});
+    if (is_held(held, dof)) {
+      maximum[0] = std::max(maximum[0], std::abs(change));
+      maximum[1] = std::max({maximum[1], std::abs(now), std::abs(step.start.displacements(dof))});
     }
-    largest[2] = std::max(largest[2], std::abs(change));
-    largest[3] = std::max(largest[3], std::abs(now));
+    maximum[2] = std::max(maximum[2], std::abs(change));
+    maximum[3] = std::max(maximum[3], std::abs(now));
   }
-  dealii::Utilities::MPI::max(dealii::ArrayView<const double>(largest.data(), largest.size()),
+  dealii::Utilities::MPI::max(dealii::ArrayView<const double>(maximum.data(), maximum.size()),
                               problem.communicator(),
-                              dealii::ArrayView<double>(largest.data(), largest.size()));
-  driven += largest[0];
-  driven_so_far += largest[1];
+                              dealii::ArrayView<double>(maximum.data(), maximum.size()));
+  driven += maximum[0];
+  driven_so_far += maximum[1];
   const auto fail = [&](const std::string &what) {
     report.converged = false;
     report.is_explained = true;
-    report.failure = what + ". A quasi-static solution does not move like this: look for a body that nothing "
-                            "holds, for units and for penalties; use 'Scheme = implicit dynamics' for free "
-                            "motion, or smaller steps";
+    report.failure = what + ". Quasi-static solutions do not move this far. Check supports, units and "
+                            "penalties; use 'Scheme = implicit dynamics' for free motion, or smaller steps";
     return true;
   };
   std::ostringstream text;
   text.precision(3);
-  if (largest[2] > max_step * diameter + 2. * driven) {
-    text << "the step to time " << t << " moves a node by " << largest[2] << ", which is "
-         << largest[2] / diameter << " times the diameter of the scene, while tools and supports move by "
-         << driven << "; allowed is " << max_step << " diameter more than twice that";
+  if (maximum[2] > max_step * diameter + 2. * driven) {
+    text << "the step to time " << t << " moves a node by " << maximum[2] << ", which is "
+         << maximum[2] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
+         << "; allowed is " << max_step << " diameters more than twice that";
     return fail(text.str());
   }
-  if (largest[3] > max_path * diameter + 2. * driven_so_far) {
-    text << "at time " << t << " a node has moved by " << largest[3] << ", which is " << largest[3] / diameter
+  if (maximum[3] > max_path * diameter + 2. * driven_so_far) {
+    text << "at time " << t << " a node has moved by " << maximum[3] << ", which is " << maximum[3] / diameter
          << " times the diameter of the scene; allowed are " << max_path
-         << " diameters more than twice the way of tools and supports";
+         << " diameters more than twice the path of tools and supports";
     return fail(text.str());
   }
   return false;

@@ -181,24 +181,24 @@ DiagnosticList BodyStabilisation::check_needless() const {
     if (is_needless_[body])
       messages.push_back(Diagnostic(diagnostic::needless_stabilisation,
                                     "Supports and symmetry planes hold body '" + scene_.bodies()[body].name +
-                                        "', which is stabilised until it is touched")
+                                        "', which has 'Contact stabilisation = until contact'")
                              .body(scene_.bodies()[body].name));
   return messages;
 }
 
-DiagnosticList BodyStabilisation::finish(const double time, const double largest_energy, const double forces,
+DiagnosticList BodyStabilisation::finish(const double time, const double max_energy, const double forces,
                                          const RigidBodySupport::Result &support_by_contact) const {
   DiagnosticList messages;
   if (!stabilisation_)
     return messages;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const std::string &name = scene_.bodies()[body].name;
-    const double part = largest_energy > 0. ? stabilisation_->work_of_motion(body) / largest_energy : 0.;
+    const double part = max_energy > 0. ? stabilisation_->work_of_motion(body) / max_energy : 0.;
     if (part > ContactStabilisation::max_part) {
       const double factor = part / ContactStabilisation::max_part;
       std::ostringstream text;
       text.precision(3);
-      text << "The viscous forces that stabilise body '" << name << "' did " << 100. * part
+      text << "The viscous forces that stabilise body '" << name << "' do " << 100. * part
            << " % of all work, " << factor << " times the allowed " << 100. * ContactStabilisation::max_part
            << " %";
       messages.push_back(Diagnostic(diagnostic::stabilisation_too_strong, text.str())
@@ -210,7 +210,7 @@ DiagnosticList BodyStabilisation::finish(const double time, const double largest
     if (!stabilisation_->acts_on(body) || body >= support_by_contact.is_free.size() ||
         !support_by_contact.is_free[body])
       continue;
-    const std::string what = "Neither supports nor contact resist a rigid-body mode of body '" + name +
+    const std::string what = "Neither supports nor contact constrain a rigid-body mode of body '" + name +
                              "' at the end" +
                              (support_by_contact.free && support_by_contact.free->body == body
                                   ? ", with " + print(support_by_contact.free->motion)
@@ -225,8 +225,9 @@ DiagnosticList BodyStabilisation::finish(const double time, const double largest
                              .time(time)
                              .measure("part of the forces", force_part));
     } else
-      messages.push_back(
-          Diagnostic(diagnostic::stabilised_at_end, what + ": only viscous forces do").body(name).time(time));
+      messages.push_back(Diagnostic(diagnostic::stabilised_at_end, what + ": only viscous forces resist it")
+                             .body(name)
+                             .time(time));
   }
   return messages;
 }

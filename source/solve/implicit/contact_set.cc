@@ -24,11 +24,11 @@ void ContactSet::restart() {
 
 void ContactSet::take_back_augmentation() {
   for (auto &contact : *this)
-    contact.take_back_augmentation();
+    contact.penalties().take_back_augmentation();
 }
 
 std::vector<double> ContactSet::augmentation_errors() const {
-  return collect_max([](const auto &contact) { return contact.augmentation_error(); });
+  return collect_max([](const auto &contact) { return contact.penalties().augmentation_error(); });
 }
 
 double ContactSet::find_penetration() const {
@@ -36,28 +36,29 @@ double ContactSet::find_penetration() const {
   double of_augmentation = 0.;
   for (const double error : augmentation_errors())
     of_augmentation = std::max(of_augmentation, error);
-  return std::max(of_augmentation,
-                  max([](const auto &contact) {
-                    return contact.settings().has_tolerance() ? 0. : contact.penetration().of_facet;
-                  }) / unit);
+  return std::max(of_augmentation, max([](const auto &contact) {
+                                     return contact.settings().has_tolerance()
+                                                ? 0.
+                                                : contact.measures().penetration().of_facet;
+                                   }) / unit);
 }
 
 double ContactSet::find_spring_round_off() const {
   constexpr double last_bits = 3.; // multiple of the effect of a position's last bit
   double force = 0.;
   for (const auto &contact : *this)
-    force = std::max(force, contact.largest_spring() * (reach_ + contact.surface_reach()));
+    force = std::max(force, contact.penalties().max_spring() * (reach_ + contact.measures().surface_reach()));
   return last_bits * std::numeric_limits<double>::epsilon() *
          dealii::Utilities::MPI::max(force, communicator_);
 }
 
 std::vector<double> ContactSet::stiffening_left() const {
-  return collect_min([](const auto &contact) { return contact.stiffening_left(); });
+  return collect_min([](const auto &contact) { return contact.penalties().stiffening_left(); });
 }
 
 std::string ContactSet::stiffest_pairs() const {
   const std::vector<double> springs =
-      collect_max([](const auto &contact) { return contact.largest_spring(); });
+      collect_max([](const auto &contact) { return contact.penalties().max_spring(); });
   const double stiffest = *std::max_element(springs.begin(), springs.end());
   constexpr double as_stiff = 0.1;
   std::string result;
@@ -68,17 +69,17 @@ std::string ContactSet::stiffest_pairs() const {
 }
 
 std::vector<std::vector<SlaveForce>> ContactSet::slave_forces() const {
-  return collect([](const auto &contact) { return contact.slave_forces(); });
+  return collect([](const auto &contact) { return contact.measures().slave_forces(); });
 }
 
 std::vector<double> ContactSet::stored_energies() const {
-  return collect([](const auto &contact) { return contact.compute_load().stored_energy; });
+  return collect([](const auto &contact) { return contact.measures().compute_load().stored_energy; });
 }
 
 StepWorks ContactSet::compute_step_works(const double weight) const {
   StepWorks works;
   for (const auto &contact : *this)
-    works += contact.compute_step_works(weight);
+    works += contact.measures().compute_step_works(weight);
   return works;
 }
 
@@ -86,7 +87,7 @@ ContactLoad ContactSet::compute_load(const std::size_t tool) const {
   ContactLoad load;
   for (const auto &contact : of_tools())
     if (contact.tool() == tool)
-      load += contact.compute_load();
+      load += contact.measures().compute_load();
   return load;
 }
 
@@ -95,10 +96,10 @@ double ContactSet::find_free_part(const ContactPath &path, std::string &obstacle
     return 1.;
   const std::vector<double> parts =
       collect_min([&](const auto &contact) { return contact.find_free_part(path); });
-  const auto least = std::min_element(parts.begin(), parts.end());
-  if (*least < 1.)
-    obstacle = (*this)[static_cast<std::size_t>(least - parts.begin())].describe_obstacle();
-  return *least;
+  const auto minimum = std::min_element(parts.begin(), parts.end());
+  if (*minimum < 1.)
+    obstacle = (*this)[static_cast<std::size_t>(minimum - parts.begin())].checks().describe_obstacle();
+  return *minimum;
 }
 
 } // namespace billet

@@ -91,7 +91,7 @@ double DrivenTools::unit_of(const std::size_t tool) const {
   return scene_.tools()[tool].control() == Tool::Control::moment ? discretization_.radius() : 1.;
 }
 
-RigidContact::ToolRate DrivenTools::rate_of(const std::size_t tool) const {
+ToolRate DrivenTools::rate_of(const std::size_t tool) const {
   if (scene_.tools()[tool].control() == Tool::Control::moment)
     return {{}, scene_.tools()[tool].rotation_axis() / unit_of(tool)};
   return {scene_.tools()[tool].force_direction(), {}};
@@ -121,7 +121,7 @@ double DrivenTools::distance_to_touch(const std::size_t tool) const {
   if (scene_.tools()[tool].control() != Tool::Control::moment)
     for (const auto &contact : contacts_.of_tools())
       if (contact.tool() == tool)
-        way = std::min(way, contact.distance_to_touch(scene_.tools()[tool].force_direction()));
+        way = std::min(way, contact.drive().distance_to_touch(scene_.tools()[tool].force_direction()));
   way = dealii::Utilities::MPI::min(way, discretization_.communicator());
   return way + more * discretization_.radius();
 }
@@ -138,7 +138,7 @@ void DrivenTools::assemble_tangent() {
     double slope = 0.;
     for (const auto &contact : contacts_.of_tools())
       if (contact.tool() == unknown_[k])
-        slope += contact.add_tool_derivatives(rate_of(unknown_[k]), column, row);
+        slope += contact.drive().add_derivatives(contact.tangents(), rate_of(unknown_[k]), column, row);
     column.compress(dealii::VectorOperation::add);
     row.compress(dealii::VectorOperation::add);
     const bool has_mass = scheme_.has_mass(unknown_[k]);
@@ -180,7 +180,8 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
     const double way = distance_to_touch(unknown_[i]);
     if (!std::isfinite(way)) {
       failure_ = "tool '" + scene_.tools()[unknown_[i]].name() +
-                 "' has a force or moment, but nothing that it touches, or could come to touch, resists it";
+                 "' has a force or moment, but no body in contact, or within reach, resists it. Check its "
+                 "direction and position";
       return false;
     }
     S(i, i) = 1.;

@@ -68,17 +68,17 @@ bool EnergyBalance::contact_makes_energy() const {
 void EnergyBalance::update_largest_energy() {
   const EnergyLedger &energies = problem_.state().energies;
   // As in the output: the present energy counts half, so that spurious energy does not hide itself.
-  largest_energy_ = std::max(
-      {largest_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
+  max_energy_ = std::max(
+      {max_energy_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
 }
 
 void EnergyBalance::save(StateWriter &writer) const {
-  writer.write("largest energy", {largest_energy_});
+  writer.write("largest energy", {max_energy_});
   writer.write("contact balance", {contact_balance_});
 }
 
 void EnergyBalance::load(const StateReader &reader) {
-  largest_energy_ = reader.number("largest energy");
+  max_energy_ = reader.number("largest energy");
   contact_balance_ = reader.number("contact balance");
 }
 
@@ -97,7 +97,7 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
   const StepWorks springs = problem_.contacts().compute_step_works(1. - problem_.scheme().contact_before());
   trial_contact_loss_ = contact_loss(t, springs.ramp + springs.touching).total;
   const StepEnergy::Works works{trial_contact_loss_,
-                                std::max(std::abs(internal_work), std::abs(contact_work)), largest_energy_};
+                                std::max(std::abs(internal_work), std::abs(contact_work)), max_energy_};
   const double floor = problem_.scales().round_off * problem_.discretization().radius();
   const double t_n = problem_.state().time;
   const StepEnergy::Verdict verdict = step_energy_.judge(t_n, t - t_n, works, floor);
@@ -106,21 +106,21 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
   const double percent = 100. * StepEnergy::part_of_all(works);
   std::ostringstream text;
   text.precision(3);
-  text << "contact " << (works.imbalance > 0. ? "loses" : "makes") << " energy in the step to time " << t
+  text << "contact " << (works.imbalance > 0. ? "loses" : "creates") << " energy in the step to time " << t
        << ": " << percent << " % of all work so far";
   if (verdict == StepEnergy::Verdict::jump) {
     trial_contact_loss_ = 0.;
-    report.diagnostics.push_back(Diagnostic(diagnostic::energy_imbalance, text.str())
-                                     .time(t)
-                                     .measure("part of all work [%]", percent)
-                                     .advice("Smaller steps do not change this: the bodies jump, as when one "
-                                             "slips off another, or have passed through each other. Check "
-                                             "the field output at this time; 'Scheme = implicit dynamics' "
-                                             "resolves jumps"));
+    report.diagnostics.push_back(
+        Diagnostic(diagnostic::energy_imbalance, text.str())
+            .time(t)
+            .measure("part of all work [%]", percent)
+            .advice("Smaller steps do not change this. The solution jumps to another branch, as when one "
+                    "body slips off another, or bodies pass through each other. Check the field output at "
+                    "this time; 'Scheme = implicit dynamics' resolves jumps"));
     return false;
   }
   text << ", more than the allowed " << 100. * StepEnergy::max_part
-       << " %. The solution jumped to another branch, or bodies passed through each other. Reduce 'Maximum "
+       << " %. The solution jumps to another branch, or bodies pass through each other. Reduce 'Maximum "
           "step' or the penalty, or use a finer mesh where they touch";
   report.converged = false;
   report.is_explained = true;
@@ -136,18 +136,18 @@ void StaticBalance::commit(double /*t*/) {
 DiagnosticList StaticBalance::finish() const {
   constexpr double doubtful = 0.04; // of all work
   const double floor = problem_.scales().round_off * problem_.discretization().radius();
-  if (!(std::abs(contact_balance_) > std::max(doubtful * largest_energy_, floor)))
+  if (!(std::abs(contact_balance_) > std::max(doubtful * max_energy_, floor)))
     return {};
-  const double percent = 100. * contact_balance_ / largest_energy_;
+  const double percent = 100. * contact_balance_ / max_energy_;
   std::ostringstream text;
   text.precision(3);
-  text << "In the whole run contact " << (percent > 0. ? "has lost " : "has made ") << std::abs(percent)
+  text << "Over the whole run contact " << (percent > 0. ? "loses " : "creates ") << std::abs(percent)
        << " % of all work";
   return {Diagnostic(diagnostic::energy_imbalance, text.str())
               .time(problem_.state().time)
               .measure("part of all work [%]", percent)
-              .advice("Forces of contact do not fit its motion: reduce 'Maximum step', or use a finer mesh "
-                      "where bodies touch, and check in the field output that they touch where they should")};
+              .advice("Contact forces do not match the motion. Reduce 'Maximum step', or use a finer mesh "
+                      "where bodies touch; check the contact in the field output")};
 }
 
 void StaticBalance::save(StateWriter &writer) const {
@@ -160,15 +160,14 @@ void StaticBalance::load(const StateReader &reader) {
   step_energy_.load(reader.read("rejected step"));
 }
 
-double DynamicBalance::largest_energy_of_trial() const {
-  return std::max(largest_energy_, std::abs(trial_energies_.total()));
+double DynamicBalance::max_energy_of_trial() const {
+  return std::max(max_energy_, std::abs(trial_energies_.total()));
 }
 
 double DynamicBalance::energy_error(const double imbalance) const {
-  const double largest =
-      std::max(largest_energy_of_trial(), 0.5 * std::abs(problem_.state().energies.total()));
-  const double allowed = std::max(Limits::always * largest,
-                                  Limits::of_rest * (Limits::of_run * largest - std::abs(element_balance_)));
+  const double maximum = std::max(max_energy_of_trial(), 0.5 * std::abs(problem_.state().energies.total()));
+  const double allowed = std::max(Limits::always * maximum,
+                                  Limits::of_rest * (Limits::of_run * maximum - std::abs(element_balance_)));
   return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
 }
 
@@ -178,15 +177,15 @@ bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
   time_error_ = motion_.step_error(problem_.step().trial.displacements);
   std::ostringstream message;
   message.precision(3);
-  message << "the error of the step's time integration is " << time_error_
+  message << "the time integration error of the step is " << time_error_
           << " times the 'Error tolerance'. Try a smaller 'Minimum step' or a larger 'Error tolerance'";
   trial_imbalance_ = element_imbalance().unexplained;
   if (paths_.may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);
     if (error > std::max(1., time_error_)) {
       message.str("");
-      message << "the work of the elements' forces in the step differs from their energy by " << error
-              << " times what is allowed. Try a smaller 'Minimum step'";
+      message << "the work of the internal forces in the step differs from their energy by " << error
+              << " times the allowed error. Try a smaller 'Minimum step'";
     }
     time_error_ = std::max(time_error_, error);
   }
@@ -205,24 +204,24 @@ EnergyBalance::ContactLoss DynamicBalance::dynamic_loss(const double t) const {
 double DynamicBalance::taken_by_contact(const ContactLoss &loss) const {
   return std::max(0., motion_.damps_contact()
                           ? loss.total
-                          : contact_balance_ + loss.total - Limits::may_make * largest_energy_of_trial());
+                          : contact_balance_ + loss.total - Limits::may_make * max_energy_of_trial());
 }
 
 bool DynamicBalance::rejects(const double t, NewtonReport &report) {
   update_largest_energy();
-  const double largest = largest_energy_of_trial(); // in the first step there has been none before
+  const double maximum = max_energy_of_trial(); // in the first step there has been none before
   const ContactLoss loss = dynamic_loss(t);
   report.makes_energy =
-      !motion_.damps_contact() && contact_balance_ + loss.total < -Limits::may_make * largest;
+      !motion_.damps_contact() && contact_balance_ + loss.total < -Limits::may_make * maximum;
   // The step is so long that bodies meet within it rather than at its end.
   const bool takes_too_much =
-      taken_by_contact(loss) - loss.friction > Limits::may_take * largest && paths_.may_be_cut(t);
+      taken_by_contact(loss) - loss.friction > Limits::may_take * maximum && paths_.may_be_cut(t);
   if (!report.makes_energy && !takes_too_much)
     return false;
   report.converged = false;
   report.is_explained = takes_too_much;
   report.failure =
-      std::string("contact ") + (report.makes_energy ? "makes" : "takes") + " energy in the step";
+      std::string("contact ") + (report.makes_energy ? "creates" : "removes") + " energy in the step";
   return true;
 }
 
@@ -245,9 +244,7 @@ void DynamicBalance::commit(const double t) {
   element_balance_ += trial_imbalance_;
 }
 
-DiagnosticList DynamicBalance::check() {
-  return contact_losses_.watch(largest_energy_, problem_.state().time);
-}
+DiagnosticList DynamicBalance::check() { return contact_losses_.watch(max_energy_, problem_.state().time); }
 
 void DynamicBalance::save(StateWriter &writer) const {
   EnergyBalance::save(writer);

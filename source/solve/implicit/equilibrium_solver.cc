@@ -14,12 +14,12 @@ NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &di
   settings.energy_tolerance *= accuracy;
   settings.displacement_tolerance *= accuracy;
   if (is_probing_)
-    settings.most_iterations = std::min(settings.most_iterations, max_iterations_of_probe);
+    settings.max_iterations = std::min(settings.max_iterations, max_iterations_of_probe);
   NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_);
   if (!problem_.tools().failure().empty() && !report.converged)
     report.failure = problem_.tools().failure();
   else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())
-    report.failure = "the correction is useless: " + problem_.obstacle();
+    report.failure = "the correction is not admissible: " + problem_.obstacle();
   problem_.set_trial(x);
   displacements = problem_.step().trial.displacements;
   offsets = problem_.tools().offsets();

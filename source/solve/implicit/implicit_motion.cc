@@ -105,8 +105,8 @@ Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
     return result;
   // The mass over its row sums has eigenvalues from 1/27 to 1 in bricks: about thirty iterations.
   constexpr double relative_tolerance = 1e-12;
-  constexpr unsigned int most_iterations = 1000;
-  dealii::SolverControl control(most_iterations, relative_tolerance * size, false, false);
+  constexpr unsigned int max_iterations = 1000;
+  dealii::SolverControl control(max_iterations, relative_tolerance * size, false, false);
   dealii::SolverCG<Vector> solver(control);
   Vector scratch = discretization_.make_ghosted_vector();
   try {

@@ -29,7 +29,7 @@ double find_round_off_force(const Scene &scene, const Discretization &discretiza
   constexpr double last_bits = 100.;
   double stiffest = 0.;
   for (const auto &body : scene.bodies())
-    stiffest = std::max(stiffest, body.largest_modulus);
+    stiffest = std::max(stiffest, body.max_modulus);
   return last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
          discretization.radius();
 }
@@ -186,8 +186,8 @@ double ImplicitProblem::max_step_length(const Vector &x, const Vector &direction
   set_trial(end);
   const double part = contacts_.find_free_part(
       {from, step_.ghosted, tools_from, tools_.placements(step_.time), false}, obstacle_);
-  constexpr double least = 1e-3; // shorter corrections are useless
-  return part < least ? 0. : part;
+  constexpr double minimum = 1e-3; // shorter corrections are useless
+  return part < minimum ? 0. : part;
 }
 
 double ImplicitProblem::find_free_part(const bool is_thorough) {

@@ -7,6 +7,19 @@
 
 namespace billet {
 
+namespace {
+
+/// Limits of repeated and accepted steps.
+struct Limits {
+  /// Maximum number of raises of penalties in a step, each by a factor of at least 2, of less than 100 in
+  /// all.
+  static constexpr unsigned int max_raises = 6;
+  /// Lower limit of the reference value of forces after they vanish, as part of their largest one.
+  static constexpr double lasting = 1e-3;
+};
+
+} // namespace
+
 ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &discretization)
     : problem_(scene, discretization), solver_(problem_), measurement_(problem_),
       augmentation_(problem_, solver_, measurement_), continuation_(problem_, solver_), paths_(problem_),
@@ -59,8 +72,7 @@ NewtonReport ImplicitSolution::attempt(const double t, const double previous_ste
 }
 
 void ImplicitSolution::repeat(const double t, const double previous_step, NewtonReport &report) {
-  constexpr unsigned int max_raises = 6; // each by 2 at least, by less than 100 in all
-  for (unsigned int n = 0; report.penetrates && n < max_raises; ++n) {
+  for (unsigned int n = 0; report.penetrates && n < Limits::max_raises; ++n) {
     append(report.diagnostics, rules_->raise_penalties());
     report.append_anew(attempt(t, previous_step));
   }
@@ -78,7 +90,7 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
     report.append_anew(attempt(t, previous_step));
   if (!report.converged && !report.is_explained && !report.iterations.empty() &&
       continuation_.is_possible()) {
-    report.append_anew(attempt(t, previous_step, StepAttempt::Way::by_softer_penalties));
+    report.append_anew(attempt(t, previous_step, StepAttempt::Way::by_lower_penalties));
     if (report.converged)
       messages.push_back(continuation_.describe());
     may_accept_stalled = may_accept_stalled || report.is_stalled;
@@ -159,13 +171,12 @@ ImplicitSolution::Probe ImplicitSolution::probe(const double t, const double pre
 void ImplicitSolution::commit(const double t, NewtonReport &report) {
   StepState &step = problem_.step();
   ForceScales &scales = problem_.scales();
-  constexpr double of_force = 1e-3; // of the forces: lower limit of the reference value after they vanish
   round_off_.commit(t, report);
   penetration_ = problem_.contacts().find_penetration();
   append(report.diagnostics, paths_.check_motion(t));
   augmentation_.commit();
   rules_->predictor().commit();
-  scales.lasting = std::max(scales.lasting, of_force * scales.force);
+  scales.lasting = std::max(scales.lasting, Limits::lasting * scales.force);
   step.last_increment = step.trial.displacements;
   step.last_increment -= step.start.displacements;
   problem_.tools().commit();
@@ -220,7 +231,7 @@ void ImplicitSolution::commit_loads(const double t) {
   state.energies.contact = 0.;
   auto body_pair_load = state.body_pair_loads.begin();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ContactLoad load = contacts[i].compute_load();
+    const ContactLoad load = contacts[i].measures().compute_load();
     if (const auto &tool = contacts[i].rigid_tool()) {
       state.tool_loads[*tool] += load;
       books_.set(i, load.stored_energy);

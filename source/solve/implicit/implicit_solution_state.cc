@@ -95,7 +95,7 @@ void ImplicitSolution::balance(RestartReport &report) {
   SolutionState &state = problem_.state();
   Vector residual = problem_.discretization().make_owned_vector();
   if (!problem_.compute_residual(step.start.displacements, residual))
-    throw InputError("its state is not admissible here: elements are inside out, or forces not finite");
+    throw InputError("its state is not admissible here: elements are inverted, or forces are not finite");
   report.imbalance = residual.l2_norm();
   report.force_scale = problem_.force_scale();
   problem_.scales().lasting = std::max(problem_.scales().lasting, 1e-3 * problem_.force_scale());

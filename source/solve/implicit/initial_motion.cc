@@ -13,8 +13,8 @@ void InitialMotion::start() {
     Vector x = problem_.unknowns(), ignored(x);
     if (!problem_.compute_residual(x, ignored))
       throw SolutionFailure(problem_.parameters().file_name +
-                            ": the displacements that supports prescribe at time 0 turn an element inside "
-                            "out; allowed are small ones: the rest of the body starts undeformed");
+                            ": the displacements that supports prescribe at time 0 invert an element; "
+                            "allowed are small ones, since the rest of the body starts undeformed");
   });
   StepState &step = problem_.step();
   SolutionState &state = problem_.state();
@@ -52,7 +52,7 @@ void InitialMotion::accelerate() {
     std::ostringstream message;
     message << problem_.parameters().file_name << ": at time " << problem_.state().time
             << " the mass matrix cannot be solved for the accelerations: " << tangent.solver().failure()
-            << "; are the densities of the right unit?";
+            << ". Check the units of the densities";
     throw SolutionFailure(message.str());
   }
   motion_.set_accelerations(accelerations);

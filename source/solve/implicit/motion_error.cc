@@ -24,8 +24,8 @@ MotionError::MotionError(const Scene &scene, const Discretization &discretizatio
   positions.compress(dealii::VectorOperation::insert);
   for (const Spread &spread : spread_of_bodies(positions))
     if (spread.mass > 0.)
-      largest_gyration_ = std::max(largest_gyration_, std::sqrt(spread.square / spread.mass));
-  memory_.set(is_wanted() ? sizeof(largest_displacement_) : 0);
+      max_gyration_ = std::max(max_gyration_, std::sqrt(spread.square / spread.mass));
+  memory_.set(is_wanted() ? sizeof(max_displacement_) : 0);
 }
 
 double MotionError::wanted_accuracy() const {
@@ -66,7 +66,7 @@ double MotionError::displacement_to_resolve(const Vector &displacements) const {
   double own = 0.;
   for (const Spread &spread : spread_of_bodies(displacements))
     own += spread.square;
-  return std::max({std::sqrt(own / inertia_.total()), std::min(mean_size(displacements), largest_gyration_),
+  return std::max({std::sqrt(own / inertia_.total()), std::min(mean_size(displacements), max_gyration_),
                    Limits::min_displacement * discretization_.radius()});
 }
 
@@ -75,13 +75,13 @@ double MotionError::of_step(const double factor, const Vector &change, const Vec
   const double error = factor * mean_size(change);
   const double reference = parameters_.reference_displacement > 0.
                                ? parameters_.reference_displacement
-                               : std::max(largest_displacement_, displacement_to_resolve(displacements));
+                               : std::max(max_displacement_, displacement_to_resolve(displacements));
   return error / (parameters_.error_tolerance * reference);
 }
 
 void MotionError::commit(const Vector &displacements) {
   if (is_wanted() && parameters_.reference_displacement == 0.)
-    largest_displacement_ = std::max(largest_displacement_, displacement_to_resolve(displacements));
+    max_displacement_ = std::max(max_displacement_, displacement_to_resolve(displacements));
 }
 
 } // namespace billet

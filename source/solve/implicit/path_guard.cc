@@ -10,7 +10,7 @@ namespace billet {
 
 namespace {
 
-constexpr const char *goes_unseen = " goes to and fro, or around, within the step";
+constexpr const char *goes_unseen = " reverses, or turns fully, within the step";
 
 bool fail(NewtonReport &report, const std::string &failure) {
   report.converged = false;
@@ -24,22 +24,22 @@ bool fail(NewtonReport &report, const std::string &failure) {
 bool PathGuard::may_be_cut(const double t) const {
   const auto &stepping = problem_.parameters().time_stepping;
   return stepping.control == parameters::TimeStepping::Control::automatic &&
-         t - problem_.state().time > stepping.smallest_step * (1. + Limits::rounding);
+         t - problem_.state().time > stepping.min_step * (1. + Limits::rounding);
 }
 
 bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
   for (const auto &contact : problem_.contacts())
-    if (contact.may_let_nodes_through() && !problem_.on_all_ranks(!contact.lets_nodes_through()))
-      return fail(report, contact.describe_passage());
+    if (contact.checks().may_let_nodes_through() &&
+        !problem_.on_all_ranks(!contact.checks().lets_nodes_through()))
+      return fail(report, contact.checks().describe_passage());
   return false;
 }
 
 bool PathGuard::goes_through(const bool is_thorough, NewtonReport &report) {
   if (problem_.find_free_part(is_thorough) == 1.)
     return false;
-  return fail(report, problem_.obstacle() +
-                          ", or deeper into it than contact follows them. Try a smaller 'Minimum step', a "
-                          "larger 'Normal penalty' or smaller facets");
+  return fail(report, problem_.obstacle() + ", or penetrate more than contact can track. Try a smaller "
+                                            "'Minimum step', a larger 'Normal penalty' or smaller facets");
 }
 
 bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
@@ -51,12 +51,13 @@ bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
                  state.placements[tool].rotation_angle);
     if (problem_.removal().is_removed(tool) || !contact.settings().has_friction() ||
         angle <= Limits::max_turn * (1. + Limits::rounding) ||
-        !(state.tool_loads[tool].area > 0. || !problem_.on_all_ranks(!contact.has_touching_nodes())))
+        !(state.tool_loads[tool].area > 0. ||
+          !problem_.on_all_ranks(!contact.measures().has_touching_nodes())))
       continue;
     std::ostringstream text;
     text.precision(3);
     text << "tool '" << problem_.scene().tools()[tool].name() << "' turns by " << angle * 180. / M_PI
-         << " degrees in the step, and friction needs steps of at most " << Limits::max_turn * 180. / M_PI
+         << " degrees in the step, but friction allows at most " << Limits::max_turn * 180. / M_PI
          << ". Try a smaller "
          << (problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed
                  ? "'Initial step'"
@@ -85,13 +86,13 @@ DiagnosticList PathGuard::check_motion(const double t) const {
 bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
   if (!may_be_cut(t))
     return false;
-  const double largest =
-      problem_.contacts().max([](const auto &contact) { return contact.closing_of_new_contacts(); });
-  if (!(largest > Limits::max_closing))
+  const double maximum = problem_.contacts().max(
+      [](const auto &contact) { return contact.measures().closing_of_new_contacts(); });
+  if (!(maximum > Limits::max_closing))
     return false;
   std::ostringstream text;
   text.precision(3);
-  text << "nodes close by " << largest << " facet sizes in the step in which they touch, allowed are "
+  text << "nodes approach by " << maximum << " facet sizes in the step of first contact; allowed are "
        << Limits::max_closing;
   return fail(report, text.str());
 }

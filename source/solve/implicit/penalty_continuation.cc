@@ -11,8 +11,9 @@ namespace billet {
 std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above_enough() const {
   const ContactSet &contacts = problem_.contacts();
   const std::vector<double> normal = contacts.stiffening_left(),
-                            tangential = contacts.collect_min(
-                                [](const auto &contact) { return contact.tangential_stiffening_left(); });
+                            tangential = contacts.collect_min([](const auto &contact) {
+                              return contact.penalties().tangential_stiffening_left();
+                            });
   const auto octaves = [](const double left) {
     return left < 1. ? static_cast<int>(std::lround(-std::log2(left))) : 0;
   };
@@ -37,16 +38,16 @@ void PenaltyContinuation::soften(const std::vector<Octaves> &above, const int so
   };
   ContactSet &contacts = problem_.contacts();
   for (std::size_t i = 0; i < above.size(); ++i)
-    contacts[i].scale_penalties(change(above[i].normal), change(above[i].tangential));
+    contacts[i].penalties().scale(change(above[i].normal), change(above[i].tangential));
   contacts.restart();
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
 }
 
 NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &displacements) {
   const std::vector<Octaves> above = octaves_above_enough();
-  int most = 0;
+  int maximum = 0;
   for (const Octaves &o : above)
-    most = std::max(most, std::max(o.normal, o.tangential));
+    maximum = std::max(maximum, std::max(o.normal, o.tangential));
   int softer = 0;
   const auto soften_to = [&](const int octaves) {
     soften(above, softer, octaves);
@@ -55,9 +56,9 @@ NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &
   NewtonReport report;
   Vector reached = displacements;
   std::vector<double> reached_offsets = offsets;
-  int stride = Limits::first_stride, last = most;
+  int stride = Limits::first_stride, last = maximum;
   unsigned int n_retreats = 0;
-  soften_to(most);
+  soften_to(maximum);
   for (;;) {
     report.append(solver_.iterate(offsets, displacements));
     if (report.converged && softer == 0)
@@ -66,7 +67,7 @@ NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &
       reached = displacements;
       reached_offsets = offsets;
       last = softer;
-    } else if (softer < most && stride > 1 && n_retreats < Limits::max_retreats &&
+    } else if (softer < maximum && stride > 1 && n_retreats < Limits::max_retreats &&
                !report.is_lost_in_round_off) {
       displacements = reached;
       offsets = reached_offsets;
@@ -85,7 +86,7 @@ Diagnostic PenaltyContinuation::describe() const {
                                                   "iterations, because of the penalty of contact pair " +
                                                       problem_.contacts().stiffest_pairs())
       .time(problem_.step().time)
-      .advice("Reduce 'Normal penalty', with a 'Penetration tolerance' where that is too low");
+      .advice("Reduce 'Normal penalty', with a 'Penetration tolerance' if penetration is then too large");
 }
 
 } // namespace billet

@@ -40,10 +40,10 @@ DiagnosticList SpringBooks::check() {
     const ContactInterface &contact = problem_.contacts()[i];
     double moved = displacement;
     if (const auto &tool = contact.rigid_tool())
-      moved = std::max(moved, largest_motion(problem_.scene().tools()[*tool].placement(0.),
-                                             state.placements[*tool], problem_.discretization().radius()));
-    check_pair(contact.name(), contact.penetration(), moved, energy(i), messages);
-    append(messages, contact.check_step());
+      moved = std::max(moved, max_motion(problem_.scene().tools()[*tool].placement(0.),
+                                         state.placements[*tool], problem_.discretization().radius()));
+    check_pair(contact.name(), contact.measures().penetration(), moved, energy(i), messages);
+    append(messages, contact.checks().check_step());
   }
   return messages;
 }
@@ -51,7 +51,7 @@ DiagnosticList SpringBooks::check() {
 std::vector<double> PenaltyRaises::find_factors() const {
   const ContactSet &contacts = problem_.contacts();
   std::vector<double> factors =
-      contacts.collect_max([](const auto &contact) { return contact.excessive_penetration(); });
+      contacts.collect_max([](const auto &contact) { return contact.measures().excessive_penetration(); });
   const std::vector<double> room = contacts.stiffening_left();
   const auto &stepping = problem_.parameters().time_stepping;
   const bool is_short =
@@ -64,7 +64,7 @@ std::vector<double> PenaltyRaises::find_factors() const {
     const bool is_too_much =
         !pair.has_tolerance() && factors[i] > (pair.input->has_own_penalty && !is_short ? Limits::deep : 1.);
     const double raise =
-        std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), most_raise * room[i]);
+        std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), max_raise * room[i]);
     factors[i] = is_too_much && raise >= Limits::min_raise ? whole_octaves(raise) : 1.;
   }
   return factors;
@@ -76,7 +76,7 @@ bool PenaltyRaises::is_needed(NewtonReport &report) {
     return false;
   report.converged = false;
   report.penetrates = true;
-  report.failure = "nodes penetrate too deep";
+  report.failure = "the penetration of nodes is too large";
   return true;
 }
 
@@ -86,7 +86,7 @@ DiagnosticList PenaltyRaises::raise() {
   const std::vector<double> before = contacts.stored_energies();
   for (std::size_t i = 0; i < factors_.size(); ++i)
     if (factors_[i] > 1.)
-      contacts[i].stiffen(factors_[i]);
+      contacts[i].penalties().scale(factors_[i], factors_[i]);
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
   problem_.evaluate_start();
   const std::vector<double> after = contacts.stored_energies();
@@ -111,12 +111,12 @@ DiagnosticList PenaltyRaises::describe() const {
       continue;
     const ContactInterface &contact = problem_.contacts()[i];
     const parameters::ContactPair &input = *contact.settings().input;
-    const double penalty = input.normal_penalty * contact.stiffening();
+    const double penalty = input.normal_penalty * contact.penalties().stiffening();
     const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
     std::ostringstream text;
     text.precision(3);
-    text << "The penalty of the pair was raised " << factors_[i] << " times, to " << penalty
-         << (is_factor ? " E/h" : "") << ", since nodes penetrated too deep with it";
+    text << "The penalty of the pair rises by a factor of " << factors_[i] << ", to " << penalty
+         << (is_factor ? " E/h" : "") << ", since the penetration of nodes is too large";
     messages.push_back(Diagnostic(diagnostic::penalty_raised, text.str())
                            .pair(input.name)
                            .time(problem_.state().time)
@@ -133,8 +133,8 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
   const MPI_Comm communicator = problem_.communicator();
   const PenaltyControl::Energies energies =
       control_.measure(solution, problem_.scene().bodies().size(), problem_.state().time, communicator);
-  const auto room =
-      contacts.collect([&](const auto &contact) { return control_.room_of(contact, communicator); });
+  const auto room = contacts.collect(
+      [&](const auto &contact) { return control_.room_of(contact.penalties(), communicator); });
   const std::vector<PenaltyControl::Factors> factors = control_.raises(energies, room);
   if (std::none_of(factors.begin(), factors.end(), [](const auto &factor) { return factor.raises(); }))
     return {};
@@ -142,7 +142,7 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
     if (!factors[i].raises())
       continue;
     const double normal = factors[i].normal, tangential = factors[i].tangential;
-    contacts[i].stiffen_under_load(normal, tangential);
+    contacts[i].penalties().scale_under_load(normal, tangential);
     // A stiffer spring with the same force stores less energy: the rest stays in the penetration that is now
     // allowed.
     const double lost =

@@ -10,13 +10,13 @@ namespace {
 
 /// Returns the largest difference of a group, as part of it.
 double difference(const StepResults::Groups &a, const StepResults::Groups &b) {
-  double largest = 0.;
+  double maximum = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
     const double scale = size_of(b[group]);
     if (scale > 0.)
-      largest = std::max(largest, distance_of(a[group], b[group]) / scale);
+      maximum = std::max(maximum, distance_of(a[group], b[group]) / scale);
   }
-  return largest;
+  return maximum;
 }
 
 } // namespace
@@ -100,7 +100,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
   double left = 0.;
   measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
   for (auto &contact : problem_.contacts())
-    contact.augment();
+    contact.penalties().augment();
   const parameters::Solver &solver = problem_.parameters().solver;
   bool is_admissible = problem_.compute_residual(x, residual), is_accurate = false;
   while (is_admissible && !is_accurate && measured_->n_iterations < Limits::max_iterations) {

@@ -129,7 +129,7 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
     load_rhs.push_back(-tools.imbalance(tool, t) / tools.unit_of(tool));
   Vector pushes = problem_.discretization().make_additive_vector(), lift = pushes;
   for (const auto &contact : problem_.contacts().of_tools())
-    contact.add_tool_push(tools.place(contact.tool(), t, tools.start_offsets()[contact.tool()]), pushes);
+    contact.drive().add_push(tools.place(contact.tool(), t, tools.start_offsets()[contact.tool()]), pushes);
   pushes.compress(dealii::VectorOperation::add);
   Vector push = correction;
   push = pushes;

@@ -47,7 +47,7 @@ void ProblemCheckpoint::save_contacts(StateWriter &writer, const NodeKeys &keys)
       if (!contact.rigid_tool())
         writer.write("load", to_numbers(*body_pair_load++));
       contact.save(writer, keys);
-      contact.save_couplings(writer);
+      contact.couplings().save(writer);
     });
 }
 
@@ -126,7 +126,7 @@ void ProblemCheckpoint::update_contacts(StateReader &reader, const bool is_exact
   for (auto &contact : problem_.contacts().of_bodies()) {
     contact.update(problem_.state().displacements);
     if (couplings_are_known)
-      load_pair(reader, contact, [&] { couplings_are_known = contact.load_couplings(reader); });
+      load_pair(reader, contact, [&] { couplings_are_known = contact.couplings().load(reader); });
   }
   problem_.tangent().build(couplings_are_known);
 }

@@ -12,7 +12,7 @@ namespace billet {
 
 RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
     : problem_(problem), bodies_(problem.scene(), problem.discretization()),
-      forces_n_(problem.scene().bodies().size(), 0.), largest_forces_(forces_n_) {
+      forces_n_(problem.scene().bodies().size(), 0.), max_forces_(forces_n_) {
   problem.stabilisation().prepare(bodies_);
 }
 
@@ -30,7 +30,7 @@ template <class AddContact> void RigidBodyModes::add_supporting_points(const Add
   for (const auto &contact : problem_.contacts()) {
     // A tool whose travel is unknown does not resist.
     std::optional<std::size_t> unknown;
-    RigidContact::ToolRate rate;
+    ToolRate rate;
     dealii::Tensor<1, 3> centre;
     if (const auto &tool = contact.rigid_tool()) {
       const auto found = std::find(tools.unknown().begin(), tools.unknown().end(), *tool);
@@ -40,7 +40,7 @@ template <class AddContact> void RigidBodyModes::add_supporting_points(const Add
         centre = tools.place(*tool, problem_.step().time, tools.offsets()[*tool]).moved_centre();
       }
     }
-    contact.visit_supporting(
+    contact.measures().visit_supporting(
         [&](const SupportingPoint &point, const std::size_t body, const std::size_t other) {
           RigidBodySupport::Side on;
           if (!contact.rigid_tool())
@@ -116,7 +116,7 @@ std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
   std::vector<double> forces(problem_.scene().bodies().size(), 0.);
   const auto sum = [](const auto &contact) {
     double total = 0.;
-    for (const auto &node : contact.slave_forces())
+    for (const auto &node : contact.measures().slave_forces())
       total += node.force.norm();
     return total;
   };
@@ -128,8 +128,7 @@ std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
 }
 
 bool RigidBodyModes::hold_if_let_go(const RigidBodySupport::Mode &mode) {
-  if (!(largest_forces_[mode.body] > 0.) ||
-      forces_n_[mode.body] > Limits::little * largest_forces_[mode.body])
+  if (!(max_forces_[mode.body] > 0.) || forces_n_[mode.body] > Limits::little * max_forces_[mode.body])
     return false;
   problem_.stabilisation().hold(mode.body);
   let_go_.push_back(mode);
@@ -139,7 +138,7 @@ bool RigidBodyModes::hold_if_let_go(const RigidBodySupport::Mode &mode) {
 void RigidBodyModes::hold_unloaded_bodies() {
   std::vector<bool> is_unloaded;
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
-    is_unloaded.push_back(forces_n_[body] < Limits::unloaded * largest_forces_[body] &&
+    is_unloaded.push_back(forces_n_[body] < Limits::unloaded * max_forces_[body] &&
                           !problem_.stabilisation().acts_on(body));
   // One after the other: connected bodies are free together.
   for (std::size_t n = std::count(is_unloaded.begin(), is_unloaded.end(), true); n > 0; --n) {
@@ -155,25 +154,23 @@ std::string RigidBodyModes::describe_sliding() const {
     return "";
   std::ostringstream text;
   text << "; at the end of the last step body '" << problem_.scene().bodies()[support_.sliding->body].name
-       << "' slides, or nearly does, on all that it touches along its rigid-body mode with "
+       << "' is in full sliding, or close to it, along its rigid-body mode with "
        << print(support_.sliding->motion)
-       << ": friction has reached its limit, and cannot resist more. Hold the body, press it harder, or "
-          "increase friction";
+       << ". Friction is at its limit. Add a support, more pressure or more friction";
   return text.str();
 }
 
 bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
   const bool is_held = hold_if_let_go(mode);
   std::ostringstream text;
-  text << "body '" << problem_.scene().bodies()[mode.body].name << "' is unsupported at time " << t
+  text << "body '" << problem_.scene().bodies()[mode.body].name << "' has no support at time " << t
        << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
-       << " has opened, or slides at the limit of friction. Hold the body by a support or a symmetry "
-          "plane, let a tool or body touch it longer, or increase friction; use 'Scheme = implicit "
-          "dynamics' if it is to move freely";
+       << " opens, or slides at the limit of friction. Add a support or a symmetry plane, keep a contact "
+          "longer, or increase friction; use 'Scheme = implicit dynamics' for free motion";
   const parameters::Scene &parameters = problem_.parameters();
-  if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.largest_step)
-    throw SolutionFailure(parameters.file_name + ": " + text.str() +
-                          ". What was computed until then is in '" + parameters.output.folder.value + "'");
+  if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.max_step)
+    throw SolutionFailure(parameters.file_name + ": " + text.str() + ". Results until then are in '" +
+                          parameters.output.folder.value + "'");
   loss_ = {t, text.str()};
   report.converged = false;
   report.failure = text.str();
@@ -191,7 +188,7 @@ bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
     return true;
   forces_n_ = contact_forces_on_bodies();
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
-    largest_forces_[body] = std::max(largest_forces_[body], forces_n_[body]);
+    max_forces_[body] = std::max(max_forces_[body], forces_n_[body]);
   support_ = found;
   hold_unloaded_bodies();
   report_let_go(t, report);
@@ -208,8 +205,8 @@ void RigidBodyModes::report_let_go(const double t, NewtonReport &report) {
     report.diagnostics.push_back(
         Diagnostic(
             diagnostic::unsupported_body,
-            "Nothing presses body '" + name +
-                "' any more, and neither supports nor symmetry planes resist its rigid-body mode with " +
+            "No contact presses on body '" + name +
+                "' any more, and neither supports nor symmetry planes constrain its rigid-body mode with " +
                 print(mode.motion) + ": viscous forces hold it from now on")
             .body(name)
             .time(t));
@@ -233,20 +230,20 @@ void RigidBodyModes::begin() {
 
 std::string RigidBodyModes::describe_loss(const std::string &failure) const {
   return problem_.state().time < loss_.time && failure != loss_.text
-             ? "; a step that goes further failed since " + loss_.text
+             ? "; a longer step failed since " + loss_.text
              : "";
 }
 
-DiagnosticList RigidBodyModes::finish(const double largest_energy) const {
+DiagnosticList RigidBodyModes::finish(const double max_energy) const {
   const ForceState &state = problem_.step().start;
-  return problem_.stabilisation().finish(problem_.state().time, largest_energy,
+  return problem_.stabilisation().finish(problem_.state().time, max_energy,
                                          std::max(state.internal.l2_norm(), state.contact.l2_norm()),
                                          support_by_contact_);
 }
 
 void RigidBodyModes::save(StateWriter &writer) const {
   writer.write("forces on bodies", forces_n_);
-  writer.write("largest forces on bodies", largest_forces_);
+  writer.write("largest forces on bodies", max_forces_);
   if (!bodies_.are_held())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
   problem_.stabilisation().save(writer);
@@ -258,7 +255,7 @@ void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
     return;
   if (reader.has("forces on bodies")) {
     forces_n_ = reader.read("forces on bodies");
-    largest_forces_ = reader.read("largest forces on bodies");
+    max_forces_ = reader.read("largest forces on bodies");
   }
   if (!bodies_.are_held() && reader.has("free modes"))
     support_.n_free = static_cast<std::size_t>(reader.number("free modes"));

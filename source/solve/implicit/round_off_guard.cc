@@ -24,10 +24,10 @@ void RoundOffGuard::commit(const double t, const NewtonReport &report) {
 std::string RoundOffGuard::describe(const double part) const {
   std::ostringstream text;
   text.precision(2);
-  text << "round-off leaves " << part << " of the forces, allowed is " << max_stalled_residual
-       << ": the penalty of contact pair " << problem_.contacts().stiffest_pairs()
-       << " is too stiff for such small displacements and sixteen digits. Try a softer penalty, with a "
-          "'Penetration tolerance' where that is too soft, or bodies nearer to the origin";
+  text << "round-off limits the residual to " << part << " of the forces; allowed is " << max_stalled_residual
+       << ". The penalty of contact pair " << problem_.contacts().stiffest_pairs()
+       << " is too high for such small displacements and sixteen digits. Try a lower penalty, with a "
+          "'Penetration tolerance' if penetration is then too large, or bodies nearer to the origin";
   return text.str();
 }
 
@@ -36,7 +36,7 @@ bool RoundOffGuard::may_explain(const NewtonReport &report) const {
       !(report.force > 0.)) // there may be no residual
     return false;
   const double springs = problem_.scales().spring_round_off, forces = problem_.force_scale();
-  return springs > most_round_off * forces && report.force * forces <= Limits::by_much * springs;
+  return springs > max_round_off * forces && report.force * forces <= Limits::by_much * springs;
 }
 
 DiagnosticList RoundOffGuard::check(const double part, const double accuracy) const {
@@ -50,8 +50,9 @@ DiagnosticList RoundOffGuard::check(const double part, const double accuracy) co
     return {};
   std::ostringstream text;
   text.precision(2);
-  text << "Round-off of displacements leaves " << part << " of the forces, 'Force tolerance' is " << tolerance
-       << ": the forces are that small beside the stiffness of the bodies";
+  text << "Round-off in the displacements limits the residual to " << part
+       << " of the forces; 'Force tolerance' is " << tolerance
+       << ". The forces are small relative to the stiffness of the bodies";
   return {Diagnostic(diagnostic::round_off_limits_forces, text.str())
               .time(problem_.step().time)
               .measure("part of the forces", part)

@@ -42,7 +42,7 @@ bool StepAttempt::find_guess(const double t, const double previous_step, NewtonI
     return true;
   report.failure = !problem.tools().failure().empty()              ? problem.tools().failure()
                    : !problem.tangent().solver().failure().empty() ? problem.tangent().solver().failure()
-                                                                   : "the first guess is not admissible";
+                                                                   : "the initial guess is not admissible";
   return false;
 }
 

@@ -16,12 +16,12 @@ void StepDiagnosis::commit() {
     std::vector<double> sums(3);
     for (const auto &contact : problem_.contacts().of_tools())
       if (contact.tool() == tool && contact.settings().has_friction()) {
-        const RigidContact::Grip grip = contact.grip(
-            which.control() == Tool::Control::moment ? RigidContact::ToolRate{{}, which.rotation_axis()}
-                                                     : RigidContact::ToolRate{which.force_direction(), {}});
-        sums[0] += grip.touching;
-        sums[1] += grip.slipping;
-        sums[2] += grip.power_of_pressure;
+        const ToolDrive::Sliding sliding = contact.drive().measure_sliding(
+            which.control() == Tool::Control::moment ? ToolRate{{}, which.rotation_axis()}
+                                                     : ToolRate{which.force_direction(), {}});
+        sums[0] += sliding.touching;
+        sums[1] += sliding.slipping;
+        sums[2] += sliding.power_of_pressure;
       }
     dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
     if (sums[0] > 0. && sums[1] >= Limits::nearly_all * sums[0] &&
@@ -36,9 +36,9 @@ std::string StepDiagnosis::describe_slipping_tools() const {
     const Tool &which = problem_.scene().tools()[tool];
     const bool turns = which.control() == Tool::Control::moment;
     text << "; at the end of the last step tool '" << which.name()
-         << "' slips on nearly all that it touches: friction has reached its limit, and cannot bear a "
+         << "' is in full sliding: friction is at its limit, and cannot bear a "
          << (turns ? "moment" : "force") << " of " << which.load(problem_.step().time)
-         << ". Try a smaller one, more pressure or friction, or move the tool by its "
+         << ". Try a smaller load, more pressure or friction, or move the tool by its "
          << (turns ? "'Rotation angle'" : "'Translation'");
   }
   return text.str();
@@ -47,7 +47,7 @@ std::string StepDiagnosis::describe_slipping_tools() const {
 std::string StepDiagnosis::describe_contacts() const {
   std::string text;
   for (const auto &contact : problem_.contacts())
-    text += contact.describe_restless();
+    text += contact.checks().describe_restless();
   return text + describe_slipping_tools();
 }
 
@@ -85,20 +85,18 @@ std::string StepDiagnosis::describe_residual() {
        << worst[2] << ", " << worst[3] << ")";
   const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
   for (const auto &contact : problem_.contacts().of_tools())
-    if (!problem_.on_all_ranks(!contact.has_node_on_border(position))) {
+    if (!problem_.on_all_ranks(!contact.checks().has_node_on_edge(position))) {
       text << ", which lies on the edge of tool '" << problem_.scene().tools()[contact.tool()].name()
-           << "', where contact comes and goes with each correction: draw the tool larger or smaller by a "
-              "part of a facet, or give its edge a fillet";
+           << "', where contact chatters (open/closed). Try a tool that is larger or smaller by a part of a "
+              "facet, or a fillet at its edge";
       break;
     }
   return text.str();
 }
 
 Diagnostic StepDiagnosis::describe_stall(const NewtonReport &report) const {
-  Diagnostic diagnostic(
-      diagnostic::stalled_step,
-      "A step was accepted although Newton's method no longer came nearer to equilibrium: " +
-          report.criteria);
+  Diagnostic diagnostic(diagnostic::stalled_step,
+                        "The step is accepted although the residual no longer falls: " + report.criteria);
   return diagnostic.time(problem_.step().time)
       .measure("residual", report.measures.force)
       .value("energy", report.measures.energy)

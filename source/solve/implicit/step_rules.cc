@@ -29,7 +29,7 @@ ToolRemoval::Removal StepRules::remove_tools(const double t) {
   return removal;
 }
 
-void StaticRules::check_start() { check_freedom(problem_); }
+void StaticRules::check_start() { check_free_modes(problem_); }
 
 void StaticRules::check_next_step() const {
   if (!free_body_.empty())
@@ -56,7 +56,7 @@ void StaticRules::close_step(const double t) {
   const ToolRemoval::Removal removal = remove_tools(t);
   for (const auto &[body, removed] : removal.let_go)
     if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
-      free_body_ = describe_freedom(problem_, body, removed);
+      free_body_ = describe_free_mode(problem_, body, removed);
 }
 
 void StaticRules::save(StateWriter &writer) const {

@@ -35,15 +35,15 @@ void TangentMatrix::build(const bool couplings_are_known) {
   dealii::IndexSet written = discretization_.relevant_dofs();
   for (auto &contact : contacts_) {
     if (!couplings_are_known)
-      contact.find_couplings();
-    contact.add_foreign_dofs(written);
+      contact.couplings().find();
+    contact.couplings().add_foreign_dofs(written);
   }
   SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
   for (const auto &contact : contacts_)
-    contact.add_couplings(pattern);
+    contact.couplings().add_entries(pattern);
   pattern.compress();
   if (linear_) {
     linear_->release();
@@ -69,7 +69,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
 void TangentMatrix::follow_couplings() {
   bool is_known = linear_ != nullptr;
   for (const auto &contact : contacts_)
-    is_known = is_known && !contact.has_new_couplings();
+    is_known = is_known && !contact.couplings().has_new();
   if (!contacts_.of_bodies().empty() &&
       dealii::Utilities::MPI::min(is_known ? 1 : 0, discretization_.communicator()) == 0)
     build();
@@ -119,10 +119,15 @@ std::vector<int> TangentMatrix::touching_dofs() const {
     contact.add_forces(additive);
   additive.compress(dealii::VectorOperation::add);
   forces = additive;
-  const auto values = owned_values(forces);
+  Vector condensed(forces); // of nodes on which hanging nodes that touch depend, too
+  supports_.condense(condensed);
+  const auto values = owned_values(forces), of_masters = owned_values(condensed);
+  const auto is_loaded = [](const auto &of, const std::size_t i) {
+    return of[i] != 0. || of[i + 1] != 0. || of[i + 2] != 0.;
+  };
   std::vector<int> dofs;
   for (std::size_t i = 0; i < values.size(); i += 3)
-    if (values[i] != 0. || values[i + 1] != 0. || values[i + 2] != 0.)
+    if (is_loaded(values, i) || is_loaded(of_masters, i))
       for (std::size_t dof = i; dof < i + 3; ++dof)
         dofs.push_back(static_cast<int>(dof));
   return dofs;

@@ -40,7 +40,7 @@ ToolRemoval::Removal ToolRemoval::remove_due(const double t) {
     Vector forces = discretization_.make_additive_vector();
     for (auto &contact : contacts_.of_tools())
       if (contact.tool() == i) {
-        if (contact.compute_load().area > 0.)
+        if (contact.measures().compute_load().area > 0.)
           removal.let_go[contact.body()].insert(scene_.tools()[i].name());
         contact.add_forces(forces);
         contact.remove_tool();

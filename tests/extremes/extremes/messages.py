@@ -6,7 +6,7 @@ import re
 WHERE = re.compile(r"scene\.prm(:\d+)?:|command line:")
 WHEN = re.compile(r"\b(time|step)\b")
 TODO = re.compile(
-    r"\b(allowed (is|are)|[Tt]ry (a|an|another|the|'|more|less|it|one|some)|draw the tool|[Ll]et"
+    r"\b(allowed (is|are)|[Tt]ry (a|an|another|the|'|more|less|it|one|some)|[Ll]et"
     r" |(Reduce|Increase|Choose|Use|Set|Check|Add|Support) )"
 )
 WORTHLESS = re.compile(r"(?<![\w'])-?(nan|inf)\b", re.IGNORECASE)

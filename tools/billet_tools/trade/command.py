@@ -53,7 +53,7 @@ def main(arguments: Sequence[str], beside: str) -> int:
             raise UserError(f"billet refuses the scene as it would be measured: {against}")
         scene.presets = read_presets(checked)
         if options.list:
-            print(Candidates(scene, runner, options).tell())
+            print(Candidates(scene, runner, options).describe())
             return 0
         return sweep_over(options, runner, scene, elements, file, arguments)
     except Stopped:

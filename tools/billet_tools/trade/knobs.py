@@ -54,7 +54,7 @@ def number(text: str, allowed: str = "a number > 0", option: str = "") -> float:
     except ValueError:
         value = math.nan
     if not (value > 0.0 and math.isfinite(value)):
-        raise UserError(f"{option}{': ' if option else ''}found '{text}', allowed is {allowed}")
+        raise UserError(f"{option or 'the value'} is '{text}'; allowed is {allowed}")
     return value
 
 
@@ -183,14 +183,14 @@ def make_steps(scene: Scene, argument: str) -> Changes:
 
 
 @knob("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
-def make_largest_step(scene: Scene, argument: str) -> Changes:
+def make_max_step(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
     need(
         "Time stepping/Maximum step" in scene.entries
         or number(argument) <= 1
         or scene.end_time / 4 >= scene.step("Maximum step"),
-        "the largest step is a good part of the time already",
+        "the maximum step is already a large part of the end time",
     )
     largest = number(argument) * scene.step("Maximum step")
     return {
@@ -486,7 +486,7 @@ def own_knob(text: str) -> Knob:
         path = "/".join(" ".join(p.split()) for p in path.split("/"))
         if not equals or not path:
             raise UserError(
-                f"--knob: found '{text}', allowed is 'path/to/parameter=value,value' or "
+                f"--knob is '{text}'; allowed is 'path/to/parameter=value,value' or "
                 "'name: path/to/parameter=value,value & other/path=value,value'"
             )
         columns[path] = [v.strip() for v in values.split("|" if "|" in values else ",")]

@@ -168,14 +168,14 @@ def parse(arguments: Sequence[str]) -> Options:
     for name, least in (("ranks", 1), ("jobs", 1), ("repeat", 1)):
         if getattr(options, name) < least:
             raise UserError(
-                f"--{name}: found {getattr(options, name)}, allowed are whole numbers from {least} on"
+                f"--{name} is {getattr(options, name)}; allowed are whole numbers from {least} on"
             )
     if options.reference_steps is not None and options.reference_steps < 1:
         raise UserError(
-            f"--reference-steps: found {options.reference_steps}, allowed are whole numbers from 1 on"
+            f"--reference-steps is {options.reference_steps}; allowed are whole numbers from 1 on"
         )
     if options.until is not None and not 0 < options.until <= 1:
-        raise UserError(f"--until: found {options.until:g}, allowed is a part of the end time, > 0 and <= 1")
+        raise UserError(f"--until is {options.until:g}; allowed is a part of the end time, > 0 and <= 1")
     if options.combine and not options.target:
         raise UserError("--combine wants a --target to stay within")
     if options.reference_mesh == GIVEN and any(
@@ -188,7 +188,7 @@ def parse(arguments: Sequence[str]) -> Options:
     if options.line:
         Profile(options.line, options.profile)  # says what is wrong with it
     if not options.time_limit > 0:
-        raise UserError(f"--time-limit: found {options.time_limit:g}, allowed are seconds > 0")
+        raise UserError(f"--time-limit is {options.time_limit:g}; allowed are seconds > 0")
     return options
 
 
@@ -200,7 +200,7 @@ def read_error(text: str | None) -> float | None:
         0.01 if "%" in cleaned else 1.0
     )
     if value >= 1:
-        raise UserError(f"--target: found '{text}', allowed is an error below 100 %, such as 1% or 0.01")
+        raise UserError(f"--target is '{text}'; allowed is an error below 100 %, such as 1% or 0.01")
     return value
 
 
@@ -209,7 +209,7 @@ def read_settings(option: str, texts: Sequence[str]) -> dict[str, str]:
     for text in texts:
         path, equals, value = text.partition("=")
         if not equals or not path.strip():
-            raise UserError(f"{option}: found '{text}', allowed is 'path/to/parameter=value'")
+            raise UserError(f"{option} is '{text}'; allowed is 'path/to/parameter=value'")
         changes["/".join(" ".join(part.split()) for part in path.split("/"))] = value.strip()
     return changes
 
@@ -221,7 +221,7 @@ def read_outputs(text: str) -> dict[str, float]:
         name, equals, weight = part.partition("=")
         if name not in ("force", "strain", "shape", "rebound"):
             raise UserError(
-                f"--outputs: found '{name}', allowed are force, strain, shape, rebound, each with =WEIGHT if"
+                f"--outputs is '{name}'; allowed are force, strain, shape, rebound, each with =WEIGHT if"
                 " need be"
             )
         weights[name] = knobs.number(weight, "a weight > 0", f"--outputs: {name}") if equals else 1.0

@@ -127,10 +127,10 @@ class Profile(Output):
     def __init__(self, line: str, kind: str) -> None:
         numbers = re.findall(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", line)
         if len(numbers) != 6 or " to " not in line:
-            raise UserError(f"--line: found '{line}', allowed is 'x, y, z to x, y, z'")
+            raise UserError(f"--line is '{line}'; allowed is 'x, y, z to x, y, z'")
         ends = numpy.array(numbers, dtype=float).reshape(2, 3)
         if not numpy.linalg.norm(ends[1] - ends[0]) > 0:
-            raise UserError(f"--line: found '{line}', allowed are two different points")
+            raise UserError(f"--line is '{line}'; allowed are two different points")
         self.kind = kind
         parameters = numpy.linspace(0.0, 1.0, self.SEGMENTS + 1)
         self.places = ends[0] + parameters[:, None] * (ends[1] - ends[0])

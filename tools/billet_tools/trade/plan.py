@@ -177,7 +177,7 @@ class Candidates:
             print(f"left out of the product: {text}", file=sys.stderr)
         return points
 
-    def tell(self) -> str:
+    def describe(self) -> str:
         said = []
         for knob, values in self.possible():
             said.append(f"{knob.name}: {knob.meaning}\n    " + ", ".join(argument for argument, _ in values))

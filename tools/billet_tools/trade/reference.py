@@ -54,7 +54,7 @@ def mesh_factors(scene: Scene, wanted: str | None, count: Callable[[Changes], in
         ratios = [b / a for a, b in zip(factors, factors[1:])]
         if 1.0 not in factors or not ratios or max(ratios) > 1.001 * min(ratios) or min(ratios) <= 1:
             raise UserError(
-                f"--reference-mesh: found '{wanted}', allowed are at least two factors in one ratio, 1 among"
+                f"--reference-mesh is '{wanted}'; allowed are at least two factors in one ratio, 1 among"
                 " them"
             )
         return factors

@@ -474,7 +474,7 @@ class Sweep:
                     *([] if self.scene.is_explicit else [r.newton, r.linear, r.cuts]),
                     big(p.work),
                     number(r.core_seconds),
-                    self._told(p) if p.is_good else f"**{p.status}**",
+                    self._shown_error(p) if p.is_good else f"**{p.status}**",
                     *(
                         error_text(p.errors[o.name], self.reference.uncertainty[o.name]) if p.errors else "–"
                         for o in self.outputs
@@ -486,7 +486,7 @@ class Sweep:
             )
         return rows
 
-    def _told(self, point: Point) -> str:
+    def _shown_error(self, point: Point) -> str:
         told = error_text(point.error, self.uncertainty)
         return f"({told})" if id(point) in self.cancelled else told
 

@@ -20,7 +20,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkUnstructuredGrid,
 )
 
-from ..output import Array, Fields, History, largest_drift, pictures_of, read_grid, read_history
+from ..output import Array, Fields, History, max_drift, pictures_of, read_grid, read_history
 from ..program import COMPLETED
 from ..records import Record, failure_of, read_records, value_of
 from ..scene import Changes, Scene
@@ -126,7 +126,7 @@ def collect(folder: Path, code: int | None, limit: float) -> dict[str, Any]:
         "cuts": int(last_of("total_cuts")),
         "linear": int(numpy.sum(history.get("linear_iterations", 0))),
         "first_step": float(lengths[0]) if len(lengths) else 0.0,
-        "drift": largest_drift(history),
+        "drift": max_drift(history),
         "penetration": math.nan,
         "facet": math.nan,
         "elements": 0,

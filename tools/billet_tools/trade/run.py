@@ -179,7 +179,7 @@ class Progress:
         self.total += 1
         self.left += seconds
 
-    def tell(self, label: str, result: Result, planned: float, took: float, was_kept: bool) -> None:
+    def report(self, label: str, result: Result, planned: float, took: float, was_kept: bool) -> None:
         self.done += 1
         self.left = max(0.0, self.left - planned)
         if not was_kept:
@@ -248,7 +248,7 @@ class Work:
                 for future in as_completed(futures):
                     key, result, took, was_kept = future.result()
                     found[key] = result
-                    self.progress.tell(planned[key][0], result, left[key], took, was_kept)
+                    self.progress.report(planned[key][0], result, left[key], took, was_kept)
             except BaseException:
                 self.runner.stop.set()
                 pool.shutdown(wait=True, cancel_futures=True)

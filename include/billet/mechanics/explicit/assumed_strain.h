@@ -276,16 +276,16 @@ BILLET_INLINE Real bound_points(const Real lambda[8]) {
   hadamard(m);
   for (unsigned int q = 1; q < 8; ++q)
     m[q] = abs(m[q]);
-  Real largest = (1._r / 3._r) * m[0] + g2 * (m[3] + m[5] + m[6]) + (2._r * g3) * (m[1] + m[2] + m[4]);
+  Real maximum = (1._r / 3._r) * m[0] + g2 * (m[3] + m[5] + m[6]) + (2._r * g3) * (m[1] + m[2] + m[4]);
   for (unsigned int k = 0; k < 3; ++k) {
     const unsigned int own = 1U << k, first = 1U << (k + 1) % 3, second = 1U << (k + 2) % 3;
     const Real slopes = g * (m[first] + m[second]);
     const Real of_column = m[0] + slopes + g2 * m[first | second],
                of_mode = (2._r / 3._r) * m[0] + slopes + g2 * (m[own | first] + m[own | second]) +
                          (2._r * g3) * m[own];
-    largest = max(largest, max(of_column, of_mode));
+    maximum = max(maximum, max(of_column, of_mode));
   }
-  return 0.125_r * largest;
+  return 0.125_r * maximum;
 }
 
 /// Sums over the points of the forces of their columns: mean, and per mode of the strains.

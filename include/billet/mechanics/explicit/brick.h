@@ -343,7 +343,7 @@ struct Totals {
   }
 
   void finish(Result &result) const {
-    result.largest_rate = largest_lane(rate);
+    result.max_rate = max_lane(rate);
     result.elastic_energy = elastic.sum();
     result.plastic_work = plastic.sum();
     result.viscous_work = viscous.sum();

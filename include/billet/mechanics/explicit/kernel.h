@@ -66,7 +66,7 @@ struct Step {
 
 /// Results of a step, in the kernel's units.
 struct Result {
-  double largest_rate; ///< 1/stable step
+  double max_rate; ///< 1/stable step
   double elastic_energy, plastic_work, viscous_work, hourglass_energy;
   std::size_t inverted; ///< n_elements if none
 };

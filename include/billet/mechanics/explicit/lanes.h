@@ -111,11 +111,11 @@ BILLET_INLINE Real abs(const Real a) { return max(a, -a); }
 BILLET_INLINE Real load(const Number *p) { return *reinterpret_cast<const Real *>(p); }
 BILLET_INLINE void store(Number *p, const Real x) { *reinterpret_cast<Real *>(p) = x; }
 
-inline Number largest_lane(const Real x) {
-  Number largest = get(x, 0);
+inline Number max_lane(const Real x) {
+  Number maximum = get(x, 0);
   for (std::size_t lane = 1; lane < n_lanes; ++lane)
-    largest = get(x, lane) > largest ? get(x, lane) : largest;
-  return largest;
+    maximum = get(x, lane) > maximum ? get(x, lane) : maximum;
+  return maximum;
 }
 
 /// Coefficients 1/k and 1/k!.
@@ -150,7 +150,7 @@ template <> struct FormatOf<double> {
   static constexpr double shift = 6755399441055744.;
   static constexpr IntegersOf<double>::Unsigned shift_bits = 0x4338000000000000ULL;
   static constexpr IntegersOf<double>::Unsigned inverse_cube_root = 0x553ef0ff289dd796ULL;
-  static constexpr double largest_exponent = 700.;
+  static constexpr double max_exponent = 700.;
   static constexpr unsigned int n_artanh = 10, n_exponential = 14; ///< terms beyond the first
   static constexpr double ln_2_high = 0.693147180369123816490, ln_2_low = 1.90821492927058770002e-10;
 };
@@ -160,7 +160,7 @@ template <> struct FormatOf<float> {
   static constexpr float shift = 12582912.F; ///< 1.5 · 2²³
   static constexpr IntegersOf<float>::Unsigned shift_bits = 0x4b400000U;
   static constexpr IntegersOf<float>::Unsigned inverse_cube_root = 0x54a2fa8cU;
-  static constexpr float largest_exponent = 80.F;
+  static constexpr float max_exponent = 80.F;
   static constexpr unsigned int n_artanh = 5, n_exponential = 7;
   static constexpr float ln_2_high = 0.693359375F, ln_2_low = -2.12194440e-4F;
 };
@@ -203,7 +203,7 @@ BILLET_INLINE Real logarithm_of_one_plus(const Real x) {
 
 /// Returns exp x; x is clipped to ±700 (float: ±80).
 BILLET_INLINE Real exponential(const Real x) {
-  const Real bounded = min(max(x, broadcast(-Format::largest_exponent)), broadcast(Format::largest_exponent));
+  const Real bounded = min(max(x, broadcast(-Format::max_exponent)), broadcast(Format::max_exponent));
   // x = k ln 2 + r, with ln 2 in two parts; |r| ≤ 0.35, the truncation error is below 1e-17 (float: 6e-9)
   const Real shifted = bounded * 1.44269504088896340736_r + Format::shift;
   const Real k = shifted - Format::shift;

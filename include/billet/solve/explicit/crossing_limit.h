@@ -18,6 +18,9 @@ public:
   void update(double stable_step, double energy);
   /// Returns that step; infinite if no node comes through a surface [time].
   double value() const { return value_; }
+  /// Returns the longest step by (E5), from the springs of `step` [time]; see Crossings. `energy`: that of
+  /// reference.
+  static double longest_step(double step, double springs, double energy);
 
 private:
   /// Nodes of this rank that come through surfaces in a step.

@@ -39,7 +39,7 @@ public:
   double mass() const { return parts_.masses.of_bodies(); }
 
   /// Number of steps between updates of the energies, on which steps depend.
-  static constexpr unsigned int steps_between_looks = ExplicitLedger::steps_between_updates;
+  static constexpr unsigned int steps_between_checks = ExplicitLedger::steps_between_updates;
   /// Updates energies, momenta and tools in the state, after prepare_step(). Collective.
   void update_ledger();
   /// Updates these and the fields. Collective.
@@ -50,7 +50,7 @@ public:
   /// prepare_step(). Collective.
   DiagnosticList check_steps() const;
   /// Whether check_penalties() has ever found a penalty too low.
-  bool has_soft_penalties() const { return penalties_.has_soft_pairs(); }
+  bool has_low_penalties() const { return penalties_.has_low_penalties(); }
   /// Returns the part of the largest energy so far by which the energies of the last update fail to balance;
   /// see ExplicitLedger.
   double relative_drift() const { return ledger_.relative_drift(state_.energies, stable_step_.value()); }

@@ -22,7 +22,7 @@ public:
   /// Returns messages about penalties, at the last forces. Collective.
   DiagnosticList check(const EnergyLedger &energies);
   /// Whether check() has ever found a penalty too low.
-  bool has_soft_pairs() const { return watch_.has_soft_pairs(); }
+  bool has_low_penalties() const { return watch_.has_low_penalties(); }
 
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);

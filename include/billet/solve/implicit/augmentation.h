@@ -47,7 +47,7 @@ private:
   /// SoftnessLimit. At the trial state. Collective.
   struct Demands {
     std::vector<double> of_contacts;
-    double by_tolerances = 0., largest = 0.; ///< over all contacts
+    double by_tolerances = 0., maximum = 0.; ///< over all contacts
   };
   Demands find_demands(const std::vector<ContactSprings> &springs) const;
   /// Returns the springs of each contact; empty if no pair limits softness. Collective.

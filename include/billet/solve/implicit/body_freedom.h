@@ -11,15 +11,15 @@
 namespace billet {
 
 /// Finds a rigid-body mode of the body that supports and contacts do not resist, if there is one. Collective.
-std::optional<RigidMotion> find_freedom(const ImplicitProblem &problem, std::size_t body);
+std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, std::size_t body);
 
 /// Throws InputError if a body without stabilisation has such a mode at the start.
-void check_freedom(const ImplicitProblem &problem);
+void check_free_modes(const ImplicitProblem &problem);
 
 /// Returns why the run ends if a body has such a mode without the tools of these names; else an empty text.
 /// Collective.
-std::string describe_freedom(const ImplicitProblem &problem, std::size_t body,
-                             const std::set<std::string> &removed);
+std::string describe_free_mode(const ImplicitProblem &problem, std::size_t body,
+                               const std::set<std::string> &removed);
 
 /// Whether the trial state moves farther, in the step or in the run, than tools and supports explain; then
 /// the step fails. For static scenes. Collective.

@@ -59,7 +59,7 @@ public:
   DiagnosticList check_needless() const;
   /// Returns messages at the end of the run. `forces`: the largest norm of the nodal forces there.
   /// Collective.
-  DiagnosticList finish(double time, double largest_energy, double forces,
+  DiagnosticList finish(double time, double max_energy, double forces,
                         const RigidBodySupport::Result &support_by_contact) const;
 
   void save(StateWriter &writer) const;

@@ -29,10 +29,10 @@ public:
   }
   /// Returns the maximum over all contacts and ranks, at least 0. Collective.
   template <class Get> double max(const Get &get) const {
-    double largest = 0.;
+    double maximum = 0.;
     for (const double value : collect(get))
-      largest = std::max(largest, value);
-    return dealii::Utilities::MPI::max(largest, communicator_);
+      maximum = std::max(maximum, value);
+    return dealii::Utilities::MPI::max(maximum, communicator_);
   }
 
   /// Computes gaps and tractions at `displacements` (ghosted), and adds −F_c [force] to `residual` (additive
@@ -55,7 +55,8 @@ public:
   std::vector<std::vector<SlaveForce>> slave_forces() const;
   /// Returns the energy in the springs of each contact. Collective.
   std::vector<double> stored_energies() const;
-  /// Returns the works of all contacts in the step, before commit(); `weight` as in RigidContact. Collective.
+  /// Returns the works of all contacts in the step, before commit(); `weight` as in ContactMeasures.
+  /// Collective.
   StepWorks compute_step_works(double weight) const;
   /// Returns the load that the contacts of a tool exert. Collective.
   ContactLoad compute_load(std::size_t tool) const;

@@ -60,7 +60,7 @@ public:
 
   /// Returns the factor from the offset to the unknown.
   double unit_of(std::size_t tool) const;
-  RigidContact::ToolRate rate_of(std::size_t tool) const;
+  ToolRate rate_of(std::size_t tool) const;
   /// Returns the load that the tool exerts along its direction, or about its axis. Collective.
   double exerted_load(std::size_t tool) const;
   /// Returns the residual of a tool, with its inertia if it has a mass. Collective.

@@ -37,7 +37,7 @@ public:
   /// Whether contact between bodies causes most of the imbalance of the energies.
   bool contact_makes_energy() const;
   /// Returns the largest energy so far [energy].
-  double largest_energy() const { return largest_energy_; }
+  double max_energy() const { return max_energy_; }
   void update_largest_energy();
   const InternalForces::Energies &trial_energies() const { return trial_energies_; }
 
@@ -64,7 +64,7 @@ protected:
   /// Energy that contact has taken and not yet returned; in static scenes, of all steps except jumps.
   double contact_balance_ = 0.;
   InternalForces::Energies trial_energies_;
-  double largest_energy_ = 0.;
+  double max_energy_ = 0.;
 };
 
 /// Balance of static scenes: a step in which contact loses much energy is cut, unless the bodies jump.
@@ -106,7 +106,7 @@ private:
     static constexpr double of_run = 0.02, of_rest = 0.05, always = 1e-4;
   };
   ContactLoss dynamic_loss(double t) const;
-  double largest_energy_of_trial() const;
+  double max_energy_of_trial() const;
   /// Returns the imbalance over the allowed one, (I8).
   double energy_error(double imbalance) const;
   /// Returns the part of the loss that is permanent.

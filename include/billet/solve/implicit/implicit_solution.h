@@ -91,8 +91,8 @@ public:
   /// Returns the equation of the steps.
   ImplicitProblem &equation() { return problem_; }
   const ImplicitProblem &equation() const { return problem_; }
-  /// Returns PenaltyWatch::has_soft_pairs().
-  bool has_soft_penalties() const { return books_.has_soft_pairs(); }
+  /// Returns PenaltyWatch::has_low_penalties().
+  bool has_low_penalties() const { return books_.has_low_penalties(); }
   /// Whether contact between bodies causes most of the imbalance of the energies of a dynamic scene.
   bool contact_makes_energy() const { return rules_->balance().contact_makes_energy(); }
 

@@ -28,8 +28,8 @@ public:
   /// Accepts these displacements. Collective.
   void commit(const Vector &displacements);
 
-  void save(StateWriter &writer) const { writer.write("largest displacement", {largest_displacement_}); }
-  void load(const StateReader &reader) { largest_displacement_ = reader.number("largest displacement"); }
+  void save(StateWriter &writer) const { writer.write("largest displacement", {max_displacement_}); }
+  void load(const StateReader &reader) { max_displacement_ = reader.number("largest displacement"); }
 
 private:
   struct Limits {
@@ -58,7 +58,7 @@ private:
   const Inertia &inertia_;
   const Vector &lumped_;
   std::vector<BodyAxis> body_axes_; ///< of owned dofs
-  double largest_displacement_ = 0., largest_gyration_ = 0.;
+  double max_displacement_ = 0., max_gyration_ = 0.;
   HeldMemory memory_{Capability::error_control};
 };
 

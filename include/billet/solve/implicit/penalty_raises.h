@@ -21,8 +21,8 @@ public:
   void add(std::size_t contact, double change);
   /// Returns warnings about penalties that are too low, after a step. Collective.
   DiagnosticList check();
-  /// Returns PenaltyWatch::has_soft_pairs().
-  bool has_soft_pairs() const { return watch_.has_soft_pairs(); }
+  /// Returns PenaltyWatch::has_low_penalties().
+  bool has_low_penalties() const { return watch_.has_low_penalties(); }
 
   void save(StateWriter &writer) const { watch_.save(writer); }
   void load(const StateReader &reader) { watch_.load(reader); }

@@ -32,7 +32,7 @@ public:
   /// `failure` is this loss.
   std::string describe_loss(const std::string &failure) const;
   /// Returns messages about stabilised bodies at the end of the run. Collective.
-  DiagnosticList finish(double largest_energy) const;
+  DiagnosticList finish(double max_energy) const;
 
   void save(StateWriter &writer) const;
   void load(StateReader &reader, bool is_exact);
@@ -73,7 +73,7 @@ private:
 
   ImplicitProblem &problem_;
   RigidBodies bodies_;
-  std::vector<double> forces_n_, largest_forces_; ///< on bodies at the end of the last step; maxima so far
+  std::vector<double> forces_n_, max_forces_; ///< on bodies at the end of the last step; maxima so far
   Loss loss_; ///< earliest loss for which a step failed; it explains failures of earlier steps
   std::vector<RigidBodySupport::Mode> let_go_;  ///< modes of bodies that this step has begun to stabilise
   RigidBodySupport::Result support_;            ///< at the end of the last accepted step

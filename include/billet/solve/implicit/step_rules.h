@@ -98,7 +98,7 @@ public:
   }
   void commit(double t) override;
   void close_step(double t) override;
-  DiagnosticList check_stabilisation() const override { return modes_.finish(balance_.largest_energy()); }
+  DiagnosticList check_stabilisation() const override { return modes_.finish(balance_.max_energy()); }
   void save(StateWriter &writer) const override;
   void load(StateReader &reader, bool is_exact) override;
   void hold_imbalance(const Vector &residual) override;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_CONTACT_RIGID_CONTACT_PARTS_H
+#define BILLET_CONTACT_RIGID_CONTACT_PARTS_H
+
+#include "billet/contact/contact_interface.h"
+#include "billet/contact/missed_edge.h"
+#include "billet/contact/projected_areas.h"
+#include "billet/contact/thin_tool_watch.h"
+#include "billet/contact/tool_friction.h"
+
+#include <optional>
+#include <vector>
+
+namespace billet {
+
+/// Indices of nodes in schemes without a matrix.
+struct BoundNodes {
+  std::vector<unsigned int> local; ///< of each node of the mesh, in LocalNodes
+  std::vector<bool> is_owned;      ///< as in LocalNodes; points inside facets are owned
+
+  dealii::Tensor<1, 3> vector_of(const std::size_t i, const NodalVectors &vectors) const {
+    return get_vector(vectors.data(), local[i]);
+  }
+};
+
+/// State of contact with a rigid tool, which RigidContact advances and its evaluations and measures read.
+struct RigidContactParts {
+  RigidContactParts(const Scene &scene, const ContactPair &pair, const Discretization &discretization);
+  RigidContactParts(const RigidContactParts &) = delete;
+  RigidContactParts &operator=(const RigidContactParts &) = delete;
+
+  const ContactPair &pair;
+  const Tool &tool;
+  const MPI_Comm communicator;
+  const bool has_inertia;
+  const bool is_explicit; ///< works are those of the trapezoidal rule
+  SlaveSurface slaves;
+  BoundNodes bound;                     ///< empty in schemes with a matrix
+  std::vector<ToolContactState> states; ///< at the last update()
+  ToolStep step;
+  NeighbouringTools neighbours;
+  MissedEdge missed_edge;
+  PressureRecord pressures;               ///< not known in explicit schemes
+  std::optional<ToolFriction> friction;   ///< none without friction
+  std::optional<ThinToolWatch> thin_tool; ///< none unless the tool is thin on any rank
+  double tool_reach = 0.;                 ///< maximum radius of curvature, at most the tool's size [length]
+  HeldMemory memory{Capability::contact};
+
+  CornerStates states_of(const ContactFacet &facet) const {
+    return {&states[facet.nodes[0]], &states[facet.nodes[1]], &states[facet.nodes[2]],
+            &states[facet.nodes[3]]};
+  }
+  /// Whether node i presses with its full penalty, and only its spring gives its penetration.
+  bool is_pressed_fully(const std::size_t i) const {
+    return states[i].pressure > 0. && states[i].share == 1. && !slaves.nodes[i].is_fixed;
+  }
+
+  /// Removes the tool: from now on no node touches it.
+  void remove_tool();
+  /// Makes the state of the last update() the start of the next step.
+  void commit();
+  /// Starts without contact in place of a load(), at these displacements of the nodes of the mesh.
+  void begin(const ContactStep &at, const std::vector<dealii::Tensor<1, 3>> &displacements);
+
+private:
+  /// Whether an initial gap counts as closed, or an initial penetration as allowed.
+  bool allows(const RigidSurface::Projection &projection) const;
+  /// Stores the positions of nodes that might pass through a thin tool, for the next step.
+  void record_positions();
+  /// Stores the pressures of the last update() for the works of the next step.
+  void record_pressures();
+};
+
+} // namespace billet
+
+#endif

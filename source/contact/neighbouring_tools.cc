@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/neighbouring_tools.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+
+bool NeighbouringTools::is_near(const Tensor<1, 3> &position, const double near,
+                                const std::optional<Tensor<1, 3>> &facing) const {
+  constexpr double alike = 0.5; // cosine
+  return std::any_of(others_.begin(), others_.end(), [&](const ToolStep *other) {
+    if (other->is_removed)
+      return false;
+    const auto projection = other->surface.project(other->placement.to_tool(position));
+    return projection.exists && std::abs(projection.gap) < near &&
+           (!facing || *facing * (other->placement.rotation * projection.normal) > alike);
+  });
+}
+
+} // namespace billet

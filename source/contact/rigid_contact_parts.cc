@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/rigid_contact_parts.h"
+
+#include "billet/contact/spring_energy.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace billet {
+
+using dealii::Tensor;
+
+RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_pair,
+                                     const Discretization &discretization)
+    : pair(of_pair), tool(scene.tools()[pair.tool]), communicator(discretization.communicator()),
+      has_inertia(scene.parameters().is_dynamic()), is_explicit(scene.parameters().is_explicit()),
+      slaves(pair, tool, discretization, scene.bodies()[pair.body].young_modulus,
+             has_inertia && !is_explicit ? 0. : touching_gap),
+      states(slaves.nodes.size()), step(tool.surface(), tool.placement(0.)), missed_edge(step, neighbours) {
+  if (!has_inertia) {
+    const std::set<DofIndex> fixed = collect_fixed_nodes(scene, discretization);
+    for (auto &node : slaves.nodes)
+      node.is_fixed = fixed.count(node.dofs[0]) > 0;
+  }
+  if (pair.has_friction()) // multipliers do not stretch springs
+    friction.emplace(*pair.friction, !pair.is_augmented(), slaves.nodes.size(), step, pressures);
+  const BoundingBox &box = tool.surface().bounding_box();
+  double tool_size = 0.;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (const double end : {box.low[i], box.high[i]})
+      tool_size = std::max(tool_size, std::isfinite(end) ? std::abs(end) : 0.);
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
+    const auto X = step.placement.to_tool(slaves.nodes[i].reference);
+    const auto projection = tool.surface().project(X);
+    states[i].position = slaves.nodes[i].reference;
+    states[i].gap = slaves.nodes[i].gap_n = projection.gap;
+    if (allows(projection)) {
+      slaves.nodes[i].initial_penetration = -projection.gap;
+      states[i].gap = slaves.nodes[i].gap_n = 0.;
+    }
+    slaves.nodes[i].patch = projection.patch;
+    const double curvature = projection.turning.norm();
+    if (curvature > 0.)
+      tool_reach = std::max(tool_reach, std::min(1. / curvature, tool_size));
+    if (friction)
+      friction->start(i, X);
+  }
+  if (friction)
+    friction->commit();
+  double max_size = 0.;
+  for (const auto &node : slaves.nodes)
+    max_size = std::max(max_size, node.size);
+  thin_tool = ThinToolWatch::make(tool.surface(), dealii::Utilities::MPI::max(max_size, communicator));
+  if (is_explicit && !pair.input->has_own_penalty && thin_tool)
+    slaves.harden_springs(thin_tool->thickness());
+  for (auto &node : slaves.nodes)
+    node.given = node.stiffness;
+  record_positions();
+  record_pressures();
+  memory.set(slaves.nodes.size() * (sizeof(ContactPoint) + sizeof(ToolContactState)) +
+             slaves.facets.size() * sizeof(ContactFacet));
+}
+
+bool RigidContactParts::allows(const RigidSurface::Projection &projection) const {
+  return projection.exists &&
+         ((pair.overlap.is_allowed && projection.gap < 0.) || pair.overlap.closes(projection.gap));
+}
+
+void RigidContactParts::remove_tool() {
+  step.is_removed = true;
+  for (auto &state : states)
+    state = ToolContactState();
+  if (friction)
+    friction->clear();
+}
+
+void RigidContactParts::commit() {
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i)
+    slaves.nodes[i].gap_n = states[i].gap;
+  missed_edge.commit(slaves.nodes, states);
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
+    ContactPoint &node = slaves.nodes[i];
+    if (states[i].status == ContactStatus::open) { // it returns without an offset
+      node.gap_n += node.multiplier_offset;
+      node.multiplier_offset = 0.;
+    }
+    node.multiplier_offset_n = node.multiplier_offset;
+  }
+  if (friction)
+    friction->commit();
+  record_positions();
+  if (friction && !is_explicit)
+    for (auto &facet : slaves.facets) {
+      const CornerStates corners = states_of(facet);
+      facet.friction_areas =
+          any_touches(corners) ? compute_projected_areas(corners, false).areas : std::array<double, 4>{};
+    }
+  record_pressures();
+  if (is_explicit) // only after the springs' energy is released
+    for (auto &facet : slaves.facets)
+      for (unsigned int a = 0; a < 4; ++a)
+        if (states[facet.nodes[a]].status == ContactStatus::open)
+          facet.shallow_areas[a] = SpringEnergy::no_area;
+}
+
+void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1, 3>> &displacements) {
+  const Placement &placement = at.tools_at_start[pair.tool];
+  step.placement_n = step.placement = placement;
+  step.allowed_part = pair.overlap.allowed_part(at.start);
+  for (auto &divided : slaves.divided)
+    divided.may_touch = true;
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
+    const Tensor<1, 3> position = slaves.nodes[i].reference + slaves.at(i, [&](const std::size_t parent) {
+      return displacements[parent];
+    });
+    const Tensor<1, 3> on_tool = placement.to_tool(position);
+    const auto projection = tool.surface().project(on_tool);
+    states[i] = ToolContactState();
+    states[i].position = position;
+    slaves.nodes[i].multiplier_offset = slaves.nodes[i].multiplier_offset_n =
+        slaves.nodes[i].initial_penetration = 0.;
+    slaves.nodes[i].is_behind = false;
+    if (allows(projection))
+      slaves.nodes[i].initial_penetration = -projection.gap;
+    states[i].gap = slaves.nodes[i].gap_n = projection.gap - step.gap_offset(slaves.nodes[i]);
+    slaves.nodes[i].patch = projection.patch;
+    if (friction)
+      friction->start(i, on_tool);
+  }
+  if (friction)
+    friction->commit();
+  record_positions();
+  record_pressures();
+  for (auto &facet : slaves.facets) {
+    facet.shallow_areas.fill(SpringEnergy::no_area);
+    facet.friction_areas.fill(0.);
+  }
+}
+
+void RigidContactParts::record_positions() {
+  if (!thin_tool)
+    return;
+  std::vector<Tensor<1, 3>> positions;
+  for (const auto &state : states)
+    positions.push_back(step.placement.to_tool(state.position));
+  thin_tool->remember(std::move(positions));
+}
+
+void RigidContactParts::record_pressures() {
+  step.allowed_part_n = step.allowed_part;
+  if (!is_explicit)
+    pressures.record(states, slaves.nodes, step.placement);
+}
+
+} // namespace billet

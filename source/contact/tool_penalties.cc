@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/contact/tool_penalties.h"
+
+#include "billet/contact/tool_springs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+void ToolPenalties::take_back_augmentation() {
+  for (auto &node : parts_.slaves.nodes)
+    node.multiplier_offset = node.multiplier_offset_n;
+  if (parts_.friction)
+    parts_.friction->restart();
+}
+
+void ToolPenalties::augment() {
+  auto &nodes = parts_.slaves.nodes;
+  Usage::count(Capability::augmentation, nodes.size());
+  memory_.set(2 * nodes.size() * sizeof(ContactPoint::multiplier_offset));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const ToolContactState &state = parts_.states[i];
+    nodes[i].multiplier_offset = nodes[i].is_fixed   ? 0.
+                                 : state.share == 1. ? state.pressure / nodes[i].stiffness.normal
+                                                     : state.share * std::max(0., -state.gap);
+  }
+  if (parts_.friction)
+    parts_.friction->augment(nodes);
+}
+
+void ToolPenalties::scale(const double normal, const double tangential) {
+  stiffening_ *= normal;
+  tangential_stiffening_ *= tangential;
+  for (auto &node : parts_.slaves.nodes) {
+    if (node.is_fixed) // only its spring gives its force
+      continue;
+    node.stiffness = {stiffening_ * node.given.normal, tangential_stiffening_ * node.given.tangential};
+    node.multiplier_offset /= normal;
+    node.gap_n += node.multiplier_offset_n * (1. - 1. / normal);
+    node.multiplier_offset_n /= normal;
+  }
+}
+
+void ToolPenalties::scale_under_load(const double normal, const double tangential) {
+  scale(normal, tangential);
+  for (std::size_t i = 0; i < parts_.slaves.nodes.size(); ++i) {
+    ContactPoint &node = parts_.slaves.nodes[i];
+    ToolContactState &state = parts_.states[i];
+    if (node.is_fixed || !(state.pressure > 0.))
+      continue;
+    node.initial_penetration -= (1. - 1. / normal) * state.gap;
+    state.gap /= normal;
+    node.gap_n /= normal;
+    parts_.pressures.divide_penetration(i, normal);
+  }
+}
+
+double ToolPenalties::max_spring() const {
+  double maximum = 0.;
+  for (const auto &node : parts_.slaves.nodes)
+    maximum =
+        std::max(maximum, std::max(node.stiffness.normal, node.stiffness.tangential) * node.size * node.size);
+  return maximum;
+}
+
+double ToolPenalties::augmentation_gap() const {
+  double worst = 0.;
+  for (std::size_t i = 0; i < parts_.states.size(); ++i)
+    if (const ContactPoint &node = parts_.slaves.nodes[i]; parts_.is_pressed_fully(i))
+      worst = std::max(worst, std::abs(parts_.states[i].gap + node.multiplier_offset) / node.size);
+  if (parts_.friction)
+    for (std::size_t i = 0; i < parts_.states.size(); ++i) {
+      const ContactPoint &node = parts_.slaves.nodes[i];
+      worst = std::max(worst, parts_.friction->elastic_slip(i, node, parts_.states[i]) / node.size);
+    }
+  return worst;
+}
+
+ContactSprings ToolPenalties::compute_springs() const {
+  ContactSprings result;
+  result.normal.of_nodes.resize(parts_.slaves.nodes.size());
+  result.tangential.of_nodes.resize(parts_.slaves.nodes.size());
+  with_tool_springs(parts_, [&](const auto &springs) {
+    springs.visit_counted_areas([&](const unsigned int i, const double area) {
+      const ToolContactState &state = parts_.states[i];
+      const ContactPoint &node = parts_.slaves.nodes[i];
+      if (node.is_fixed)
+        return;
+      const double slip = parts_.friction ? parts_.friction->elastic_slip(i, node, state) : 0.;
+      result.add(i, area * state.traction, state.normal,
+                 area * node.stiffness.normal * std::abs(state.gap + node.multiplier_offset),
+                 area * node.stiffness.tangential * slip);
+    });
+  });
+  return result;
+}
+
+} // namespace billet
