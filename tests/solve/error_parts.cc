@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The parts of error control by themselves: forces over time, intervals between measurements, and errors by
-// penetrations of made-up forces.
+// penetrations and steps of made-up forces.
 #include "billet/solve/force_course.h"
 #include "billet/solve/measurement_interval.h"
 #include "billet/solve/penetration_errors.h"
+#include "billet/solve/step_errors.h"
 
 #include "../testing.h"
 
@@ -11,6 +12,101 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::near;
+
+namespace {
+
+ResultGroup force(const double value) { return {dealii::Tensor<1, 3>({value, 0., 0.})}; }
+
+/// Returns the number of steps until the next measurement.
+template <class Errors> unsigned int wait_for(const Errors &count_step, const unsigned int maximum = 20) {
+  for (unsigned int n = 1; n < maximum; ++n)
+    if (count_step())
+      return n;
+  return maximum;
+}
+
+/// Penetrations that cause this part of the error allowed for them, from two measurements: steps until the
+/// next one.
+unsigned int wait_after(const double part) {
+  constexpr double tolerance = 0.01;
+  ForceCourse course(1.);
+  course.accept(0.01, 10.);
+  PenetrationErrors errors(tolerance);
+  errors.accept(0.01, 10., 1.);
+  errors.measure(course, 1., force(10.), force(10. * (1. + part * tolerance)), 0.);
+  return wait_for([&] {
+    errors.accept(0.01, 10., 1.);
+    return errors.wants_measurement();
+  });
+}
+
+/// A force of 10 in a run of length 1. Two steps of each of these lengths are compared with one, from which
+/// they differ by these parts of the force.
+struct Pair {
+  double h, difference;
+};
+struct Compared {
+  ForceCourse course{1.};
+  StepErrors errors;
+
+  Compared(const double tolerance, const std::vector<Pair> &pairs) : errors({tolerance, false, false}) {
+    for (const auto &[h, difference] : pairs) {
+      for (unsigned int i = 0; i < 2; ++i) {
+        course.accept(h, 10.);
+        errors.accept(h, 1);
+      }
+      errors.measure(course, h, force(10.), force(10. * (1. + difference)), 0.);
+    }
+  }
+};
+double next_step(const double tolerance, const std::vector<Pair> &pairs) {
+  return Compared(tolerance, pairs).errors.longest_step();
+}
+
+void check_steps() {
+  constexpr double rounding = 1e-12;
+  {
+    const ForceCourse course(1.);
+    const StepErrors errors({1e-3, false, false});
+    check("the first comparison waits while three steps are left", !errors.wants_measurement(course, 0.33));
+    check("but no longer", errors.wants_measurement(course, 0.34));
+  }
+  {
+    const Compared steady(1e-3, {{0.01, 1e-5}});
+    check("steps that are half as long again are compared anew",
+          !steady.errors.wants_measurement(steady.course, 0.0149) &&
+              steady.errors.wants_measurement(steady.course, 0.0151));
+  }
+  // Steps of h that differ by d from one of 2 h add c h² = d/2. Over the run they make 1.4 c h/2 of the mean
+  // force, with the tolerance ε: 1.4 d/(4 h) = ε.
+  const double h = 5e-3, tolerance = 1e-3;
+  check("steps that cause what is allowed stay, but for what the start has left",
+        near(next_step(tolerance, {{h, 4. * h * tolerance / 1.4}}), h, 0.03));
+  check("those that cause little grow fourfold", near(next_step(tolerance, {{h, 1e-9}}), 4. * h, rounding));
+  check("those that cause much are halved", near(next_step(1e-3, {{0.03, 1.}}), 0.015, rounding));
+  check("where they make a twentieth of what is allowed they are at most 0.65 of the root of the tolerance",
+        near(next_step(1e-4, {{4e-3, 0.053 * 4. * 4e-3 * 1e-4 / 1.4}}), 6.5e-3, rounding));
+  check("where they make less they may be longer",
+        near(next_step(1e-4, {{4e-3, 0.047 * 4. * 4e-3 * 1e-4 / 1.4}}), 16e-3, rounding));
+  check("they are not cut below three times the tolerance",
+        near(next_step(1e-3, {{5e-3, 1.}}), 3e-3, rounding));
+  check("nor below half of that maximum", near(next_step(0.04, {{0.1, 1.}}), 0.065, rounding));
+  // Errors in the same time: d/h.
+  const auto returns = [](const double shorter, const double as_much) {
+    return next_step(1e-3, {{0.01, 4e-3}, {0.01 * shorter, as_much * shorter * 4e-3}}) >= 0.01 * (1. - 1e-12);
+  };
+  check("steps that are a quarter shorter return if they err by 0.8 times as much",
+        returns(0.74, 0.81) && !returns(0.76, 0.81) && !returns(0.74, 0.79));
+  {
+    StepErrors errors({1e-3, false, false});
+    for (unsigned int i = 0; i < 2; ++i)
+      errors.miss(0.01, true);
+    check("a second failed comparison halves the step", near(errors.longest_step(), 5e-3, rounding));
+  }
+}
+
+} // namespace
 
 int main() {
   constexpr double tolerance = 1e-14;
@@ -24,6 +120,10 @@ int main() {
     check("forces that grow on", std::abs(course.scale() - 6.), tolerance);
     course.accept(0.25, 1.);
     check("forces that have been larger", std::abs(course.scale() - 1.625 / 0.75), tolerance);
+    // At the rate of the first step the mean would be 50 times the force.
+    ForceCourse sudden(1.);
+    sudden.accept(0.01, 3.);
+    check("forces grow on by ten times at most", std::abs(sudden.scale() - 33.), 1e-12);
   }
   {
     MeasurementInterval interval(1);
@@ -39,12 +139,21 @@ int main() {
     check("one may be due at once", interval.is_due());
     interval.repeat();
     check("the next is as long as before", interval.until() == MeasurementInterval::max);
+    const auto wait = [&] {
+      return wait_for([&] {
+        interval.count_step();
+        return interval.is_due();
+      });
+    };
+    check("which is eight steps", wait() == 8);
+    interval.start(1);
+    interval.start_longer();
+    check("the shortest are four", wait() == 4);
     check("what doubles is steady", MeasurementInterval::is_steady(2., 1.) &&
                                         MeasurementInterval::is_steady(1., 2.) &&
                                         !MeasurementInterval::is_steady(2.1, 1.));
   }
   {
-    const auto force = [](const double value) { return ResultGroup{dealii::Tensor<1, 3>({value, 0., 0.})}; };
     ForceCourse course(1.);
     course.accept(0.5, 10.);
     PenetrationErrors errors(0.01);
@@ -59,5 +168,8 @@ int main() {
     check("the penetration to allow", std::abs(errors.allowed() - 200. * 0.02 * 15.), 1e-12);
     check("then measurements are rare", errors.is_known() && !errors.wants_measurement());
   }
+  check("penetrations that cause a tenth of what is allowed are measured seldom",
+        wait_after(0.095) == 8 && wait_after(0.105) == 4);
+  check_steps();
   return billet::testing::exit_code();
 }

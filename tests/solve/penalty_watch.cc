@@ -69,6 +69,28 @@ int main() {
     check("and what takes energy at once", !watch.check("other", 0.5, {0.2, 0.4}, 4., 0.02).empty());
   }
   {
+    // Depths [facet sizes], displacements and parts of the work, each just beside a limit.
+    const auto warns = [](const PenaltyWatch::Motion motion, const double of_facet, const double of_motion,
+                          const double of_work) {
+      PenaltyWatch watch(motion);
+      return !watch.check("pair", 0.5, {of_facet, 1.}, 1. / of_motion, of_work).empty();
+    };
+    constexpr auto slow = PenaltyWatch::Motion::slow, sudden = PenaltyWatch::Motion::sudden;
+    check("a tenth of a facet is deep", warns(slow, 0.102, 0.01, 0.) && !warns(slow, 0.098, 0.01, 0.));
+    check("a fifth of the motion is much", warns(slow, 0.01, 0.21, 0.) && !warns(slow, 0.01, 0.19, 0.));
+    check("and of the work", warns(slow, 0.01, 0.01, 0.21) && !warns(slow, 0.01, 0.01, 0.19));
+    check("unless penetration is below 1e-6 of a facet",
+          warns(slow, 1.1e-6, 0.5, 0.5) && !warns(slow, 0.9e-6, 0.5, 0.5));
+    const auto is_noticed = [](const double of_facet) {
+      PenaltyWatch watch(PenaltyWatch::Motion::sudden);
+      watch.check("pair", 0.5, {of_facet, 1.}, 2.);
+      return watch.has_low_penalties();
+    };
+    check("or below a fiftieth in an impact", is_noticed(0.0205) && !is_noticed(0.0195));
+    check("a hundredth of the work matters at once in an impact",
+          warns(sudden, 0.2, 0.1, 0.0105) && !warns(sudden, 0.2, 0.1, 0.0095));
+  }
+  {
     billet::Placement from, to;
     to.translation[0] = 3.;
     check("a translation", billet::max_motion(from, to, 10.) == 3.);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Stable steps of oscillators with springs and dashpots against closed forms, and what is taken of them.
 #include "billet/solve/explicit/stable_step.h"
+#include "billet/solve/explicit/crossing_limit.h"
 
 #include "../testing.h"
 
@@ -8,6 +9,7 @@
 
 #include <cmath>
 
+using billet::CrossingLimit;
 using billet::StableStep;
 using billet::StepBounds;
 using billet::testing::check;
@@ -44,9 +46,35 @@ int main(int argc, char **argv) {
     check("nodes that come through surfaces", std::abs(step.allowed(0.2) - 0.1), tolerance);
     check("but not much", std::abs(step.allowed(0.) - 0.05), tolerance);
     check("elements that keep their shape", step.describe_collapse().empty());
-    step.update({4e-6, 0., 0.}, 0., MPI_COMM_SELF);
+    step.update({5.2e-6, 0., 0.}, 0., MPI_COMM_SELF);
+    check("flat elements, but the run may end", step.describe_collapse().empty());
+    step.update({4.8e-6, 0., 0.}, 0., MPI_COMM_SELF);
     check("flat elements", !step.describe_collapse().empty());
     check("a rank that has failed", !step.update({-1., 0., 0.}, 0., MPI_COMM_SELF));
   }
+  {
+    const auto warns = [](const double part) {
+      StableStep step(1.);
+      step.update({0.5, 0., 0.}, 0., MPI_COMM_SELF);
+      step.update({0.5 * part, 0., 0.}, 0., MPI_COMM_SELF);
+      return !step.check_elements(1.).empty();
+    };
+    check("a hundredth of the first step shows a flat element", warns(0.0098) && !warns(0.0102));
+    // Elements with ω = 4, springs that leave a part of their step.
+    const auto is_set_by_contact = [](const double part) {
+      StableStep step(1.);
+      step.update({0.5, 16. / (part * part) - 16., 0.}, 0., MPI_COMM_SELF);
+      return step.is_set_by_contact();
+    };
+    check("contact makes steps much shorter if it leaves less than a tenth",
+          is_set_by_contact(0.098) && !is_set_by_contact(0.102));
+  }
+  // Springs k A over which nodes come by d in a step hold ⅛ k A d² of error, (E5): at most 0.0025 of the
+  // energy.
+  const double step = 0.3, energy = 5.;
+  check("nodes that come through surfaces with what is allowed keep the step",
+        std::abs(CrossingLimit::longest_step(step, 8. * 0.0025 * energy, energy) - step), tolerance);
+  check("with four times as much half of it",
+        std::abs(CrossingLimit::longest_step(step, 32. * 0.0025 * energy, energy) - 0.5 * step), tolerance);
   return billet::testing::exit_code();
 }

@@ -13,6 +13,18 @@ namespace billet {
 
 namespace {
 
+/// Limits, as parts of a stable step.
+struct Limits {
+  /// Minimum step for nodes that come through surfaces, as part of the stable step, (E5).
+  static constexpr double shortest = 0.25;
+  /// Stable step of the elements, over that at the start, below which the run would hardly end.
+  static constexpr double collapsed = 1e-5;
+  /// The same below which an element is reported as flat.
+  static constexpr double flat = 0.01;
+  /// Stable step over that of the elements alone, below which the penalty is reported as too high.
+  static constexpr double much_shorter = 0.1;
+};
+
 constexpr const char *flat_element_advice =
     "Try a finer mesh, or better shaped elements, where deformation is largest, or a hardening material";
 
@@ -37,10 +49,11 @@ bool StableStep::update(const StepBounds &own, const double of_tools, const MPI_
 }
 
 double StableStep::allowed(const double crossing_step) const {
-  constexpr double shortest = 0.25; // part of the stable step, for nodes that come through surfaces
   const double stable = usual();
-  return std::min(stable, std::max(factor_ * crossing_step, shortest * stable));
+  return std::min(stable, std::max(factor_ * crossing_step, Limits::shortest * stable));
 }
+
+bool StableStep::is_set_by_contact() const { return value_ < Limits::much_shorter * of_elements_; }
 
 std::string StableStep::describe_flat_elements() const {
   std::ostringstream text;
@@ -51,17 +64,26 @@ std::string StableStep::describe_flat_elements() const {
 }
 
 std::string StableStep::describe_collapse() const {
-  constexpr double collapsed = 1e-5;
-  if (!(of_elements_ < collapsed * of_elements_first_))
+  if (!(of_elements_ < Limits::collapsed * of_elements_first_))
     return "";
   return describe_flat_elements() + ", so the run cannot finish in reasonable time. " + flat_element_advice;
 }
 
+DiagnosticList StableStep::check_elements(const double t) const {
+  if (!(of_elements_ < Limits::flat * of_elements_first_))
+    return {};
+  std::string text = describe_flat_elements();
+  text.front() = 'T';
+  return {Diagnostic(diagnostic::flat_elements, text)
+              .time(t)
+              .value("stable step", of_elements_)
+              .advice(flat_element_advice)};
+}
+
 DiagnosticList StableStep::check(const double t, const Contacts &contacts,
                                  const MPI_Comm communicator) const {
-  constexpr double much_shorter = 0.1, flat = 0.01;
   DiagnosticList messages;
-  if (value_ < much_shorter * of_elements_) {
+  if (is_set_by_contact()) {
     std::vector<double> room = // by pair, on all ranks
         contacts.collect([](const auto &contact) { return contact.penalties().stiffening_left(); });
     dealii::Utilities::MPI::min(room, communicator, room);
@@ -78,14 +100,7 @@ DiagnosticList StableStep::check(const double t, const Contacts &contacts,
                              .value("penalty [E/h]", enough_penalty / *stiffest));
     }
   }
-  if (of_elements_ < flat * of_elements_first_) {
-    std::string text = describe_flat_elements();
-    text.front() = 'T';
-    messages.push_back(Diagnostic(diagnostic::flat_elements, text)
-                           .time(t)
-                           .value("stable step", of_elements_)
-                           .advice(flat_element_advice));
-  }
+  append(messages, check_elements(t));
   return messages;
 }
 
