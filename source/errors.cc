@@ -47,13 +47,15 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   message = dealii::Utilities::MPI::broadcast(communicator, message, speaker);
   key = dealii::Utilities::MPI::broadcast(communicator, key, speaker);
   switch (static_cast<Failure>(kind)) {
+  case Failure::none: // the speaker has failed
+  case Failure::other:
+    break;
   case Failure::input:
     throw InputError(diagnostic_kind(key), message);
   case Failure::solution:
     throw SolutionFailure(diagnostic_kind(key), message);
-  default:
-    throw std::runtime_error(message);
   }
+  throw std::runtime_error(message);
 }
 
 void check_before_start(const std::function<void()> &action) {

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: layers.py [ROOT]
+       layers.py --self-check
 
 Keeps the layers of the code apart: a file in include/billet/LAYER or source/LAYER includes only files of its
 own layer and of layers before it in the list below. doc/ tells what lives on each. Solver packages are named
-in algebra/ alone, in tests, too.
+in algebra/ alone, in tests, too. Pure layers know neither meshes nor MPI.
+
+--self-check tests the test, by files that break each rule.
 """
 
 from __future__ import annotations
@@ -12,12 +15,16 @@ from __future__ import annotations
 import os
 import re
 import sys
+import tempfile
 from pathlib import Path
 
 LAYERS = (
     "geometry material friction integration mechanics loads algebra parameters scene discretization forces"
     " contact solve output run"
 ).split()
+# Layers without meshes, and those without MPI: algebra/ distributes vectors.
+WITHOUT_MESH = set("geometry material friction integration mechanics loads algebra".split())
+WITHOUT_MPI = WITHOUT_MESH - {"algebra"}
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every layer
 FOR_ALL = set(
@@ -34,6 +41,8 @@ HEADER = re.compile(r"billet/(?:(\w+)/)?(?:.*/)?(\w+)\.h")
 PACKAGES = re.compile(
     r"(?:[Ee]petra|NOX|Amesos|Aztec|ML_|ml_M|Teuchos|Thyra|Ifpack|dmumps|DMUMPS|MUMPS_|[Tt]rilinos)\w*"
 )
+MESH = re.compile(r"deal\.II/(?:grid|dofs|distributed|fe)/.*")
+MPI = re.compile(r"(?:.*/)?mpi\.(?:h|templates\.h)")
 COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
@@ -44,6 +53,10 @@ def without_comments(text: str) -> str:
 
 def fault_of_include(layer: str | None, name: str, quote: str, path: str) -> str:
     """Returns what is wrong with an include of a file on this layer; nothing, where it is allowed."""
+    if layer in WITHOUT_MESH and MESH.fullmatch(path):
+        return f"{layer}/ is pure, so it must not include {path}, which knows meshes"
+    if layer in WITHOUT_MPI and MPI.fullmatch(path):
+        return f"{layer}/ is pure, so it must not include {path}, which knows other ranks"
     if not path.startswith("billet/"):
         return f'write "billet/..." instead of "{path}"' if quote == '"' and "/" in path else ""
     if layer is None and name in ABOVE_ALL:
@@ -98,8 +111,45 @@ def find_code(*folders: str) -> list[str]:
     )
 
 
+def self_check() -> list[str]:
+    """Returns what the test does not notice, or notices where nothing is wrong."""
+    code = {
+        "source/geometry/mesh.cc": ("#include <deal.II/grid/tria.h>", "geometry/ is pure"),
+        "source/material/elements.cc": ("#include <deal.II/fe/fe_q.h>", "material/ is pure"),
+        "include/billet/algebra/dofs.h": ("#include <deal.II/dofs/dof_handler.h>", "algebra/ is pure"),
+        "include/billet/loads/forest.h": ("#include <deal.II/distributed/tria.h>", "loads/ is pure"),
+        "source/friction/ranks.cc": ("#include <mpi.h>", "friction/ is pure"),
+        "source/mechanics/explicit/ranks.cc": ("#include <deal.II/base/mpi.h>", "mechanics/ is pure"),
+        "source/integration/parsed.cc": ("class ParameterHandler;", "only parameters/ knows"),
+        "source/material/mesh.cc": ('#include "billet/forces/inertia.h"', "material/ comes before"),
+        "source/contact/loads.cc": ('#include "billet/forces/inertia.h"', "must not know each other"),
+        "source/solve/packages.cc": ("class Epetra_Map;", "only algebra/ names Epetra_Map"),
+        # What is allowed:
+        "source/algebra/ranks.cc": ("#include <mpi.h>\nclass Epetra_Map;", ""),
+        "source/discretization/mesh.cc": ("#include <deal.II/grid/tria.h>\n#include <mpi.h>", ""),
+        "source/parameters/parsed.cc": ("class ParameterHandler;", ""),
+        "source/geometry/comment.cc": ("// not #include <mpi.h>, nor ParameterHandler", ""),
+    }
+    faults = []
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for file, (text, _fault) in code.items():
+            Path(file).parent.mkdir(parents=True, exist_ok=True)
+            Path(file).write_text(text + "\n", encoding="utf-8")
+        for file, (_text, fault) in code.items():
+            found = faults_of(file) + faults_of_packages(file)
+            if len(found) != (1 if fault else 0) or not all(fault in one for one in found):
+                faults.append(f"{file}: expected '{fault}', found {found}")
+        os.chdir("/")
+    return faults
+
+
 def main() -> int:
     """Returns the exit code."""
+    if sys.argv[1:] == ["--self-check"]:
+        faults = self_check()
+        print("\n".join(faults + [f"self-check, {len(faults)} errors"]))
+        return 1 if faults else 0
     if len(sys.argv) > 1:
         os.chdir(sys.argv[1])
     files = find_code("include/billet", "source")

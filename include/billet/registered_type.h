@@ -62,10 +62,11 @@ template <class Product> struct RegisteredType {
   std::function<Product(const TypeInput &)> make;
 };
 
-/// Table of all types of `Product`, in the order of their registration.
-template <class Product> class TypeTable {
+/// Table of all types of `Product`, in the order of their registration. `T`: a RegisteredType, or derived
+/// from it.
+template <class Product, class T = RegisteredType<Product>> class TypeTable {
 public:
-  using Type = RegisteredType<Product>;
+  using Type = T;
 
   TypeTable(std::initializer_list<Type> types) : types_(types) {}
 

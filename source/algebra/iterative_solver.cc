@@ -311,7 +311,7 @@ bool IterativeSolver::factorize() {
     multigrid_.reset();
   contact_ = std::move(started_);
   if (contact_ != nullptr &&
-      !contact_->factorize(settings_.method == Method::conjugate_gradients, communicator_)) {
+      !contact_->factorize(settings_.method == IterativeMethod::conjugate_gradients, communicator_)) {
     multigrid_.reset();
     failure_ = "the stiffness of the contact dofs cannot be factorised: " + contact_->failure();
     return false;
@@ -377,7 +377,8 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
     solver.SetAztecOption(AZ_diagnostics, AZ_none);
     solver.SetPrecOperator(multigrid_.get());
     solver.SetAztecOption(AZ_conv, AZ_rhs);
-    solver.SetAztecOption(AZ_solver, settings_.method == Method::conjugate_gradients ? AZ_cg : AZ_gmres);
+    solver.SetAztecOption(AZ_solver,
+                          settings_.method == IterativeMethod::conjugate_gradients ? AZ_cg : AZ_gmres);
     solver.SetAztecOption(AZ_kspace, static_cast<int>(std::min(left, 100u)));
     solver.Iterate(static_cast<int>(left), 0.9 * relative_tolerance);
     iterations_ += static_cast<unsigned int>(solver.NumIters());
@@ -402,7 +403,8 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
 }
 
 std::string IterativeSolver::name() const {
-  return std::string(settings_.method == Method::conjugate_gradients ? "CG" : "GMRES") + " with multigrid";
+  return std::string(settings_.method == IterativeMethod::conjugate_gradients ? "CG" : "GMRES") +
+         " with multigrid";
 }
 
 unsigned int IterativeSolver::take_iterations() {

@@ -16,33 +16,13 @@ namespace billet {
 
 using dealii::Tensor;
 
-namespace {
-
-FacetMethod method_of(const parameters::ContactPair::Facets facets) {
-  using Facets = parameters::ContactPair::Facets;
-  switch (facets) {
-  case Facets::planed:
-    return FacetMethod::planed;
-  case Facets::mean_gap:
-    return FacetMethod::mean_gap;
-  case Facets::bilinear:
-    return FacetMethod::bilinear;
-  case Facets::automatic: // resolved by the scene
-  case Facets::overlap:
-    break;
-  }
-  return FacetMethod::overlap;
-}
-
-} // namespace
-
 BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const LocalNodes &nodes,
                          const ContactTangent tangent)
     : ContactInterface(scene, scene.body_pairs()[pair]), pair_(scene.body_pairs()[pair]), nodes_(nodes),
       surfaces_(pair_, nodes, NodeKeys(nodes.discretization())), positions_(surfaces_.local_nodes.size()) {
   const MPI_Comm communicator = nodes.discretization().communicator();
   FacetContactSettings settings;
-  settings.method = method_of(pair_.facets);
+  settings.method = pair_.facets;
   settings.friction = pair_.friction;
   settings.two_pass = pair_.two_passes || pair_.is_self_contact;
   settings.edges = pair_.edges;

@@ -84,7 +84,7 @@ PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const 
                           totals[4 + surface] / totals[surface]);
   };
   // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
-  const bool is_uniform = pair.facets == parameters::ContactPair::Facets::overlap;
+  const bool is_uniform = pair.facets == FacetMethod::overlap;
   PairPenalties penalties;
   for (std::size_t i = 0; i < surfaces.local_nodes.size(); ++i) {
     const unsigned int other = pair.is_self_contact ? 0 : 1 - surfaces.surface_of[i];

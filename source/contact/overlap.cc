@@ -389,7 +389,7 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
       deepest = overlap;
   }
   // Allowed penetrations are limited to those that contact finds: half of those that a step loses.
-  const bool is_by_overlaps = bodies.facets == parameters::ContactPair::Facets::overlap;
+  const bool is_by_overlaps = bodies.facets == FacetMethod::overlap;
   const double found = min_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::penetration : 1.);
   // The middle of a facet of a sphere is as far below the surface as its edges of both directions together,
   // (C8).

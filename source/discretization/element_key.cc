@@ -4,10 +4,6 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/geometry_info.h>
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
 namespace billet {
 
 namespace {
@@ -48,14 +44,6 @@ ElementKey child_key(const ElementKey key, const unsigned int child) {
   AssertThrow(refinement_level(key) < max_refinement_level,
               dealii::ExcMessage("An element is refined more often than its key can tell"));
   return make_key(coarse_cell_of(key), n_children * place_in_octree(key) + 1 + child);
-}
-
-dealii::CellId cell_id_of(ElementKey key) {
-  std::vector<std::uint8_t> children;
-  for (; place_in_octree(key) > 0; key = parent_key(key))
-    children.push_back(static_cast<std::uint8_t>((place_in_octree(key) - 1) % n_children));
-  std::reverse(children.begin(), children.end());
-  return dealii::CellId(coarse_cell_of(key), children);
 }
 
 } // namespace billet

@@ -18,9 +18,13 @@ FrictionPointer make_coulomb(const double coefficient) {
 }
 
 FrictionLawType coulomb_type() {
-  return {"Coulomb", "mu p", {friction_coefficient_parameter}, [](const TypeInput &input) {
-            return make_coulomb(input.not_negative(friction_coefficient_parameter.key));
-          }};
+  return {{"Coulomb",
+           "mu p",
+           {friction_coefficient_parameter},
+           [](const TypeInput &input) {
+             return make_coulomb(input.not_negative(friction_coefficient_parameter.key));
+           }},
+          friction_coefficient_parameter.key};
 }
 
 } // namespace billet

@@ -8,9 +8,9 @@ FrictionLawType shear_limited_type();
 FrictionLawType static_kinetic_type();
 FrictionLawType pressure_dependent_type();
 
-TypeTable<FrictionPointer> &friction_law_types() {
-  static TypeTable<FrictionPointer> types{coulomb_type(), shear_limited_type(), static_kinetic_type(),
-                                          pressure_dependent_type()};
+TypeTable<FrictionPointer, FrictionLawType> &friction_law_types() {
+  static TypeTable<FrictionPointer, FrictionLawType> types{coulomb_type(), shear_limited_type(),
+                                                           static_kinetic_type(), pressure_dependent_type()};
   return types;
 }
 

@@ -6,7 +6,6 @@
 #include "billet/material/neo_hookean.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace billet {
 
@@ -14,9 +13,9 @@ ElasticityType hencky_type();
 ElasticityType neo_hookean_type();
 ElasticityType hypoelastic_type();
 
-TypeTable<std::shared_ptr<const Elasticity>> &elasticity_types() {
-  static TypeTable<std::shared_ptr<const Elasticity>> types{hencky_type(), neo_hookean_type(),
-                                                            hypoelastic_type()};
+TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> &elasticity_types() {
+  static TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> types{hencky_type(), neo_hookean_type(),
+                                                                            hypoelastic_type()};
   return types;
 }
 
@@ -67,45 +66,24 @@ SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow) {
   return make_law<HypoelasticElasticity, HypoelasticPlasticity>(hypoelastic, elastic, std::move(flow));
 }
 
-namespace {
-
-/// Returns the factory of a law; null for an unknown name.
-IsotropicElasticity::Maker find_maker(const std::string &name) {
-  if (name == hencky)
-    return &make_hencky_law;
-  if (name == neo_hookean)
-    return &make_neo_hookean_law;
-  return name == hypoelastic ? &make_hypoelastic_law : nullptr;
-}
-
-} // namespace
-
-SharedLaw make_isotropic_law(const std::string &name, const ElasticModuli &elastic, SharedFlow flow) {
-  const auto make = find_maker(name);
-  return make != nullptr ? make(elastic, std::move(flow)) : nullptr;
-}
-
-std::shared_ptr<const Elasticity> make_isotropic_elasticity(const std::string &name, const double young,
-                                                            const double poisson) {
-  const auto make = find_maker(name);
-  if (make == nullptr)
-    throw std::invalid_argument("'" + name + "' is no elasticity of two moduli");
-  return std::make_shared<const IsotropicElasticity>(young, poisson, make);
-}
-
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
                                          SharedLaw (*make)(const ElasticModuli &, SharedFlow)) {
   using Kind = TypeParameter::Kind;
-  return {std::move(name),
-          std::move(meaning),
-          {{"Young modulus", "0", Kind::number, "E > 0. Young's modulus. [stress]"},
-           {"Poisson ratio", "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."}},
-          [make](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
-            const double young = input.positive("Young modulus"), poisson = input.number("Poisson ratio");
-            if (!(poisson > -1. && poisson < 0.5))
-              input.reject("Poisson ratio", "a number > -1 and < 0.5");
-            return std::make_shared<const IsotropicElasticity>(young, poisson, make);
-          }};
+  const SharedLaw law = make({1., 1.}, nullptr);
+  ElasticityType type;
+  type.name = std::move(name);
+  type.meaning = std::move(meaning);
+  type.parameters = {{"Young modulus", "0", Kind::number, "E > 0. Young's modulus. [stress]"},
+                     {"Poisson ratio", "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."}};
+  type.make = [make](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
+    const double young = input.positive("Young modulus"), poisson = input.number("Poisson ratio");
+    if (!(poisson > -1. && poisson < 0.5))
+      input.reject("Poisson ratio", "a number > -1 and < 0.5");
+    return std::make_shared<const IsotropicElasticity>(young, poisson, make);
+  };
+  type.make_law = make;
+  type.depends_on_path = law != nullptr && law->is_rate_form();
+  return type;
 }
 
 ElasticityType hencky_type() {

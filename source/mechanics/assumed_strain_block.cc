@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/assumed_strain_element.h"
+#include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
 
 namespace billet {
@@ -29,7 +30,15 @@ std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &
   }
 }
 
-constexpr ElementKind kind = {"assumed strain", &make_block, false, true, LaneElement::assumed_strain};
+bool compare(const ElementComparison &comparison, const ComparedBrick &brick, ElementEnergies &energies) {
+  energies.used += brick.accurate.energy;
+  if (comparison.formulation().points_through == AssumedStrainElement<>::points_through)
+    comparison.add_dissipation(brick.accurate, energies);
+  return true;
+}
+
+constexpr ElementKind kind = {"assumed strain", &make_block, false, true, LaneElement::assumed_strain,
+                              &compare};
 
 } // namespace
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace billet {
 
@@ -150,50 +149,35 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
   return energy;
 }
 
+void ElementComparison::add_dissipation(const PointEnergies &points, ElementEnergies &energies) const {
+  if (flow_ == nullptr)
+    return;
+  double volume_of_all = 0.;
+  for (unsigned int q = 0; q < n_element_points; ++q) {
+    volume_of_all += points.volumes[q];
+    energies.plastic += points.volumes[q] * dissipation(points.strains[q]);
+  }
+  energies.plastic_within += volume_of_all * dissipation_between(points.F);
+}
+
 bool ElementComparison::compare(const ElementVectors &positions, const ElementVectors &displacements,
                                 ElementEnergies &energies) const {
   ElementEnergies own, one_point;
-  double elastic = 0.;
-  const bool compares_points = flow_ != nullptr &&
-                               formulation_.element == ElementFormulation::Element::assumed_strain &&
-                               formulation_.points_through == AssumedStrainElement<>::points_through;
-  const auto add_points = [&](const auto &element, double &sum) {
-    using Element = std::decay_t<decltype(element)>;
-    typename Element::Reference reference;
-    typename Element::Kinematics kinematics;
-    if (!element.initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
-      return false;
-    elastic = 0.;
-    double volume_of_all = 0.;
-    std::array<dealii::Tensor<2, 3>, n_element_points> F;
-    for (unsigned int q = 0; q < n_element_points; ++q) {
-      F[q] = Element::template deformation<false>(reference, kinematics, q);
-      const Strains strains = measure(F[q]);
-      const double volume = Element::reference_volume(reference, q);
-      volume_of_all += volume;
-      if (compares_points)
-        own.plastic += volume * dissipation(strains);
-      sum += volume * energy(strains);
-      elastic += volume *
-                 (0.5 * elastic_.bulk * strains.volumetric * strains.volumetric + strains.deviatoric_energy);
-    }
-    if (compares_points)
-      own.plastic_within = volume_of_all * dissipation_between(F);
-    return true;
-  };
+  PointEnergies accurate;
   if (!add_one_point(positions, displacements, one_point) ||
-      !add_points(AssumedStrainElement<>(elastic_, formulation_), own.accurate))
+      !compute<AssumedStrainElement<>>(positions, displacements, accurate))
     return false;
+  own.accurate = accurate.energy;
   // The energy of the taper is reduced in the same ratio where the body yields.
-  own.tapered = elastic > 0. ? own.accurate * energy_of_taper(positions, displacements) / elastic : 0.;
+  own.tapered = accurate.elastic > 0.
+                    ? own.accurate * energy_of_taper(positions, displacements) / accurate.elastic
+                    : 0.;
   own.one_point = one_point.used;
-  if (formulation_.element == BrickElement::mean_dilatation) {
-    if (!add_points(MeanDilatationElement(elastic_, formulation_), own.used))
+  if (const auto compare = formulation_.element.comparison()) {
+    if (!compare(*this, {positions, displacements, accurate, one_point}, own))
       return false;
-  } else if (formulation_.element == BrickElement::one_point)
-    own += one_point;
-  else
-    own.used = own.accurate; // also for other elements, for which there is no comparison
+  } else
+    own.used = own.accurate;
   if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered + own.plastic_within))
     return false;
   energies += own;

@@ -359,7 +359,7 @@ void require(const bool holds, const char *reason) {
 
 std::string describe(const ExplicitFormulation &formulation, const PointLaw &law) {
   std::string words = std::string("explicit, ") + formulation.element.name() + ", " + law.name();
-  if (formulation.number_type == ExplicitFormulation::NumberType::float_precision)
+  if (formulation.number_type == NumberType::float_precision)
     words += ", float";
   return words;
 }
@@ -371,7 +371,7 @@ std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const P
   require(density > 0., "the density must be positive");
   require(formulation.linear_viscosity >= 0. && formulation.quadratic_viscosity >= 0.,
           "bulk viscosity must not be negative");
-  const bool in_float = formulation.number_type == ExplicitFormulation::NumberType::float_precision;
+  const bool in_float = formulation.number_type == NumberType::float_precision;
   const std::optional<LaneLaw> lane_law = law->lane_law();
   const std::optional<LaneElement> lane_element = formulation.element.lanes();
   if (!lane_law || !lane_element) {

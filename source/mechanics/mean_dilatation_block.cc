@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mechanics/eight_point_elements.h"
+#include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
 
 namespace billet {
@@ -8,8 +9,12 @@ ElementType mean_dilatation_type();
 
 namespace {
 
-constexpr ElementKind kind = {"mean dilatation", &make_law_block<MeanDilatationElement>, false, false,
-                              LaneElement::mean_dilatation};
+constexpr ElementKind kind = {"mean dilatation",
+                              &make_law_block<MeanDilatationElement>,
+                              false,
+                              false,
+                              LaneElement::mean_dilatation,
+                              &compare_points<MeanDilatationElement>};
 
 } // namespace
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
 #include "billet/mechanics/one_point.h"
 
@@ -8,8 +9,13 @@ ElementType one_point_type();
 
 namespace {
 
-constexpr ElementKind kind = {"one point", &make_law_block<OnePointElement>, true, false,
-                              LaneElement::one_point};
+bool compare(const ElementComparison &, const ComparedBrick &brick, ElementEnergies &energies) {
+  energies += brick.one_point;
+  return true;
+}
+
+constexpr ElementKind kind = {"one point", &make_law_block<OnePointElement>, true,
+                              false,       LaneElement::one_point,           &compare};
 
 } // namespace
 

@@ -2,6 +2,8 @@
 #include "billet/output/energy_watch.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/material/elasticity.h"
+#include "billet/material/hardening.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,6 +11,22 @@
 #include <sstream>
 
 namespace billet {
+
+namespace {
+
+/// Returns the first elasticity whose plastic law has its dissipation exactly, as the beginning of an advice;
+/// empty if there is none.
+std::string choose_exact_elasticity() {
+  const SharedFlow flow = make_hardening(LinearHardening{1., 0.});
+  for (const ElasticityType &type : elasticity_types()) {
+    const SharedLaw law = type.find_law({1., 1.}, flow);
+    if (law != nullptr && law->has_exact_dissipation())
+      return "Choose 'Elasticity = " + type.name + "', which has it exactly, or ";
+  }
+  return "";
+}
+
+} // namespace
 
 std::string EnergyWatch::advise(const Cause cause) {
   switch (cause) {
@@ -26,8 +44,10 @@ std::string EnergyWatch::advise(const Cause cause) {
     return "the law of an elastic body loses its ellipticity. Reduce the strains, or choose the 'Elasticity' "
            "that the warning names";
   case Cause::inexact_dissipation:
-    return "a yielding body has large elastic strains, and its law, unlike Hencky's, has the dissipation "
-           "only to first order in them. Choose 'Elasticity = Hencky', or increase 'Maximum energy drift'";
+    return "a yielding body has large elastic strains, and its law has the dissipation only to first order "
+           "in "
+           "them. " +
+           choose_exact_elasticity() + "increase 'Maximum energy drift'";
   case Cause::steps:
     break;
   }

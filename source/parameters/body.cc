@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/material/hardening.h"
 #include "billet/material/rate_factor.h"
+#include "billet/parameters/named_values.h"
 #include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -18,8 +19,22 @@ namespace billet::parameters {
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
+namespace {
+
+const NamedValues<Mesh::Source> mesh_sources = {{"primitive", Mesh::Source::primitive},
+                                                {"extruded primitive", Mesh::Source::extruded},
+                                                {"file", Mesh::Source::file}};
+
+/// Whether the law has plasticity.
+const NamedValues<bool> laws = {{"elastic", false}, {"elastoplastic", true}};
+
+/// Whether viscous forces stabilise the body until it is in contact.
+const NamedValues<bool> stabilisations = {{"none", false}, {"until contact", true}};
+
+} // namespace
+
 void Mesh::declare(ParameterHandler &prm) {
-  prm.declare_entry("Source", "primitive", Patterns::Selection("primitive|extruded primitive|file"),
+  prm.declare_entry("Source", "primitive", Patterns::Selection(selection(mesh_sources)),
                     "Source of the mesh: a three-dimensional function of deal.II's GridGenerator, a "
                     "two-dimensional one extruded along z, or a mesh file.");
   prm.declare_entry(
@@ -63,8 +78,7 @@ void Mesh::declare(ParameterHandler &prm) {
 }
 
 void Mesh::parse(Reader &reader) {
-  const std::string chosen = reader.text("Source");
-  source = chosen == "primitive" ? Source::primitive : chosen == "file" ? Source::file : Source::extruded;
+  source = chosen(mesh_sources, reader.text("Source"));
   primitive = reader.located("Primitive", reader.text("Primitive"));
   arguments = reader.text("Arguments");
   refinements = reader.count("Refinements", 0, 10);
@@ -108,7 +122,7 @@ void Mesh::parse(Reader &reader) {
 }
 
 void Material::declare(ParameterHandler &prm) {
-  prm.declare_entry("Law", "elastoplastic", Patterns::Selection("elastic|elastoplastic"),
+  prm.declare_entry("Law", "elastoplastic", Patterns::Selection(selection(laws)),
                     "elastic: no plasticity; elastoplastic: J2 plasticity (yield in Kirchhoff stress, exact "
                     "return map).");
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
@@ -125,7 +139,7 @@ void Material::declare(ParameterHandler &prm) {
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
-  if (reader.text("Law") == "elastic") {
+  if (!chosen(laws, reader.text("Law"))) {
     // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
       if (reader.is_set(key))
@@ -265,6 +279,15 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
   return plane;
 }
 
+/// Returns the elements with layers: "'Element = a' or 'Element = b'".
+std::string name_layered_elements() {
+  std::string names;
+  for (const BrickElement element : all_elements())
+    if (element.has_layers())
+      names += std::string(names.empty() ? "" : " or ") + "'Element = " + element.name() + "'";
+  return names;
+}
+
 } // namespace
 
 void Body::parse(Reader &reader) {
@@ -293,7 +316,7 @@ void Body::parse(Reader &reader) {
                      static_cast<unsigned int>(reader.text("Points through thickness")[0] - '0'));
   thickness_direction = reader.located("Thickness direction", reader.parts("Thickness direction"));
   if (points_through.value > 2 && !element.value.has_layers())
-    reader.reject("Points through thickness", "2, since only 'Element = assumed strain' takes more");
+    reader.reject("Points through thickness", "2, since only " + name_layered_elements() + " takes more");
   if (points_through.value > 2 && thickness_direction.value.size() != 3)
     reader.reject("Thickness direction",
                   "three expressions, separated by semicolons, such as '0 ; 0 ; 1', since 'Points through "
@@ -305,7 +328,8 @@ void Body::parse(Reader &reader) {
     reader.reject("Initial velocity", "three expressions, separated by semicolons");
   initial_velocity =
       reader.located("Initial velocity", std::array<std::string, 3>{velocity[0], velocity[1], velocity[2]});
-  is_stabilised = reader.located("Contact stabilisation", reader.text("Contact stabilisation") != "none");
+  is_stabilised =
+      reader.located("Contact stabilisation", chosen(stabilisations, reader.text("Contact stabilisation")));
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));

@@ -12,13 +12,78 @@ namespace billet::parameters {
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
+namespace {
+
+const NamedValues<Amplitude::Interpolation> interpolations = {{"linear", Amplitude::Interpolation::linear},
+                                                              {"smooth", Amplitude::Interpolation::smooth}};
+
+const NamedValues<TimeStepping::Scheme> schemes = {
+    {"quasi-static", TimeStepping::Scheme::quasi_static},
+    {"explicit", TimeStepping::Scheme::explicit_dynamics},
+    {"implicit dynamics", TimeStepping::Scheme::implicit_dynamics}};
+
+const NamedValues<TimeStepping::Control> step_controls = {{"automatic", TimeStepping::Control::automatic},
+                                                          {"fixed", TimeStepping::Control::fixed}};
+
+const NamedValues<InstructionSet> instruction_sets = {{"automatic", InstructionSet::automatic},
+                                                      {"scalar", InstructionSet::scalar},
+                                                      {"SSE2", InstructionSet::sse2},
+                                                      {"AVX2", InstructionSet::avx2},
+                                                      {"AVX-512", InstructionSet::avx512}};
+
+const NamedValues<NumberType> number_types = {{"double", NumberType::double_precision},
+                                              {"float", NumberType::float_precision}};
+
+const NamedValues<ContactTangent> contact_tangents = {
+    {"automatic", ContactTangent::automatic},
+    {"exact", ContactTangent::exact},
+    {"numerical", ContactTangent::numerical},
+    {"consistent", ContactTangent::consistent},
+    {"continuum", ContactTangent::continuum},
+    {"symmetrised upper", ContactTangent::symmetrised_upper},
+    {"symmetrised lower", ContactTangent::symmetrised_lower},
+    {"symmetrised mean", ContactTangent::symmetrised_mean}};
+
+const NamedValues<MaterialTangent> material_tangents = {{"automatic", MaterialTangent::automatic},
+                                                        {"exact", MaterialTangent::exact},
+                                                        {"symmetrised", MaterialTangent::symmetrised}};
+
+const NamedValues<Solver::LineSearch> line_searches = {{"none", Solver::LineSearch::none},
+                                                       {"energy", Solver::LineSearch::energy}};
+
+const NamedValues<Solver::Predictor> predictors = {{"tangent", Solver::Predictor::tangent},
+                                                   {"extrapolation", Solver::Predictor::extrapolation}};
+
+const NamedValues<Solver::Forcing> forcings = {{"Eisenstat-Walker", Solver::Forcing::eisenstat_walker},
+                                               {"fixed", Solver::Forcing::fixed}};
+
+const NamedValues<Output::Format> formats = {
+    {"vtu", Output::Format::vtu}, {"hdf5", Output::Format::hdf5}, {"none", Output::Format::none}};
+
+const NamedValues<Output::Verbosity> verbosities = {{"quiet", Output::Verbosity::quiet},
+                                                    {"steps", Output::Verbosity::steps},
+                                                    {"iterations", Output::Verbosity::iterations}};
+
+} // namespace
+
+const NamedValues<std::optional<LinearMethod>> &linear_methods() {
+  static const NamedValues<std::optional<LinearMethod>> methods = {
+      {"automatic", std::nullopt},
+      {"MUMPS symmetric", DirectMethod::mumps_symmetric},
+      {"MUMPS", DirectMethod::mumps},
+      {"KLU", DirectMethod::klu},
+      {"CG", IterativeMethod::conjugate_gradients},
+      {"GMRES", IterativeMethod::gmres}};
+  return methods;
+}
+
 void Amplitude::declare(ParameterHandler &prm) {
   prm.declare_entry("Times", "0, 1", Patterns::Anything(),
                     "Strictly increasing times. Before the first and after the last time the value is "
                     "constant. Steps of implicit scenes end where the motion reverses, begins, ends or "
                     "changes its rate by more than half. [time]");
   prm.declare_entry("Values", "0, 1", Patterns::Anything(), "Values, one for each time. [any]");
-  prm.declare_entry("Interpolation", "linear", Patterns::Selection("linear|smooth"),
+  prm.declare_entry("Interpolation", "linear", Patterns::Selection(selection(interpolations)),
                     "linear: straight lines between the times; smooth: quintic steps with vanishing first "
                     "and second derivative at "
                     "each time.");
@@ -34,21 +99,21 @@ void Amplitude::parse(Reader &reader) {
       reader.reject("Times", "strictly increasing numbers");
   if (values.size() != times.size())
     reader.reject("Values", "as many numbers as there are times (" + std::to_string(times.size()) + ")");
-  interpolation = reader.text("Interpolation") == "linear" ? Interpolation::linear : Interpolation::smooth;
+  interpolation = chosen(interpolations, reader.text("Interpolation"));
 }
 
 void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(),
                     "> 0. The run begins at time 0 and ends at this time. [time]");
   prm.declare_entry(
-      "Scheme", "quasi-static", Patterns::Selection("quasi-static|explicit|implicit dynamics"),
+      "Scheme", "quasi-static", Patterns::Selection(selection(schemes)),
       "quasi-static: equilibrium at the end of each step, by Newton's method; explicit: motion by central "
       "differences, in steps as short as elements and contact require; implicit dynamics: motion by Newton's "
       "method, in steps as long as accuracy allows. Bodies of dynamic scenes need a density.");
   prm.declare_entry("Stops", "", Patterns::Anything(),
                     "Further times at which steps end, separated by commas, such as corners of motions that "
                     "no amplitude describes. [time]");
-  prm.declare_entry("Step control", "automatic", Patterns::Selection("automatic|fixed"),
+  prm.declare_entry("Step control", "automatic", Patterns::Selection(selection(step_controls)),
                     "automatic: the step length follows the iterations of the last step, and a failed step "
                     "is cut and repeated; fixed: equal steps, shorter only where the next stop or output "
                     "time is nearer; a failed step ends the run.");
@@ -82,10 +147,7 @@ void TimeStepping::parse(Reader &reader) {
   for (const double stop : stops)
     if (!(stop > 0. && stop <= end_time))
       reader.reject("Stops", "numbers > 0, not above the end time");
-  const std::string chosen = reader.text("Scheme");
-  scheme = chosen == "explicit"            ? Scheme::explicit_dynamics
-           : chosen == "implicit dynamics" ? Scheme::implicit_dynamics
-                                           : Scheme::quasi_static;
+  scheme = chosen(schemes, reader.text("Scheme"));
   if (scheme == Scheme::explicit_dynamics) {
     for (const std::string key :
          {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",
@@ -94,7 +156,7 @@ void TimeStepping::parse(Reader &reader) {
         reader.reject(key, "no value: the steps of an explicit scene follow from its elements");
     return;
   }
-  control = reader.text("Step control") == "automatic" ? Control::automatic : Control::fixed;
+  control = chosen(step_controls, reader.text("Step control"));
   const auto step = [&reader](const std::string &key, const double automatic) {
     return reader.text(key) == "automatic" ? automatic : reader.positive(key);
   };
@@ -160,9 +222,9 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry("Maximum energy drift", "0.05", Patterns::Double(),
                     "> 0. Allowed drift of the energies, as a part of the maximum energy so far. The run "
                     "fails if the drift is larger for a hundred steps, or at the end.");
-  prm.declare_entry("Instruction set", "automatic", Patterns::Selection("automatic|scalar|SSE2|AVX2|AVX-512"),
+  prm.declare_entry("Instruction set", "automatic", Patterns::Selection(selection(instruction_sets)),
                     "Instruction set of the element kernels; automatic: the fastest one of this machine.");
-  prm.declare_entry("Number type", "double", Patterns::Selection("double|float"),
+  prm.declare_entry("Number type", "double", Patterns::Selection(selection(number_types)),
                     "Precision of the elements. float: twice as many elements at once, with about seven "
                     "digits; nodes, sums and energies remain double.");
 }
@@ -178,68 +240,22 @@ void ExplicitDynamics::parse(Reader &reader) {
   quadratic_viscosity = reader.not_negative("Quadratic bulk viscosity");
   scaled_step = reader.not_negative("Mass scaling step");
   max_drift = reader.positive("Maximum energy drift");
-  const std::string chosen_set = reader.text("Instruction set");
-  instructions = chosen_set == "automatic" ? Instructions::automatic
-                 : chosen_set == "scalar"  ? Instructions::scalar
-                 : chosen_set == "SSE2"    ? Instructions::sse2
-                 : chosen_set == "AVX2"    ? Instructions::avx2
-                                           : Instructions::avx512;
-  number_type =
-      reader.text("Number type") == "float" ? NumberType::float_precision : NumberType::double_precision;
+  instructions = chosen(instruction_sets, reader.text("Instruction set"));
+  number_type = chosen(number_types, reader.text("Number type"));
 }
-
-namespace {
-
-const std::vector<std::pair<std::string, ContactTangent>> tangent_names = {
-    {"automatic", ContactTangent::automatic},
-    {"exact", ContactTangent::exact},
-    {"numerical", ContactTangent::numerical},
-    {"consistent", ContactTangent::consistent},
-    {"continuum", ContactTangent::continuum},
-    {"symmetrised upper", ContactTangent::symmetrised_upper},
-    {"symmetrised lower", ContactTangent::symmetrised_lower},
-    {"symmetrised mean", ContactTangent::symmetrised_mean}};
-
-const std::vector<std::pair<std::string, MaterialTangent>> material_tangent_names = {
-    {"automatic", MaterialTangent::automatic},
-    {"exact", MaterialTangent::exact},
-    {"symmetrised", MaterialTangent::symmetrised}};
-
-template <class T> std::string selection(const std::vector<std::pair<std::string, T>> &names) {
-  std::string result;
-  for (const auto &entry : names)
-    result += (result.empty() ? "" : "|") + entry.first;
-  return result;
-}
-
-template <class T> T chosen(const std::vector<std::pair<std::string, T>> &names, const std::string &name) {
-  for (const auto &entry : names)
-    if (entry.first == name)
-      return entry.second;
-  throw std::logic_error("selection not in its own list: " + name);
-}
-
-const std::vector<std::pair<std::string, Solver::LinearSolver>> linear_solver_names = {
-    {"automatic", Solver::LinearSolver::automatic},
-    {"MUMPS symmetric", Solver::LinearSolver::mumps_symmetric},
-    {"MUMPS", Solver::LinearSolver::mumps},
-    {"KLU", Solver::LinearSolver::klu},
-    {"CG", Solver::LinearSolver::conjugate_gradients},
-    {"GMRES", Solver::LinearSolver::gmres}};
-
-} // namespace
 
 void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry(
-      "Contact tangent", "automatic", Patterns::Selection(selection(tangent_names)),
-      "Tangent of the contact forces. automatic: exact with friction and between bodies, otherwise "
+      "Contact tangent", "automatic", Patterns::Selection(selection(contact_tangents)),
+      "Tangent of the contact forces. Values other than automatic are for comparison; symmetric ones save "
+      "memory. automatic: exact with friction and between bodies, otherwise "
       "consistent, which keeps the matrix symmetric; also consistent between bodies without friction if the "
       "linear solver requires a symmetric matrix. exact: full derivative, with rotation of the tool's normal "
-      "and change of area. numerical: exact by central differences, eq. (43), slow, for comparison. "
+      "and change of area. numerical: exact by central differences, eq. (43), slow. "
       "consistent, continuum: Bittencourt & Creus (1998), eqs. (55)-(57) and (50), with constant areas. "
       "symmetrised: upper triangle, lower triangle or mean of the consistent tangent in the contact frame, "
       "for mu <= 0.1.");
-  prm.declare_entry("Material tangent", "automatic", Patterns::Selection(selection(material_tangent_names)),
+  prm.declare_entry("Material tangent", "automatic", Patterns::Selection(selection(material_tangents)),
                     "Tangent of bodies whose exact one is unsymmetric: hypoelastic ones, and plastic ones "
                     "that are neo-Hookean. Scenes without such bodies allow automatic only. automatic: "
                     "symmetric part if the rest of the matrix is symmetric, otherwise exact.");
@@ -262,20 +278,21 @@ void Solver::declare(ParameterHandler &prm) {
   prm.declare_entry("Maximum augmentations", "20", Patterns::Integer(0),
                     "Maximum number of augmentations in a step, for contact with a 'Penetration tolerance'. "
                     "A step that requires more fails.");
-  prm.declare_entry("Line search", "energy", Patterns::Selection("none|energy"),
+  prm.declare_entry("Line search", "energy", Patterns::Selection(selection(line_searches)),
                     "energy: the line search shortens a correction while the work of the residual along it "
-                    "grows. none: it shortens corrections that invert an element only.");
-  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection("tangent|extrapolation"),
+                    "grows. none, for comparison: it shortens corrections that invert an element only.");
+  prm.declare_entry("Predictor", "extrapolation", Patterns::Selection(selection(predictors)),
                     "Initial guess of the iterations of a step. extrapolation: the last increment continued, "
                     "or in implicit dynamics the motion at constant acceleration; tangent: a linear step "
                     "with the motion of tools and supports. The tangent always applies at the start, after a "
                     "cut, and where tools or supports change their rate.");
-  prm.declare_entry("Linear solver", "automatic", Patterns::Selection(selection(linear_solver_names)),
-                    "Direct solvers are MUMPS, its symmetric form, and KLU, which runs on one rank at a time "
-                    "and is slow. Iterative solvers, with multigrid, are CG, for symmetric matrices, and "
-                    "GMRES. automatic: direct for small scenes, if memory suffices.");
   prm.declare_entry(
-      "Forcing term", "Eisenstat-Walker", Patterns::Selection("Eisenstat-Walker|fixed"),
+      "Linear solver", "automatic", Patterns::Selection(selection(linear_methods())),
+      "Direct solvers are MUMPS, its symmetric form, and KLU, which is for comparison: it runs on one "
+      "rank at a time and is slow. Iterative solvers, with multigrid, are CG, for symmetric "
+      "matrices, and GMRES. automatic: direct for small scenes, if memory suffices.");
+  prm.declare_entry(
+      "Forcing term", "Eisenstat-Walker", Patterns::Selection(selection(forcings)),
       "The relative residual to which iterative solvers solve. Eisenstat-Walker: it falls as Newton's "
       "method converges (Eisenstat & Walker 1996, choice 2); fixed: the linear tolerance.");
   prm.declare_entry("Linear tolerance", "1e-6", Patterns::Double(),
@@ -287,9 +304,9 @@ void Solver::declare(ParameterHandler &prm) {
 }
 
 void Solver::parse(Reader &reader) {
-  contact_tangent = chosen(tangent_names, reader.text("Contact tangent"));
+  contact_tangent = chosen(contact_tangents, reader.text("Contact tangent"));
   material_tangent =
-      reader.located("Material tangent", chosen(material_tangent_names, reader.text("Material tangent")));
+      reader.located("Material tangent", chosen(material_tangents, reader.text("Material tangent")));
   force_tolerance = reader.positive("Force tolerance");
   if (force_tolerance >= 1.)
     reader.reject("Force tolerance", "a number > 0 and < 1");
@@ -297,16 +314,15 @@ void Solver::parse(Reader &reader) {
   displacement_tolerance = reader.positive("Displacement tolerance");
   max_iterations = reader.count("Maximum iterations", 1);
   max_augmentations = reader.count("Maximum augmentations", 1);
-  line_search = reader.text("Line search") == "none" ? LineSearch::none : LineSearch::energy;
-  predictor = reader.text("Predictor") == "tangent" ? Predictor::tangent : Predictor::extrapolation;
-  linear_solver = reader.located("Linear solver", chosen(linear_solver_names, reader.text("Linear solver")));
-  forcing = reader.text("Forcing term") == "fixed" ? Forcing::fixed : Forcing::eisenstat_walker;
+  line_search = chosen(line_searches, reader.text("Line search"));
+  predictor = chosen(predictors, reader.text("Predictor"));
+  linear_solver = reader.located("Linear solver", chosen(linear_methods(), reader.text("Linear solver")));
+  forcing = chosen(forcings, reader.text("Forcing term"));
   linear_tolerance = reader.positive("Linear tolerance");
   if (linear_tolerance >= 1.)
     reader.reject("Linear tolerance", "a number > 0 and < 1");
   max_linear_iterations = reader.count("Maximum linear iterations", 1);
-  if (linear_solver.value == LinearSolver::mumps || linear_solver.value == LinearSolver::mumps_symmetric ||
-      linear_solver.value == LinearSolver::klu)
+  if (linear_solver.value && std::holds_alternative<DirectMethod>(*linear_solver.value))
     for (const std::string key : {"Forcing term", "Linear tolerance", "Maximum linear iterations"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the linear solver is direct");
@@ -315,7 +331,7 @@ void Solver::parse(Reader &reader) {
 void Output::declare(ParameterHandler &prm) {
   prm.declare_entry("Folder", "results", Patterns::Anything(),
                     "Folder of all output, relative to the current folder. The run creates it if necessary.");
-  prm.declare_entry("Format", "vtu", Patterns::Selection("vtu|hdf5|none"),
+  prm.declare_entry("Format", "vtu", Patterns::Selection(selection(formats)),
                     "Format of the field output for ParaView. vtu: VTU and PVD; hdf5: HDF5 and XDMF, one "
                     "file for each output time on any number of ranks; none: no field output.");
   prm.declare_entry("Step interval", "1", Patterns::Integer(0),
@@ -334,7 +350,7 @@ void Output::declare(ParameterHandler &prm) {
                     "Write the equivalent plastic strain, if a body is plastic.");
   prm.declare_entry("Contact", "true", Patterns::Bool(),
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
-  prm.declare_entry("Verbosity", "steps", Patterns::Selection("quiet|steps|iterations"),
+  prm.declare_entry("Verbosity", "steps", Patterns::Selection(selection(verbosities)),
                     "quiet: only warnings and errors; steps: a line for each step; iterations: residuals of "
                     "each iteration, too.");
   prm.enter_subsection("Checkpoint");
@@ -353,8 +369,7 @@ void Output::parse(Reader &reader) {
   folder = reader.located("Folder", reader.text("Folder"));
   if (folder.value.empty())
     reader.reject("Folder", "the name of a folder");
-  const std::string chosen_format = reader.text("Format");
-  format = chosen_format == "vtu" ? Format::vtu : chosen_format == "hdf5" ? Format::hdf5 : Format::none;
+  format = chosen(formats, reader.text("Format"));
   every_steps = reader.count("Step interval");
   interval = reader.not_negative("Interval");
   history_interval = reader.not_negative("History interval");
@@ -363,10 +378,7 @@ void Output::parse(Reader &reader) {
   stress = reader.flag("Stress");
   plastic_strain = reader.flag("Plastic strain");
   contact = reader.flag("Contact");
-  const std::string chosen_verbosity = reader.text("Verbosity");
-  verbosity = chosen_verbosity == "quiet"   ? Verbosity::quiet
-              : chosen_verbosity == "steps" ? Verbosity::steps
-                                            : Verbosity::iterations;
+  verbosity = chosen(verbosities, reader.text("Verbosity"));
   reader.in("Checkpoint", [&] {
     checkpoint.every_steps = reader.count("Step interval");
     checkpoint.interval = reader.not_negative("Interval");

@@ -2,6 +2,7 @@
 #include "billet/parameters/implicit_dynamics.h"
 
 #include "billet/integration/time_integrator_type.h"
+#include "billet/parameters/named_values.h"
 #include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -11,11 +12,18 @@ namespace billet::parameters {
 using dealii::ParameterHandler;
 namespace Patterns = dealii::Patterns;
 
+namespace {
+
+const NamedValues<ImplicitDynamics::Mass> masses = {{"consistent", ImplicitDynamics::Mass::consistent},
+                                                    {"lumped", ImplicitDynamics::Mass::lumped}};
+
+} // namespace
+
 void ImplicitDynamics::declare(ParameterHandler &prm) {
   declare_selection(
       prm, "Method", "generalised-alpha", time_integrator_types(),
       "Time integration method. Contact requires some damping of motions that the step does not resolve.");
-  prm.declare_entry("Mass", "consistent", Patterns::Selection("consistent|lumped"),
+  prm.declare_entry("Mass", "consistent", Patterns::Selection(selection(masses)),
                     "Mass matrix. consistent: that of the shape functions; lumped: its row sums at the "
                     "nodes, as in explicit scenes.");
   prm.declare_entry("Error tolerance", "1e-3", Patterns::Double(),
@@ -33,7 +41,7 @@ void ImplicitDynamics::declare(ParameterHandler &prm) {
 
 void ImplicitDynamics::parse(Reader &reader, const bool steps_are_fixed) {
   integrator = make_selected(reader, "Method", time_integrator_types());
-  mass = reader.text("Mass") == "lumped" ? Mass::lumped : Mass::consistent;
+  mass = chosen(masses, reader.text("Mass"));
   error_tolerance = reader.not_negative("Error tolerance");
   reference_displacement = reader.not_negative("Reference displacement");
   max_drift = reader.not_negative("Maximum energy drift");

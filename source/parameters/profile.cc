@@ -2,6 +2,8 @@
 #include "billet/parameters/profile.h"
 
 #include "billet/errors.h"
+#include "billet/friction/friction_law.h"
+#include "billet/material/elasticity.h"
 #include "billet/parameters/reader.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -103,17 +105,19 @@ bool depends_on_path(const SceneFile &file) {
   const std::vector<std::string> bodies = file.names_below({"Bodies"});
   return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
     const Path path = {"Bodies", name, "Material"};
+    const ElasticityType *type = elasticity_types().find(file.value(path, "Elasticity", ""));
     return file.value(path, "Law", "elastoplastic") != "elastic" ||
-           file.value(path, "Elasticity", "") == "hypoelastic";
+           (type != nullptr && type->depends_on_path);
   });
 }
 
 bool has_friction(const SceneFile &file) {
   const std::vector<std::string> pairs = file.names_below({"Contact pairs"});
   return std::any_of(pairs.begin(), pairs.end(), [&file](const std::string &name) {
-    const Path path = {"Contact pairs", name}; // only Coulomb's law can be frictionless
-    return file.value(path, "Friction law", "Coulomb") != "Coulomb" ||
-           number_in(file.value(path, "Friction coefficient", "0"), 1.) != 0.;
+    const Path path = {"Contact pairs", name};
+    const FrictionLawType *type = friction_law_types().find(file.value(path, "Friction law", "Coulomb"));
+    return type == nullptr || type->vanishes_with.empty() ||
+           number_in(file.value(path, type->vanishes_with, "0"), 1.) != 0.;
   });
 }
 

@@ -154,6 +154,43 @@ void Tool::parse(Reader &reader) {
   reader.in("Motion", [&] { motion.parse(reader); });
 }
 
+namespace {
+
+const NamedValues<ContactPair::PenaltyUnit> penalty_units = {
+    {"factor", ContactPair::PenaltyUnit::factor}, {"absolute", ContactPair::PenaltyUnit::absolute}};
+
+const NamedValues<ContactPair::Passes> numbers_of_passes = {{"automatic", ContactPair::Passes::automatic},
+                                                            {"one", ContactPair::Passes::one},
+                                                            {"two", ContactPair::Passes::two}};
+
+const NamedValues<ContactPair::Edges> edge_contacts = {{"automatic", ContactPair::Edges::automatic},
+                                                       {"true", ContactPair::Edges::held},
+                                                       {"false", ContactPair::Edges::free},
+                                                       {"yes", ContactPair::Edges::held},
+                                                       {"no", ContactPair::Edges::free}};
+
+const NamedValues<ContactPair::PenaltyOf> reference_stiffnesses = {
+    {"automatic", ContactPair::PenaltyOf::automatic},
+    {"stiffer", ContactPair::PenaltyOf::stiffer},
+    {"series", ContactPair::PenaltyOf::series}};
+
+/// What happens to an initial penetration above the allowed one.
+enum class Overlap { refused, shifted, ramped };
+
+const NamedValues<Overlap> overlaps = {
+    {"error", Overlap::refused}, {"shift", Overlap::shifted}, {"ramp", Overlap::ramped}};
+
+} // namespace
+
+const NamedValues<std::optional<FacetMethod>> &facet_methods() {
+  static const NamedValues<std::optional<FacetMethod>> methods = {{"automatic", std::nullopt},
+                                                                  {"planed", FacetMethod::planed},
+                                                                  {"mean gap", FacetMethod::mean_gap},
+                                                                  {"bilinear", FacetMethod::bilinear},
+                                                                  {"overlap", FacetMethod::overlap}};
+  return methods;
+}
+
 void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
   prm.declare_entry(
@@ -168,17 +205,19 @@ void ContactPair::declare(ParameterHandler &prm) {
                     "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
                     "'Boundary ids' among themselves.");
   prm.declare_entry(
-      "Facets", "automatic", Patterns::Selection("automatic|planed|mean gap|bilinear|overlap"),
+      "Facets", "automatic", Patterns::Selection(selection(facet_methods())),
       "Contact formulation of pairs of bodies. planed: planed contact element without iterations "
-      "(Bittencourt & Creus 1998), with the gap to the warped face. mean gap: gap to its mean plane, as "
-      "published, which can create energy. bilinear: closest point on the bilinear face, by iteration. "
+      "(Bittencourt & Creus 1998), with the gap to the warped face. mean gap, for comparison: gap to its "
+      "mean "
+      "plane, as published, which can create energy. bilinear: closest point on the bilinear face, by "
+      "iteration. "
       "overlap: contact over the common polygon of two faces on the planed face, which is exact for uniform "
       "pressure and detects edges. automatic: planed in explicit scenes, overlap in implicit ones.");
-  prm.declare_entry("Passes", "automatic", Patterns::Selection("automatic|one|two"),
+  prm.declare_entry("Passes", "automatic", Patterns::Selection(selection(numbers_of_passes)),
                     "Passes of pairs of bodies. two: the nodes of each body are slaves to the facets of the "
                     "other, with half the penalty each. one: the nodes of 'Body' only. automatic: one with "
                     "'Facets = overlap', otherwise two.");
-  prm.declare_entry("Edge contact", "automatic", Patterns::Selection("automatic|true|false|yes|no"),
+  prm.declare_entry("Edge contact", "automatic", Patterns::Selection(selection(edge_contacts)),
                     "Pairs of bodies, nodes against facets. true: contact of edges with edges, which nodes "
                     "against facets do not detect; automatic: true in explicit scenes.");
   prm.declare_entry("Smoothing", "0.1", Patterns::Double(),
@@ -190,12 +229,12 @@ void ContactPair::declare(ParameterHandler &prm) {
       "> 0. Pairs of bodies: maximum distance of candidate facets from a node. The search is repeated when "
       "nodes approach by more. The margin affects the cost, not the result. [minimum facet size]");
   prm.declare_entry(
-      "Reference stiffness", "automatic", Patterns::Selection("automatic|stiffer|series"),
+      "Reference stiffness", "automatic", Patterns::Selection(selection(reference_stiffnesses)),
       "Pairs of bodies, penalty as a factor: E/h for this factor. stiffer: that of the stiffer body; series: "
       "both in series; automatic: stiffer in explicit scenes, series in implicit ones.");
   declare_selection(prm, "Friction law", "Coulomb", friction_law_types(),
                     "Shear stress at which nodes slide under a pressure p.");
-  prm.declare_entry("Penalty unit", "factor", Patterns::Selection("factor|absolute"),
+  prm.declare_entry("Penalty unit", "factor", Patterns::Selection(selection(penalty_units)),
                     "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "
                     "absolute: they are pressures "
                     "per penetration.");
@@ -216,7 +255,7 @@ void ContactPair::declare(ParameterHandler &prm) {
                     ">= 0. Maximum initial penetration of a body into the tool or another body; above it the "
                     "scene is refused. [facet sizes]");
   prm.declare_entry(
-      "Initial penetration", "error", Patterns::Selection("error|shift|ramp"),
+      "Initial penetration", "error", Patterns::Selection(selection(overlaps)),
       "Treatment of an initial penetration above the allowed one. error: the scene is refused; shift, in "
       "implicit scenes: gaps count from the initial positions, without stress; ramp, in implicit scenes: the "
       "same at the start, but the shift vanishes until the 'Ramp time', as in a press fit.");
@@ -277,7 +316,7 @@ void ContactPair::parse(Reader &reader) {
     reader.reject("Boundary ids", "at least one boundary id");
   refuse_twice(reader, "Boundary ids", boundary_ids.value);
   friction = read_friction(reader);
-  penalty_unit = reader.text("Penalty unit") == "factor" ? PenaltyUnit::factor : PenaltyUnit::absolute;
+  penalty_unit = chosen(penalty_units, reader.text("Penalty unit"));
   normal_penalty = reader.positive("Normal penalty");
   has_own_penalty = reader.is_set("Normal penalty");
   if (penalty_unit == PenaltyUnit::absolute && !has_own_penalty)
@@ -300,11 +339,11 @@ void ContactPair::parse(Reader &reader) {
 }
 
 void ContactPair::parse_initial_state(Reader &reader) {
-  const std::string initial = reader.text("Initial penetration");
-  may_overlap = initial != "error";
+  const Overlap initial = chosen(overlaps, reader.text("Initial penetration"));
+  may_overlap = initial != Overlap::refused;
   ramp_time = reader.not_negative("Ramp time");
-  if ((initial == "ramp") != (ramp_time > 0.))
-    reader.reject("Ramp time", initial == "ramp" ? "a number > 0" : "no value: nothing is ramped");
+  if ((initial == Overlap::ramped) != (ramp_time > 0.))
+    reader.reject("Ramp time", initial == Overlap::ramped ? "a number > 0" : "no value: nothing is ramped");
 
   closed_gap = 0.;
   const std::string gap = reader.text("Initial gap"), close = "close within ";
@@ -328,7 +367,7 @@ void ContactPair::parse_initial_state(Reader &reader) {
     reader.reject("Surface correction", allowed);
   if (!is_between_bodies() || second_body.value == body.value)
     reader.reject("Surface correction", "'none': the pair is not of two bodies");
-  if (facets.value == Facets::mean_gap)
+  if (facets.value == FacetMethod::mean_gap)
     reader.reject("Surface correction", "'none': 'Facets = mean gap' has no position on a facet");
   const auto vectors = dealii::Utilities::split_string_list(text.substr(colon + 1), ';');
   std::array<dealii::Tensor<1, 3>, 2> values;
@@ -364,32 +403,20 @@ void ContactPair::parse_bodies(Reader &reader) {
         reader.reject(key, "no value: the pair is of a body and a tool");
   if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
     reader.reject("Second boundary ids", "at least one boundary id");
-  const std::string kind = reader.text("Facets");
-  facets = reader.located("Facets", kind == "planed"     ? Facets::planed
-                                    : kind == "mean gap" ? Facets::mean_gap
-                                    : kind == "bilinear" ? Facets::bilinear
-                                    : kind == "overlap"  ? Facets::overlap
-                                                         : Facets::automatic);
-  const std::string chosen_passes = reader.text("Passes");
-  passes = chosen_passes == "one" ? Passes::one : chosen_passes == "two" ? Passes::two : Passes::automatic;
+  facets = reader.located("Facets", chosen(facet_methods(), reader.text("Facets")));
+  passes = chosen(numbers_of_passes, reader.text("Passes"));
   if (passes == Passes::one && second_body.value == body.value)
     reader.reject("Passes", "two: in self-contact every node is a slave");
-  const std::string edge_contact = reader.text("Edge contact");
-  edges = edge_contact == "automatic"                       ? Edges::automatic
-          : edge_contact == "true" || edge_contact == "yes" ? Edges::held
-                                                            : Edges::free;
-  if (edges == Edges::held && facets.value == Facets::overlap)
+  edges = chosen(edge_contacts, reader.text("Edge contact"));
+  if (edges == Edges::held && facets.value == FacetMethod::overlap)
     reader.reject("Edge contact", "no value: 'Facets = overlap' detects edges");
   smoothing = reader.positive("Smoothing");
   if (smoothing > 0.5)
     reader.reject("Smoothing", "a number > 0 and <= 0.5");
-  if (facets.value == Facets::overlap && reader.is_set("Smoothing"))
+  if (facets.value == FacetMethod::overlap && reader.is_set("Smoothing"))
     reader.reject("Smoothing", "no value: 'Facets = overlap' blends facets by their areas");
   search_margin = reader.positive("Search margin");
-  const std::string chosen_penalty = reader.text("Reference stiffness");
-  penalty_of = chosen_penalty == "stiffer"  ? PenaltyOf::stiffer
-               : chosen_penalty == "series" ? PenaltyOf::series
-                                            : PenaltyOf::automatic;
+  penalty_of = chosen(reference_stiffnesses, reader.text("Reference stiffness"));
 }
 
 } // namespace billet::parameters

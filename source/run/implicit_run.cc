@@ -21,7 +21,7 @@ EnergyWatch make_energy_watch(const parameters::Scene &parameters) {
 
 bool has_sticking_overlaps(const Scene &scene) {
   return std::any_of(scene.body_pairs().begin(), scene.body_pairs().end(), [](const BodyPair &pair) {
-    return pair.has_friction() && pair.facets == parameters::ContactPair::Facets::overlap;
+    return pair.has_friction() && pair.facets == FacetMethod::overlap;
   });
 }
 

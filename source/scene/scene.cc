@@ -3,6 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/parameters/reader.h"
+#include "billet/usage.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,26 +17,37 @@ namespace billet {
 
 namespace {
 
-std::string describe_solver(const parameters::Solver::LinearSolver solver, const bool unsymmetric) {
-  using Kind = parameters::Solver::LinearSolver;
-  const std::string direct = unsymmetric ? "MUMPS" : "MUMPS, which factorises half",
-                    iterative = unsymmetric ? "GMRES with multigrid" : "CG with multigrid";
-  switch (solver) {
-  case Kind::automatic:
-    return direct + ", above " + std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
-           iterative;
-  case Kind::mumps_symmetric:
-    return "MUMPS, which factorises half";
-  case Kind::mumps:
-    return "MUMPS";
-  case Kind::klu:
-    return "KLU";
-  case Kind::conjugate_gradients:
-    return "CG with multigrid";
-  case Kind::gmres:
-    return "GMRES with multigrid";
-  }
-  return "";
+std::string describe(const LinearMethod method) {
+  if (const auto *direct = std::get_if<DirectMethod>(&method))
+    switch (*direct) {
+    case DirectMethod::mumps_symmetric:
+      return "MUMPS, which factorises half";
+    case DirectMethod::mumps:
+      return "MUMPS";
+    case DirectMethod::klu:
+      return "KLU";
+    }
+  return std::string(method == LinearMethod(IterativeMethod::gmres) ? "GMRES" : "CG") + " with multigrid";
+}
+
+/// `method`: none if the choice is automatic.
+std::string describe_solver(const std::optional<LinearMethod> &method, const bool unsymmetric) {
+  if (method)
+    return describe(*method);
+  return describe(unsymmetric ? DirectMethod::mumps : DirectMethod::mumps_symmetric) + ", above " +
+         std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
+         describe(unsymmetric ? IterativeMethod::gmres : IterativeMethod::conjugate_gradients);
+}
+
+/// Whether the solver that the scene names is for symmetric matrices only.
+bool wants_symmetry(const parameters::Solver &solver) {
+  return solver.linear_solver.value && requires_symmetry(*solver.linear_solver.value);
+}
+
+/// Returns the beginning of a message: place and name of the linear solver.
+std::string quote_linear_solver(const parameters::Solver &solver) {
+  return solver.linear_solver.origin + " is '" +
+         parameters::name_in(parameters::linear_methods(), solver.linear_solver.value) + "'";
 }
 
 /// Whether the expression is the plain number 0; other expressions that vanish are known only when evaluated.
@@ -104,20 +116,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   return body;
 }
 
-std::string describe_facets(const parameters::ContactPair::Facets facets) {
-  using Facets = parameters::ContactPair::Facets;
-  switch (facets) {
-  case Facets::planed:
-    return "planed";
-  case Facets::mean_gap:
-    return "mean gap";
-  case Facets::bilinear:
-    return "bilinear";
-  case Facets::automatic: // resolved by the scene
-  case Facets::overlap:
-    break;
-  }
-  return "overlapping";
+std::string describe_facets(const FacetMethod method) {
+  return method == FacetMethod::overlap
+             ? "overlapping"
+             : parameters::name_in(parameters::facet_methods(), std::optional(method));
 }
 
 std::string describe_friction(const FrictionPointer &friction) {
@@ -172,14 +174,11 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &pair : body_pairs_)
     capabilities_.friction |= pair.has_friction();
   using Tangent = parameters::ContactTangent;
-  using LinearSolver = parameters::Solver::LinearSolver;
-  const LinearSolver solver = parameters.solver.linear_solver.value;
-  const bool wants_symmetry =
-      solver == LinearSolver::mumps_symmetric || solver == LinearSolver::conjugate_gradients;
+  const bool is_symmetric = wants_symmetry(parameters.solver);
   contact_tangent_ = parameters.solver.contact_tangent;
   // If bodies fold onto each other, Newton's method does not converge with frozen areas and normals.
   if (contact_tangent_ == Tangent::automatic)
-    contact_tangent_ = capabilities_.friction || (capabilities_.body_contact && !wants_symmetry)
+    contact_tangent_ = capabilities_.friction || (capabilities_.body_contact && !is_symmetric)
                            ? Tangent::exact
                            : Tangent::consistent;
   capabilities_.unsymmetric_matrix =
@@ -187,10 +186,9 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
       (contact_tangent_ == Tangent::exact || contact_tangent_ == Tangent::numerical ||
        (capabilities_.friction &&
         (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
-  if (capabilities_.unsymmetric_matrix && wants_symmetry)
-    throw InputError(parameters.solver.linear_solver.origin + " is '" +
-                     (solver == LinearSolver::conjugate_gradients ? "CG" : "MUMPS symmetric") +
-                     "', but this scene's contact tangent is unsymmetric; "
+  if (capabilities_.unsymmetric_matrix && is_symmetric)
+    throw InputError(quote_linear_solver(parameters.solver) +
+                     ", but this scene's contact tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
   if (parameters.is_dynamic() && !parameters.is_explicit())
     allow_for_loads();
@@ -200,13 +198,11 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
 
 void Scene::choose_material_tangents() {
   using Tangent = parameters::MaterialTangent;
-  using Kind = parameters::Solver::LinearSolver;
   const auto &[wanted, origin] = parameters_.solver.material_tangent;
   const auto is_symmetric = [](const Body &body) { return body.law->has_symmetric_moduli(); };
   if (wanted != Tangent::automatic && std::all_of(bodies_.begin(), bodies_.end(), is_symmetric))
     throw InputError(origin + " is '" + (wanted == Tangent::exact ? "exact" : "symmetrised") +
                      "', but the exact material tangent of every body is symmetric; allowed is automatic");
-  const auto &solver = parameters_.solver.linear_solver;
   for (auto &body : bodies_) {
     if (is_symmetric(body))
       continue;
@@ -214,10 +210,9 @@ void Scene::choose_material_tangents() {
         wanted == Tangent::symmetrised || (wanted == Tangent::automatic && !capabilities_.unsymmetric_matrix);
     if (body.formulation.is_symmetrised)
       continue;
-    if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
-      throw InputError(solver.origin + " is '" +
-                       (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
-                       "', but the exact material tangent of body '" + body.name +
+    if (wants_symmetry(parameters_.solver))
+      throw InputError(quote_linear_solver(parameters_.solver) +
+                       ", but the exact material tangent of body '" + body.name +
                        "' is unsymmetric; allowed are automatic, MUMPS, KLU, GMRES, or another 'Material "
                        "tangent'");
     capabilities_.unsymmetric_matrix = true;
@@ -229,12 +224,9 @@ void Scene::allow_for_loads() {
     for (const AppliedLoad &load : body.loads)
       if (load.load.has_unsymmetric_tangent()) {
         capabilities_.unsymmetric_matrix = true;
-        const auto &solver = parameters_.solver.linear_solver;
-        using Kind = parameters::Solver::LinearSolver;
-        if (solver.value == Kind::mumps_symmetric || solver.value == Kind::conjugate_gradients)
-          throw InputError(solver.origin + " is '" +
-                           (solver.value == Kind::conjugate_gradients ? "CG" : "MUMPS symmetric") +
-                           "', but the " + load.type + " on body '" + body.name +
+        if (wants_symmetry(parameters_.solver))
+          throw InputError(quote_linear_solver(parameters_.solver) + ", but the " + load.type + " on body '" +
+                           body.name +
                            "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU, GMRES");
       }
 }
@@ -265,9 +257,8 @@ void Scene::make_pairs() {
       continue;
     }
     using Pair = parameters::ContactPair;
-    Pair::Facets facets = pair.facets.value;
-    if (facets == Pair::Facets::automatic)
-      facets = parameters_.is_explicit() ? Pair::Facets::planed : Pair::Facets::overlap;
+    const FacetMethod facets =
+        pair.facets.value.value_or(parameters_.is_explicit() ? FacetMethod::planed : FacetMethod::overlap);
     Pair::PenaltyOf penalty_of = pair.penalty_of;
     if (penalty_of == Pair::PenaltyOf::automatic)
       penalty_of = parameters_.is_explicit() ? Pair::PenaltyOf::stiffer : Pair::PenaltyOf::series;
@@ -279,9 +270,9 @@ void Scene::make_pairs() {
          {pair.boundary_ids.value, second_ids.empty() ? pair.boundary_ids.value : second_ids},
          body == second && second_ids.empty(),
          facets,
-         pair.passes == Pair::Passes::automatic ? facets != Pair::Facets::overlap
+         pair.passes == Pair::Passes::automatic ? facets != FacetMethod::overlap
                                                 : pair.passes == Pair::Passes::two,
-         parameters_.is_explicit() && facets != Pair::Facets::overlap && pair.edges != Pair::Edges::free,
+         parameters_.is_explicit() && facets != FacetMethod::overlap && pair.edges != Pair::Edges::free,
          penalty_of,
          pair.smoothing,
          pair.search_margin,
@@ -400,8 +391,8 @@ std::array<bool, 3> Scene::free_directions() const {
 
 std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   std::vector<CapabilityUse> uses;
-  const auto add = [&uses](const std::string &name, const bool is_used, const std::string &how) {
-    uses.push_back({name, is_used, is_used ? how : ""});
+  const auto add = [&uses](const Capability capability, const bool is_used, const std::string &how) {
+    uses.push_back({name_of(capability), is_used, is_used ? how : ""});
   };
   const auto part = [](const std::ptrdiff_t n, const std::size_t all, const std::string &what) {
     return std::to_string(n) + " of " + std::to_string(all) + " " + what;
@@ -412,46 +403,47 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   };
   const std::size_t n_all_pairs = pairs_.size() + body_pairs_.size();
   const bool is_explicit = parameters_.is_explicit();
-  add("Plasticity", capabilities_.plasticity,
+  add(Capability::plasticity, capabilities_.plasticity,
       "history of " + part(std::count_if(bodies_.begin(), bodies_.end(),
                                          [](const Body &body) { return body.law->has_plasticity(); }),
                            bodies_.size(), "bodies"));
-  add("Stabilisation", capabilities_.stabilisation,
+  add(Capability::stabilisation, capabilities_.stabilisation,
       "hourglass modes of " +
           part(std::count_if(bodies_.begin(), bodies_.end(),
                              [](const Body &body) { return body.formulation.element.is_stabilised(); }),
                bodies_.size(), "bodies"));
-  add("Contact", capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
-  add("Friction", capabilities_.friction,
+  add(Capability::contact, capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
+  add(Capability::friction, capabilities_.friction,
       "history of " +
           part(n_pairs([](const auto &pair) { return pair.has_friction(); }), n_all_pairs, "pairs"));
-  add("Body contact", capabilities_.body_contact,
+  add(Capability::body_contact, capabilities_.body_contact,
       "facet search of " + part(static_cast<std::ptrdiff_t>(body_pairs_.size()), n_all_pairs, "pairs"));
   const auto n_self = std::count_if(body_pairs_.begin(), body_pairs_.end(),
                                     [](const BodyPair &pair) { return pair.is_self_contact; });
-  add("Self-contact", n_self > 0, part(n_self, n_all_pairs, "pairs"));
+  add(Capability::self_contact, n_self > 0, part(n_self, n_all_pairs, "pairs"));
   const auto n_edges =
       std::count_if(body_pairs_.begin(), body_pairs_.end(), [](const BodyPair &pair) { return pair.edges; });
-  add("Edges", n_edges > 0, part(n_edges, n_all_pairs, "pairs"));
+  add(Capability::edges, n_edges > 0, part(n_edges, n_all_pairs, "pairs"));
   const auto n_augmented = n_pairs([](const auto &pair) { return pair.is_augmented(); });
-  add("Augmentation", n_augmented > 0, part(n_augmented, n_all_pairs, "pairs"));
-  add("Moving support", capabilities_.moving_supports, "");
+  add(Capability::augmentation, n_augmented > 0, part(n_augmented, n_all_pairs, "pairs"));
+  add(Capability::moving_supports, capabilities_.moving_supports, "");
   const auto n_driven = std::count_if(
       tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.control() != Tool::Control::motion; });
-  add("Driven tools", n_driven > 0,
+  add(Capability::driven_tools, n_driven > 0,
       "travel of " + part(n_driven, tools_.size(), "tools with a force or moment"));
   const auto n_loaded =
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body &body) { return !body.loads.empty(); });
-  add("Loads", n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
-  add("Inertia", parameters_.is_dynamic(), is_explicit ? "lumped" : "");
+  add(Capability::loads, n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
+  add(Capability::inertia, parameters_.is_dynamic(), is_explicit ? "lumped" : "");
   const bool has_inertia = parameters_.is_dynamic() && !is_explicit;
-  add("Error control",
+  add(Capability::error_control,
       parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0. ||
           (has_inertia && parameters_.implicit_dynamics.error_tolerance > 0.),
       "");
   const auto &[every_steps, interval, keep] = parameters_.output.checkpoint;
-  add("Checkpoints", every_steps > 0 || interval > 0., "the last " + std::to_string(keep) + " are kept");
-  add("Matrix", !is_explicit,
+  add(Capability::checkpoints, every_steps > 0 || interval > 0.,
+      "the last " + std::to_string(keep) + " are kept");
+  add(Capability::matrix, !is_explicit,
       (capabilities_.unsymmetric_matrix ? "unsymmetric; " : "symmetric; ") +
           describe_solver(parameters_.solver.linear_solver.value, capabilities_.unsymmetric_matrix));
   return uses;

@@ -59,14 +59,6 @@ void ContactStabilisation::add_forces(const Values u, const Values u_n,
       residual[nodes_[k].first + i] += added[3 * k + i];
 }
 
-double ContactStabilisation::potential(const Values u, const Values u_n) const {
-  double sum = 0.;
-  for (const Node &node : nodes_)
-    for (std::size_t i = node.first; i < node.first + 3; ++i)
-      sum += 0.5 * stiffness(node) * (u[i] - u_n[i]) * (u[i] - u_n[i]);
-  return sum;
-}
-
 double ContactStabilisation::last_force(const std::size_t body) const {
   double square = 0.;
   for (std::size_t k = 0; k < nodes_.size(); ++k)

@@ -40,7 +40,7 @@ template <class Formulation> struct StoredFormulation {
 std::vector<SharedLaw> laws_like(const SharedLaw &law) {
   std::vector<SharedLaw> laws{law};
   for (const ElasticityType &type : elasticity_types())
-    if (SharedLaw other = make_isotropic_law(type.name, law->elastic(), law->shared_flow_stress()))
+    if (SharedLaw other = type.find_law(law->elastic(), law->shared_flow_stress()))
       laws.push_back(std::move(other));
   return laws;
 }
@@ -61,7 +61,6 @@ std::optional<StoredFormulation<ElementFormulation>> find_implicit_formulation(c
 
 std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std::string &words,
                                                                        const SharedLaw &law) {
-  using NumberType = ExplicitFormulation::NumberType;
   for (const SharedLaw &candidate : laws_like(law))
     for (const BrickElement element : all_elements())
       for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {

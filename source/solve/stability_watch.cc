@@ -2,8 +2,7 @@
 #include "billet/solve/stability_watch.h"
 
 #include "billet/diagnostic_kinds.h"
-#include "billet/material/elastic.h"
-#include "billet/material/neo_hookean.h"
+#include "billet/material/elasticity.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -27,6 +26,17 @@ Stretches principal_stretches(const dealii::Tensor<2, 3> &F) {
   const auto squares = dealii::eigenvalues(dealii::symmetrize(dealii::transpose(F) * F));
   return {std::sqrt(std::max(0., squares[0])), std::sqrt(std::max(0., squares[1])),
           std::sqrt(std::max(0., squares[2]))};
+}
+
+/// Returns what to do: the first elasticity with the same moduli that is stable there; empty if there is
+/// none.
+std::string advise(const PointLaw &law, const Stretches &stretches) {
+  for (const ElasticityType &type : elasticity_types()) {
+    const SharedLaw other = type.name != law.name() ? type.find_law(law.elastic()) : nullptr;
+    if (other != nullptr && other->min_wave_stiffness(stretches).value_or(-1.) > 0.)
+      return "Choose 'Elasticity = " + type.name + "', which is stable there, or reduce the strains";
+  }
+  return "";
 }
 
 } // namespace
@@ -53,14 +63,10 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
     text.precision(2);
     text << "The law loses its ellipticity at principal stretches of " << stretches[2] << ", " << stretches[1]
          << " and " << stretches[0] << "; results depend on the mesh";
-    messages.push_back(
-        Diagnostic(diagnostic::unstable_law, text.str())
-            .body(watched.name)
-            .time(time)
-            .advice(NeoHookeanElasticity(watched.law->elastic()).min_wave_stiffness(stretches) > 0.
-                        ? "Choose 'Elasticity = neo-Hookean', which is stable there, or reduce "
-                          "the strains"
-                        : ""));
+    messages.push_back(Diagnostic(diagnostic::unstable_law, text.str())
+                           .body(watched.name)
+                           .time(time)
+                           .advice(advise(*watched.law, stretches)));
   }
   return messages;
 }

@@ -16,8 +16,6 @@ namespace billet {
 
 namespace {
 
-using Kind = parameters::Solver::LinearSolver;
-
 /// Returns the memory of a direct solver on one rank [bytes]; many ranks need more. It was measured with
 /// MUMPS for two blocks of 50 000 to 500 000 dofs: doc/results/linear-solvers.md. The fill of solids grows as
 /// n^(4/3).
@@ -29,26 +27,23 @@ double machine_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-Kind choose(const Kind wanted, const bool symmetric, const Matrix &matrix, MPI_Comm communicator) {
-  if (wanted != Kind::automatic)
-    return wanted;
-  const Kind direct = symmetric ? Kind::mumps_symmetric : Kind::mumps;
+DirectMethod direct_method(const bool symmetric) {
+  return symmetric ? DirectMethod::mumps_symmetric : DirectMethod::mumps;
+}
+
+/// `wanted`: none for an automatic choice.
+LinearMethod choose(const std::optional<LinearMethod> &wanted, const bool symmetric, const Matrix &matrix,
+                    MPI_Comm communicator) {
+  if (wanted)
+    return *wanted;
   const double n_dofs = matrix.m();
   // The smallest machine of all ranks counts.
   const double minimum = dealii::Utilities::MPI::min(machine_memory(), communicator);
   constexpr double part_of_memory = 0.5;
   if (n_dofs > parameters::Solver::max_direct_dofs ||
       direct_memory(n_dofs, symmetric) > part_of_memory * minimum)
-    return symmetric ? Kind::conjugate_gradients : Kind::gmres;
-  return direct;
-}
-
-DirectMethod direct_method(const Kind kind, const bool symmetric) {
-  if (kind == Kind::klu)
-    return DirectMethod::klu;
-  return kind == Kind::mumps_symmetric || (kind == Kind::automatic && symmetric)
-             ? DirectMethod::mumps_symmetric
-             : DirectMethod::mumps;
+    return symmetric ? IterativeMethod::conjugate_gradients : IterativeMethod::gmres;
+  return direct_method(symmetric);
 }
 
 } // namespace
@@ -56,14 +51,13 @@ DirectMethod direct_method(const Kind kind, const bool symmetric) {
 TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symmetric, const Matrix &matrix,
                              MPI_Comm communicator)
     : symmetric_(symmetric), matrix_(&matrix), communicator_(communicator) {
-  const Kind kind = choose(settings.linear_solver.value, symmetric, matrix, communicator);
-  const bool is_iterative = kind == Kind::conjugate_gradients || kind == Kind::gmres;
-  direct_method_ = direct_method(is_iterative ? Kind::automatic : kind, symmetric);
-  is_direct_now_ = !is_iterative;
-  if (is_iterative) {
+  const LinearMethod method = choose(settings.linear_solver.value, symmetric, matrix, communicator);
+  const auto *direct = std::get_if<DirectMethod>(&method);
+  direct_method_ = direct != nullptr ? *direct : direct_method(symmetric);
+  is_direct_now_ = direct != nullptr;
+  if (const auto *iterative_method = std::get_if<IterativeMethod>(&method)) {
     IterativeSolver::Settings iterative;
-    iterative.method =
-        kind == Kind::gmres ? IterativeSolver::Method::gmres : IterativeSolver::Method::conjugate_gradients;
+    iterative.method = *iterative_method;
     iterative.max_iterations = settings.max_linear_iterations;
     iterative_ = std::make_unique<IterativeSolver>(iterative, matrix, communicator);
     name_ = iterative_->name();

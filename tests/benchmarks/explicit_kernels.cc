@@ -184,9 +184,8 @@ int main(int argc, char *argv[]) {
       if (n > 0)
         std::printf("  %s %s", element.first, law.first);
   std::printf("\n");
-  const std::pair<const char *, Formulation::NumberType> types[] = {
-      {"double", Formulation::NumberType::double_precision},
-      {"float", Formulation::NumberType::float_precision}};
+  const std::pair<const char *, NumberType> types[] = {{"double", NumberType::double_precision},
+                                                       {"float", NumberType::float_precision}};
   for (const auto &set : sets)
     for (const auto &type : types) {
       if ((argc > 3 && std::string(argv[3]) != set.first) || !is_available(set.second) ||

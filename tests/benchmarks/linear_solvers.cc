@@ -15,6 +15,7 @@
 #include <iostream>
 
 using namespace dealii;
+using billet::IterativeMethod;
 using billet::IterativeSolver;
 using billet::testing::TwoBlocks;
 
@@ -56,8 +57,7 @@ int main(int argc, char *argv[]) {
   std::unique_ptr<billet::LinearSolver> solver;
   if (is_iterative) {
     IterativeSolver::Settings settings;
-    settings.method =
-        name == "CG" ? IterativeSolver::Method::conjugate_gradients : IterativeSolver::Method::gmres;
+    settings.method = name == "CG" ? IterativeMethod::conjugate_gradients : IterativeMethod::gmres;
     settings.max_iterations = 400;
     settings.solve_contact = preconditioner != "plain";
     if (preconditioner == "block")

@@ -4,7 +4,8 @@
 
 Runs in an empty current folder. Scenes under old names of parameters (old/*.prm, which use all of them) must
 run with one warning for each, and as the same scenes under the new ones, into which --update-scene turns
-them.
+them. Scenes of prm/ as they were before the renames (old/shipped/*.prm) must be accepted with warnings, and
+be turned into those of prm/; a change of values there is one here, too.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from checks import HERE, Checks, Ended, enter_folder, equal, read_text, require,
 
 RENAMES = HERE.parents[1] / "source/parameters/renames.cc"
 OLD = sorted((HERE / "old").glob("*.prm"))
+SHIPPED = sorted((HERE / "old/shipped").glob("*.prm"))
 STEPS = "subsection Solver\n"
 
 
@@ -117,6 +119,36 @@ for scene in OLD:
         again = update("scene.prm")
         equal("the update of what is updated", again.output, new)
         equal("its report", again.errors, "scene.prm: all names are current\n")
+
+
+def parameters(text: str) -> list[str]:
+    """Returns subsections and parameters with their values, without comments and alignment."""
+    lines = (" ".join(line.split("#")[0].split()) for line in text.splitlines())
+    return [line for line in lines if line]
+
+
+@check("there are shipped scenes with old names")
+def _() -> None:
+    require(len(SHIPPED) >= 3, f"{len(SHIPPED)} of them")
+
+
+for shipped in SHIPPED:
+    scene_text = read_text(shipped)
+    now = read_text(HERE.parents[1] / "prm" / shipped.name)
+
+    @check(f"{shipped.stem}: as it was shipped, it is the scene of today")
+    def _(text: str = scene_text, today: str = now) -> None:
+        write_text("shipped.prm", text)
+        before = run(program, "--check", "shipped.prm")
+        equal("exit code", before.code, 0)
+        n_old = before.output.count("warning[old-name]")
+        require(n_old > 0, f"no warning:\n{before.output}")
+        ended = update("shipped.prm", "shipped.prm")
+        equal("number of changes", ended.output.count(" is now "), n_old)
+        equal("parameters", parameters(read_text("shipped.prm")), parameters(today))
+        after = run(program, "--check", "shipped.prm")
+        equal("exit code", after.code, 0)
+        equal("the check", after.output, without_warnings(before.output))
 
 
 @check("a new scene stays as it is")

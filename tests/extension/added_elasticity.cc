@@ -6,6 +6,7 @@
 #include "pulled_cube.h"
 
 #include "billet/material/elasticity.h"
+#include "billet/material/hardening.h"
 #include "billet/material/law_adapter.h"
 #include "billet/material/neo_hookean.h"
 
@@ -92,6 +93,14 @@ double exact_energy(const double poisson, const double stretch) {
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   elasticity_types().add(isotropic_elasticity_type("quadratic volume", "pressure linear in J", &make_law));
+  const ElasticityType &type = *elasticity_types().find("quadratic volume");
+  const ElasticModuli moduli{3., 1.};
+  check("histories of it are found by two moduli, so that other laws can continue from it",
+        type.find_law(moduli) != nullptr && type.find_law(moduli)->name() == "quadratic volume" &&
+            type.find_law(moduli)->elastic().bulk == moduli.bulk);
+  check("it has no plastic law", type.find_law(moduli, make_hardening(LinearHardening{1., 0.})) == nullptr);
+  check("its stresses do not depend on the path",
+        !type.depends_on_path && elasticity_types().find("hypoelastic")->depends_on_path);
   for (const std::string element : testing::all_element_names)
     for (const double poisson : {0.1, 0.4}) {
       const std::string name = element + ", Poisson ratio " + std::to_string(poisson).substr(0, 3);

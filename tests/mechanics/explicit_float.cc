@@ -13,7 +13,6 @@ using namespace billet::testing;
 
 using Element = Formulation::Element;
 using Kinematics = Formulation::Kinematics;
-using NumberType = Formulation::NumberType;
 
 namespace {
 

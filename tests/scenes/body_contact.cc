@@ -27,7 +27,7 @@ void check(const std::string &name, const bool holds) {
 double sum(const double local) { return dealii::Utilities::MPI::sum(local, MPI_COMM_WORLD); }
 bool any(const bool local) { return dealii::Utilities::MPI::max(local ? 1 : 0, MPI_COMM_WORLD) == 1; }
 
-using Facets = parameters::ContactPair::Facets;
+using Facets = FacetMethod;
 
 parameters::Scene read(const Facets facets) {
   parameters::Scene parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/restart_blocks.prm");

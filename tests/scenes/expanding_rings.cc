@@ -10,7 +10,7 @@ using billet::testing::check;
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   for (const bool two_passes : {true, false})
     for (const Facets facets : {Facets::planed, Facets::bilinear}) {
       parameters::Scene scene = testing::read_test_scene("expanding_rings.prm");

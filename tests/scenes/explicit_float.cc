@@ -12,7 +12,6 @@
 using namespace billet;
 using billet::testing::check;
 using billet::testing::WorstError;
-using NumberType = parameters::ExplicitDynamics::NumberType;
 
 namespace {
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double friction = 0.25, gravity = 4000., full_weight = 2.5e-3;
 
-void test(const std::string &name, const bool two_passes, const parameters::ContactPair::Facets facets) {
+void test(const std::string &name, const bool two_passes, const FacetMethod facets) {
   parameters::Scene scene = testing::read_test_scene("sliding_block.prm");
   scene.pairs[0].passes =
       two_passes ? parameters::ContactPair::Passes::two : parameters::ContactPair::Passes::one;
@@ -45,7 +45,7 @@ void test(const std::string &name, const bool two_passes, const parameters::Cont
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   test("planed, two passes", true, Facets::planed);
   test("planed, one pass", false, Facets::planed);
   test("bilinear, two passes", true, Facets::bilinear);

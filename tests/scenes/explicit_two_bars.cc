@@ -15,13 +15,12 @@ namespace {
 
 constexpr double initial_momentum = 100. * 8000 * 0.2 * 0.02 * 0.02;
 
-std::string name_of(const parameters::ContactPair::Facets facets) {
-  using Facets = parameters::ContactPair::Facets;
+std::string name_of(const FacetMethod facets) {
+  using Facets = FacetMethod;
   return facets == Facets::planed ? "planed" : facets == Facets::mean_gap ? "mean gap" : "bilinear";
 }
 
-void test(const double penalty, const unsigned int across, const bool two_passes,
-          const parameters::ContactPair::Facets facets) {
+void test(const double penalty, const unsigned int across, const bool two_passes, const FacetMethod facets) {
   parameters::Scene scene = testing::read_test_scene("two_bars.prm");
   const std::string n = std::to_string(across);
   scene.bodies[1].mesh.arguments = "160, " + n + ", " + n + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
@@ -90,7 +89,7 @@ void test_unequal(const std::string &name, const parameters::ContactPair::Penalt
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   for (const double penalty : {0.1, 1., 10.})
     for (const unsigned int across : {2, 3})
       test(penalty, across, true, Facets::planed);

@@ -30,8 +30,7 @@ bool is_on_grid(const double time, const unsigned int n) {
 }
 
 /// `n` steps on each way, or more. The third pair is that of the inside.
-void test(const std::string &name, const std::string &scene, const unsigned int n,
-          const parameters::ContactPair::Facets facets) {
+void test(const std::string &name, const std::string &scene, const unsigned int n, const FacetMethod facets) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
   parameters.pairs[2].facets.value = facets;
   for (auto &pair : parameters.pairs)
@@ -113,7 +112,7 @@ void test_two_sides() {
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   test("ring, overlap", "ring_crush.prm", 100, Facets::overlap);
   test("ring, planed", "ring_crush.prm", 100, Facets::planed);
   test("block, overlap", "hollow_block.prm", 20, Facets::overlap);

@@ -11,7 +11,7 @@ using billet::testing::check;
 namespace {
 
 /// Drift after the blow and its change until the end, relative to the largest energy.
-std::array<double, 2> run(const parameters::ContactPair::Facets facets) {
+std::array<double, 2> run(const FacetMethod facets) {
   parameters::Scene scene = testing::read_test_scene("held_ring.prm");
   scene.pairs[0].facets.value = facets;
   testing::ExplicitRun rings(scene);
@@ -27,7 +27,7 @@ std::array<double, 2> run(const parameters::ContactPair::Facets facets) {
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   for (const Facets facets : {Facets::planed, Facets::bilinear}) {
     const std::string name = facets == Facets::planed ? "planed" : "bilinear";
     const auto [impact, change] = run(facets);

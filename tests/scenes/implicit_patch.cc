@@ -89,7 +89,7 @@ int main(int argc, char *argv[]) {
   const dealii::Tensor<1, 3> n({2. / 3., -1. / 3., 2. / 3.});
   const auto turned = testing::read_shipped_scene("patch_test.prm");
   using Passes = parameters::ContactPair::Passes;
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   for (const auto passes : {Passes::one, Passes::two}) {
     const std::string name = passes == Passes::one ? "one pass" : "two passes";
     for (const double factor : {0.2, 1., 100., 1e4}) { // with 0.1 nodes go so deep that it is raised

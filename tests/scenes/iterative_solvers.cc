@@ -9,7 +9,6 @@
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
-using Kind = parameters::Solver::LinearSolver;
 
 namespace {
 
@@ -46,11 +45,11 @@ double distance(const Result &a, const Result &b) {
 }
 
 /// `more`: by how many iterations Newton's method may differ between solvers that both are exact.
-void compare(const std::string &name, const parameters::Scene &scene, const Kind iterative,
+void compare(const std::string &name, const parameters::Scene &scene, const IterativeMethod iterative,
              const unsigned int more = 0) {
   parameters::Scene parameters = scene;
   parameters.solver.force_tolerance = 1e-8;
-  parameters.solver.linear_solver.value = Kind::automatic;
+  parameters.solver.linear_solver.value = {};
   const Result direct = run(parameters);
   check(name + ", directly: no linear iterations, nothing to tell",
         direct.linear_iterations == 0 && direct.messages.empty());
@@ -94,16 +93,17 @@ int main(int argc, char *argv[]) {
   billet.bodies[0].mesh.n_layers = 10;
   billet.time_stepping.end_time = 0.16;
   testing::set_fixed_steps(billet, 4);
-  compare("billet, GMRES", billet, Kind::gmres);
+  compare("billet, GMRES", billet, IterativeMethod::gmres);
   billet.pairs[0].friction = nullptr;
-  compare("frictionless billet, CG", billet, Kind::conjugate_gradients, 2); // residuals next to the tolerance
+  compare("frictionless billet, CG", billet, IterativeMethod::conjugate_gradients,
+          2); // residuals next to the tolerance
   // The dofs in contact as a block.
   parameters::Scene blocks = parameters::Scene::read(std::string(SOURCE_DIR) + "/pressed_blocks.prm");
-  compare("two blocks, GMRES", blocks, Kind::gmres);
+  compare("two blocks, GMRES", blocks, IterativeMethod::gmres);
   blocks.pairs[0].friction = nullptr;
   blocks.solver.contact_tangent = parameters::ContactTangent::consistent; // for the direct solver, too
   // That tangent converges linearly, over some twenty iterations a step: round-off tells which is the last.
-  compare("two blocks without friction, CG", blocks, Kind::conjugate_gradients, 3);
+  compare("two blocks without friction, CG", blocks, IterativeMethod::conjugate_gradients, 3);
   std::cout.rdbuf(console); // `silence` goes first
   return billet::testing::exit_code();
 }

@@ -146,7 +146,7 @@ int main(int argc, char *argv[]) {
     parameters::Scene scene = read();
     // What Newton's method leaves depends on round-off, and so on the ranks; weak modes make it larger.
     scene.solver.force_tolerance = 1e-11;
-    scene.solver.linear_solver.value = parameters::Solver::LinearSolver::klu; // adds up in the same order
+    scene.solver.linear_solver.value = DirectMethod::klu; // adds up in the same order
     billet::testing::set_fixed_steps(scene, 25);
     double middle = 0.;
     {

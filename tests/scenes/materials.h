@@ -2,6 +2,8 @@
 #ifndef BILLET_TESTS_SCENES_MATERIALS_H
 #define BILLET_TESTS_SCENES_MATERIALS_H
 
+#include "../given_values.h"
+
 #include "billet/material/hardening.h"
 #include "billet/parameters/body.h"
 
@@ -11,7 +13,8 @@ namespace billet::testing {
 /// Sets elasticity and its constants; the flow stress stays.
 inline void set_elasticity(parameters::Material &material, const std::string &name, const double young,
                            const double poisson) {
-  material.elasticity = make_isotropic_elasticity(name, young, poisson);
+  const GivenValues moduli({{"Young modulus", young}, {"Poisson ratio", poisson}});
+  material.elasticity = elasticity_types().find(name)->make(moduli);
   SharedFlow flow = material.law->shared_flow_stress();
   material.law = flow == nullptr ? material.elasticity->make_elastic_law()
                                  : material.elasticity->make_plastic_law(std::move(flow));

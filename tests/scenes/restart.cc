@@ -60,7 +60,7 @@ int main(int argc, char *argv[]) {
   }
   {
     parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
-    scene.explicit_dynamics.number_type = parameters::ExplicitDynamics::NumberType::float_precision;
+    scene.explicit_dynamics.number_type = NumberType::float_precision;
     scene.time_stepping.end_time = 0.1e-3;
     // Which elements stand together in a batch decides how many terms of a series all of them take.
     testing::test_going_on<testing::ExplicitStops>(

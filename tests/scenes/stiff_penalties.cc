@@ -68,7 +68,7 @@ int main(int argc, char *argv[]) {
 
   parameters::Scene symmetrised = make_scene(10., 10.), exact = symmetrised;
   symmetrised.solver.contact_tangent = parameters::ContactTangent::symmetrised_upper;
-  symmetrised.solver.linear_solver.value = parameters::Solver::LinearSolver::mumps_symmetric;
+  symmetrised.solver.linear_solver.value = DirectMethod::mumps_symmetric;
   SceneRun as_given(exact), rescued(symmetrised);
   as_given.finish();
   bool has_failed = false;

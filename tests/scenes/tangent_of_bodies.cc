@@ -13,7 +13,7 @@ using billet::testing::tangent_error;
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  using Facets = parameters::ContactPair::Facets;
+  using Facets = FacetMethod;
   for (const auto &[facets, name] : {std::pair<Facets, std::string>{Facets::planed, "planed"},
                                      {Facets::bilinear, "bilinear"},
                                      {Facets::overlap, "overlap"}})

@@ -16,7 +16,7 @@ using dealii::Tensor;
 
 namespace {
 
-using Facets = parameters::ContactPair::Facets;
+using Facets = FacetMethod;
 using Passes = parameters::ContactPair::Passes;
 
 struct NodeState {

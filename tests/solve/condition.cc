@@ -31,8 +31,7 @@ unsigned int times_reported(const double soft, const bool symmetric) {
   matrix.compress(dealii::VectorOperation::insert);
   b.compress(dealii::VectorOperation::insert);
   parameters::Solver settings{};
-  settings.linear_solver.value =
-      symmetric ? parameters::Solver::LinearSolver::mumps_symmetric : parameters::Solver::LinearSolver::mumps;
+  settings.linear_solver.value = symmetric ? DirectMethod::mumps_symmetric : DirectMethod::mumps;
   TangentSolver solver(settings, symmetric, matrix, MPI_COMM_WORLD);
   unsigned int n_reported = 0;
   for (unsigned int i = 0; i < 4; ++i) {

@@ -16,7 +16,7 @@
 using namespace billet;
 using billet::testing::check;
 using billet::testing::TwoBlocks;
-using Kind = parameters::Solver::LinearSolver;
+using Kind = std::optional<LinearMethod>;
 
 namespace {
 
@@ -99,7 +99,7 @@ int main(int argc, char *argv[]) {
       check(name.str() + ", GMRES: at most 45 iterations", by_gmres.success && by_gmres.iterations <= 45);
       if (tie == Tie::sliding)
         continue;
-      settings.method = IterativeSolver::Method::conjugate_gradients;
+      settings.method = IterativeMethod::conjugate_gradients;
       const auto by_cg = solve_and_check(name.str() + ", CG", blocks, penalty, tie, settings, load, exact);
       check(name.str() + ", CG: at most 45 iterations", by_cg.success && by_cg.iterations <= 45);
       if (penalty < 1e4)
@@ -153,10 +153,10 @@ int main(int argc, char *argv[]) {
     const auto direct = make_direct_solver(DirectMethod::mumps_symmetric, blocks.matrix(), MPI_COMM_WORLD);
     check("the first matrix: directly", solve(*direct, load, exact, 0.));
   }
-  for (const Kind kind :
-       {Kind::automatic, Kind::mumps, Kind::mumps_symmetric, Kind::conjugate_gradients, Kind::gmres})
+  for (const Kind kind : {Kind(), Kind(DirectMethod::mumps), Kind(DirectMethod::mumps_symmetric),
+                          Kind(IterativeMethod::conjugate_gradients), Kind(IterativeMethod::gmres)})
     for (const unsigned int max_iterations : {200u, 1u}) {
-      const bool is_iterative = kind == Kind::conjugate_gradients || kind == Kind::gmres;
+      const bool is_iterative = kind && std::holds_alternative<IterativeMethod>(*kind);
       if (!is_iterative && max_iterations == 1)
         continue;
       parameters::Solver settings{};

@@ -2,6 +2,7 @@
 #ifndef BILLET_ALGEBRA_DIRECT_SOLVER_H
 #define BILLET_ALGEBRA_DIRECT_SOLVER_H
 
+#include "billet/algebra/linear_method.h"
 #include "billet/algebra/linear_solver.h"
 
 #include <mpi.h>
@@ -9,12 +10,6 @@
 #include <memory>
 
 namespace billet {
-
-enum class DirectMethod {
-  mumps_symmetric, ///< LDLᵀ of the matrix's upper triangle
-  mumps,           ///< LU
-  klu              ///< LU on the first rank
-};
 
 /// Makes a distributed sparse direct solver. The pattern is analysed once; later factorisations reuse the
 /// analysis. `matrix` must outlive the solver. Throws InputError if Trilinos was built without the method.

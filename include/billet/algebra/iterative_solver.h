@@ -35,10 +35,8 @@ struct NodalGeometry {
 /// always belong to the present matrix. A solve that fails with an old hierarchy is repeated with a new one.
 class IterativeSolver final : public LinearSolver {
 public:
-  enum class Method { conjugate_gradients, gmres };
-
   struct Settings {
-    Method method = Method::gmres;
+    IterativeMethod method = IterativeMethod::gmres;
     unsigned int max_iterations = 200;
     // Options that doc/results/linear-solvers.md compares.
     bool solve_contact = true;     ///< apply (1); else a cycle alone

@@ -6,16 +6,9 @@
 #include "billet/contact/facet_choice.h"
 #include "billet/friction/friction_law.h"
 #include "billet/geometry/bilinear_facet.h"
+#include "billet/geometry/facet_method.h"
 
 namespace billet {
-
-/// Representation of a facet for the nodes that touch it.
-enum class FacetMethod {
-  planed,   ///< PlanedFacet: no iteration
-  mean_gap, ///< MeanGapFacet
-  bilinear, ///< BilinearFacet: without friction, forces at a fixed area have a potential
-  overlap   ///< FacetOverlapOf: facets, not nodes, touch on their common polygon
-};
 
 /// Tag for the facets of FacetMethod::overlap, onto which no node is projected.
 struct OverlapFacet {};

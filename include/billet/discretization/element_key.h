@@ -33,9 +33,6 @@ ElementKey child_key(ElementKey key, unsigned int child);
 /// Returns the number of the coarse cell.
 constexpr std::uint64_t coarse_cell_of(const ElementKey key) { return key & 0xffffffffU; }
 
-/// Returns the element that has the key.
-dealii::CellId cell_id_of(ElementKey key);
-
 } // namespace billet
 
 #endif

@@ -29,8 +29,11 @@ using FrictionPointer = std::shared_ptr<const FrictionLaw>;
 
 /// Friction laws that a scene file can name. To add one, add a file in source/friction/ with a function that
 /// returns its type, and its name in the table of friction_law.cc.
-using FrictionLawType = RegisteredType<FrictionPointer>;
-TypeTable<FrictionPointer> &friction_law_types();
+struct FrictionLawType : RegisteredType<FrictionPointer> {
+  std::string vanishes_with =
+      {}; ///< parameter that is 0 without friction; empty: the law is never frictionless
+};
+TypeTable<FrictionPointer, FrictionLawType> &friction_law_types();
 
 /// Parameter of several friction laws.
 extern const TypeParameter friction_coefficient_parameter;

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace billet {
 
@@ -30,20 +31,23 @@ public:
 
 /// Elasticities that a scene file can name. A new one is a file in source/material/ with a function that
 /// returns its type, and its name in the table of elasticity.cc.
-using ElasticityType = RegisteredType<std::shared_ptr<const Elasticity>>;
-TypeTable<std::shared_ptr<const Elasticity>> &elasticity_types();
+struct ElasticityType : RegisteredType<std::shared_ptr<const Elasticity>> {
+  /// Makes the law with two moduli, elastic if the flow stress is null. It returns null if this elasticity
+  /// does not support plasticity. A null pointer: two moduli do not determine the law.
+  SharedLaw (*make_law)(const ElasticModuli &, SharedFlow) = nullptr;
+  bool depends_on_path = false; ///< whether stresses of elastic bodies depend on the path
+
+  /// Returns the law with these moduli; null if there is none.
+  SharedLaw find_law(const ElasticModuli &elastic, SharedFlow flow = nullptr) const {
+    return make_law != nullptr ? make_law(elastic, std::move(flow)) : nullptr;
+  }
+};
+TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> &elasticity_types();
 
 // Laws that two moduli determine: Hencky, neo-Hookean, hypoelastic. Without `flow` they are elastic.
 SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_neo_hookean_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
-
-/// Returns the law with this name; null if none of the above has it.
-SharedLaw make_isotropic_law(const std::string &name, const ElasticModuli &elastic, SharedFlow flow);
-
-/// Returns the elasticity of one of these laws. Throws std::invalid_argument for another name.
-std::shared_ptr<const Elasticity> make_isotropic_elasticity(const std::string &name, double young,
-                                                            double poisson);
 
 /// Returns the type of such a law; its parameters are Young's modulus and Poisson's ratio.
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,

@@ -4,9 +4,15 @@
 
 #include "billet/mechanics/element_block.h"
 
+#include <array>
 #include <memory>
 
 namespace billet {
+
+/// Measures of logarithmic strains, which determine the energy.
+struct LogarithmicStrains {
+  double volumetric, deviatoric_energy;
+};
 
 /// Energies of the same nodal displacements under different elements [energy].
 struct ElementEnergies {
@@ -33,6 +39,21 @@ struct ElementEnergies {
   }
 };
 
+/// Strains of a brick at eight points, and the energies there.
+struct PointEnergies {
+  std::array<dealii::Tensor<2, 3>, n_element_points> F;
+  std::array<LogarithmicStrains, n_element_points> strains;
+  std::array<double, n_element_points> volumes; ///< undeformed
+  double energy = 0., elastic = 0.;             ///< with plastic flow, and without [energy]
+};
+
+/// Brick that is compared, with the energies of two elements.
+struct ComparedBrick {
+  const ElementVectors &positions, &displacements;
+  const PointEnergies &accurate;    ///< AssumedStrainElement
+  const ElementEnergies &one_point; ///< OnePointElement: used, hourglass, plastic
+};
+
 /// Compares the element of a body with one that bends accurately, by the energy of given displacements; no
 /// equations are solved. The energy follows from total strains, (L2) of doc/theory.md: Hencky's
 /// hyperelasticity and, where the body yields, the deformation theory of plasticity. It does not depend on
@@ -50,15 +71,21 @@ public:
   /// that an elastic body would store [stress].
   double energy(double volumetric_strain, double elastic_deviatoric_energy) const;
 
-private:
-  /// Measures of logarithmic strains, the arguments of energy().
-  struct Strains {
-    double volumetric, deviatoric_energy;
-  };
-  Strains measure(const dealii::Tensor<2, 3> &F) const;
-  double energy(const Strains &strains) const {
+  double energy(const LogarithmicStrains &strains) const {
     return energy(strains.volumetric, strains.deviatoric_energy);
   }
+
+  /// Computes the energies at the points of an element. Returns false if it is inverted.
+  template <class Element>
+  bool compute(const ElementVectors &positions, const ElementVectors &displacements,
+               PointEnergies &points) const;
+  /// Adds `plastic` and `plastic_within`, if the body yields.
+  void add_dissipation(const PointEnergies &points, ElementEnergies &energies) const;
+  const ElementFormulation &formulation() const { return formulation_; }
+
+private:
+  using Strains = LogarithmicStrains;
+  Strains measure(const dealii::Tensor<2, 3> &F) const;
   /// Returns (L4) with (L5), for elastic bricks.
   double energy_of_taper(const ElementVectors &positions, const ElementVectors &displacements) const;
   /// Returns α of (L2).
@@ -76,6 +103,37 @@ private:
   std::shared_ptr<const PointLaw> law_;
   const FlowStress *flow_; ///< null for elastic bodies
 };
+
+template <class Element>
+bool ElementComparison::compute(const ElementVectors &positions, const ElementVectors &displacements,
+                                PointEnergies &points) const {
+  const Element element(elastic_, formulation_);
+  typename Element::Reference reference;
+  typename Element::Kinematics kinematics;
+  if (!element.initialize(positions, reference) || !Element::compute(reference, displacements, kinematics))
+    return false;
+  points.energy = points.elastic = 0.;
+  for (unsigned int q = 0; q < n_element_points; ++q) {
+    points.F[q] = Element::template deformation<false>(reference, kinematics, q);
+    const Strains strains = points.strains[q] = measure(points.F[q]);
+    const double volume = points.volumes[q] = Element::reference_volume(reference, q);
+    points.energy += volume * energy(strains);
+    points.elastic +=
+        volume * (0.5 * elastic_.bulk * strains.volumetric * strains.volumetric + strains.deviatoric_energy);
+  }
+  return true;
+}
+
+/// ElementKind::compare for an element with eight points.
+template <class Element>
+bool compare_points(const ElementComparison &comparison, const ComparedBrick &brick,
+                    ElementEnergies &energies) {
+  PointEnergies points;
+  if (!comparison.compute<Element>(brick.positions, brick.displacements, points))
+    return false;
+  energies.used += points.energy;
+  return true;
+}
 
 } // namespace billet
 

@@ -11,6 +11,9 @@
 namespace billet {
 
 class ElementBlock;
+class ElementComparison;
+struct ComparedBrick;
+struct ElementEnergies;
 struct ElementFormulation;
 
 /// Bricks that the explicit kernels compute for several elements at once.
@@ -26,6 +29,9 @@ struct ElementKind {
   bool has_layers = false;    ///< whether it supports more than two points through a thickness
   /// Element of the explicit kernels; without one, explicit scenes compute the elements one by one.
   std::optional<LaneElement> lanes = {};
+  /// Adds the energies of a brick for ElementComparison; compare_points() does so for an element with eight
+  /// points. Returns false if the brick is inverted. Null: the element counts as accurate.
+  bool (*compare)(const ElementComparison &, const ComparedBrick &, ElementEnergies &) = nullptr;
 };
 
 /// Handle of an ElementKind, which lives as long as the program.
@@ -41,6 +47,7 @@ public:
   const std::optional<LaneElement> &lanes() const { return kind_->lanes; }
   std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &law,
                                            const ElementFormulation &formulation) const;
+  auto comparison() const { return kind_->compare; } ///< ElementKind::compare
 
   bool operator==(const BrickElement &other) const { return kind_ == other.kind_; }
   bool operator!=(const BrickElement &other) const { return kind_ != other.kind_; }

@@ -3,6 +3,7 @@
 #define BILLET_MECHANICS_EXPLICIT_BLOCK_H
 
 #include "billet/mechanics/element_block.h"
+#include "billet/mechanics/kernel_choice.h"
 
 #include <array>
 #include <cstddef>
@@ -11,10 +12,6 @@
 #include <vector>
 
 namespace billet {
-
-/// Instruction set of a kernel, for 1, 2, 4 or 8 elements at once, in float 1, 4, 8 or 16. `automatic` is the
-/// widest that the processor supports.
-enum class InstructionSet { automatic, scalar, sse2, avx2, avx512 };
 
 /// Returns the widest instruction set that was compiled and that this processor supports.
 InstructionSet best_instruction_set();
@@ -25,8 +22,6 @@ bool is_available(InstructionSet instructions);
 /// Element formulation of a body in explicit dynamics.
 struct ExplicitFormulation {
   using Element = ElementFormulation::Element;
-  /// Type of the numbers in element computations; nodal vectors and all sums are double.
-  enum class NumberType { double_precision, float_precision };
 
   Element element = Element::assumed_strain;
   double linear_viscosity = 0.06;   ///< c_1 of the bulk viscosity ρ L (c_1 c |d| + c_2² L d²); ≥ 0

@@ -2,7 +2,12 @@
 #ifndef BILLET_PARAMETERS_CONTROL_H
 #define BILLET_PARAMETERS_CONTROL_H
 
+#include "billet/algebra/linear_method.h"
+#include "billet/mechanics/kernel_choice.h"
+#include "billet/parameters/named_values.h"
 #include "billet/parameters/reader.h"
+
+#include <optional>
 
 namespace billet::parameters {
 
@@ -39,15 +44,12 @@ struct TimeStepping {
 
 /// Subsection Explicit dynamics.
 struct ExplicitDynamics {
-  enum class Instructions { automatic, scalar, sse2, avx2, avx512 };
-  enum class NumberType { double_precision, float_precision };
-
   double safety_factor;
   double contact_resolution; ///< for the oscillation of nodes on penalty springs, >= 1
   double linear_viscosity, quadratic_viscosity;
   double scaled_step; ///< stable step that mass scaling ensures for each element; 0: none
   double max_drift;   ///< maximum, relative to the energy
-  Instructions instructions;
+  InstructionSet instructions;
   NumberType number_type; ///< for the element kernels
 
   static void declare(dealii::ParameterHandler &prm);
@@ -77,10 +79,9 @@ enum class MaterialTangent {
 struct Solver {
   enum class LineSearch { none, energy };
   enum class Predictor { tangent, extrapolation };
-  /// Above this number of unknowns, or if a direct solver would need half of the memory, `automatic` selects
-  /// an iterative solver.
+  /// Above this number of unknowns, or if a direct solver would need half of the memory, the automatic choice
+  /// is an iterative solver.
   static constexpr unsigned int max_direct_dofs = 10000;
-  enum class LinearSolver { automatic, mumps_symmetric, mumps, klu, conjugate_gradients, gmres };
   enum class Forcing { eisenstat_walker, fixed };
 
   ContactTangent contact_tangent;
@@ -90,7 +91,7 @@ struct Solver {
   unsigned int max_augmentations; ///< maximum in a step
   LineSearch line_search;
   Predictor predictor;
-  Located<LinearSolver> linear_solver;
+  Located<std::optional<LinearMethod>> linear_solver; ///< none: automatic
   Forcing forcing;
   double linear_tolerance; ///< |b − A x| / |b|; for Eisenstat and Walker the minimum
   unsigned int max_linear_iterations;
@@ -98,6 +99,9 @@ struct Solver {
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 };
+
+/// Linear solvers of scene files; none: automatic.
+const NamedValues<std::optional<LinearMethod>> &linear_methods();
 
 /// Subsection Output.
 struct Output {

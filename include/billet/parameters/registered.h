@@ -36,7 +36,7 @@ private:
   unsigned int n_types_ = 0;
 };
 
-template <class Product> ParameterUnion join_parameters(const TypeTable<Product> &table) {
+template <class Table> ParameterUnion join_parameters(const Table &table) {
   ParameterUnion all;
   for (const auto &type : table)
     all.add(type.name, type.parameters);
@@ -44,9 +44,9 @@ template <class Product> ParameterUnion join_parameters(const TypeTable<Product>
 }
 
 /// Declares the entry `key`, which selects one type of the table, and the parameters of all its types.
-template <class Product>
+template <class Table>
 void declare_selection(dealii::ParameterHandler &prm, const std::string &key, const std::string &default_name,
-                       const TypeTable<Product> &table, const std::string &meaning) {
+                       const Table &table, const std::string &meaning) {
   std::string text = meaning;
   for (const auto &type : table)
     text += (&type == &*table.begin() ? " " : "; ") + type.name + ": " + type.meaning;
@@ -55,8 +55,7 @@ void declare_selection(dealii::ParameterHandler &prm, const std::string &key, co
 }
 
 /// Makes the product that `key` selects. Refuses parameters of the other types.
-template <class Product>
-Product make_selected(const Reader &reader, const std::string &key, const TypeTable<Product> &table) {
+template <class Table> auto make_selected(const Reader &reader, const std::string &key, const Table &table) {
   const auto *type = table.find(reader.text(key));
   if (type == nullptr) // the selection has refused all other names
     throw std::logic_error("unknown type '" + reader.text(key) + "'");

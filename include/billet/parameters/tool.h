@@ -3,7 +3,9 @@
 #define BILLET_PARAMETERS_TOOL_H
 
 #include "billet/friction/friction_law.h"
+#include "billet/geometry/facet_method.h"
 #include "billet/geometry/rigid_surface.h"
+#include "billet/parameters/named_values.h"
 #include "billet/parameters/reader.h"
 
 #include <array>
@@ -52,6 +54,9 @@ struct Tool {
   void parse(Reader &reader);
 };
 
+/// Facet methods of scene files; none: automatic.
+const NamedValues<std::optional<FacetMethod>> &facet_methods();
+
 /// One named subsection of Contact pairs.
 struct ContactPair {
   enum class PenaltyUnit { factor, absolute };
@@ -63,10 +68,9 @@ struct ContactPair {
   Located<std::string> tool;        ///< empty for a pair of two bodies
   Located<std::string> second_body; ///< empty for a pair of a body and a tool
   Located<std::vector<unsigned int>> second_boundary_ids;
-  enum class Facets { automatic, planed, mean_gap, bilinear, overlap };
   enum class PenaltyOf { automatic, stiffer, series };
   enum class Passes { automatic, one, two };
-  Located<Facets> facets;
+  Located<std::optional<FacetMethod>> facets; ///< none: automatic
   Passes passes;
   enum class Edges { automatic, held, free };
   Edges edges;

@@ -121,7 +121,7 @@ struct BodyPair : PairSettings {
   std::array<std::size_t, 2> bodies;
   std::array<std::vector<unsigned int>, 2> boundary_ids; ///< for self-contact both are the same
   bool is_self_contact;
-  parameters::ContactPair::Facets facets;
+  FacetMethod facets;
   bool two_passes, edges;
   parameters::ContactPair::PenaltyOf penalty_of;
   double smoothing;     ///< see ContactLimits::zone

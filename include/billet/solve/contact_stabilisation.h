@@ -64,8 +64,6 @@ public:
   double force_scale() const;
   /// Returns −∂f/∂u of a node, the same in each direction [force/length].
   double stiffness(const Node &node) const;
-  /// Returns the potential of −f in the step, Σ ½ φ c |u − u_n|² / Δt, on this rank.
-  double potential(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n) const;
 
   /// Accepts the step: adds its works by the trapezoidal rule, and fades the forces on supported bodies.
   /// `driven_work`: of the loads of driven tools in the step. Returns the work of the forces. Collective.

@@ -73,7 +73,7 @@ std::array<std::size_t, 2> ExplicitDynamics::history_sizes() const {
 }
 
 std::string ExplicitDynamics::method() const {
-  return parts_.settings().number_type == parameters::ExplicitDynamics::NumberType::float_precision
+  return parts_.settings().number_type == NumberType::float_precision
              ? "central differences, elements in float"
              : "central differences";
 }

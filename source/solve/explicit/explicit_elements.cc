@@ -10,23 +10,6 @@ namespace billet {
 
 namespace {
 
-InstructionSet instruction_set_of(const parameters::ExplicitDynamics::Instructions instructions) {
-  using Instructions = parameters::ExplicitDynamics::Instructions;
-  switch (instructions) {
-  case Instructions::automatic:
-    break;
-  case Instructions::scalar:
-    return InstructionSet::scalar;
-  case Instructions::sse2:
-    return InstructionSet::sse2;
-  case Instructions::avx2:
-    return InstructionSet::avx2;
-  case Instructions::avx512:
-    return InstructionSet::avx512;
-  }
-  return InstructionSet::automatic;
-}
-
 /// Returns the formulation of a body's elements.
 ExplicitFormulation formulation_of(const parameters::Scene &scene, const parameters::Body &body) {
   const auto &dynamics = scene.explicit_dynamics;
@@ -34,10 +17,8 @@ ExplicitFormulation formulation_of(const parameters::Scene &scene, const paramet
   formulation.element = make_formulation(body).element;
   formulation.linear_viscosity = dynamics.linear_viscosity;
   formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
-  formulation.instructions = instruction_set_of(dynamics.instructions);
-  formulation.number_type = dynamics.number_type == parameters::ExplicitDynamics::NumberType::float_precision
-                                ? ExplicitFormulation::NumberType::float_precision
-                                : ExplicitFormulation::NumberType::double_precision;
+  formulation.instructions = dynamics.instructions;
+  formulation.number_type = dynamics.number_type;
   return formulation;
 }
 

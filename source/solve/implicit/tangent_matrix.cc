@@ -54,11 +54,9 @@ void TangentMatrix::build(const bool couplings_are_known) {
   matrix_.reinit(pattern);
   parameters::Solver settings = scene_.parameters().solver;
   const bool has_own_tangent = kind_ == scene_.contact_tangent();
-  using LinearSolver = parameters::Solver::LinearSolver;
-  LinearSolver &kind = settings.linear_solver.value;
-  if (!has_own_tangent &&
-      (kind == LinearSolver::mumps_symmetric || kind == LinearSolver::conjugate_gradients))
-    kind = LinearSolver::automatic;
+  std::optional<LinearMethod> &method = settings.linear_solver.value;
+  if (!has_own_tangent && method && requires_symmetry(*method))
+    method.reset();
   linear_ =
       std::make_unique<TangentSolver>(settings, has_own_tangent && !scene_.capabilities().unsymmetric_matrix,
                                       matrix_, discretization_.communicator());

@@ -24,7 +24,6 @@ public:
   void build(bool couplings_are_known = false);
   /// Builds them anew if contact has new couplings. Collective.
   void follow_couplings();
-  bool is_built() const { return linear_ != nullptr; }
 
   Matrix &matrix() { return matrix_; }
   TangentSolver &solver() { return *linear_; }
