@@ -154,6 +154,13 @@ std::vector<LayerSummaries> InternalForces::summarize_layers(const std::size_t b
   return result;
 }
 
+std::vector<StateAverages> InternalForces::average_states(const std::size_t body) const {
+  std::vector<StateAverages> result;
+  for (std::size_t e = 0; e < blocks_[body]->size(); ++e)
+    result.push_back(blocks_[body]->average_states(e));
+  return result;
+}
+
 std::size_t InternalForces::history_size() const {
   std::size_t size = 0;
   for (const auto &block : blocks_)

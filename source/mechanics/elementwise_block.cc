@@ -171,6 +171,11 @@ public:
                       block_->summarize(element, u, Beat::committed).plastic_work};
   }
 
+  PointStates point_states() const override { return {n_last, block_->point_states().n_points}; }
+  StateAverages average_states(const std::size_t element, const double *) const override {
+    return block_->average_states(element);
+  }
+
 private:
   /// Data of an element's last call.
   struct Last {

@@ -276,10 +276,30 @@ public:
     std::vector<PointState> states;
     std::vector<double> yield_stress;
     for (const PointStress &point : wanted) {
-      states.push_back({0., 0., elastic_tensor(point.deviator), point.equivalent_plastic_strain});
+      states.push_back({0., 0., elastic_tensor(point.deviator), point.equivalent_plastic_strain, {}});
       yield_stress.push_back(flow_ != nullptr ? flow_->stress(point.equivalent_plastic_strain) : 0.);
     }
     storage_.set_states(element, displacements, states, yield_stress);
+  }
+
+  PointStates point_states() const override { return {}; }
+
+  StateAverages average_states(const std::size_t element, const double *displacements) const override {
+    std::vector<double> state(law_->n_state()), average(state.size(), 0.);
+    double reference_volume = 0.;
+    for (const PointState &point : storage_.compute_states(element, displacements)) {
+      dealii::SymmetricTensor<2, 3> deviator;
+      compute_distortion(point.tensor, deviator);
+      law_->initialize(state.data());
+      law_->set_stress(point.F, deviator, point.equivalent_plastic_strain, state.data());
+      for (std::size_t k = 0; k < state.size(); ++k)
+        average[k] += point.reference_volume * state[k];
+      reference_volume += point.reference_volume;
+    }
+    if (reference_volume > 0.)
+      for (double &number : average)
+        number /= reference_volume;
+    return {average};
   }
 
 private:

@@ -484,7 +484,7 @@ std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_
   visit_points(element, displacements,
                [&](const std::size_t first, const double reference_volume, const double volume_ratio,
                    const Tensor<2, 3> &jacobian, const Tensor<2, 3> &inverse_reference) {
-                 PointState state{reference_volume, volume_ratio, {}, 0.};
+                 PointState state{reference_volume, volume_ratio, {}, 0., jacobian * inverse_reference};
                  std::size_t k = first;
                  if (is_rate()) {
                    for (const unsigned int place : {0, 1, 3, 4, 5})
@@ -492,8 +492,7 @@ std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_
                          history(element, k++);
                    state.tensor[2][2] = -state.tensor[0][0] - state.tensor[1][1];
                  } else if (is_single && !has_plasticity_) {
-                   const Tensor<2, 3> F = jacobian * inverse_reference;
-                   state.tensor = symmetrize(F * transpose(F));
+                   state.tensor = symmetrize(state.F * transpose(state.F));
                  } else {
                    Tensor<2, 3> H;
                    for (const auto &pair : symmetric_pairs)

@@ -30,57 +30,99 @@ struct CellFields {
   std::vector<dealii::Vector<double>> values;
 };
 
+/// Quantities that are written, in the order of the files.
+struct WrittenQuantities {
+  explicit WrittenQuantities(const Scene &scene) {
+    for (const ElementQuantity &quantity : field_quantities().of_elements())
+      if (quantity.is_written(scene))
+        of_elements.push_back(quantity);
+    for (ElementQuantity &quantity : state_quantities(scene))
+      of_elements.push_back(std::move(quantity));
+    for (const ElementQuantity &quantity : of_elements) {
+      if (quantity.has_layers)
+        of_layers.push_back(quantity);
+      read_states = read_states || quantity.reads_state;
+    }
+  }
+
+  std::vector<ElementQuantity> of_elements, of_layers;
+  bool read_states = false;
+};
+
+/// Averages of the elements of a body.
+class BodyAverages {
+public:
+  BodyAverages(const Solution &solution, const Scene &scene, const std::size_t body,
+               const WrittenQuantities &written, const bool has_layers)
+      : body_(body), summaries_(solution.discretization().elements(body).size()) {
+    if (!written.of_layers.empty())
+      summaries_ = solution.summarize(body);
+    if (has_layers && !written.of_layers.empty())
+      layers_ = solution.summarize_layers(body);
+    if (written.read_states) {
+      fields_ = scene.bodies()[body].law->fields();
+      states_ = solution.average_states(body);
+    }
+  }
+
+  std::size_t size() const { return summaries_.size(); }
+  ElementAverage operator()(const std::size_t element) const {
+    return average(summaries_[element], element, 0);
+  }
+  /// Returns the average of a layer. With two points all layers have the element's.
+  ElementAverage of_layer(const std::size_t element, const std::size_t layer) const {
+    return layers_.empty() ? (*this)(element) : average(layers_[element][layer], element, 1 + layer);
+  }
+
+private:
+  template <class Summary>
+  ElementAverage average(const Summary &summary, const std::size_t element, const std::size_t place) const {
+    ElementAverage result{body_, summary.cauchy_stress, summary.equivalent_plastic_strain, {}};
+    if (!states_.empty())
+      result.state = {fields_, states_[element][place]};
+    return result;
+  }
+
+  std::size_t body_;
+  std::vector<ElementSummary> summaries_;
+  std::vector<LayerSummaries> layers_;
+  std::vector<StateField> fields_;
+  std::vector<StateAverages> states_;
+};
+
 CellFields collect_cell_fields(const Scene &scene, const Discretization &discretization,
                                const Solution &solution) {
-  std::vector<const ElementQuantity *> written, layered;
-  for (const ElementQuantity &quantity : field_quantities().of_elements())
-    if (quantity.is_written(scene)) {
-      written.push_back(&quantity);
-      if (quantity.has_layers)
-        layered.push_back(&quantity);
-    }
+  const WrittenQuantities written(scene);
   CellFields fields;
   const auto add_names = [&](const std::string &layer, const auto &quantities) {
-    for (const ElementQuantity *quantity : quantities)
-      for (const std::string &component : quantity->components)
+    for (const ElementQuantity &quantity : quantities)
+      for (const std::string &component : quantity.components)
         fields.names.push_back(layer + component);
   };
-  add_names("", written);
+  add_names("", written.of_elements);
   const bool has_layers = std::any_of(scene.bodies().begin(), scene.bodies().end(),
                                       [](const Body &body) { return body.formulation.points_through > 2; }) &&
                           !scene.parameters().is_explicit();
   if (has_layers)
     for (const std::string name : layer_names)
-      add_names(name + "_", layered);
+      add_names(name + "_", written.of_layers);
   const auto n_cells = discretization.dof_handler().get_triangulation().n_active_cells();
   fields.values.assign(fields.names.size(), dealii::Vector<double>(n_cells));
 
   for (std::size_t body = 0; body < scene.bodies().size(); ++body) {
-    const auto &elements = discretization.elements(body);
-    std::vector<ElementSummary> summaries(elements.size());
-    if (!layered.empty())
-      summaries = solution.summarize(body);
-    std::vector<LayerSummaries> layers;
-    if (has_layers && !layered.empty())
-      layers = solution.summarize_layers(body);
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      const auto cell = elements[e].cell->active_cell_index();
+    const BodyAverages averages(solution, scene, body, written, has_layers);
+    for (std::size_t e = 0; e < averages.size(); ++e) {
+      const auto cell = discretization.elements(body)[e].cell->active_cell_index();
       std::size_t next = 0;
-      const auto add = [&](const auto &summary, const auto &quantities) {
-        const ElementAverage average{body, summary.cauchy_stress, summary.equivalent_plastic_strain};
-        for (const ElementQuantity *quantity : quantities)
-          for (const double value : quantity->evaluate(average))
+      const auto add = [&](const ElementAverage &average, const auto &quantities) {
+        for (const ElementQuantity &quantity : quantities)
+          for (const double value : quantity.evaluate(average))
             fields.values[next++](cell) = value;
       };
-      add(summaries[e], written);
-      if (!has_layers)
-        continue;
-      if (layers.empty()) // two points: all layers have the element's values
+      add(averages(e), written.of_elements);
+      if (has_layers)
         for (std::size_t layer = 0; layer < layer_names.size(); ++layer)
-          add(summaries[e], layered);
-      else
-        for (const LayerSummary &layer : layers[e])
-          add(layer, layered);
+          add(averages.of_layer(e, layer), written.of_layers);
     }
   }
   return fields;

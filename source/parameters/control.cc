@@ -5,6 +5,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace billet::parameters {
@@ -348,6 +349,12 @@ void Output::declare(ParameterHandler &prm) {
                     "Write Cauchy stress, von Mises stress and pressure.");
   prm.declare_entry("Plastic strain", "true", Patterns::Bool(),
                     "Write the equivalent plastic strain, if a body is plastic.");
+  prm.declare_entry(
+      "State fields", "", Patterns::Anything(),
+      "Fields of the materials' states to write, by name, separated by commas, such as "
+      "'inverse plastic metric'; for an unknown name the message lists those of the scene. Each "
+      "is averaged over the undeformed volume of an element, is named state_NAME or "
+      "state_NAME_COMPONENT in the files, and is 0 in bodies whose law does not have it.");
   prm.declare_entry("Contact", "true", Patterns::Bool(),
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
   prm.declare_entry("Verbosity", "steps", Patterns::Selection(selection(verbosities)),
@@ -377,6 +384,10 @@ void Output::parse(Reader &reader) {
     reader.reject("Step interval", "no value, or 0: fields are written by the 'Interval'");
   stress = reader.flag("Stress");
   plastic_strain = reader.flag("Plastic strain");
+  state_fields = reader.located("State fields", reader.parts("State fields", ','));
+  const auto &names = state_fields.value;
+  if (std::set<std::string>(names.begin(), names.end()).size() < names.size())
+    reader.reject("State fields", "names that differ from each other");
   contact = reader.flag("Contact");
   verbosity = chosen(verbosities, reader.text("Verbosity"));
   reader.in("Checkpoint", [&] {

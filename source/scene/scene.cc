@@ -2,6 +2,7 @@
 #include "billet/scene/scene.h"
 
 #include "billet/errors.h"
+#include "billet/material/state_fields.h"
 #include "billet/parameters/reader.h"
 #include "billet/usage.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -126,6 +128,22 @@ std::string describe_friction(const FrictionPointer &friction) {
   return friction != nullptr ? friction->description() : "mu = 0";
 }
 
+/// Refuses names of state fields that the laws of all bodies lack.
+void check_state_fields(const Located<std::vector<std::string>> &wanted, const std::vector<Body> &bodies) {
+  std::set<std::string> known;
+  for (const Body &body : bodies)
+    for (const StateField &field : stored_fields(*body.law))
+      known.insert(field.name);
+  std::string allowed;
+  for (const std::string &name : known)
+    allowed += (allowed.empty() ? "" : ", ") + name;
+  for (const std::string &name : wanted.value)
+    if (known.count(name) == 0)
+      throw InputError(wanted.origin + " names '" + name + "'; " +
+                       (known.empty() ? "the materials of this scene have no state"
+                                      : "allowed are those of the scene's materials: " + allowed));
+}
+
 /// Returns element, unless it is the default one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
   const BrickElement element = body.element.value;
@@ -148,6 +166,7 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &body : parameters.bodies)
     bodies_.push_back(make_body(body, parameters.amplitudes));
+  check_state_fields(parameters.output.state_fields, bodies_);
   check_before_start([&] {
     for (const auto &tool : parameters.tools) {
       tools_.emplace_back(tool, parameters.amplitudes);

@@ -4,6 +4,7 @@
 #include "billet/discretization/local_nodes.h"
 #include "billet/errors.h"
 #include "billet/material/elasticity.h"
+#include "billet/material/state_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,38 @@ std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std
 }
 
 constexpr std::uint64_t max_ranks = 1U << 20U;
+
+/// Returns the fields that save_fields() has written; none if there were none.
+std::vector<StateField> read_fields(const StateReader &reader) {
+  std::vector<StateField> fields;
+  if (!reader.has("fields"))
+    return fields;
+  std::istringstream lines(reader.read_text("fields"));
+  StateField field;
+  while (lines >> field.n_components && std::getline(lines >> std::ws, field.name))
+    fields.push_back(field);
+  return fields;
+}
+
+/// Returns, for each number of a law's state, its place among the numbers of the same fields in another
+/// order; nothing if they are not the same fields.
+std::optional<std::vector<std::size_t>> find_places(const std::vector<StateField> &then,
+                                                    const std::vector<StateField> &now) {
+  std::vector<std::size_t> places;
+  for (const StateField &field : now) {
+    std::size_t place = 0;
+    auto other = then.begin();
+    for (; other != then.end() && other->name != field.name; ++other)
+      place += other->n_components;
+    if (other == then.end() || other->n_components != field.n_components)
+      return {};
+    for (std::size_t k = 0; k < field.n_components; ++k)
+      places.push_back(place + k);
+  }
+  if (then.size() != now.size())
+    return {};
+  return places;
+}
 
 } // namespace
 
@@ -170,6 +203,38 @@ std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
   return axes;
 }
 
+void save_fields(StateWriter &writer, const PointLaw &law) {
+  std::string lines;
+  for (const StateField &field : stored_fields(law))
+    lines += std::to_string(field.n_components) + " " + field.name + "\n";
+  if (!lines.empty())
+    writer.write_text("fields", lines);
+}
+
+std::vector<double> load_history(const StateReader &reader, const std::string &body, const PointLaw &law,
+                                 const PointStates &points, const std::size_t width,
+                                 const std::vector<std::uint64_t> &keys) {
+  if (points.n_points == 0)
+    return reader.read_rows("history", width, keys);
+  const std::vector<StateField> then = read_fields(reader), now = stored_fields(law);
+  const auto places = find_places(then, now);
+  if (!places)
+    throw InputError("the state of the law '" + law.name() + "' of its body '" + body + "' has the fields " +
+                     describe(then) + ", but here it has " + describe(now) +
+                     ". Resume with the law that wrote the checkpoint, or start at time 0");
+  std::vector<double> rows = reader.read_rows("history", width, keys);
+  const std::size_t n_state = places->size();
+  std::vector<double> state(n_state);
+  for (std::size_t row = 0; row < keys.size(); ++row)
+    for (std::size_t q = 0; q < points.n_points; ++q) {
+      double *const own = rows.data() + row * width + points.first + q * n_state;
+      std::copy_n(own, n_state, state.begin());
+      for (std::size_t k = 0; k < n_state; ++k)
+        own[k] = state[(*places)[k]];
+    }
+  return rows;
+}
+
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, const std::size_t body,
                                        const Discretization &discretization, const Vector &displacements) {
   const std::string words = reader.read_text("formulation");
@@ -191,7 +256,8 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
     const std::size_t width = block->state_size();
     std::vector<double> rows;
     if (width > 0)
-      rows = reader.read_rows("history", width, keys);
+      rows =
+          load_history(reader, scene.bodies()[body].name, *implicit->law, block->point_states(), width, keys);
     stresses.reserve(elements.size());
     for (std::size_t e = 0; e < elements.size(); ++e) {
       if (width > 0)
@@ -212,7 +278,8 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
   const auto block = make_explicit_block(formulation->law, 1., formulation->formulation);
   block->initialize(nodes.elements(body), nodes.positions().data(), ignored);
   const std::size_t width = block->history_size();
-  const std::vector<double> rows = reader.read_rows("history", width, keys);
+  const std::vector<double> rows =
+      load_history(reader, scene.bodies()[body].name, *formulation->law, block->point_states(), width, keys);
   for (std::size_t e = 0; e < elements.size(); ++e)
     block->set_state(e, &rows[width * e]);
   stresses.reserve(elements.size());

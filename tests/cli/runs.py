@@ -692,6 +692,13 @@ for key, field in (
         require(f'"{field}"' not in ran.text("fields_00001.pvtu"), f"{field} is there")
 
 
+@check("a field of the material's state by name")
+def _() -> None:
+    ran = billet("Output: Step interval = 0 & Output: State fields = inverse plastic metric")
+    require('"state_inverse_plastic_metric_zz"' in ran.text("fields_00001.pvtu"), "the field is not there")
+    require('"state_' not in reference.text("fields_00001.pvtu"), "a state that nobody asked for")
+
+
 @check("a quiet run")
 def _() -> None:
     equal("output", billet("Output: Verbosity = quiet").said, "")

@@ -4,18 +4,14 @@
 // its nodes, and a column of the history with the sum of all energies.
 
 #include "pulled_cube.h"
+#include "read_field.h"
 
 #include "billet/output/field_quantity.h"
-#include "billet/output/field_writer.h"
 #include "billet/output/history_file.h"
-
-#include <deal.II/base/hdf5.h>
-#include <deal.II/lac/full_matrix.h>
-
-#include <filesystem>
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::max_difference;
 
 namespace {
 
@@ -49,24 +45,6 @@ HistoryQuantity total_energy() {
           [](const HistorySample &sample) -> std::vector<double> { return {sample.state.energies.total()}; }};
 }
 
-/// The component of a field at each vertex of each element.
-std::vector<double> read(const std::string &file_name, const std::string &field,
-                         const unsigned int component) {
-  dealii::HDF5::File file(file_name, dealii::HDF5::File::FileAccessMode::open, MPI_COMM_WORLD);
-  const auto matrix = file.open_dataset(field).read<dealii::FullMatrix<double>>();
-  std::vector<double> values;
-  for (unsigned int i = 0; i < matrix.m(); ++i)
-    values.push_back(matrix(i, component));
-  return values;
-}
-
-double max_difference(const std::vector<double> &values, const std::vector<double> &others) {
-  testing::WorstError error;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    error.add(std::abs(values[i] - others[i]));
-  return error.value();
-}
-
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -90,22 +68,21 @@ int main(int argc, char *argv[]) {
   scene.output.format = parameters::Output::Format::hdf5;
   testing::SceneRun run(scene);
   run.finish();
-  std::filesystem::create_directory("fields");
-  FieldWriter(run.scene, MPI_COMM_WORLD, "fields").write(run.problem);
 
   // Uniaxial Hencky tension: E ln λ = J σ, J = λ^(1 - 2 ν).
   const double strain = std::log(stretch), sigma = testing::cube_young * strain * std::exp(-0.4 * strain);
-  const std::string file = "fields/fields_00000.h5";
-  const auto principal = read(file, "largest_principal_stress", 0),
-             triaxiality = read(file, "triaxiality", 0);
+  const std::string file = testing::write_fields(run.scene, run.problem);
+  const auto principal = testing::read_field(file, "largest_principal_stress", 0),
+             triaxiality = testing::read_field(file, "triaxiality", 0);
   check("elements", principal.size() == 64 && triaxiality.size() == 64);
   check("largest principal stress", max_difference(principal, std::vector<double>(64, sigma)) / sigma, 1e-6);
   check("triaxiality", max_difference(triaxiality, std::vector<double>(64, 1. / 3.)), 1e-6);
-  check("stresses are what they were", max_difference(read(file, "stress_zz", 0), principal) / sigma, 1e-6);
-  std::vector<double> twice = read(file, "displacement", 2);
+  check("stresses are what they were",
+        max_difference(testing::read_field(file, "stress_zz", 0), principal) / sigma, 1e-6);
+  std::vector<double> twice = testing::read_field(file, "displacement", 2);
   for (double &value : twice)
     value *= 2.;
-  check("nodes", max_difference(read(file, "doubled_z", 0), twice), 1e-8);
+  check("nodes", max_difference(testing::read_field(file, "doubled_z", 0), twice), 1e-8);
 
   HistoryFile(run.scene, "fields").write({}, run.problem.state());
   std::ifstream history("fields/history.csv");

@@ -46,6 +46,9 @@ public:
   /// Returns the summaries of the layers; empty if the body has two points through the thickness.
   std::vector<LayerSummaries> summarize_layers(std::size_t body, const Vector &displacements) const;
 
+  /// Returns averages of the law's state for the same elements, at the start of the step.
+  std::vector<StateAverages> average_states(std::size_t body) const;
+
   /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 

@@ -70,7 +70,9 @@ public:
     return {F, deviator};
   }
 
-  static std::vector<StateField> fields() { return {{"deformation gradient", 9}, {"deviator", 6}}; }
+  static std::vector<StateField> fields() {
+    return {tensor_field("deformation gradient"), symmetric_field("deviator")};
+  }
   static void store(const History &history, double *numbers) {
     for (unsigned int i = 0; i < 9; ++i)
       numbers[i] = history.F[i / 3][i % 3];
@@ -130,7 +132,7 @@ public:
   std::vector<StateField> fields() const {
     std::vector<StateField> result = HypoelasticElasticity::fields();
     result.push_back({"equivalent plastic strain", 1});
-    result.push_back({"flow stress", flow_->n_state()});
+    result.push_back({"flow stress history", flow_->n_state()});
     return result;
   }
   void store(const History &history, double *numbers) const {

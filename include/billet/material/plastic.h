@@ -4,6 +4,7 @@
 
 #include "billet/material/elastic.h"
 #include "billet/material/hardening.h"
+#include "billet/material/state_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,9 @@ public:
   static constexpr bool has_plasticity = true, is_rate_form = false;
 
   std::vector<StateField> fields() const {
-    return {
-        {"inverse plastic metric", 6}, {"equivalent plastic strain", 1}, {"flow stress", flow_->n_state()}};
+    return {symmetric_field("inverse plastic metric"),
+            {"equivalent plastic strain", 1},
+            {"flow stress history", flow_->n_state()}};
   }
   void store(const History &history, double *numbers) const {
     for (unsigned int i = 0; i < 6; ++i)

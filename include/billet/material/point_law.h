@@ -40,6 +40,8 @@ struct PointStep {
 struct StateField {
   std::string name;
   std::size_t n_components;
+  /// Names of the components in files, such as "xx"; without names they are numbered from 1.
+  std::vector<std::string> components = {};
 };
 
 /// Material law: the response of a point to a deformation. It is independent of elements, schemes and ranks.
@@ -74,6 +76,7 @@ public:
   /// Whether the dissipation is exact; otherwise its error is of the order of the elastic strains.
   virtual bool has_exact_dissipation() const = 0;
 
+  /// Returns the fields in the order of their numbers. Output and checkpoints find them by their names.
   virtual std::vector<StateField> fields() const = 0;
   virtual std::size_t n_state() const = 0;
   /// Overwrites `state` with the state of the undeformed point.

@@ -35,6 +35,14 @@ struct ElementSummary {
   double stiffness_bound = 0.; ///< maximum over the points of PointLaw::bound_stiffness() [stress]
 };
 
+/// Place of the states of the law in the numbers of an element: `n_points` states, one after the other.
+struct PointStates {
+  std::size_t first = 0, n_points = 0;
+};
+
+/// Averages of the numbers of PointLaw::fields(): of an element and, if it has layers, of `layer_names`.
+using StateAverages = std::vector<std::vector<double>>;
+
 /// Selects a history: that at the start of the step, or that of the last evaluate().
 enum class Beat { committed, evaluated };
 
@@ -91,6 +99,11 @@ public:
   /// the displacements alone.
   virtual void set_stress(std::size_t element, const ElementVectors &displacements,
                           const ElementStress &stress) = 0;
+
+  // To find the law's state by the names of its fields:
+  virtual PointStates point_states() const = 0; ///< in the numbers of get_state()
+  /// Returns averages over the reference volume at the start of the step.
+  virtual StateAverages average_states(std::size_t element) const = 0;
 };
 
 /// Makes the block; every element supports every law.

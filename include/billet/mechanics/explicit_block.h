@@ -107,6 +107,13 @@ public:
   /// it after initialize(). Without plasticity the stress follows from the displacements alone, unless the
   /// law is hypoelastic.
   virtual void set_stress(std::size_t element, const double *displacements, const ElementStress &stress) = 0;
+
+  // To find the law's state by the names of its fields:
+  /// Returns where the numbers of get_state() have it; no points for kernels, which store what they need.
+  virtual PointStates point_states() const = 0;
+  /// Returns averages over the reference volume at the displacements of the last call. Kernels find the state
+  /// by PointLaw::set_stress().
+  virtual StateAverages average_states(std::size_t element, const double *displacements) const = 0;
 };
 
 /// Returns text that identifies the meaning of a history: element, elasticity and number type.

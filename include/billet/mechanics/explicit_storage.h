@@ -34,6 +34,7 @@ struct PointState {
   /// dev τ if the law is hypoelastic, otherwise b_e up to a factor
   dealii::SymmetricTensor<2, 3> tensor;
   double equivalent_plastic_strain;
+  dealii::Tensor<2, 3> F = {}; ///< F̄ of eight points with mean dilatation
 };
 
 /// Storage of the numbers that kernels read and write, laid out in batches. `Number` is double or float.

@@ -177,10 +177,9 @@ public:
       Kinematics kinematics;
       if (!compute_at(element, displacements, Beat::committed, kinematics))
         return layers;
-      const std::array<unsigned int, layer_names.size()> firsts = {0, n_points / 2 - 2, n_points - 4};
-      for (std::size_t layer = 0; layer < firsts.size(); ++layer) {
+      for (std::size_t layer = 0; layer < layer_firsts.size(); ++layer) {
         LayerSummary &summary = layers[layer];
-        for (unsigned int q = firsts[layer]; q < firsts[layer] + 4; ++q) {
+        for (unsigned int q = layer_firsts[layer]; q < layer_firsts[layer] + 4; ++q) {
           const double *state = state_of(state_n_, element, q);
           dealii::SymmetricTensor<2, 3> tau;
           if (!update(reference, kinematics, q, {}, state, scratch_.data(), tau, nullptr))
@@ -271,9 +270,25 @@ public:
       history_[element] = history_n_[element];
   }
 
+  PointStates point_states() const override { return {0, n_points}; }
+
+  StateAverages average_states(const std::size_t element) const override {
+    const auto volume = [&](const unsigned int q) {
+      return Element::reference_volume(elements_[element], q);
+    };
+    StateAverages averages{average_points(element, 0, n_points, volume)};
+    if constexpr (is_layered)
+      for (const unsigned int first : layer_firsts)
+        averages.push_back(average_points(element, first, 4, [](unsigned int) { return 1.; }));
+    return averages;
+  }
+
 private:
   static constexpr unsigned int n_points = Element::n_points;
   static constexpr bool is_layered = Element::is_layered;
+  /// First points of the layers in the output.
+  static constexpr std::array<unsigned int, layer_names.size()> layer_firsts = {0, n_points / 2 - 2,
+                                                                                n_points - 4};
   static constexpr unsigned int points_through = [] {
     if constexpr (is_layered)
       return Element::points_through;
@@ -320,6 +335,23 @@ private:
                                    kinematics);
     else
       return true;
+  }
+
+  /// Returns the weighted means of the numbers of some points' states at the start of the step.
+  template <class Weight>
+  std::vector<double> average_points(const std::size_t element, const unsigned int first,
+                                     const unsigned int n, const Weight &weight) const {
+    std::vector<double> average(n_state_, 0.);
+    double sum = 0.;
+    for (unsigned int q = first; q < first + n; ++q) {
+      const double *state = state_of(state_n_, element, q);
+      for (std::size_t k = 0; k < n_state_; ++k)
+        average[k] += weight(q) * state[k];
+      sum += weight(q);
+    }
+    for (double &number : average)
+      number /= sum;
+    return average;
   }
 
   /// Updates all points. Returns false if a state is inadmissible.

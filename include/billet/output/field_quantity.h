@@ -2,6 +2,7 @@
 #ifndef BILLET_OUTPUT_FIELD_QUANTITY_H
 #define BILLET_OUTPUT_FIELD_QUANTITY_H
 
+#include "billet/material/state_fields.h"
 #include "billet/solve/solution.h"
 
 #include <array>
@@ -16,6 +17,7 @@ struct ElementAverage {
   std::size_t body;
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
   double equivalent_plastic_strain;
+  StateAverage state; ///< of the law; without numbers unless a quantity reads it
 };
 
 /// Quantity that is constant in an element: a scalar, or the components of a vector or tensor.
@@ -27,6 +29,7 @@ struct ElementQuantity {
   std::function<bool(const Scene &)> is_written;
   /// Returns one value for each component.
   std::function<std::vector<double>(const ElementAverage &)> evaluate;
+  bool reads_state = false; ///< whether it follows from ElementAverage::state
 };
 
 /// Vector, or three scalars, at the nodes.
@@ -66,6 +69,9 @@ private:
 };
 
 FieldQuantities &field_quantities();
+
+/// Returns one quantity for each of the laws' state fields that the scene requests.
+std::vector<ElementQuantity> state_quantities(const Scene &scene);
 
 } // namespace billet
 

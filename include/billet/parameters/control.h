@@ -114,6 +114,7 @@ struct Output {
   double interval;
   double history_interval; ///< for explicit scenes; 0: 1/200 of the end time
   bool stress, plastic_strain, contact;
+  Located<std::vector<std::string>> state_fields; ///< names among PointLaw::fields()
   Verbosity verbosity;
 
   /// Subsection Checkpoint.

@@ -52,6 +52,14 @@ void save_thickness_axes(StateWriter &writer, const ElementBlock &block,
 std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
                                                const std::vector<std::uint64_t> &keys);
 
+/// Saves the names of the fields of a law's state, beside the histories that have them.
+void save_fields(StateWriter &writer, const PointLaw &law);
+/// Reads the histories of a body's elements, which have the states of the law at `points`, and orders the
+/// fields of these states by name as the law has them. Throws InputError if the fields differ.
+std::vector<double> load_history(const StateReader &reader, const std::string &body, const PointLaw &law,
+                                 const PointStates &points, std::size_t width,
+                                 const std::vector<std::uint64_t> &keys);
+
 /// Returns the stresses of a body that its saved history implies at these displacements (ghosted). Reads the
 /// current group, which any formulation may have written.
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, std::size_t body,

@@ -127,6 +127,14 @@ std::vector<ElementSummary> ExplicitElements::summarize(const std::size_t body,
   return summaries;
 }
 
+std::vector<StateAverages> ExplicitElements::average_states(const std::size_t body,
+                                                            const NodalVectors &displacements) const {
+  std::vector<StateAverages> averages;
+  for (std::size_t e = 0; e < blocks_[body]->size(); ++e)
+    averages.push_back(blocks_[body]->average_states(e, displacements.data()));
+  return averages;
+}
+
 std::size_t ExplicitElements::history_size() const {
   std::size_t size = 0;
   for (const auto &block : blocks_)
@@ -148,6 +156,8 @@ void ExplicitElements::save(StateWriter &writer) const {
       std::vector<double> rows(width * block.size());
       for (std::size_t e = 0; e < block.size(); ++e)
         block.get_state(e, rows.data() + width * e);
+      if (block.point_states().n_points > 0)
+        save_fields(writer, *scene_.bodies()[b].law);
       writer.write_rows("history", width, element_keys(nodes_.discretization(), b), rows);
     });
 }
@@ -164,7 +174,9 @@ void ExplicitElements::load(StateReader &reader) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     reader.in(group("body", b), [&] {
       const std::size_t width = blocks_[b]->history_size();
-      const auto rows = reader.read_rows("history", width, element_keys(nodes_.discretization(), b));
+      const Body &body = scene_.bodies()[b];
+      const auto rows = load_history(reader, body.name, *body.law, blocks_[b]->point_states(), width,
+                                     element_keys(nodes_.discretization(), b));
       for (std::size_t e = 0; e < blocks_[b]->size(); ++e)
         blocks_[b]->set_state(e, rows.data() + width * e);
     });

@@ -36,6 +36,7 @@ void ProblemCheckpoint::save_body(const std::size_t body, StateWriter &writer) c
   std::vector<double> rows(width * block.size());
   for (std::size_t e = 0; e < block.size(); ++e)
     block.get_state(e, rows.data() + width * e);
+  save_fields(writer, *problem_.scene().bodies()[body].law);
   writer.write_rows("history", width, keys, rows);
 }
 
@@ -78,7 +79,9 @@ bool ProblemCheckpoint::load_body(const std::size_t body, StateReader &reader) {
   const std::size_t width = block.state_size();
   if (width == 0)
     return true;
-  const auto rows = reader.read_rows("history", width, element_keys(discretization, body));
+  const Body &scene_body = problem_.scene().bodies()[body];
+  const auto rows = load_history(reader, scene_body.name, *scene_body.law, block.point_states(), width,
+                                 element_keys(discretization, body));
   for (std::size_t e = 0; e < block.size(); ++e)
     block.set_state(e, rows.data() + width * e);
   return true;

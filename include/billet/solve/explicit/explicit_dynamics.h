@@ -68,6 +68,9 @@ public:
   std::vector<ElementSummary> summarize(const std::size_t body) const override {
     return parts_.elements.summarize(body, parts_.motion.displacements());
   }
+  std::vector<StateAverages> average_states(const std::size_t body) const override {
+    return parts_.elements.average_states(body, parts_.motion.displacements());
+  }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {
     return parts_.contacts.report();
   }

@@ -41,6 +41,7 @@ public:
   double hourglass_energy() const { return hourglass_energy_; }
 
   std::vector<ElementSummary> summarize(std::size_t body, const NodalVectors &displacements) const;
+  std::vector<StateAverages> average_states(std::size_t body, const NodalVectors &displacements) const;
   /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 

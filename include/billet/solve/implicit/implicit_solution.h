@@ -76,6 +76,9 @@ public:
   std::vector<LayerSummaries> summarize_layers(const std::size_t body) const override {
     return problem_.internal().summarize_layers(body, state().displacements);
   }
+  std::vector<StateAverages> average_states(const std::size_t body) const override {
+    return problem_.internal().average_states(body);
+  }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {
     return problem_.contacts().report();
   }

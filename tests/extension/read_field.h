@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_TESTS_EXTENSION_READ_FIELD_H
+#define BILLET_TESTS_EXTENSION_READ_FIELD_H
+
+#include "billet/output/field_writer.h"
+
+#include "../testing.h"
+
+#include <deal.II/base/hdf5.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace billet::testing {
+
+/// Writes the fields of a scene with format HDF5 into a new folder. Returns the file's name.
+inline std::string write_fields(const Scene &scene, const Solution &solution) {
+  std::filesystem::create_directory("fields");
+  FieldWriter(scene, MPI_COMM_WORLD, "fields").write(solution);
+  return "fields/fields_00000.h5";
+}
+
+/// The component of a field at each vertex of each element.
+inline std::vector<double> read_field(const std::string &file_name, const std::string &field,
+                                      const unsigned int component = 0) {
+  dealii::HDF5::File file(file_name, dealii::HDF5::File::FileAccessMode::open, MPI_COMM_WORLD);
+  const auto matrix = file.open_dataset(field).read<dealii::FullMatrix<double>>();
+  std::vector<double> values;
+  for (unsigned int i = 0; i < matrix.m(); ++i)
+    values.push_back(matrix(i, component));
+  return values;
+}
+
+inline double max_difference(const std::vector<double> &values, const std::vector<double> &others) {
+  if (values.size() != others.size())
+    return std::nan("");
+  WorstError error;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    error.add(std::abs(values[i] - others[i]));
+  return error.value();
+}
+inline double max_difference(const std::vector<double> &values, const double other) {
+  return max_difference(values, std::vector<double>(values.size(), other));
+}
+
+} // namespace billet::testing
+
+#endif
