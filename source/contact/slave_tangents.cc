@@ -92,7 +92,7 @@ protected:
   const SurfaceFacet &facet(const unsigned int f) const { return parts_.surfaces.facet(f); }
   /// Returns the nodes on whose positions the forces of slave s depend, itself first.
   std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
-  void add_closed_tangent(ContactTangent kind, std::size_t s, const Add &add) const;
+  void add_closed_tangent(const FrictionTangent &kind, std::size_t s, const Add &add) const;
 
   const FacetContactParts &parts_;
   const TouchingSlaves &touching_;
@@ -116,7 +116,7 @@ std::vector<unsigned int> TangentsOfLaw<Law>::collect_nodes(const std::size_t s,
 }
 
 template <class Law>
-void TangentsOfLaw<Law>::add_closed_tangent(const ContactTangent kind, const std::size_t s,
+void TangentsOfLaw<Law>::add_closed_tangent(const FrictionTangent &kind, const std::size_t s,
                                             const Add &add) const {
   const SlaveState &state = touching_[s];
   const Tensor<1, 3> &n = state.contact.normal;
@@ -176,8 +176,10 @@ public:
       visit_slaves([&](const std::size_t s) { add_numerical_tangent(s, add); });
     else if (kind == ContactTangent::exact)
       visit_slaves([&](const std::size_t s) { add_exact_tangent(s, add); });
-    else
-      visit_slaves([&](const std::size_t s) { this->add_closed_tangent(kind, s, add); });
+    else {
+      const FrictionTangent friction = FrictionTangent::of(kind);
+      visit_slaves([&](const std::size_t s) { this->add_closed_tangent(friction, s, add); });
+    }
   }
 
 private:
@@ -386,7 +388,7 @@ void SlaveTangentsOf<Facet, Law>::add_exact_tangent(const std::size_t s, const A
 template <class Facet, class Law>
 void SlaveTangentsOf<Facet, Law>::add_numerical_tangent(const std::size_t s, const Add &add) const {
   if (touching_[s].rests) { // it sticks once it is pressed, which finite differences do not show
-    this->add_closed_tangent(ContactTangent::consistent, s, add);
+    this->add_closed_tangent({}, s, add);
     return;
   }
   const FacetSearch::Positions &positions = parts_.surfaces.positions();
