@@ -83,6 +83,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   const ElasticModuli &moduli = body.law->elastic();
   body.max_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
+  if (body.law->depends_on_temperature())
+    body.temperature =
+        std::make_unique<Expression>(parameters.material.temperature.value, Expression::Variables::time,
+                                     amplitudes, parameters.material.temperature.origin);
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
                                        parameters.initial_velocity.origin);

@@ -105,12 +105,12 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   if (is_exact) {
     parts_.clock.load(reader);
     parts_.motion.load(reader, rows);
-    parts_.elements.load(reader);
+    parts_.elements.load(reader, time());
   } else {
     parts_.clock.begin(reader.number(reader.has("time before") ? "time before" : "time"));
     parts_.motion.load_foreign(reader, rows);
     parts_.nodes.copy(parts_.motion.displacements(), state_.displacements);
-    parts_.elements.load_stresses(reader, parts_.motion.displacements(), state_.displacements);
+    parts_.elements.load_stresses(reader, parts_.motion.displacements(), state_.displacements, time());
   }
   parts_.tools.load(reader, rows, is_exact, time());
   load_contacts(reader, rows.keys());

@@ -200,7 +200,7 @@ double ImplicitProblem::find_free_part(const bool is_thorough) {
 void ImplicitProblem::start_step(const double t) {
   step_.time = t;
   step_.duration = t - state_.time;
-  internal_.start_step(step_.duration);
+  internal_.start_step(t, step_.duration);
   stabilisation_.start_step(step_.duration);
   scheme().start_step(state_.time, t, step_.start.displacements, tools_.start_offsets());
   const std::vector<Placement> placements = tools_.placements(t);
@@ -214,7 +214,7 @@ void ImplicitProblem::start_at_rest() {
   for (auto &contact : contacts_)
     contact.start_step({state_.time, state_.time, 0., state_.placements, state_.placements});
   step_.duration = 0.;
-  internal_.start_step(0.);
+  internal_.start_step(state_.time, 0.);
 }
 
 void ImplicitProblem::evaluate_start() {
