@@ -31,7 +31,8 @@ int main() {
   check("nothing is known at first", !record.is_known() && !record.has_pressure());
   record.record(states, nodes, placement);
   check("a recorded pressure", record.is_known() && record.has_pressure() && record[0].pressure == 3.);
-  check("  its penetration is that of the spring", record[0].penetration == 0.375 && record[1].penetration == 0.);
+  check("  its penetration is that of the spring",
+        record[0].penetration == 0.375 && record[1].penetration == 0.);
   check("  in the tool's coordinates",
         (record[0].normal - Tensor<1, 3>({0., 0., 1.})).norm() +
             (placement.to_space(record[0].position) - states[0].position).norm() +
