@@ -26,7 +26,9 @@ public:
   /// Starts at time 0, with the initial velocities. Throws InputError.
   ImplicitMotion(const Scene &scene, const Discretization &discretization, const Supports &supports);
 
-  std::string name() const override { return "implicit dynamics"; }
+  parameters::TimeStepping::Scheme kind() const override {
+    return parameters::TimeStepping::Scheme::implicit_dynamics;
+  }
   bool has_inertia() const override { return true; }
   double mass() const override { return mass_.row_sums().l1_norm() / 3.; }
   double wanted_accuracy() const override { return error_.wanted_accuracy(); }
