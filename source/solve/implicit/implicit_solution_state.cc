@@ -101,7 +101,8 @@ void ImplicitSolution::balance(RestartReport &report) {
     throw InputError("its state is not admissible here: elements are inverted, or forces are not finite");
   report.imbalance = residual.l2_norm();
   report.force_scale = problem_.force_scale();
-  problem_.scales().lasting = std::max(problem_.scales().lasting, 1e-3 * problem_.force_scale());
+  problem_.scales().lasting =
+      std::max(problem_.scales().lasting, ForceScales::Limits::lasting * problem_.force_scale());
   step.start.supports = step.trial.supports;
   step.start.contact = step.trial.contact;
   step.start.internal = step.trial.internal;
