@@ -101,12 +101,15 @@ std::vector<ContactNodeReport> ToolMeasures::report_nodes() const {
     const ToolContactState &state = parts_.states[i];
     const ContactPoint &node = parts_.slaves.nodes[i];
     const bool presses = state.pressure > 0.;
-    reports.push_back({node.dofs, state.status, state.pressure, state.gap + parts_.step.gap_offset(node),
-                       parts_.friction ? (*parts_.friction)[i].slip : 0., 0., state.traction,
-                       presses ? std::abs(state.gap + node.multiplier_offset) : 0., node.size,
-                       parts_.friction ? node.stiffness.tangential : 0.,
-                       presses ? max_curvature(state.turning) : 0.});
+    reports.push_back({node.dofs, state.status, state.pressure, state.gap + parts_.step.gap_offset(node), 0.,
+                       0., state.traction, presses ? std::abs(state.gap + node.multiplier_offset) : 0.,
+                       node.size, 0., presses ? max_curvature(state.turning) : 0.});
   }
+  if (parts_.friction)
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      reports[i].slip = (*parts_.friction)[i].slip;
+      reports[i].tangential_stiffness = parts_.slaves.nodes[i].stiffness.tangential;
+    }
   return reports;
 }
 
