@@ -74,11 +74,12 @@ void ToolMeasures::add_resistances(const std::size_t body, std::vector<Resistanc
 }
 
 void ToolMeasures::visit_supporting(const VisitSupporting &visit) const {
-  for (const auto &state : parts_.states)
-    if (state.status != ContactStatus::open)
-      visit(make_supporting_point(state.position, state.normal, parts_.pair.friction.get(), state.status,
-                                  state.traction),
-            parts_.pair.body, parts_.pair.body);
+  choose_friction(parts_.pair.friction, [&](const auto &law) {
+    for (const auto &state : parts_.states)
+      if (state.status != ContactStatus::open)
+        visit(make_supporting_point(state.position, state.normal, law, state.status, state.traction),
+              parts_.pair.body, parts_.pair.body);
+  });
 }
 
 std::size_t ToolMeasures::history_size() const {
