@@ -54,8 +54,8 @@ struct TangentialIncrement {
   double rate = 0.;
 };
 
-/// What a kind of tangents keeps of the derivative of friction, see compute_traction(). Chosen once, outside
-/// loops over nodes.
+/// Terms of the derivative of friction that a kind of tangents keeps, see compute_traction(). They are chosen
+/// once, outside loops over nodes.
 struct FrictionTangent {
   double min_beta = 0.; ///< lower bound of β
   double upper = 1.;    ///< factor of the coupling t̂⊗n
