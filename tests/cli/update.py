@@ -197,8 +197,8 @@ def _() -> None:
     equal(
         "the report",
         ended.errors,
-        "part.prm:2: 'Most iterations' is now 'Maximum iterations'; this included file is not changed,"
-        " update it too\n",
+        "part.prm:2: 'Most iterations' is now 'Maximum iterations'; this included file does not change,"
+        " so update it too\n",
     )
     ended = run(program, "--check", "whole.prm")
     says(
