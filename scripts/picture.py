@@ -9,8 +9,11 @@ along y are seen along it, one time below the other, whole where they have a sym
 not yield shows the von Mises stress.
 """
 
+from __future__ import annotations
+
 import sys
 from pathlib import Path
+from typing import Any, Sequence
 from xml.etree import ElementTree
 
 from paraview.simple import (
@@ -31,6 +34,7 @@ from paraview.simple import (
     XMLPolyDataReader,
 )
 
+Proxy = Any  # of ParaView's, which has no types
 STRAIN = ("equivalent_plastic_strain", "Equivalent plastic strain")
 STRESS = ("von_mises_stress", "Von Mises stress")
 scene_file, picture_file = Path(sys.argv[1]), sys.argv[2]
@@ -46,49 +50,49 @@ is_eighth = any(
 )
 
 
-def files(part):
+def files(part: str) -> list[str]:
     """The files of the bodies or the tools, by time."""
     return [
-        str(scene_file.parent / entry.get("file"))
+        str(scene_file.parent / entry.attrib["file"])
         for entry in ElementTree.parse(scene_file).iter("DataSet")
         if entry.get("name") == part
     ]
 
 
-def file_at(time):
+def file_at(time: float) -> str:
     """Of the bodies, at the time nearest to this."""
     entries = [
         entry for entry in ElementTree.parse(scene_file).iter("DataSet") if entry.get("name") == "bodies"
     ]
     return str(
-        scene_file.parent / min(entries, key=lambda e: abs(float(e.get("timestep")) - time)).get("file")
+        scene_file.parent / min(entries, key=lambda e: abs(float(e.attrib["timestep"]) - time)).attrib["file"]
     )
 
 
-def mirrored(source, plane):
+def mirrored(source: Proxy, plane: str) -> Proxy:
     return Reflect(Input=source, Plane=plane, Center=0.0, CopyInput=1)
 
 
-def image(source, plane):
+def image(source: Proxy, plane: str) -> Proxy:
     return Reflect(Input=source, Plane=plane, Center=0.0, CopyInput=0)
 
 
-def merged(source):
+def merged(source: Proxy) -> Proxy:
     """With nodes at one place made one: elements and images have their own."""
     return CleantoGrid(Input=source, ToleranceIsAbsolute=0, Tolerance=1e-6)
 
 
-def all_around(quarter):
+def all_around(quarter: Proxy) -> Proxy:
     return merged(mirrored(mirrored(quarter, "X"), "Y"))
 
 
-def three_quarters(quarter):
+def three_quarters(quarter: Proxy) -> Proxy:
     """All around but x > 0, y < 0."""
     left = image(quarter, "X")
     return merged(AppendDatasets(Input=[quarter, left, image(left, "Y")]))
 
 
-def box(source):
+def box(source: Proxy) -> tuple[list[float], list[float]]:
     source.UpdatePipeline()
     bounds = source.GetDataInformation().GetBounds()
     return [0.5 * (bounds[2 * k] + bounds[2 * k + 1]) for k in range(3)], [
@@ -96,12 +100,12 @@ def box(source):
     ]
 
 
-def body_at(file):
+def body_at(file: str) -> Proxy:
     body = XMLPartitionedUnstructuredGridReader(FileName=[file])
     return three_quarters(mirrored(body, "Z") if is_eighth else body)
 
 
-def tool_at(file):
+def tool_at(file: str) -> Proxy:
     """The part of the tools that the modelled quarter sees."""
     tool = XMLPolyDataReader(FileName=[file])
     for normal in ([1, 0, 0], [0, 1, 0]):
@@ -110,7 +114,7 @@ def tool_at(file):
     return tool
 
 
-def show_plain(source, colour, opacity, width=1.0):
+def show_plain(source: Proxy, colour: list[float], opacity: float, width: float = 1.0) -> Proxy:
     shown = Show(source, view)
     shown.ColorArrayName = [None, ""]
     shown.DiffuseColor = shown.AmbientColor = colour
@@ -119,7 +123,7 @@ def show_plain(source, colour, opacity, width=1.0):
     return shown
 
 
-def make_view(width):
+def make_view(width: int) -> Proxy:
     view = CreateView("RenderView")
     view.ViewSize = [width, 720]
     view.UseColorPaletteForBackground = 0
@@ -128,7 +132,7 @@ def make_view(width):
     return view
 
 
-def show_field(body, view, largest=None, with_bar=True):
+def show_field(body: Proxy, view: Proxy, largest: float | None = None, with_bar: bool = True) -> Proxy:
     """The body with its elements; its field smoothed from them to the nodes."""
     name, title = FIELD
     shown = Show(body, view)
@@ -155,7 +159,7 @@ def show_field(body, view, largest=None, with_bar=True):
     return shown
 
 
-def draw_flat(bodies, largest):
+def draw_flat(bodies: Sequence[Proxy], largest: float) -> None:
     """Along y, from above to below."""
     centres, sizes = zip(*[box(body) for body in bodies])
     width, gap = max(size[0] for size in sizes), 0.3 * sizes[0][2]
@@ -171,7 +175,7 @@ def draw_flat(bodies, largest):
     SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
 
 
-def draw_as_it_is(bodies, largest):
+def draw_as_it_is(bodies: Sequence[Proxy], largest: float) -> None:
     """From left to right along y."""
     view = make_view(800 * len(bodies))
     centre, sizes = box(bodies[0])
@@ -189,14 +193,14 @@ def draw_as_it_is(bodies, largest):
     SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
 
 
-def largest_of(sources, name):
+def largest_of(sources: Sequence[Proxy], name: str) -> float:
     """0 where there is no such field: elastic scenes have no plastic strain."""
     for source in sources:
         source.UpdatePipeline()
     return max(source.PointData[name].GetRange()[1] if source.PointData[name] else 0.0 for source in sources)
 
 
-last = max(float(e.get("timestep")) for e in ElementTree.parse(scene_file).iter("DataSet"))
+last = max(float(e.attrib["timestep"]) for e in ElementTree.parse(scene_file).iter("DataSet"))
 shown_times = [float(time) for time in sys.argv[3:]] or [last]
 plain = [XMLPartitionedUnstructuredGridReader(FileName=[file_at(time)]) for time in shown_times]
 extent = box(plain[0])[1]

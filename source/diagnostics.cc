@@ -149,6 +149,49 @@ std::string Diagnostic::json() const {
   return dump(object);
 }
 
+// CBOR, unlike JSON as text, holds any bytes of a string and numbers that are not finite.
+std::string Diagnostic::serialize() const {
+  Json object;
+  object["key"] = kind_->key;
+  object["message"] = what_;
+  object["advice"] = advice_;
+  object["parts"] = Json::array();
+  for (const auto &[what, name] : parts_)
+    object["parts"].push_back(Json::array({what, name}));
+  object["values"] = Json::array();
+  for (const auto &[name, value] : values_)
+    object["values"].push_back(Json::array({name, value}));
+  if (position_)
+    object["position"] = Json::array({(*position_)[0], (*position_)[1], (*position_)[2]});
+  if (time_)
+    object["time"] = *time_;
+  if (measure_)
+    object["measure"] = *measure_;
+  const auto bytes = Json::to_cbor(object);
+  return {bytes.begin(), bytes.end()};
+}
+
+Diagnostic Diagnostic::deserialize(const std::string &bytes) {
+  const Json object = Json::from_cbor(bytes.begin(), bytes.end());
+  Diagnostic diagnostic(diagnostic_kind(object.at("key").get<std::string>()),
+                        object.at("message").get<std::string>());
+  diagnostic.advice_ = object.at("advice").get<std::string>();
+  for (const Json &part : object.at("parts"))
+    diagnostic.parts_.emplace_back(part.at(0).get<std::string>(), part.at(1).get<std::string>());
+  for (const Json &value : object.at("values"))
+    diagnostic.values_.emplace_back(value.at(0).get<std::string>(), value.at(1).get<double>());
+  if (object.contains("position")) {
+    const Json &position = object["position"];
+    diagnostic.position_ = dealii::Tensor<1, 3>(
+        {position.at(0).get<double>(), position.at(1).get<double>(), position.at(2).get<double>()});
+  }
+  if (object.contains("time"))
+    diagnostic.time_ = object["time"].get<double>();
+  if (object.contains("measure"))
+    diagnostic.measure_ = object["measure"].get<double>();
+  return diagnostic;
+}
+
 std::string describe_diagnostic_kinds_as_json() {
   Json kinds = Json::array();
   for (const DiagnosticKind *kind : all_diagnostic_kinds())

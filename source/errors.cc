@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <utility>
+
 namespace billet {
 
 namespace {
@@ -20,23 +22,21 @@ SolutionFailure::SolutionFailure(const std::string &message)
 
 void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   Failure failure = Failure::none;
-  std::string message, key;
+  std::string content; // all of the diagnostic; for other exceptions, the text
   try {
     action();
   } catch (const InputError &error) {
     failure = Failure::input;
-    key = error.diagnostic().kind().key;
-    message = error.what();
+    content = error.diagnostic().serialize();
   } catch (const SolutionFailure &error) {
     failure = Failure::solution;
-    key = error.diagnostic().kind().key;
-    message = error.what();
+    content = error.diagnostic().serialize();
   } catch (const std::exception &error) {
     failure = Failure::other;
-    message = error.what();
+    content = error.what();
   }
 
-  // The lowest rank that failed provides kind and message for all.
+  // The lowest rank that failed provides the exception for all.
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int speaker =
@@ -44,25 +44,27 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   if (speaker == n_ranks)
     return;
   const int kind = dealii::Utilities::MPI::broadcast(communicator, static_cast<int>(failure), speaker);
-  message = dealii::Utilities::MPI::broadcast(communicator, message, speaker);
-  key = dealii::Utilities::MPI::broadcast(communicator, key, speaker);
+  content = dealii::Utilities::MPI::broadcast(communicator, content, speaker);
   switch (static_cast<Failure>(kind)) {
   case Failure::none: // the speaker has failed
   case Failure::other:
     break;
   case Failure::input:
-    throw InputError(diagnostic_kind(key), message);
+    throw InputError(Diagnostic::deserialize(content));
   case Failure::solution:
-    throw SolutionFailure(diagnostic_kind(key), message);
+    throw SolutionFailure(Diagnostic::deserialize(content));
   }
-  throw std::runtime_error(message);
+  throw std::runtime_error(content);
 }
 
 void check_before_start(const std::function<void()> &action) {
   try {
     action();
   } catch (const SolutionFailure &error) {
-    throw InputError(error.what());
+    Diagnostic diagnostic = error.diagnostic();
+    if (&diagnostic.kind() == &diagnostic::solution_failed)
+      diagnostic.change_kind(diagnostic::bad_input);
+    throw InputError(std::move(diagnostic));
   }
 }
 

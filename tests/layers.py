@@ -91,7 +91,7 @@ def faults_of_packages(file: str) -> list[str]:
 def faults_of(file: str) -> list[str]:
     """Returns what is wrong with a file."""
     match = PLACE.fullmatch(file)
-    layer, name = match.groups() if match else (None, "")
+    layer, name = (match[1], match[2]) if match else (None, "")
     if layer not in LEVELS if layer is not None else name not in ABOVE_ALL | FOR_ALL:
         return [f"{file}: on no layer of the list in tests/layers.py"]
     faults = []

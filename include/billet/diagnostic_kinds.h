@@ -368,6 +368,13 @@ inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::war
                                               "The program cannot write a checkpoint; the run continues.",
                                               "Free disk space, or choose another folder");
 
+inline const DiagnosticKind run_stopped("run-stopped", Severity::note,
+                                        "A signal has stopped the run, which can be resumed.", "");
+
+inline const DiagnosticKind file_failed("file-failed", Severity::warning,
+                                        "The program cannot write a file that no result depends on.",
+                                        "Check whether the disk is full");
+
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
                                             "The computation cannot continue.", "");
 

@@ -77,6 +77,11 @@ public:
     advice_ = std::move(text);
     return *this;
   }
+  /// Replaces the kind; the rest stays.
+  Diagnostic &change_kind(const DiagnosticKind &kind) {
+    kind_ = &kind;
+    return *this;
+  }
 
   const DiagnosticKind &kind() const { return *kind_; }
   const std::string &what() const { return what_; }
@@ -93,6 +98,10 @@ public:
   std::string text() const;
   /// Returns the message as one JSON object on one line.
   std::string json() const;
+
+  /// Returns all of the message as bytes, for other ranks; deserialize() makes the same message of them.
+  std::string serialize() const;
+  static Diagnostic deserialize(const std::string &bytes);
 
 private:
   const DiagnosticKind *kind_;

@@ -56,10 +56,12 @@ private:
 };
 
 /// Calls `action` on every rank. If it throws on any of them, every rank throws: InputError or
-/// SolutionFailure if that was thrown, otherwise std::runtime_error. `action` itself must not communicate.
+/// SolutionFailure with the same diagnostic if that was thrown, otherwise std::runtime_error. `action` itself
+/// must not communicate.
 void fail_together(MPI_Comm communicator, const std::function<void()> &action);
 
-/// Calls `action` before the run starts: rethrows a SolutionFailure as InputError.
+/// Calls `action` before the run starts: rethrows a SolutionFailure as InputError with the same diagnostic.
+/// Its kind becomes 'bad-input' if it was the general 'solution-failed'.
 void check_before_start(const std::function<void()> &action);
 
 } // namespace billet

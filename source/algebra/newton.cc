@@ -26,6 +26,27 @@ using Teuchos::RCP;
 using Teuchos::rcp;
 using ReturnType = NOX::Abstract::Group::ReturnType;
 
+/// Limits of linear solutions and of the line search.
+struct Limits {
+  /// Tightest linear solution, as part of the residual that ends the iterations, and the loosest one, as part
+  /// of the present residual.
+  static constexpr double linear_part = 0.5, max_linear_tolerance = 0.1;
+  /// Maximum number of cuts of a correction that leads to an inadmissible state, and the factor of each.
+  static constexpr unsigned int max_cuts = 5;
+  static constexpr double cut = 0.5;
+  /// Maximum number of trials of regula falsi, and the work of the residual at the end of a correction over
+  /// that at its start from which on a trial is good enough: in general, and if the residual stagnates.
+  static constexpr unsigned int max_trials = 4;
+  static constexpr double enough = 0.8, enough_of_cycles = 0.3;
+  /// Trial without a bracket, as part of the step so far.
+  static constexpr double without_bracket = 0.5;
+  /// Minimum distance of a trial from both ends of the bracket, as part of the bracket.
+  static constexpr double from_ends = 0.1;
+  /// Number of iterations in which the norm of the residual falls by less than this factor if it stagnates.
+  static constexpr std::size_t window = 4;
+  static constexpr double stagnation = 0.5;
+};
+
 struct HeldVector {
   Vector held;
 };
@@ -110,8 +131,10 @@ public:
     if (!has_newton_) {
       // The tolerance need not be tighter than the one that ends the iterations (Kelley, Iterative Methods
       // for Linear and Nonlinear Equations, 1995, eq. 6.20).
-      const double enough = f_->norm() > 0. ? 0.5 * residual_tolerance_ * scale_ / f_->norm() : 0.;
-      const double tolerance = std::min(0.1, std::max(options.get("Tolerance", 0.), enough));
+      const double enough =
+          f_->norm() > 0. ? Limits::linear_part * residual_tolerance_ * scale_ / f_->norm() : 0.;
+      const double tolerance =
+          std::min(Limits::max_linear_tolerance, std::max(options.get("Tolerance", 0.), enough));
       has_newton_ =
           has_f_ && has_tangent_ && system_->solve_tangent(f_->values(), newton_->values(), tolerance);
       newton_->scale(-1.);
@@ -172,8 +195,8 @@ public:
     if (!(step > 0.))
       return false;
     if (!evaluate(group, step, direction, old)) {
-      for (unsigned int cut = 0; cut < max_cuts_; ++cut) {
-        step *= 0.5;
+      for (unsigned int cut = 0; cut < Limits::max_cuts; ++cut) {
+        step *= Limits::cut;
         if (evaluate(group, step, direction, old))
           return true;
       }
@@ -186,15 +209,18 @@ public:
     const double start = dot(direction, old.getF());
     double end = dot(direction, group.getF());
     const bool stagnates = is_stagnating(old.getNormF());
-    const double enough = stagnates ? enough_of_cycles_ : enough_;
+    const double enough = stagnates ? Limits::enough_of_cycles : Limits::enough;
     if (!(std::abs(end) > (stagnates ? enough : 1.) * std::abs(start)) || start == 0.)
       return true;
     double best_step = step, best = std::abs(end);
     double low = 0., low_value = start, high = step, high_value = end;
-    for (unsigned int trial = 0; trial < max_trials_ && std::abs(end) > enough * std::abs(start); ++trial) {
+    for (unsigned int trial = 0; trial < Limits::max_trials && std::abs(end) > enough * std::abs(start);
+         ++trial) {
       const bool brackets = low_value * high_value < 0.;
-      step = brackets ? low - low_value * (high - low) / (high_value - low_value) : 0.5 * high;
-      step = std::clamp(step, low + 0.1 * (high - low), high - 0.1 * (high - low));
+      step = brackets ? low - low_value * (high - low) / (high_value - low_value)
+                      : Limits::without_bracket * high;
+      step =
+          std::clamp(step, low + Limits::from_ends * (high - low), high - Limits::from_ends * (high - low));
       if (!evaluate(group, step, direction, old))
         break;
       end = dot(direction, group.getF());
@@ -227,16 +253,13 @@ private:
   /// Whether the residual has not decreased in some iterations. Contact chatter is a cycle in which each
   /// correction undoes the last one, with as much work.
   bool is_stagnating(const double norm) {
-    constexpr std::size_t window = 4;
     norms_.push_back(norm);
-    if (norms_.size() <= window)
+    if (norms_.size() <= Limits::window)
       return false;
     norms_.erase(norms_.begin());
-    return norms_.back() > 0.5 * norms_.front();
+    return norms_.back() > Limits::stagnation * norms_.front();
   }
 
-  static constexpr unsigned int max_cuts_ = 5, max_trials_ = 4;
-  static constexpr double enough_ = 0.8, enough_of_cycles_ = 0.3;
   bool by_energy_;
   std::vector<double> norms_; ///< norms of the last residuals
 };

@@ -83,25 +83,28 @@ PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const 
     return penalty_length(pair.penalty_counts_thickness, std::sqrt(totals[surface] / totals[2 + surface]),
                           totals[4 + surface] / totals[surface]);
   };
-  // Overlapping facets pass a uniform pressure exactly if all nodes have the same penalty.
-  const bool is_uniform = pair.facets == FacetMethod::overlap;
+  std::vector<double> lengths = surfaces.penalty_lengths;
+  if (pair.facets == FacetMethod::overlap) // these pass a uniform pressure exactly if all penalties are equal
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+      lengths[i] = mean_length(surfaces.surface_of[i]);
+  const auto of_sides =
+      pair.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
+          ? +[](const double own, const double other) { return std::max(own, other); }
+          : +[](const double own, const double other) { return own * other / (own + other); };
+  const auto unit_of = pair.penalty_is_factor ? +[](const double of_factor) { return of_factor; }
+                                              : +[](const double) { return 1.; };
   PairPenalties penalties;
+  double enough = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < surfaces.local_nodes.size(); ++i) {
-    const unsigned int other = pair.is_self_contact ? 0 : 1 - surfaces.surface_of[i];
-    const double own_side = young(surfaces.surface_of[i]) /
-                            (is_uniform ? mean_length(surfaces.surface_of[i]) : surfaces.penalty_lengths[i]);
-    const double other_side = young(other) / mean_length(other);
-    const double of_factor = pair.penalty_of == parameters::ContactPair::PenaltyOf::stiffer
-                                 ? std::max(own_side, other_side)
-                                 : own_side * other_side / (own_side + other_side);
-    const double unit = pair.penalty_is_factor ? of_factor : 1.;
+    const unsigned int own = surfaces.surface_of[i], other = pair.is_self_contact ? 0 : 1 - own;
+    const double of_factor = of_sides(young(own) / lengths[i], young(other) / mean_length(other)),
+                 unit = unit_of(of_factor);
     penalties.of_nodes.push_back({unit * pair.normal_penalty, unit * pair.tangential_penalty});
-    const double enough = enough_penalty * of_factor / unit;
-    ContactPenalties::Limits &limits = penalties.max_stiffening;
-    limits.normal = std::min(limits.normal, enough / pair.normal_penalty);
-    if (pair.has_friction())
-      limits.tangential = std::min(limits.tangential, enough / pair.tangential_penalty);
+    enough = std::min(enough, enough_penalty * of_factor / unit);
   }
+  penalties.max_stiffening.normal = enough / pair.normal_penalty;
+  if (pair.has_friction())
+    penalties.max_stiffening.tangential = enough / pair.tangential_penalty;
   return penalties;
 }
 

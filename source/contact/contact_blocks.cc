@@ -46,8 +46,8 @@ std::vector<ContactBlocks::NodeDofs> dofs_of(const LocalNodes &nodes,
 
 Constraints build_links(const Discretization &discretization) {
   const dealii::IndexSet &owned = discretization.owned_dofs(), &relevant = discretization.relevant_dofs();
-  const auto hanging_nodes = collect_hanging_nodes(discretization.dof_handler(), relevant);
-  return build_constraints(owned, relevant, {{hanging_nodes, {}}});
+  const auto links = collect_links(discretization.dof_handler(), relevant);
+  return build_constraints(owned, relevant, {{links, {}}});
 }
 
 } // namespace

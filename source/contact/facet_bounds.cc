@@ -15,8 +15,7 @@ void FacetBounds::add_row_sums(std::vector<double> &row_sums) {
     const SlaveState &state = parts_.touching[s];
     if (!(state.own_area > 0.))
       continue;
-    const double k =
-        std::max(parts_.penalties[s].normal, parts_.friction ? parts_.penalties[s].tangential : 0.);
+    const double k = std::max(parts_.penalties[s].normal, parts_.penalties[s].tangential);
     const std::vector<FacetShare> &shares = parts_.touching.shares();
     double columns = 1.;
     for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)

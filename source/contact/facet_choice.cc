@@ -40,7 +40,7 @@ public:
   /// Considers a facet around the last one. The two may not meet smoothly, as at the edge of an end. The node
   /// may then be far behind one of them without having come through it.
   void consider_around(const TouchedFacet &last, const unsigned int facet) {
-    TouchedFacet touched = look_at(facet, {});
+    TouchedFacet touched = project_onto(facet, {});
     if (!touched.exists() || !is_held(touched))
       return;
     if (meet_smoothly(last.projection.normal, touched.projection.normal))
@@ -53,7 +53,7 @@ public:
 
   /// Considers the facet that the node touches.
   void consider_held(const TouchedFacet &last) {
-    TouchedFacet touched = look_at(last.facet, last.projection.parameters);
+    TouchedFacet touched = project_onto(last.facet, last.projection.parameters);
     touched.offset = std::min(last.offset, penetration_of(touched));
     if (touched.exists() && is_held(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
@@ -61,7 +61,7 @@ public:
 
   /// Considers a facet that the node may have come through.
   void consider_new(const unsigned int facet) {
-    TouchedFacet touched = look_at(facet, {});
+    TouchedFacet touched = project_onto(facet, {});
     if (touched.exists() && has_come_through(touched) && faces(touched) && is_on_its_own_side(touched))
       take_better(touched);
   }
@@ -108,8 +108,9 @@ private:
     return facets_.project<Facet>(facet, x_, make_limits(tolerance, limits_), start);
   }
 
-  /// Returns the facet if the node is behind it and within the zone in which facets may share it.
-  TouchedFacet look_at(const unsigned int facet, const std::array<double, 2> &start) const {
+  /// Projects the node. Returns the facet if the node is behind it and within the zone in which facets may
+  /// share it, and otherwise none.
+  TouchedFacet project_onto(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
     const PlanedFacet &plane = facets_.plane(facet);
     const double raised_by = gap_offset_.now + facet::max_height(search_.facets()[facet].bulge);

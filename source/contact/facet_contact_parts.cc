@@ -12,8 +12,8 @@ FacetContactParts::FacetContactParts(MPI_Comm communicator, const FacetContactSe
     : settings(given_settings), surfaces(communicator, settings.partners, settings.search_margin,
                                          std::move(node_keys), std::move(facets)),
       slaves(surfaces.exchange().facets(), settings.two_pass, sizes),
-      penalties(slaves, stiffness, settings.two_pass), start(slaves.size()), restless(settings.max_changes),
-      touching(surfaces, slaves, offsets, start) {
+      penalties(slaves, stiffness, settings.two_pass, settings.has_friction()), start(slaves.size()),
+      restless(settings.max_changes), touching(surfaces, slaves, offsets, start) {
   if (settings.method == FacetMethod::overlap)
     overlaps.emplace();
   if (settings.has_friction())

@@ -49,12 +49,15 @@ std::vector<FacetMeasures::NodeReport> FacetMeasures::report() const {
         state.traction.status,
         state.traction.pressure,
         touches ? state.contact.gap - state.touched.offset + parts_.offsets.of(s).now : 0.,
-        parts_.friction ? parts_.friction->slip(s) : 0.,
+        0.,
         touches ? state.area : 0.,
         state.traction.traction,
         state.has_pressure() ? parts_.touching.penetration_of(s) : 0.,
-        parts_.friction ? parts_.penalties[s].tangential : 0.};
+        parts_.penalties[s].tangential};
   }
+  if (parts_.friction)
+    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+      reports[parts_.slaves.node(s)].slip = parts_.friction->slip(s);
   return reports;
 }
 

@@ -25,7 +25,16 @@ void FacetPenalties::take_back_augmentation() {
     parts_.friction->restart();
 }
 
+std::vector<double> FacetPenalties::elastic_slips() const {
+  std::vector<double> slips(parts_.touching.size());
+  if (parts_.friction)
+    for (std::size_t s = 0; s < slips.size(); ++s)
+      slips[s] = parts_.friction->elastic_slip(s);
+  return slips;
+}
+
 ContactSprings FacetPenalties::compute_springs() const {
+  const std::vector<double> slips = elastic_slips();
   ContactSprings springs;
   springs.normal.of_nodes.resize(parts_.touching.size());
   springs.tangential.of_nodes.resize(parts_.touching.size());
@@ -33,10 +42,9 @@ ContactSprings FacetPenalties::compute_springs() const {
     const SlaveState &state = parts_.touching[s];
     if (!state.presses())
       continue;
-    const double elastic_slip = parts_.friction ? parts_.friction->elastic_slip(s) : 0.;
     springs.add(s, state.own_area * state.traction.traction, state.contact.normal,
                 state.own_area * parts_.penalties[s].normal * parts_.touching.penetration_of(s),
-                state.own_area * parts_.penalties[s].tangential * elastic_slip);
+                state.own_area * parts_.penalties[s].tangential * slips[s]);
   }
   return springs;
 }
@@ -62,17 +70,16 @@ void FacetPenalties::scale_under_load(const double normal, const double tangenti
 double FacetPenalties::max_spring() const {
   double maximum = 0.;
   for (std::size_t s = 0; s < parts_.slaves.size(); ++s)
-    maximum = std::max(
-        maximum, std::max(parts_.penalties[s].normal, parts_.friction ? parts_.penalties[s].tangential : 0.) *
-                     parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s));
+    maximum = std::max(maximum, std::max(parts_.penalties[s].normal, parts_.penalties[s].tangential) *
+                                    parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s));
   return maximum;
 }
 
 double FacetPenalties::augmentation_gap() const {
   double worst = measures_.penetration().of_facet;
-  if (parts_.friction)
-    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
-      worst = std::max(worst, parts_.friction->elastic_slip(s) / parts_.slaves.facet_size(s));
+  const std::vector<double> slips = elastic_slips();
+  for (std::size_t s = 0; s < slips.size(); ++s)
+    worst = std::max(worst, slips[s] / parts_.slaves.facet_size(s));
   return worst;
 }
 

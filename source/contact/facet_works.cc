@@ -37,7 +37,7 @@ void sum_over_ranks(FacetContactLoad &load, MPI_Comm communicator) {
 } // namespace
 
 bool FacetWorks::hands_over() const {
-  if (!parts_.friction || !parts_.friction->is_static())
+  if (!parts_.friction->is_static())
     return false;
   bool presses = false;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
@@ -49,20 +49,27 @@ bool FacetWorks::hands_over() const {
 
 FacetContactLoad FacetWorks::compute_load() const {
   FacetContactLoad load;
-  const bool hands_load_over = hands_over();
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
-    add_slave(s, hands_load_over, load);
+    add_slave(s, load);
+  if (parts_.friction)
+    add_friction(load);
   if (parts_.edges)
     parts_.edges->add_load(parts_.surfaces.positions(), load);
   sum_over_ranks(load, parts_.surfaces.communicator());
   return load;
 }
 
-void FacetWorks::add_slave(const std::size_t s, const bool hands_load_over, FacetContactLoad &load) const {
+void FacetWorks::add_friction(FacetContactLoad &load) const {
+  const auto dissipation = counted_dissipation();
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    const FrictionWorks &works = parts_.friction->works(s);
+    load.dissipation += works.*dissipation;
+    load.damping += works.damping;
+  }
+}
+
+void FacetWorks::add_slave(const std::size_t s, FacetContactLoad &load) const {
   const SlaveState &state = parts_.touching[s];
-  const FrictionWorks friction = friction_of(s);
-  load.dissipation += hands_load_over ? friction.dissipation_handed_over : friction.dissipation;
-  load.damping += friction.damping;
   if (!state.presses())
     return;
   add_forces(s, load);
@@ -120,12 +127,25 @@ double FacetWorks::local_dissipation() const {
 
 StepWorks FacetWorks::compute_step_works(const double weight) const {
   StepWorks works;
-  const bool hands_load_over = hands_over();
+  if (parts_.friction) {
+    const auto dissipation = counted_dissipation();
+    works = local_step_works(weight, [&](const std::size_t s) {
+      const FrictionWorks &friction = parts_.friction->works(s);
+      return friction.taken_beyond - friction.missed - (friction.*dissipation - friction.dissipation);
+    });
+  } else
+    works = local_step_works(weight, [](const std::size_t) { return 0.; });
+  works.touching = dealii::Utilities::MPI::sum(works.touching, parts_.surfaces.communicator());
+  works.ramp = dealii::Utilities::MPI::sum(works.ramp, parts_.surfaces.communicator());
+  return works;
+}
+
+template <class Friction>
+StepWorks FacetWorks::local_step_works(const double weight, const Friction &miscounted_friction) const {
+  StepWorks works;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];
-    const FrictionWorks friction = friction_of(s);
-    works.touching -= friction.taken_beyond - friction.missed -
-                      (hands_load_over ? friction.dissipation_handed_over - friction.dissipation : 0.);
+    works.touching -= miscounted_friction(s);
     const SlaveStart::Pressure &before = parts_.start.pressed(s);
     const double ramp_penetration = parts_.offsets.penetrations.ramp(s);
     if (state.has_pressure()) {
@@ -141,8 +161,6 @@ StepWorks FacetWorks::compute_step_works(const double weight) const {
                 ramp_penetration - motion.displacement * normal, ramp_penetration, weight);
     }
   }
-  works.touching = dealii::Utilities::MPI::sum(works.touching, parts_.surfaces.communicator());
-  works.ramp = dealii::Utilities::MPI::sum(works.ramp, parts_.surfaces.communicator());
   return works;
 }
 

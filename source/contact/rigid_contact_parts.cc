@@ -33,8 +33,7 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
     for (const double end : {box.low[i], box.high[i]})
       tool_size = std::max(tool_size, std::isfinite(end) ? std::abs(end) : 0.);
   for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
-    const auto X = step.placement.to_tool(slaves.nodes[i].reference);
-    const auto projection = tool.surface().project(X);
+    const auto projection = tool.surface().project(step.placement.to_tool(slaves.nodes[i].reference));
     states[i].position = slaves.nodes[i].reference;
     states[i].gap = slaves.nodes[i].gap_n = projection.gap;
     if (allows(projection)) {
@@ -45,11 +44,8 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
     const double curvature = projection.turning.norm();
     if (curvature > 0.)
       tool_reach = std::max(tool_reach, std::min(1. / curvature, tool_size));
-    if (friction)
-      friction->start(i, X);
   }
-  if (friction)
-    friction->commit();
+  start_friction();
   double max_size = 0.;
   for (const auto &node : slaves.nodes)
     max_size = std::max(max_size, node.size);
@@ -116,8 +112,7 @@ void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1,
     const Tensor<1, 3> position = slaves.nodes[i].reference + slaves.at(i, [&](const std::size_t parent) {
       return displacements[parent];
     });
-    const Tensor<1, 3> on_tool = placement.to_tool(position);
-    const auto projection = tool.surface().project(on_tool);
+    const auto projection = tool.surface().project(placement.to_tool(position));
     states[i] = ToolContactState();
     states[i].position = position;
     slaves.nodes[i].multiplier_offset = slaves.nodes[i].multiplier_offset_n =
@@ -127,17 +122,22 @@ void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1,
       slaves.nodes[i].initial_penetration = -projection.gap;
     states[i].gap = slaves.nodes[i].gap_n = projection.gap - step.gap_offset(slaves.nodes[i]);
     slaves.nodes[i].patch = projection.patch;
-    if (friction)
-      friction->start(i, on_tool);
   }
-  if (friction)
-    friction->commit();
+  start_friction();
   record_positions();
   record_pressures();
   for (auto &facet : slaves.facets) {
     facet.shallow_areas.fill(SpringEnergy::no_area);
     facet.friction_areas.fill(0.);
   }
+}
+
+void RigidContactParts::start_friction() {
+  if (!friction)
+    return;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    friction->start(i, step.placement.to_tool(states[i].position));
+  friction->commit();
 }
 
 void RigidContactParts::record_positions() {

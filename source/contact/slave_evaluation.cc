@@ -39,11 +39,11 @@ private:
   void add_forces(const std::size_t s, FacetSearch::Positions &forces) const {
     touching_.visit_forces(
         s, [&](const FacetShare &share, const dealii::Tensor<1, 3> &force, const FacetCorners &reaction) {
-          if (share.slave_facet == FacetShare::none)
-            forces[parts_.slaves.node(s)] += force;
-          else
+          if constexpr (std::is_same_v<Facet, OverlapFacet>)
             for (unsigned int a = 0; a < 4; ++a)
               forces[parts_.surfaces.facet(share.slave_facet).nodes[a]] += share.slave_weights[a] * force;
+          else
+            forces[parts_.slaves.node(s)] += force;
           for (unsigned int a = 0; a < 4; ++a)
             forces[parts_.surfaces.facet(share.facet).nodes[a]] += reaction[a];
         });

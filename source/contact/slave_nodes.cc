@@ -16,10 +16,11 @@ SlaveNodes::SlaveNodes(const std::vector<SurfaceFacet> &facets, const bool two_p
 }
 
 SlavePenalties::SlavePenalties(const SlaveNodes &slaves, const std::vector<ContactStiffness> &stiffness,
-                               const bool two_pass) {
-  const double part = two_pass ? 0.5 : 1.;
+                               const bool two_pass, const bool has_friction) {
+  const double part = two_pass ? 0.5 : 1., tangential_part = has_friction ? part : 0.;
   for (const SlaveNode &slave : slaves.list())
-    given_.push_back({part * stiffness[slave.node].normal, part * stiffness[slave.node].tangential});
+    given_.push_back(
+        {part * stiffness[slave.node].normal, tangential_part * stiffness[slave.node].tangential});
   stiffness_ = given_;
 }
 

@@ -83,10 +83,8 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
                           pair.scaled_penalty(pair.tangential_penalty, young_modulus, length)};
         const double room = enough_penalty * young_modulus / (length * node.stiffness.normal);
         max_stiffening = std::min(max_stiffening, room);
-        if (pair.has_friction())
-          max_tangential_stiffening =
-              std::min(max_tangential_stiffening,
-                       enough_penalty * young_modulus / (length * node.stiffness.tangential));
+        max_tangential_stiffening = std::min(
+            max_tangential_stiffening, enough_penalty * young_modulus / (length * node.stiffness.tangential));
         node.touching_gap = touching_gap * node.size * std::min(1., room);
         nodes.push_back(node);
       }
@@ -96,6 +94,8 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
     }
     facets.push_back(facet);
   }
+  if (!pair.has_friction())
+    max_tangential_stiffening = std::numeric_limits<double>::infinity();
   n_mesh_nodes = nodes.size();
 }
 

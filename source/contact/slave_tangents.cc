@@ -84,107 +84,23 @@ FacetProjectionOf<Number> follow(const FacetCornersOf<Number> &corners, const Te
     return PlanedFacetOf<Number>(corners).project(x, limits);
 }
 
-/// Closed-form tangents with or without friction, and common parts of all kinds.
-template <class Law> class TangentsOfLaw : public SlaveTangents {
-protected:
-  explicit TangentsOfLaw(const FacetContactParts &parts) : parts_(parts), touching_(parts.touching) {}
-
-  const SurfaceFacet &facet(const unsigned int f) const { return parts_.surfaces.facet(f); }
-  /// Returns the nodes on whose positions the forces of slave s depend, itself first.
-  std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
-  void add_closed_tangent(ContactTangent kind, std::size_t s, const Add &add) const;
-
-  const FacetContactParts &parts_;
-  const TouchingSlaves &touching_;
-};
-
-template <class Law>
-std::vector<unsigned int> TangentsOfLaw<Law>::collect_nodes(const std::size_t s,
-                                                            const bool with_own_facets) const {
-  const SlaveState &state = touching_[s];
-  std::vector<unsigned int> nodes{parts_.slaves.node(s)};
-  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
-    const FacetShare &share = touching_.shares()[i];
-    add_once(nodes, facet(share.facet).nodes);
-    if (share.slave_facet != FacetShare::none)
-      add_once(nodes, facet(share.slave_facet).nodes);
-  }
-  if (with_own_facets)
-    parts_.surfaces.search().visit_around(parts_.slaves.node(s),
-                                          [&](const unsigned int f) { add_once(nodes, facet(f).nodes); });
-  return nodes;
-}
-
-template <class Law>
-void TangentsOfLaw<Law>::add_closed_tangent(const ContactTangent kind, const std::size_t s,
-                                            const Add &add) const {
-  const SlaveState &state = touching_[s];
-  const Tensor<1, 3> &n = state.contact.normal;
-  const Tensor<2, 3> along_normal = parts_.penalties[s].normal * dealii::outer_product(n, n);
-  Tensor<2, 3> K = along_normal;
-  if constexpr (!std::is_same_v<Law, Frictionless>) {
-    SlaveHistory ignored;
-    compute_slave_traction(parts_.friction->law(), parts_.penalties[s], n, state.contact.gap,
-                           touching_.motion_of(s), parts_.friction->base(s), ignored, kind, &K);
-  } else
-    (void)kind;
-  const std::vector<unsigned int> nodes = collect_nodes(s, false);
-  FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
-  // Weights of the nodes in the slave's motion, and in forces of this rank, for all shares and for one.
-  std::vector<double> weights(nodes.size()), areas(nodes.size()), own(nodes.size());
-  const auto add_product = [&](const std::vector<double> &rows, const std::vector<double> &columns,
-                               const double factor, const Tensor<2, 3> &D) {
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      for (std::size_t b = 0; b < nodes.size(); ++b)
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            matrix(3 * a + i, 3 * b + j) += factor * rows[a] * columns[b] * D[i][j];
-  };
-  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
-    const FacetShare &share = touching_.shares()[i];
-    const bool is_overlap = share.slave_facet != FacetShare::none;
-    own.assign(nodes.size(), 0.);
-    if (!is_overlap)
-      own[0] = 1.;
-    for (unsigned int a = 0; a < 4; ++a) {
-      if (is_overlap)
-        own[index_of(nodes, facet(share.slave_facet).nodes[a])] += share.slave_weights[a];
-      own[index_of(nodes, facet(share.facet).nodes[a])] -= share.projection.weights[a];
-    }
-    const double area = touching_.area_of(state, share);
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      weights[a] += share.share * own[a];
-      areas[a] += area * own[a];
-    }
-    if (is_overlap && area > 0.) // A g is the sum of all A_f g_f
-      add_product(own, own, share.area, along_normal);
-  }
-  const bool are_overlaps = touching_.shares()[state.first_share].slave_facet != FacetShare::none;
-  add_product(areas, weights, 1., are_overlaps ? K - along_normal : K);
-  add(nodes, matrix);
-}
-
-/// All tangents of slaves on facets of type Facet.
-template <class Facet, class Law> class SlaveTangentsOf final : public TangentsOfLaw<Law> {
+/// Tangents of slaves on facets of type Facet, with the friction law Law or Frictionless.
+template <class Facet, class Law> class SlaveTangentsOf final : public SlaveTangents {
 public:
-  using Add = SlaveTangents::Add;
-
-  explicit SlaveTangentsOf(const FacetContactParts &parts) : TangentsOfLaw<Law>(parts) {}
+  explicit SlaveTangentsOf(const FacetContactParts &parts) : parts_(parts), touching_(parts.touching) {}
 
   void visit(const ContactTangent kind, const Add &add) const override {
     if (kind == ContactTangent::numerical)
       visit_slaves([&](const std::size_t s) { add_numerical_tangent(s, add); });
     else if (kind == ContactTangent::exact)
       visit_slaves([&](const std::size_t s) { add_exact_tangent(s, add); });
-    else
-      visit_slaves([&](const std::size_t s) { this->add_closed_tangent(kind, s, add); });
+    else {
+      const FrictionTangent friction = FrictionTangent::of(kind);
+      visit_slaves([&](const std::size_t s) { add_closed_tangent(friction, s, add); });
+    }
   }
 
 private:
-  using TangentsOfLaw<Law>::parts_;
-  using TangentsOfLaw<Law>::touching_;
-  using TangentsOfLaw<Law>::facet;
-
   static constexpr bool are_overlaps = std::is_same_v<Facet, OverlapFacet>;
 
   /// Nodes on which a slave depends, and their positions.
@@ -206,11 +122,15 @@ private:
     SharedGapOf<Number> contact;
   };
 
+  const SurfaceFacet &facet(const unsigned int f) const { return parts_.surfaces.facet(f); }
   template <class Visit> void visit_slaves(const Visit &visit) const {
     for (std::size_t s = 0; s < touching_.size(); ++s)
       if (touching_[s].presses() && touching_[s].own_area > 0.)
         visit(s);
   }
+  /// Returns the nodes on whose positions the forces of slave s depend, itself first.
+  std::vector<unsigned int> collect_nodes(std::size_t s, bool with_own_facets) const;
+  void add_closed_tangent(const FrictionTangent &kind, std::size_t s, const Add &add) const;
   void add_exact_tangent(std::size_t s, const Add &add) const;
   void add_numerical_tangent(std::size_t s, const Add &add) const;
 
@@ -227,7 +147,76 @@ private:
   /// Returns the point of a share at the start of the step: the slave node, or a point of its facet.
   template <class Number>
   Tensor<1, 3, Number> point_n(std::size_t s, const FacetShareOf<Number> &share) const;
+
+  const FacetContactParts &parts_;
+  const TouchingSlaves &touching_;
 };
+
+template <class Facet, class Law>
+std::vector<unsigned int> SlaveTangentsOf<Facet, Law>::collect_nodes(const std::size_t s,
+                                                                     const bool with_own_facets) const {
+  const SlaveState &state = touching_[s];
+  std::vector<unsigned int> nodes{parts_.slaves.node(s)};
+  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
+    const FacetShare &share = touching_.shares()[i];
+    add_once(nodes, facet(share.facet).nodes);
+    if constexpr (are_overlaps)
+      add_once(nodes, facet(share.slave_facet).nodes);
+  }
+  if (with_own_facets)
+    parts_.surfaces.search().visit_around(parts_.slaves.node(s),
+                                          [&](const unsigned int f) { add_once(nodes, facet(f).nodes); });
+  return nodes;
+}
+
+template <class Facet, class Law>
+void SlaveTangentsOf<Facet, Law>::add_closed_tangent([[maybe_unused]] const FrictionTangent &kind,
+                                                     const std::size_t s, const Add &add) const {
+  const SlaveState &state = touching_[s];
+  const Tensor<1, 3> &n = state.contact.normal;
+  const Tensor<2, 3> along_normal = parts_.penalties[s].normal * dealii::outer_product(n, n);
+  Tensor<2, 3> K = along_normal;
+  if constexpr (!std::is_same_v<Law, Frictionless>) {
+    SlaveHistory ignored;
+    compute_slave_traction(parts_.friction->law(), parts_.penalties[s], n, state.contact.gap,
+                           touching_.motion_of(s), parts_.friction->base(s), ignored, kind, &K);
+  }
+  const std::vector<unsigned int> nodes = collect_nodes(s, false);
+  FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
+  // Weights of the nodes in the slave's motion, and in forces of this rank, for all shares and for one.
+  std::vector<double> weights(nodes.size()), areas(nodes.size()), own(nodes.size());
+  const auto add_product = [&](const std::vector<double> &rows, const std::vector<double> &columns,
+                               const double factor, const Tensor<2, 3> &D) {
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            matrix(3 * a + i, 3 * b + j) += factor * rows[a] * columns[b] * D[i][j];
+  };
+  for (std::size_t i = state.first_share; i < state.end_of_shares; ++i) {
+    const FacetShare &share = touching_.shares()[i];
+    own.assign(nodes.size(), 0.);
+    if constexpr (!are_overlaps)
+      own[0] = 1.;
+    for (unsigned int a = 0; a < 4; ++a) {
+      if constexpr (are_overlaps)
+        own[index_of(nodes, facet(share.slave_facet).nodes[a])] += share.slave_weights[a];
+      own[index_of(nodes, facet(share.facet).nodes[a])] -= share.projection.weights[a];
+    }
+    const double area = touching_.area_of(state, share);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      weights[a] += share.share * own[a];
+      areas[a] += area * own[a];
+    }
+    if constexpr (are_overlaps)
+      if (area > 0.) // A g is the sum of all A_f g_f
+        add_product(own, own, share.area, along_normal);
+  }
+  if constexpr (are_overlaps)
+    K -= along_normal;
+  add_product(areas, weights, 1., K);
+  add(nodes, matrix);
+}
 
 template <class Facet, class Law>
 template <class Number>
@@ -363,7 +352,7 @@ SlaveTangentsOf<Facet, Law>::follow_forces(const std::size_t s, const Placed<Num
 
 template <class Facet, class Law>
 void SlaveTangentsOf<Facet, Law>::add_exact_tangent(const std::size_t s, const Add &add) const {
-  const std::vector<unsigned int> nodes = this->collect_nodes(s, true);
+  const std::vector<unsigned int> nodes = collect_nodes(s, true);
   const std::size_t n = 3 * nodes.size();
   if (n > max_variables) { // only at a corner of a dozen facets
     add_numerical_tangent(s, add);
@@ -386,11 +375,11 @@ void SlaveTangentsOf<Facet, Law>::add_exact_tangent(const std::size_t s, const A
 template <class Facet, class Law>
 void SlaveTangentsOf<Facet, Law>::add_numerical_tangent(const std::size_t s, const Add &add) const {
   if (touching_[s].rests) { // it sticks once it is pressed, which finite differences do not show
-    this->add_closed_tangent(ContactTangent::consistent, s, add);
+    add_closed_tangent({}, s, add);
     return;
   }
   const FacetSearch::Positions &positions = parts_.surfaces.positions();
-  const std::vector<unsigned int> nodes = this->collect_nodes(s, true);
+  const std::vector<unsigned int> nodes = collect_nodes(s, true);
   std::vector<Tensor<1, 3>> x;
   x.reserve(nodes.size());
   for (const unsigned int node : nodes)

@@ -20,7 +20,7 @@ ToolFriction::ToolFriction(const FrictionLaw &law, const bool stores, const std:
 }
 
 template <bool is_exact>
-void ToolFriction::press(const std::size_t i, const ContactPoint &node, const ContactTangent kind,
+void ToolFriction::press(const std::size_t i, const ContactPoint &node, const FrictionTangent &kind,
                          const EdgeFading *fading, ToolContactState &state, History &history) const {
   const History &history_n = n_[i];
   history.frame =
@@ -91,10 +91,10 @@ void ToolFriction::press(const std::size_t i, const ContactPoint &node, const Co
       increment.per_time > 0. ? state.slip_increment * increment.per_time : history_n.slip_rate;
 }
 
-template void ToolFriction::press<false>(std::size_t, const ContactPoint &, ContactTangent,
+template void ToolFriction::press<false>(std::size_t, const ContactPoint &, const FrictionTangent &,
                                          const EdgeFading *, ToolContactState &, History &) const;
-template void ToolFriction::press<true>(std::size_t, const ContactPoint &, ContactTangent, const EdgeFading *,
-                                        ToolContactState &, History &) const;
+template void ToolFriction::press<true>(std::size_t, const ContactPoint &, const FrictionTangent &,
+                                        const EdgeFading *, ToolContactState &, History &) const;
 
 void ToolFriction::release(const std::size_t i, const ContactPoint &node, const Tensor<1, 3> &normal,
                            ToolContactState &state, History &history) const {

@@ -74,11 +74,12 @@ void ToolMeasures::add_resistances(const std::size_t body, std::vector<Resistanc
 }
 
 void ToolMeasures::visit_supporting(const VisitSupporting &visit) const {
-  for (const auto &state : parts_.states)
-    if (state.status != ContactStatus::open)
-      visit(make_supporting_point(state.position, state.normal, parts_.pair.friction.get(), state.status,
-                                  state.traction),
-            parts_.pair.body, parts_.pair.body);
+  choose_friction(parts_.pair.friction, [&](const auto &law) {
+    for (const auto &state : parts_.states)
+      if (state.status != ContactStatus::open)
+        visit(make_supporting_point(state.position, state.normal, law, state.status, state.traction),
+              parts_.pair.body, parts_.pair.body);
+  });
 }
 
 std::size_t ToolMeasures::history_size() const {
@@ -101,12 +102,15 @@ std::vector<ContactNodeReport> ToolMeasures::report_nodes() const {
     const ToolContactState &state = parts_.states[i];
     const ContactPoint &node = parts_.slaves.nodes[i];
     const bool presses = state.pressure > 0.;
-    reports.push_back({node.dofs, state.status, state.pressure, state.gap + parts_.step.gap_offset(node),
-                       parts_.friction ? (*parts_.friction)[i].slip : 0., 0., state.traction,
-                       presses ? std::abs(state.gap + node.multiplier_offset) : 0., node.size,
-                       parts_.friction ? node.stiffness.tangential : 0.,
-                       presses ? max_curvature(state.turning) : 0.});
+    reports.push_back({node.dofs, state.status, state.pressure, state.gap + parts_.step.gap_offset(node), 0.,
+                       0., state.traction, presses ? std::abs(state.gap + node.multiplier_offset) : 0.,
+                       node.size, 0., presses ? max_curvature(state.turning) : 0.});
   }
+  if (parts_.friction)
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      reports[i].slip = (*parts_.friction)[i].slip;
+      reports[i].tangential_stiffness = parts_.slaves.nodes[i].stiffness.tangential;
+    }
   return reports;
 }
 

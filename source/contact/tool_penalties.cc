@@ -69,28 +69,34 @@ double ToolPenalties::augmentation_gap() const {
   for (std::size_t i = 0; i < parts_.states.size(); ++i)
     if (const ContactPoint &node = parts_.slaves.nodes[i]; parts_.is_pressed_fully(i))
       worst = std::max(worst, std::abs(parts_.states[i].gap + node.multiplier_offset) / node.size);
-  if (parts_.friction)
-    for (std::size_t i = 0; i < parts_.states.size(); ++i) {
-      const ContactPoint &node = parts_.slaves.nodes[i];
-      worst = std::max(worst, parts_.friction->elastic_slip(i, node, parts_.states[i]) / node.size);
-    }
+  const std::vector<double> slips = elastic_slips();
+  for (std::size_t i = 0; i < slips.size(); ++i)
+    worst = std::max(worst, slips[i] / parts_.slaves.nodes[i].size);
   return worst;
+}
+
+std::vector<double> ToolPenalties::elastic_slips() const {
+  std::vector<double> slips(parts_.states.size());
+  if (parts_.friction)
+    for (std::size_t i = 0; i < slips.size(); ++i)
+      slips[i] = parts_.friction->elastic_slip(i, parts_.slaves.nodes[i], parts_.states[i]);
+  return slips;
 }
 
 ContactSprings ToolPenalties::compute_springs() const {
   ContactSprings result;
   result.normal.of_nodes.resize(parts_.slaves.nodes.size());
   result.tangential.of_nodes.resize(parts_.slaves.nodes.size());
+  const std::vector<double> slips = elastic_slips();
   with_tool_springs(parts_, [&](const auto &springs) {
     springs.visit_counted_areas([&](const unsigned int i, const double area) {
       const ToolContactState &state = parts_.states[i];
       const ContactPoint &node = parts_.slaves.nodes[i];
       if (node.is_fixed)
         return;
-      const double slip = parts_.friction ? parts_.friction->elastic_slip(i, node, state) : 0.;
       result.add(i, area * state.traction, state.normal,
                  area * node.stiffness.normal * std::abs(state.gap + node.multiplier_offset),
-                 area * node.stiffness.tangential * slip);
+                 area * node.stiffness.tangential * slips[i]);
     });
   });
   return result;

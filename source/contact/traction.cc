@@ -42,8 +42,27 @@ double solve_slip(const FrictionLaw &law, const double pressure, const double tr
 
 } // namespace
 
+FrictionTangent FrictionTangent::of(const ContactTangent kind) {
+  switch (kind) {
+  case ContactTangent::automatic: // resolved by the scene
+  case ContactTangent::exact:
+  case ContactTangent::numerical:
+  case ContactTangent::consistent:
+    return {};
+  case ContactTangent::continuum:
+    return {1., 1., 0.};
+  case ContactTangent::symmetrised_upper:
+    return {0., 1., 1.};
+  case ContactTangent::symmetrised_lower:
+    return {0., 0., 0.};
+  case ContactTangent::symmetrised_mean:
+    break;
+  }
+  return {0., 0.5, 0.5};
+}
+
 FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
-                               const ContactTangent tangent, const double gap,
+                               const FrictionTangent &tangent, const double gap,
                                const std::array<double, 2> &tangential_n,
                                const TangentialIncrement &increment) {
   FrameTraction traction = compute_frictionless_traction(stiffness.normal, gap);
@@ -56,11 +75,10 @@ FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &s
   auto &K = traction.tangent;
 
   // −∂t*/∂u on (q, r, n)
-  std::array<std::array<double, 3>, 2> trial_tangent{{{k_t, 0., 0.}, {0., k_t, 0.}}};
-  if (tangent == ContactTangent::exact)
-    for (unsigned int i = 0; i < 2; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        trial_tangent[i][j] = k_t * increment.gradient[i][j];
+  std::array<std::array<double, 3>, 2> trial_tangent;
+  for (unsigned int i = 0; i < 2; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      trial_tangent[i][j] = k_t * increment.gradient[i][j];
 
   const bool rests = !(gap < 0.);
   if (trial_norm <= limit.value || rests) {
@@ -81,7 +99,7 @@ FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &s
     rate_ratio = slope / (k_t + slope);
   }
   const std::array<double, 2> direction{trial[0] / trial_norm, trial[1] / trial_norm};
-  const double beta = tangent == ContactTangent::continuum ? 1. : limit.value / trial_norm;
+  const double beta = std::max(limit.value / trial_norm, tangent.min_beta);
   for (unsigned int i = 0; i < 2; ++i) {
     traction.tangential[i] = limit.value * direction[i];
     traction.slip[i] = -(trial[i] - traction.tangential[i]) / k_t;
@@ -92,25 +110,8 @@ FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &s
                    trial_tangent[m][j];
     traction.pressure_slope[i] = limit.pressure_slope * (1. - rate_ratio) * direction[i];
     const double coupling = traction.pressure_slope[i] * stiffness.normal;
-    switch (tangent) {
-    case ContactTangent::automatic: // resolved by the scene
-    case ContactTangent::exact:
-    case ContactTangent::numerical:
-    case ContactTangent::consistent:
-    case ContactTangent::continuum:
-      K[i][2] += coupling;
-      break;
-    case ContactTangent::symmetrised_upper:
-      K[i][2] += coupling;
-      K[2][i] += coupling;
-      break;
-    case ContactTangent::symmetrised_lower:
-      break;
-    case ContactTangent::symmetrised_mean:
-      K[i][2] += 0.5 * coupling;
-      K[2][i] += 0.5 * coupling;
-      break;
-    }
+    K[i][2] += tangent.upper * coupling;
+    K[2][i] += tangent.lower * coupling;
   }
   return traction;
 }

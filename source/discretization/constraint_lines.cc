@@ -40,6 +40,11 @@ std::vector<ConstraintLine> collect_hanging_nodes(const dealii::DoFHandler<3> &d
   return lines;
 }
 
+std::vector<ConstraintLine> collect_links(const dealii::DoFHandler<3> &dof_handler,
+                                          const dealii::IndexSet &relevant) {
+  return collect_hanging_nodes(dof_handler, relevant);
+}
+
 bool couple_ranks(const Constraints &constraints, const dealii::IndexSet &owned,
                   const MPI_Comm communicator) {
   const auto &lines = constraints.get_lines();

@@ -75,7 +75,7 @@ std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization 
 
 Supports::Supports(const Scene &scene, const Discretization &discretization)
     : discretization_(discretization),
-      hanging_nodes_(collect_hanging_nodes(discretization.dof_handler(), discretization.relevant_dofs())) {
+      links_(collect_links(discretization.dof_handler(), discretization.relevant_dofs())) {
   for (const auto &entry : collect_held_nodes(scene, discretization))
     eliminate(entry.second.holds, entry.second.dofs, entry.second.position);
   homogeneous_ = build({});
@@ -148,7 +148,7 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
 
 Constraints Supports::build(std::vector<double> values) const {
   return build_constraints(discretization_.owned_dofs(), discretization_.relevant_dofs(),
-                           {{hanging_nodes_, {}}, {lines_, std::move(values)}});
+                           {{links_, {}}, {lines_, std::move(values)}});
 }
 
 Constraints Supports::at_time(const double t) const {

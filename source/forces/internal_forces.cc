@@ -69,8 +69,18 @@ InternalForces::InternalForces(const Scene &scene, const Discretization &discret
         plastic_bytes += blocks_.back()->history_size() * positions.size() * sizeof(double);
     }
   });
+  for (const Body &body : scene.bodies())
+    temperatures_.push_back(body.temperature.get());
+  start_step(0., 0.);
   plastic_memory_.set(plastic_bytes);
   stabilised_memory_.set(n_stabilised_ * OnePointElement::stabilisation_size);
+}
+
+void InternalForces::start_step(const double t, const double dt) {
+  step_.dt = dt;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (temperatures_[b] != nullptr)
+      blocks_[b]->set_temperature(temperatures_[b]->value(t));
 }
 
 void InternalForces::count() const {

@@ -89,6 +89,8 @@ public:
     return added;
   }
 
+  void set_temperature(const double temperature) override { block_->set_temperature(temperature); }
+
   StepResult advance(const Nodes &nodes, const double dt) override {
     StepResult result{std::numeric_limits<double>::infinity(), 0., 0., 0., 0., size()};
     double max_rate = 0.;

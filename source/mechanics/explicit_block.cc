@@ -21,7 +21,6 @@ namespace billet {
 
 namespace {
 
-using Element = ExplicitFormulation::Element;
 using Material = explicit_kernels::BasicMaterial<double>;
 
 double harden(const void *flow, const double q, const double m, const double alpha, double &yield_stress) {
@@ -123,6 +122,9 @@ private:
 #endif
 };
 
+/// Ends a switch over all laws of the kernels, which returns in each case.
+[[noreturn]] void throw_unknown_law() { throw std::logic_error("a law of the kernels lacks its case"); }
+
 /// Block of a law that kernels support.
 template <class Number> class Block final : public ExplicitBlock {
 public:
@@ -132,9 +134,10 @@ public:
         storage_(find_kernels<Number>(formulation.instructions).n_lanes, law_->elastic(), lane_law,
                  lane_element, flow_ != nullptr,
                  flow_ != nullptr && flow_->lane_form().kind != HardeningKind::linear),
-        kernel_(find_kernels<Number>(formulation.instructions)
-                    .kernels[static_cast<unsigned int>(lane_element)][static_cast<unsigned int>(lane_law)]
-                            [flow_ != nullptr ? 1 : 0]) {
+        kernel_(find_kernel(find_kernels<Number>(formulation.instructions), lane_element, lane_law,
+                            flow_ != nullptr)) {
+    if (kernel_ == nullptr)
+      throw std::logic_error("the explicit kernels lack this law with this element");
     const ElasticModuli &elastic = law_->elastic();
     material_ = {};
     material_.bulk = elastic.bulk;
@@ -169,9 +172,7 @@ public:
   std::size_t history_size() const override { return storage_.layout().n_history; }
   std::size_t history_memory() const override { return size() * history_size() * sizeof(Number); }
   std::size_t stabilisation_memory() const override {
-    return formulation_.element == Element::one_point
-               ? size() * storage_.stabilisation_size() * sizeof(Number)
-               : 0;
+    return size() * storage_.stabilisation_size() * sizeof(Number);
   }
 
   double scale_mass(const double min_step) override {
@@ -266,7 +267,7 @@ public:
     is_fresh_ = false;
     const ElementStress corners = stress.transfer(2);
     ElementStress wanted = corners;
-    if (formulation_.element == Element::one_point) {
+    if (storage_.n_points() == 1) {
       wanted[0] = PointStress();
       for (const PointStress &point : corners) {
         wanted[0].deviator += 0.125 * point.deviator;
@@ -321,38 +322,49 @@ private:
     const dealii::SymmetricTensor<2, 3> X = dev_tau / material_.shear;
     switch (lane_law_) {
     case LaneLaw::hypoelastic:
-      break;
+      return dev_tau;
     case LaneLaw::hencky:
       return exponential(X);
     case LaneLaw::neo_hookean:
       return X + complete_unimodular(X) * dealii::unit_symmetric_tensor<3>();
     }
-    return dev_tau;
+    throw_unknown_law();
   }
 
   /// Computes dev τ from a PointState's tensor. Returns its stored energy per reference volume.
   double compute_distortion(const dealii::SymmetricTensor<2, 3> &tensor,
                             dealii::SymmetricTensor<2, 3> &dev_tau) const {
     const double G = material_.shear;
-    if (lane_law_ == LaneLaw::hypoelastic) {
+    switch (lane_law_) {
+    case LaneLaw::hypoelastic:
       dev_tau = tensor;
       return tensor * tensor / (4. * G);
+    case LaneLaw::hencky:
+      return compute_principal_distortion(tensor, dev_tau, [G](const double e, double &stress) {
+        stress = 2. * G * e;
+        return G * e * e;
+      });
+    case LaneLaw::neo_hookean: // ½ G (tr b̄_e − 3); Σ e = 0
+      return compute_principal_distortion(tensor, dev_tau, [G](const double e, double &stress) {
+        stress = G * std::expm1(2. * e);
+        return 0.5 * G * (std::expm1(2. * e) - 2. * e);
+      });
     }
+    throw_unknown_law();
+  }
+
+  /// Computes dev τ and the energy from principal strains: `respond` sets the principal stress of a
+  /// deviatoric logarithmic strain and returns its energy.
+  template <class Respond>
+  static double compute_principal_distortion(const dealii::SymmetricTensor<2, 3> &tensor,
+                                             dealii::SymmetricTensor<2, 3> &dev_tau, const Respond &respond) {
     PrincipalElasticState state;
     if (!compute_principal_state(tensor, state))
       return 0.;
     PrincipalResponse response;
     double energy = 0.;
-    for (unsigned int a = 0; a < 3; ++a) {
-      const double e = state.deviatoric_log_strains[a];
-      if (lane_law_ == LaneLaw::hencky) {
-        response.stress[a] = 2. * G * e;
-        energy += G * e * e;
-      } else { // ½ G (tr b̄_e − 3); Σ e = 0
-        response.stress[a] = G * std::expm1(2. * e);
-        energy += 0.5 * G * (std::expm1(2. * e) - 2. * e);
-      }
-    }
+    for (unsigned int a = 0; a < 3; ++a)
+      energy += respond(state.deviatoric_log_strains[a], response.stress[a]);
     dev_tau = dealii::deviator(compute_kirchhoff_stress(state, response));
     return energy;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/capabilities_file.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/usage.h"
 
 #include <fstream>
@@ -28,7 +29,9 @@ void write_capabilities(const std::string &folder, MPI_Comm communicator) {
     file << name_of(static_cast<Capability>(i)) << "," << calls[i] << "," << sums[2 * i] << ","
          << sums[2 * i + 1] << "\n";
   if (!file.flush())
-    std::cerr << "billet: '" << folder << "/capabilities.csv' cannot be written" << std::endl;
+    std::cerr
+        << Diagnostic(diagnostic::file_failed, "'" + folder + "/capabilities.csv' cannot be written").text()
+        << std::endl;
 }
 
 } // namespace billet

@@ -129,6 +129,9 @@ void Material::declare(ParameterHandler &prm) {
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
                     "Density of the undeformed body, > 0 in dynamic scenes. [mass/length^3]");
+  prm.declare_entry("Temperature", "", Patterns::Anything(),
+                    "Temperature of the whole body, for laws that depend on it: a muParser expression of the "
+                    "time t and the names of amplitudes. [temperature]");
   declare_selection(prm, "Hardening", "linear", hardening_types(),
                     "Law of the yield stress over equivalent plastic strain e.");
   declare_selection(prm, "Rate factor", "none", rate_factor_types(),
@@ -147,13 +150,17 @@ void Material::parse(Reader &reader) {
     join_parameters(hardening_types()).reject_unused(reader, {}, "the law is elastic");
     join_parameters(rate_factor_types()).reject_unused(reader, {}, "the law is elastic");
     law = elasticity->make_elastic_law();
-    return;
-  }
-  law = elasticity->make_plastic_law(
-      make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
-                       make_selected(reader, "Rate factor", rate_factor_types())));
+  } else
+    law = elasticity->make_plastic_law(
+        make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
+                         make_selected(reader, "Rate factor", rate_factor_types())));
   if (law == nullptr)
     reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' has no plasticity");
+  temperature = reader.located("Temperature", reader.text("Temperature"));
+  if (law->depends_on_temperature() && temperature.value.empty())
+    reader.reject("Temperature", "an expression of t, since the law '" + law->name() + "' depends on it");
+  if (!law->depends_on_temperature() && !temperature.value.empty())
+    reader.reject("Temperature", "no value: the law '" + law->name() + "' does not depend on it");
 }
 
 void Support::declare(ParameterHandler &prm) {

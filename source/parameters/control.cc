@@ -18,11 +18,6 @@ namespace {
 const NamedValues<Amplitude::Interpolation> interpolations = {{"linear", Amplitude::Interpolation::linear},
                                                               {"smooth", Amplitude::Interpolation::smooth}};
 
-const NamedValues<TimeStepping::Scheme> schemes = {
-    {"quasi-static", TimeStepping::Scheme::quasi_static},
-    {"explicit", TimeStepping::Scheme::explicit_dynamics},
-    {"implicit dynamics", TimeStepping::Scheme::implicit_dynamics}};
-
 const NamedValues<TimeStepping::Control> step_controls = {{"automatic", TimeStepping::Control::automatic},
                                                           {"fixed", TimeStepping::Control::fixed}};
 
@@ -67,6 +62,16 @@ const NamedValues<Output::Verbosity> verbosities = {{"quiet", Output::Verbosity:
 
 } // namespace
 
+const NamedValues<TimeStepping::Scheme> &schemes() {
+  static const NamedValues<TimeStepping::Scheme> names = {
+      {"quasi-static", TimeStepping::Scheme::quasi_static},
+      {"explicit", TimeStepping::Scheme::explicit_dynamics},
+      {"implicit dynamics", TimeStepping::Scheme::implicit_dynamics}};
+  return names;
+}
+
+const std::string &name_of(const TimeStepping::Scheme scheme) { return name_in(schemes(), scheme); }
+
 const NamedValues<std::optional<LinearMethod>> &linear_methods() {
   static const NamedValues<std::optional<LinearMethod>> methods = {
       {"automatic", std::nullopt},
@@ -107,7 +112,7 @@ void TimeStepping::declare(ParameterHandler &prm) {
   prm.declare_entry("End time", "1", Patterns::Double(),
                     "> 0. The run begins at time 0 and ends at this time. [time]");
   prm.declare_entry(
-      "Scheme", "quasi-static", Patterns::Selection(selection(schemes)),
+      "Scheme", name_of(Scheme::quasi_static), Patterns::Selection(selection(schemes())),
       "quasi-static: equilibrium at the end of each step, by Newton's method; explicit: motion by central "
       "differences, in steps as short as elements and contact require; implicit dynamics: motion by Newton's "
       "method, in steps as long as accuracy allows. Bodies of dynamic scenes need a density.");
@@ -148,7 +153,7 @@ void TimeStepping::parse(Reader &reader) {
   for (const double stop : stops)
     if (!(stop > 0. && stop <= end_time))
       reader.reject("Stops", "numbers > 0, not above the end time");
-  scheme = chosen(schemes, reader.text("Scheme"));
+  scheme = chosen(schemes(), reader.text("Scheme"));
   if (scheme == Scheme::explicit_dynamics) {
     for (const std::string key :
          {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",

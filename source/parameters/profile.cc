@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/friction/friction_law.h"
 #include "billet/material/elasticity.h"
+#include "billet/parameters/control.h"
 #include "billet/parameters/reader.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -132,13 +133,19 @@ bool folds_onto_itself(const SceneFile &file) {
 }
 
 unsigned int scheme_of(const SceneFile &file) {
-  const std::string name = file.value({"Time stepping"}, "Scheme", "quasi-static");
-  return name == "explicit"            ? explicit_dynamics
-         : name == "implicit dynamics" ? implicit_dynamics
-         : depends_on_path(file)       ? statics_with_path
-         : folds_onto_itself(file)     ? statics_with_folds
-         : has_friction(file)          ? statics_with_slip
-                                       : statics_without_path;
+  using Scheme = TimeStepping::Scheme;
+  switch (chosen(schemes(), file.value({"Time stepping"}, "Scheme", name_of(Scheme::quasi_static)))) {
+  case Scheme::explicit_dynamics:
+    return explicit_dynamics;
+  case Scheme::implicit_dynamics:
+    return implicit_dynamics;
+  case Scheme::quasi_static:
+    break;
+  }
+  return depends_on_path(file)     ? statics_with_path
+         : folds_onto_itself(file) ? statics_with_folds
+         : has_friction(file)      ? statics_with_slip
+                                   : statics_without_path;
 }
 
 std::vector<Path> paths_of(const std::string &section, const SceneFile &file) {

@@ -247,9 +247,7 @@ private:
                      file_.value(path, key, "") + "'; allowed is no value: 'Scheme' in 'Time stepping' is " +
                      name_of_scheme());
   }
-  std::string name_of_scheme() const {
-    return scene_.is_explicit() ? "explicit" : scene_.is_dynamic() ? "implicit dynamics" : "quasi-static";
-  }
+  const std::string &name_of_scheme() const { return name_of(scene_.time_stepping.scheme); }
   static std::string in(const SceneFile::Path &path) {
     std::string names;
     for (const auto &name : path)

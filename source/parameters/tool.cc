@@ -174,7 +174,7 @@ const NamedValues<ContactPair::PenaltyOf> reference_stiffnesses = {
     {"stiffer", ContactPair::PenaltyOf::stiffer},
     {"series", ContactPair::PenaltyOf::series}};
 
-/// What happens to an initial penetration above the allowed one.
+/// Treatment of an initial penetration above the allowed one.
 enum class Overlap { refused, shifted, ramped };
 
 const NamedValues<Overlap> overlaps = {

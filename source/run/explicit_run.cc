@@ -17,6 +17,13 @@ namespace {
 
 constexpr unsigned int steps_between_checks = ExplicitDynamics::steps_between_checks;
 
+struct Limits {
+  /// Number of checks of stability in a run: each costs one to a few steps.
+  static constexpr double n_checks = 100.;
+  /// Added mass over the mass, and kinetic over internal energy, above which mass scaling changes the motion.
+  static constexpr double much_mass = 0.1, fast = 0.05;
+};
+
 Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
   std::ostringstream text;
   text << "Mass scaling adds " << problem.added_mass() << " to the bodies' " << problem.mass() << " ("
@@ -28,9 +35,8 @@ Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
 
 /// Returns a warning at the end of a run if the added mass changes the motion.
 DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunReview &review) {
-  constexpr double much = 0.1, slow = 0.05;
   const double added = problem.added_mass() / problem.mass(), kinetic = review.kinetic_part();
-  if (!(added > much && kinetic > slow))
+  if (!(added > Limits::much_mass && kinetic > Limits::fast))
     return {};
   std::ostringstream text;
   text.precision(3);
@@ -170,12 +176,11 @@ void ExplicitRun::write_fields(RunOutput &output) {
 }
 
 void ExplicitRun::check_stability(RunOutput &output) {
-  constexpr double n_checks = 100.; // in a run: each costs one to a few steps
   if (problem_.time() < next_check_ || !std::isfinite(problem_.relative_drift()))
     return;
   problem_.update_state();
   output.report(stability_.check(problem_.time(), problem_.state().displacements));
-  next_check_ = problem_.time() + stops_.end() / n_checks;
+  next_check_ = problem_.time() + stops_.end() / Limits::n_checks;
 }
 
 std::string ExplicitRun::advise_on_law(RunOutput &output) {

@@ -11,11 +11,17 @@ namespace billet {
 
 namespace {
 
+struct Limits {
+  /// Poisson ratio above which few significant digits are left.
+  static constexpr double incompressible = 0.49995;
+  /// Norm of the elastic strain deviator above which a law without an exact dissipation unbalances energies.
+  static constexpr double large_strain = 0.02;
+};
+
 /// Returns a hint if the ratio of bulk to shear modulus leaves Newton's method few significant digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
-  const double nearly = 0.49995;
-  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [&](const auto &b) {
-    return b.material.law->elastic().poisson_ratio() > nearly;
+  const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [](const auto &b) {
+    return b.material.law->elastic().poisson_ratio() > Limits::incompressible;
   });
   if (body == parameters.bodies.end())
     return "";
@@ -64,7 +70,6 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
 
 bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
                              const Solution &solution) {
-  constexpr double large = 0.02;
   double maximum = 0.;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
@@ -75,7 +80,7 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
         maximum = std::max(maximum,
                            dealii::deviator(summary.cauchy_stress).norm() / (2. * body.law->elastic().shear));
   }
-  return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > large;
+  return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > Limits::large_strain;
 }
 
 std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report,

@@ -126,8 +126,11 @@ ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bo
         what + ", and the program cannot write a checkpoint" +
         (checkpoints_.last().empty() ? "" : "; the last complete one is " + checkpoints_.last()));
   if (is_first_)
-    std::cerr << "billet: " << what << ". Resume by: billet --restart " << checkpoints_.last() << " "
-              << scene_.parameters().file_name << std::endl;
+    std::cerr << Diagnostic(diagnostic::run_stopped, what)
+                     .advice("Resume by 'billet --restart " + checkpoints_.last() + " " +
+                             scene_.parameters().file_name + "'")
+                     .text()
+              << std::endl;
   return ExitCode::stopped;
 }
 

@@ -52,6 +52,25 @@ std::string quote_linear_solver(const parameters::Solver &solver) {
          parameters::name_in(parameters::linear_methods(), solver.linear_solver.value) + "'";
 }
 
+struct ControlWords {
+  std::string name;     ///< in records for programs
+  std::string addition; ///< to the description of a tool
+};
+
+ControlWords describe_control(const Tool::Control control) {
+  switch (control) {
+  case Tool::Control::motion:
+    return {"motion", ""};
+  case Tool::Control::force:
+    return {"force", ", with a force"};
+  case Tool::Control::moment:
+    return {"moment", ", with a moment"};
+  case Tool::Control::stop:
+    return {"stop at a force", ", stops at a force"};
+  }
+  throw std::logic_error("a tool's control has no description");
+}
+
 /// Whether the expression is the plain number 0; other expressions that vanish are known only when evaluated.
 bool is_zero(const std::string &expression) {
   try {
@@ -83,6 +102,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   const ElasticModuli &moduli = body.law->elastic();
   body.max_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
+  if (body.law->depends_on_temperature())
+    body.temperature =
+        std::make_unique<Expression>(parameters.material.temperature.value, Expression::Variables::time,
+                                     amplitudes, parameters.material.temperature.origin);
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
                                        parameters.initial_velocity.origin);
@@ -506,20 +529,8 @@ void Scene::describe(std::ostream &stream) const {
            << (body.is_stabilised.value ? ", contact stabilisation until contact\n" : "\n");
   }
   for (const auto &tool : tools_) {
-    stream << "Tool           " << tool.name() << ": rigid " << tool.shapes();
-    switch (tool.control()) {
-    case Tool::Control::motion:
-      break;
-    case Tool::Control::force:
-      stream << ", with a force";
-      break;
-    case Tool::Control::moment:
-      stream << ", with a moment";
-      break;
-    case Tool::Control::stop:
-      stream << ", stops at a force";
-      break;
-    }
+    stream << "Tool           " << tool.name() << ": rigid " << tool.shapes()
+           << describe_control(tool.control()).addition;
     if (std::isfinite(tool.removal_time()))
       stream << ", removed at time " << tool.removal_time();
     stream << "\n";
@@ -606,12 +617,8 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
   }
   scene["tools"] = Json::array();
   for (const auto &tool : tools_) {
-    Json entry = {{"name", tool.name()},
-                  {"shapes", tool.shapes()},
-                  {"control", tool.control() == Tool::Control::force    ? "force"
-                              : tool.control() == Tool::Control::moment ? "moment"
-                              : tool.control() == Tool::Control::stop   ? "stop at a force"
-                                                                        : "motion"}};
+    Json entry = {
+        {"name", tool.name()}, {"shapes", tool.shapes()}, {"control", describe_control(tool.control()).name}};
     if (std::isfinite(tool.removal_time()))
       entry["removed at"] = tool.removal_time();
     scene["tools"].push_back(entry);
@@ -637,9 +644,7 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
   for (const auto &pair : body_pairs_)
     add_pair(pair, bodies_[pair.bodies[0]].name, bodies_[pair.bodies[1]].name, describe_facets(pair.facets));
   scene["end time"] = parameters_.time_stepping.end_time;
-  scene["scheme"] = parameters_.is_explicit()  ? "explicit"
-                    : parameters_.is_dynamic() ? "implicit dynamics"
-                                               : "quasi-static";
+  scene["scheme"] = parameters::name_of(parameters_.time_stepping.scheme);
   scene["elements"] = n_elements;
   for (const CapabilityUse &use : capability_uses())
     scene["capabilities"][use.name] = use.is_used;

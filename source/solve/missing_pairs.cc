@@ -22,6 +22,22 @@ using dealii::Tensor;
 
 namespace {
 
+struct Limits {
+  /// Depths from which on a node counts as inside: in sizes of the facet above it, and in thicknesses of its
+  /// element.
+  static constexpr double part_of_facet = 0.1, part_of_thickness = 0.2;
+  /// Depth from which on a node counts as inside a tool [facet size].
+  static constexpr double in_tool = 0.1;
+  /// Depth within an element from which on a body penetrates itself [element size].
+  static constexpr double in_itself = 0.1;
+  /// Margin of an element for round-off [element size].
+  static constexpr double rounding = 1e-9;
+  /// Newton's method for reference coordinates: maximum number of iterations, correction at its end, and
+  /// distance from the centre at which the point is outside [element size].
+  static constexpr unsigned int max_iterations = 15;
+  static constexpr double converged = 1e-10, far = 3.;
+};
+
 using Corners = std::array<Tensor<1, 3>, 8>;
 
 bool overlap(const BoundingBox &a, const BoundingBox &b) {
@@ -40,10 +56,8 @@ bool contains(const BoundingBox &box, const Tensor<1, 3> &x) {
 /// method for its reference coordinates.
 bool is_inside(const Corners &corners, const Tensor<1, 3> &x, const double margin) {
   using Unit = dealii::GeometryInfo<3>;
-  constexpr unsigned int max_iterations = 15;
-  constexpr double converged = 1e-10, far = 3.;
   Point<3> xi(0.5, 0.5, 0.5);
-  for (unsigned int iteration = 0; iteration < max_iterations; ++iteration) {
+  for (unsigned int iteration = 0; iteration < Limits::max_iterations; ++iteration) {
     Tensor<1, 3> miss = x;
     Tensor<2, 3> jacobian;
     for (unsigned int v = 0; v < 8; ++v) {
@@ -54,9 +68,9 @@ bool is_inside(const Corners &corners, const Tensor<1, 3> &x, const double margi
       return false;
     const Tensor<1, 3> change = dealii::invert(jacobian) * miss;
     xi += change;
-    if ((xi - Point<3>(0.5, 0.5, 0.5)).norm() > far)
+    if ((xi - Point<3>(0.5, 0.5, 0.5)).norm() > Limits::far)
       return false;
-    if (change.norm() < converged)
+    if (change.norm() < Limits::converged)
       return Unit::is_inside_unit_cell(xi, margin);
   }
   return false;
@@ -84,7 +98,8 @@ std::vector<unsigned int> count_elements(const std::vector<Corners> &elements,
 
 /// Returns the depth below this facet from which on a node counts as inside, the smaller of two lengths.
 double allowed_penetration(const BoundaryFacet &facet) {
-  return std::min(0.1 * std::sqrt(facet.area_vector().norm()), 0.2 * facet.thickness);
+  return std::min(Limits::part_of_facet * std::sqrt(facet.area_vector().norm()),
+                  Limits::part_of_thickness * facet.thickness);
 }
 
 Tensor<1, 3> position_of(const Point<3> &X, const std::array<DofIndex, 3> &dofs,
@@ -279,9 +294,8 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
     if (overlap(box, boxes[a]))
       elements.push_back(corners);
   }
-  constexpr double rounding = 1e-9;
   const std::vector<Tensor<1, 3>> points = positions_of(probes);
-  std::vector<unsigned int> counts = count_elements(elements, points, rounding);
+  std::vector<unsigned int> counts = count_elements(elements, points, Limits::rounding);
   dealii::Utilities::MPI::sum(counts, communicator, counts);
   std::vector<Tensor<1, 3>> inside;
   std::vector<bool> is_named;
@@ -362,8 +376,7 @@ std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple
   std::vector<Corners> elements;
   for (const Element &element : discretization_.elements(couple.body))
     elements.push_back(corners_of(element, displacements));
-  constexpr double well_within = 0.1; // of an element
-  std::vector<unsigned int> counts = count_elements(elements, points, -well_within);
+  std::vector<unsigned int> counts = count_elements(elements, points, -Limits::in_itself);
   dealii::Utilities::MPI::sum(counts, communicator, counts);
   const auto found = std::find_if(counts.begin(), counts.end(), [](const unsigned int n) { return n > 0; });
   if (found == counts.end())
@@ -373,7 +386,6 @@ std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple
 
 MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &positions,
                                                const Placement &placement) const {
-  constexpr double part = 0.1; // of a facet
   const RigidSurface &surface = scene_.tools()[couple.other].surface();
   const std::vector<Node> &nodes = nodes_[couple.body];
   const bool is_first = couple.is_in_front.empty();
@@ -395,7 +407,7 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
   followed = dealii::Utilities::MPI::max(followed, discretization_.communicator());
   std::array<double, 5> own{}; // relative, depth, position
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const double allowed = followed + part * nodes[n].facet_size;
+    const double allowed = followed + Limits::in_tool * nodes[n].facet_size;
     const bool is_inside = !is_first && !is_named[n] && penetrations[n] >= allowed;
     // A node that enters slowly counts as in front until it is inside.
     is_in_front[n] = is_in_front[n] || (penetrations[n] > 0. && !is_inside);

@@ -11,6 +11,28 @@ namespace billet {
 
 namespace {
 
+/// Limits of the iterations, beside NewtonLimits.
+struct Limits {
+  /// Number of iterations to judge convergence by.
+  static constexpr unsigned int window = 10;
+  /// Maximum number of iterations to recover from round-off.
+  static constexpr unsigned int max_in_round_off = 3;
+  /// Increment below which it cannot normalise corrections, as part of the largest displacement; as in a
+  /// scene at rest.
+  static constexpr double min_increment = 1e-3;
+  /// Residual over the last one above which the iterations stagnate.
+  static constexpr double slow = 0.1;
+  /// Part of the estimate of round-off that always applies: its last bit.
+  static constexpr double certain = 0.01;
+  /// Smallest of the last residuals over the smallest of those before, above which they stagnate.
+  static constexpr double hardly_better = 0.7;
+  /// Maximum number of iterations in a cycle.
+  static constexpr std::size_t longest_cycle = 4;
+  /// Maximum difference of residuals that are alike, and minimum difference of the smallest and the largest
+  /// one of a cycle, as parts of them.
+  static constexpr double alike = 0.02, apart = 0.2;
+};
+
 /// Convergence test by the four criteria (Q1) and the limit on iterations, with a record of the iterations.
 class Convergence {
 public:
@@ -26,12 +48,13 @@ public:
     const ConvergenceMeasures &measures = report_.measures;
 
     // Convergence is judged except for round-off of contact.
-    const bool stagnates = n > 0 && norm > slow_ * last_norm_;
+    const bool stagnates = n > 0 && norm > Limits::slow * last_norm_;
     last_norm_ = norm;
     const auto is_small = [&](const double contact_round_off) {
       // The full round-off estimate applies only if the iterations stagnate.
-      const double round_off = (stagnates ? 1. : certain_) * problem_.round_off_force() + contact_round_off;
-      const bool is_exact = norm <= exact_residual * scale + round_off;
+      const double round_off =
+          (stagnates ? 1. : Limits::certain) * problem_.round_off_force() + contact_round_off;
+      const bool is_exact = norm <= NewtonLimits::exact_residual * scale + round_off;
       const bool has_settled = measures.has_correction &&
                                measures.correction <= settings_.displacement_tolerance &&
                                measures.status <= settings_.force_tolerance;
@@ -39,19 +62,19 @@ public:
              (n == 0 ||
               std::abs(residual_work) <= (settings_.energy_tolerance * scale + round_off) * increment_);
     };
-    const double contact = problem_.contact_round_off_force(), cap = max_round_off * scale;
-    const bool is_near = norm <= max_stalled_residual * scale;
+    const double contact = problem_.contact_round_off_force(), cap = NewtonLimits::max_round_off * scale;
+    const bool is_near = norm <= NewtonLimits::max_stalled_residual * scale;
     NewtonVerdict verdict = NewtonVerdict::unconverged;
     if (!std::isfinite(norm)) {
       report_.failure = "the residual is not a number";
       verdict = NewtonVerdict::failed;
     } else if (is_small(std::min(contact, cap))) {
       verdict = NewtonVerdict::converged;
-    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > max_in_round_off_) {
+    } else if (contact > cap && is_small(contact) && ++n_in_round_off_ > Limits::max_in_round_off) {
       report_.is_stalled = is_near;
       report_.is_lost_in_round_off = !is_near;
       verdict = NewtonVerdict::converged;
-    } else if (has_stalled(n) && is_near && measures.correction <= max_stalled_correction) {
+    } else if (has_stalled(n) && is_near && measures.correction <= NewtonLimits::max_stalled_correction) {
       report_.is_stalled = true;
       verdict = accepts_stalled_ ? NewtonVerdict::converged : NewtonVerdict::failed;
       if (!accepts_stalled_)
@@ -59,7 +82,7 @@ public:
     } else if (n >= settings_.max_iterations) {
       report_.failure = "Newton's method does not converge in " + std::to_string(n) + " iterations";
       verdict = NewtonVerdict::failed;
-    } else if (n >= 3 * window_ && has_stalled(n)) { // later, drift is a small part of the way it has made
+    } else if (n >= 3 * Limits::window && has_stalled(n)) { // later, drift is small beside the way so far
       report_.failure =
           "the solver stops after " + std::to_string(n) + " iterations, since the residual no longer falls";
       verdict = NewtonVerdict::failed;
@@ -75,12 +98,10 @@ public:
       report_.failure = "after " + std::to_string(n) +
                         " iterations they cycle between the same states, and none is in equilibrium";
     }
-    // Residuals slightly above the estimate are also due to round-off.
-    constexpr double by_much = 10.;
     max_round_off_ = std::max(max_round_off_, contact); // nodes may just have opened
     if (verdict == NewtonVerdict::failed)
-      report_.is_lost_in_round_off =
-          !report_.is_stalled && max_round_off_ > cap && norm <= by_much * max_round_off_;
+      report_.is_lost_in_round_off = !report_.is_stalled && max_round_off_ > cap &&
+                                     norm <= NewtonLimits::near_round_off * max_round_off_;
     return verdict;
   }
   /// Whether an iteration has reached the round-off limit, above the permitted part of the forces.
@@ -109,7 +130,8 @@ private:
     // The full correction counts, even if it was shortened: the shortened length does not measure the
     // remaining distance.
     const double max_correction = last->full.linfty_norm();
-    const double max_increment = std::max(increment.linfty_norm(), min_increment_ * now.x.linfty_norm());
+    const double max_increment =
+        std::max(increment.linfty_norm(), Limits::min_increment * now.x.linfty_norm());
     measures.has_correction = true;
     measures.correction = max_increment > 0. ? max_correction / max_increment : 0.;
     measures.energy = scale * increment_ > 0. ? std::abs(residual_work) / (scale * increment_) : 0.;
@@ -121,22 +143,23 @@ private:
   /// Whether the residual no longer falls.
   bool has_stalled(const unsigned int n) const {
     const bool is_last = n >= settings_.max_iterations;
-    return (n >= 2 * window_ && is_stagnant(report_.iterations, report_.force, window_)) ||
-           (is_last && n >= window_ && is_stagnant(report_.iterations, report_.force, window_ / 2));
+    return (n >= 2 * Limits::window && is_stagnant(report_.iterations, report_.force, Limits::window)) ||
+           (is_last && n >= Limits::window &&
+            is_stagnant(report_.iterations, report_.force, Limits::window / 2));
   }
   /// Whether the residual has stalled, but is close to balance in some iterations.
   bool may_still_settle(const unsigned int n) const {
-    if (n >= 3 * window_ || !has_stalled(n))
+    if (n >= 3 * Limits::window || !has_stalled(n))
       return false;
-    for (unsigned int back = 1; back < window_; ++back)
-      if (report_.iterations[n - back].force <= max_stalled_residual)
+    for (unsigned int back = 1; back < Limits::window; ++back)
+      if (report_.iterations[n - back].force <= NewtonLimits::max_stalled_residual)
         return true;
     return false;
   }
   /// Whether, at the mean rate of the last iterations, the residual would miss its tolerance in the remaining
   /// ones.
   bool is_hopeless(const unsigned int n) const {
-    constexpr unsigned int window = window_;
+    constexpr unsigned int window = Limits::window;
     if (n < 2 * window)
       return false;
     const double before = report_.iterations[n - window].force;
@@ -150,14 +173,7 @@ private:
   const Vector &x_n_;
   const bool accepts_stalled_;
   NewtonReport &report_;
-  static constexpr unsigned int window_ = 10; // number of iterations to judge convergence by
-  // Part of the largest displacement: smaller increments, as in a scene at rest, cannot normalise
-  // corrections.
-  static constexpr double min_increment_ = 1e-3;
-  static constexpr unsigned int max_in_round_off_ = 3; // iterations to recover from it
-  static constexpr double slow_ = 0.1;                 // of the last residual
-  static constexpr double certain_ = 0.01;             // of the estimate of round-off: its last bit
-  double last_norm_ = 0., increment_ = 0.;             // |Δu|
+  double last_norm_ = 0., increment_ = 0.; // |Δu|
   unsigned int n_in_round_off_ = 0;
   double max_round_off_ = 0.;
 };
@@ -186,7 +202,6 @@ std::string ConvergenceMeasures::describe(const parameters::Solver &tolerances) 
 
 bool is_stagnant(const std::vector<NewtonIteration> &iterations, const double last_force,
                  const std::size_t window) {
-  constexpr double hardly_better = 0.7;
   if (iterations.size() < 2 * window)
     return false;
   double before = std::numeric_limits<double>::infinity(), now = last_force;
@@ -194,12 +209,11 @@ bool is_stagnant(const std::vector<NewtonIteration> &iterations, const double la
     double &best = i + window <= iterations.size() ? before : now;
     best = std::min(best, iterations[i].force);
   }
-  return now > hardly_better * before;
+  return now > Limits::hardly_better * before;
 }
 
 bool is_cycling(const std::vector<NewtonIteration> &iterations) {
-  constexpr std::size_t longest = 4, window = 2 * longest;
-  constexpr double alike = 0.02, apart = 0.2;
+  constexpr std::size_t longest = Limits::longest_cycle, window = 2 * longest;
   if (iterations.size() < window + longest)
     return false;
   const auto force = [&](const std::size_t back) { return iterations[iterations.size() - 1 - back].force; };
@@ -207,11 +221,11 @@ bool is_cycling(const std::vector<NewtonIteration> &iterations) {
     bool returns = true;
     double minimum = force(0), maximum = force(0);
     for (std::size_t back = 0; back < window; ++back) {
-      returns = returns && std::abs(force(back) - force(back + period)) <= alike * force(back);
+      returns = returns && std::abs(force(back) - force(back + period)) <= Limits::alike * force(back);
       minimum = std::min(minimum, force(back));
       maximum = std::max(maximum, force(back));
     }
-    if (returns && maximum - minimum > apart * maximum)
+    if (returns && maximum - minimum > Limits::apart * maximum)
       return true;
   }
   return false;
@@ -223,7 +237,6 @@ NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &s
   NewtonOptions options{};
   options.residual_tolerance = settings.force_tolerance;
   options.linear_tolerance = settings.linear_tolerance;
-  options.max_linear_tolerance = max_forcing_term;
   options.adapts_tolerance = settings.forcing == parameters::Solver::Forcing::eisenstat_walker;
   options.searches_lines = settings.line_search == parameters::Solver::LineSearch::energy;
   Convergence convergence(problem, settings, x_n, accepts_stalled, report);

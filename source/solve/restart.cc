@@ -236,10 +236,12 @@ std::vector<double> load_history(const StateReader &reader, const std::string &b
 }
 
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, const std::size_t body,
-                                       const Discretization &discretization, const Vector &displacements) {
+                                       const Discretization &discretization, const Vector &displacements,
+                                       const double t) {
   const std::string words = reader.read_text("formulation");
   const auto keys = element_keys(discretization, body);
   const SharedLaw &law = scene.bodies()[body].law;
+  const Expression *temperature = scene.bodies()[body].temperature.get();
   const auto &elements = discretization.elements(body);
   std::vector<ElementStress> stresses;
   std::size_t ignored = 0;
@@ -253,6 +255,8 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
     if (implicit->formulation.points_through > 2)
       axes = load_thickness_axes(reader, keys);
     block->initialize(positions, axes, ignored);
+    if (temperature != nullptr)
+      block->set_temperature(temperature->value(t));
     const std::size_t width = block->state_size();
     std::vector<double> rows;
     if (width > 0)
@@ -277,6 +281,8 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
       u[std::size_t{nodal_stride} * node + i] = displacements(nodes.dofs(node)[i]);
   const auto block = make_explicit_block(formulation->law, 1., formulation->formulation);
   block->initialize(nodes.elements(body), nodes.positions().data(), ignored);
+  if (temperature != nullptr)
+    block->set_temperature(temperature->value(t));
   const std::size_t width = block->history_size();
   const std::vector<double> rows =
       load_history(reader, scene.bodies()[body].name, *formulation->law, block->point_states(), width, keys);

@@ -17,6 +17,28 @@ using Rows = std::vector<std::vector<double>>;
 
 namespace {
 
+/// Limits, of vectors of length 1 unless they say otherwise.
+struct Limits {
+  /// Length of a row that counts as zero. Rows are unit vectors or shorter.
+  static constexpr double no_row = 1e-6;
+  /// Remainder that counts as zero: of the sum of all rows, as part of it, and of an aim.
+  static constexpr double no_rest = 1e-2;
+  /// Maximum number of sweeps of coordinate descent, and the decrease of the remainder in a sweep, as part of
+  /// it, below which the sweeps end.
+  static constexpr unsigned int max_sweeps = 1000;
+  static constexpr double settled = 1e-6;
+  /// Eigenvalue of Σ r rᵀ that counts as zero, as part of the largest eigenvalue or diagonal entry.
+  static constexpr double no_eigenvalue = 1e-10;
+  /// Length of the part of the bodies' motion that differs from other motions, below which it does not count.
+  static constexpr double alike = 1e-3;
+  /// Part of the slip of all spent points along the free motions below which it has no direction.
+  static constexpr double no_slide = 1e-10;
+  /// Component of a mode that is set to zero, as part of the motion of its body.
+  static constexpr double no_component = 1e-2;
+  /// Difference of components that count as equally large, as part of them.
+  static constexpr double equal = 1e-6;
+};
+
 double dot(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
@@ -36,13 +58,12 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
         motion[i] += factors[k] * basis[k][i];
     return motion;
   };
-  constexpr double none = 1e-6; // of a row; rows are unit vectors or shorter
   Rows rows;
   for (const auto &row : all_rows) {
     std::vector<double> part;
     for (const auto &motion : basis)
       part.push_back(dot(row, motion));
-    if (dot(part, part) > none * none)
+    if (dot(part, part) > Limits::no_row * Limits::no_row)
       rows.push_back(std::move(part));
   }
   // A motion orthogonal to all rows is free in both directions.
@@ -59,7 +80,7 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   gram.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(),
                                      0., values, vectors);
   std::vector<double> factors(n);
-  if (rows.empty() || values[0] <= 1e-10 * values[n - 1]) {
+  if (rows.empty() || values[0] <= Limits::no_eigenvalue * values[n - 1]) {
     for (std::size_t k = 0; k < n; ++k)
       factors[k] = rows.empty() ? (k == 0 ? 1. : 0.) : vectors(k, 0);
     return combine(factors);
@@ -72,13 +93,11 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   double size = 0.;
   for (const auto &row : rows)
     size += dot(row, row);
-  constexpr double small = 1e-2;
-  constexpr unsigned int n_sweeps = 1000;
   const auto is_small = [&] {
     const double left = std::sqrt(dot(rest, rest));
-    return left <= small * whole || left <= none * std::sqrt(size);
+    return left <= Limits::no_rest * whole || left <= Limits::no_row * std::sqrt(size);
   };
-  for (unsigned int sweep = 0; sweep < n_sweeps && !is_small(); ++sweep)
+  for (unsigned int sweep = 0; sweep < Limits::max_sweeps && !is_small(); ++sweep)
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const double change = std::max(-weights[i], -dot(rows[i], rest) / dot(rows[i], rows[i]));
       weights[i] += change;
@@ -97,14 +116,12 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
 /// none if that is 0. By Moreau's decomposition it is the aim plus non-negative multiples of the rows. The
 /// method is coordinate descent.
 std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector<double> aim) {
-  constexpr double none = 1e-6, small = 1e-2, settled = 1e-6;
-  constexpr unsigned int n_sweeps = 1000;
   std::vector<double> weights(rows.size(), 0.);
   double before = std::sqrt(dot(aim, aim));
-  for (unsigned int sweep = 0; sweep < n_sweeps && before > small; ++sweep) {
+  for (unsigned int sweep = 0; sweep < Limits::max_sweeps && before > Limits::no_rest; ++sweep) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const double square = dot(rows[i], rows[i]);
-      if (square <= none * none)
+      if (square <= Limits::no_row * Limits::no_row)
         continue;
       const double change = std::max(-weights[i], -dot(rows[i], aim) / square);
       weights[i] += change;
@@ -112,11 +129,11 @@ std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector
         aim[k] += change * rows[i][k];
     }
     const double now = std::sqrt(dot(aim, aim));
-    if (before - now <= settled * before)
+    if (before - now <= Limits::settled * before)
       break;
     before = now;
   }
-  if (std::sqrt(dot(aim, aim)) <= small)
+  if (std::sqrt(dot(aim, aim)) <= Limits::no_rest)
     return {};
   return aim;
 }
@@ -257,12 +274,11 @@ RigidBodySupport::Mode RigidBodySupport::mode_of(const Row &motion) const {
   }
   double max_component = 0.; // largest component, which is made positive
   for (unsigned int i = 0; i < 6; ++i)
-    if (std::abs(motion[6 * mode.body + i]) > (1. + 1e-6) * std::abs(max_component))
+    if (std::abs(motion[6 * mode.body + i]) > (1. + Limits::equal) * std::abs(max_component))
       max_component = motion[6 * mode.body + i];
   const auto component = [&](const unsigned int i) {
-    constexpr double none = 1e-2;
     const double value = motion[6 * mode.body + i] / (std::sqrt(maximum) * (max_component < 0. ? -1. : 1.));
-    return std::abs(value) < none ? 0. : value;
+    return std::abs(value) < Limits::no_component ? 0. : value;
   };
   mode.motion = {Tensor<1, 3>({component(0), component(1), component(2)}),
                  Tensor<1, 3>({component(3), component(4), component(5)})};
@@ -284,10 +300,9 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
   dealii::FullMatrix<double> vectors(size, size);
   matrix.compute_eigenvalues_symmetric(-std::numeric_limits<double>::max(),
                                        std::numeric_limits<double>::max(), 0., values, vectors);
-  constexpr double none = 1e-10, alike = 1e-3;
   Unresisted found;
   Rows bodies;
-  for (std::size_t k = 0; k < size && (maximum == 0. || values[k] <= none * maximum); ++k) {
+  for (std::size_t k = 0; k < size && (maximum == 0. || values[k] <= Limits::no_eigenvalue * maximum); ++k) {
     Row motion(size), of_bodies;
     for (std::size_t i = 0; i < size; ++i)
       motion[i] = vectors(i, k);
@@ -299,7 +314,7 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
         of_bodies[i] -= along * other[i];
     }
     const double left = std::sqrt(dot(of_bodies, of_bodies));
-    if (left <= alike)
+    if (left <= Limits::alike)
       continue;
     for (double &component : of_bodies)
       component /= left;
@@ -319,13 +334,12 @@ std::vector<RigidBodySupport::Row> RigidBodySupport::gather_one_way() const {
 }
 
 RigidBodySupport::Mode RigidBodySupport::find_sliding(const std::vector<Row> &motions) const {
-  constexpr double none = 1e-10;
   Row slide(n()), sliding(n());
   dealii::Utilities::MPI::sum(slide_, communicator_, slide);
   for (const auto &motion : motions)
     for (std::size_t i = 0; i < n(); ++i)
       sliding[i] += dot(motion, slide) * motion[i];
-  const bool has_direction = dot(sliding, sliding) > none * none * dot(slide, slide);
+  const bool has_direction = dot(sliding, sliding) > Limits::no_slide * Limits::no_slide * dot(slide, slide);
   return mode_of(has_direction ? sliding : motions.front());
 }
 

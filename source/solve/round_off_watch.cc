@@ -30,10 +30,10 @@ DiagnosticList RoundOffWatch::finish(const double tolerance, const bool accepts_
     text << ". Forces balance to that part only";
   else if (part > 1. && !accepts_all)
     text << ": it exceeds the forces of the scene";
-  else if (part > max_stalled_residual && !accepts_all)
+  else if (part > NewtonLimits::max_stalled_residual && !accepts_all)
     text << ": forces are accurate to this part only";
   else
-    text << "; residuals up to " << max_stalled_residual << " are accepted";
+    text << "; residuals up to " << NewtonLimits::max_stalled_residual << " are accepted";
   return {Diagnostic(is_notable ? diagnostic::round_off_limits_forces : diagnostic::balanced_to_round_off,
                      text.str())
               .time(time_)

@@ -15,7 +15,6 @@ StepEnergy::Verdict StepEnergy::judge(const double t_n, const double length, con
   if (!(works.before + works.own > floor) || works.before < min_before * works.own ||
       !(std::abs(works.imbalance) > max_part_of_own * works.own) || !(part_of_all(works) > max_part))
     return Verdict::balanced;
-  constexpr double rounding = 1e-6;
   if (t_n >= rejected_until_ - rounding * first_length_) {
     rejected_until_ = t_n + length;
     first_length_ = length;

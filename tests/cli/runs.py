@@ -960,11 +960,11 @@ def _() -> None:
         " & top on die: Friction coefficient = 0.2 & top on die: Normal penalty = 40"
         " & Time stepping: End time = 2 & Time stepping: - Initial step & Time stepping: - Maximum step"
     )
-    dissipations = [
+    found, expected = (
         billet(edits).last("friction_dissipation")
         for edits in (roll, f"{roll} & Time stepping: + set Maximum step = 0.02")
-    ]
-    near("dissipation", *dissipations, 0.03)
+    )
+    near("dissipation", found, expected, 0.03)
 
 
 # A tool that swings ten times, in steps of up to a tenth of the run.

@@ -38,7 +38,7 @@ void check_slaves() {
     const SlaveNodes slaves(make_facets(), two_pass, sizes);
     const std::string name = two_pass ? "two passes: " : "one pass: ";
     check(name + "each node is a slave once", slaves.size() == (two_pass ? 10 : 6));
-    const SlavePenalties penalties(slaves, stiffness, two_pass);
+    const SlavePenalties penalties(slaves, stiffness, two_pass, true);
     bool are_right = true;
     for (std::size_t s = 0; s < slaves.size(); ++s) {
       const unsigned int node = slaves.node(s);
@@ -50,12 +50,15 @@ void check_slaves() {
     check(name + "with its size, surface and part of the penalty", are_right);
   }
   const SlaveNodes slaves(make_facets(), false, sizes);
-  SlavePenalties penalties(slaves, stiffness, false);
+  SlavePenalties penalties(slaves, stiffness, false, true);
   penalties.scale(2., 4.);
   penalties.scale(8., 0.5);
   check("factors on penalties multiply", penalties.stiffening() == 16. &&
                                              penalties.tangential_stiffening() == 2. &&
                                              penalties[0].normal == 1600. && penalties[0].tangential == 20.);
+  const SlavePenalties frictionless(slaves, stiffness, false, false);
+  check("without friction there is no tangential penalty",
+        frictionless[0].normal == 100. && frictionless[0].tangential == 0.);
 }
 
 void check_start() {

@@ -35,8 +35,7 @@ public:
     state_.position = position;
     state_.normal = step_.placement.rotation * Tensor<1, 3>({0., 0., 1.});
     state_.gap = step_.placement.to_tool(position)[2];
-    friction_.press<is_exact>(0, nodes_[0], is_exact ? ContactTangent::exact : ContactTangent::consistent,
-                              fading, state_, friction_[0]);
+    friction_.press<is_exact>(0, nodes_[0], {}, fading, state_, friction_[0]);
     friction_[0].tool_position = step_.placement.to_tool(position);
     return state_;
   }

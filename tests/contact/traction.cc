@@ -41,7 +41,8 @@ std::vector<Sample> make_samples(const bool slipping) {
 }
 
 FrameTraction evaluate(const Sample &s, const ContactTangent tangent) {
-  return compute_traction(coulomb, stiffness, tangent, s.gap, s.tangential_n, {s.increment});
+  return compute_traction(coulomb, stiffness, FrictionTangent::of(tangent), s.gap, s.tangential_n,
+                          {s.increment});
 }
 
 /// Largest relative difference between the tangent and −∂t/∂u by central differences; u_n moves the gap.
@@ -118,8 +119,8 @@ void check_tangents() {
         TangentialIncrement increment{at.increment};
         for (unsigned int i = 0; i < 2; ++i)
           increment.gradient[i][2] = slope * at.increment[i];
-        return compute_traction(coulomb, {stiffness.normal, fraction * stiffness.tangential},
-                                ContactTangent::exact, at.gap, at.tangential_n, increment);
+        return compute_traction(coulomb, {stiffness.normal, fraction * stiffness.tangential}, {}, at.gap,
+                                at.tangential_n, increment);
       };
       const FrameTraction here = enter(s);
       for (unsigned int i = 0; i < 2; ++i) {

@@ -2,26 +2,33 @@
 """Each invariant holds of a result that is made up to be sound, and breaks when that is doctored in the one
 thing that it is about; closed forms against their limits; frames there and back; messages; the plan."""
 
+from __future__ import annotations
+
 import json
 import math
 import tempfile
 import unittest
 import unittest.mock
 from pathlib import Path
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy
+from numpy.typing import ArrayLike
 
 import modules  # noqa: F401
+from billet_tools.output import Array
+from billet_tools.records import Record
 from billet_tools.scene import scene_text
 from extremes import closed_forms, invariants as must, messages, plan, report, scenes
 from extremes.frame import Frame
 from extremes.results import Result, in_base_units, upright
-from extremes.runner import Runner
+from extremes.runner import AT_MOST, PATIENCE, Runner
 
 
-def grid(n, low, high):
+def grid(n: Sequence[int], low: Sequence[float], high: Sequence[float]) -> tuple[Array, Any]:
     """Corners of each brick, not shared, as the program writes them, and the bricks."""
-    points, cells = [], []
+    points: list[Array] = []
+    cells = []
     steps = (numpy.asarray(high, float) - low) / n
     for k in range(n[2]):
         for j in range(n[1]):
@@ -32,15 +39,15 @@ def grid(n, low, high):
 
 
 def made_up(
-    base,
-    changes=None,
-    n=(2, 2, 2),
-    low=(0, 0, 0),
-    high=(1, 1, 1),
-    move=lambda x: 0 * x,
-    history=None,
-    **fields,
-):
+    base: str,
+    changes: Mapping[str, Any] | None = None,
+    n: Sequence[int] = (2, 2, 2),
+    low: Sequence[float] = (0, 0, 0),
+    high: Sequence[float] = (1, 1, 1),
+    move: Callable[[Array], ArrayLike] = lambda x: 0 * x,
+    history: Mapping[str, ArrayLike] | None = None,
+    **fields: ArrayLike,
+) -> Result:
     """A result of this scene; `move` gives displacements of places."""
     r = Result.__new__(Result)
     r.setup = scenes.make(base, changes or {})
@@ -73,7 +80,9 @@ def made_up(
     return r
 
 
-def force(name, x=0.0, y=0.0, z=0.0, **more):
+def force(
+    name: str, x: ArrayLike = 0.0, y: ArrayLike = 0.0, z: ArrayLike = 0.0, **more: ArrayLike
+) -> dict[str, ArrayLike]:
     return {
         f"{name}.force_x": x,
         f"{name}.force_y": y,
@@ -82,14 +91,16 @@ def force(name, x=0.0, y=0.0, z=0.0, **more):
     }
 
 
-def stretched(strain, across):
+def stretched(strain: float, across: float) -> Callable[[Array], Array]:
     return lambda x: numpy.array(
         [math.expm1(across) * x[0], math.expm1(across) * x[1], math.expm1(strain) * x[2]]
     )
 
 
 class Invariants(unittest.TestCase):
-    def about(self, check, make, *doctors):
+    def about(
+        self, check: must.Check, make: Callable[[], Result], *doctors: Callable[[Result], object]
+    ) -> None:
         """Holds; and breaks after each of the doctors."""
         found = check(make())
         self.assertTrue(found, "nothing is found")
@@ -102,7 +113,7 @@ class Invariants(unittest.TestCase):
                 f"doctor {number} is not noticed: {[str(f) for f in check(r)]}",
             )
 
-    def test_finite(self):
+    def test_finite(self) -> None:
         self.about(
             must.finite,
             lambda: made_up("upset"),
@@ -111,7 +122,7 @@ class Invariants(unittest.TestCase):
             lambda r: r.history.update(time=r.history["time"] * 0.9),
         )
 
-    def test_residual(self):
+    def test_residual(self) -> None:
         self.about(
             must.residual,
             lambda: made_up("slide", history={"residual": 1e-7}),
@@ -122,12 +133,12 @@ class Invariants(unittest.TestCase):
             must.residual(made_up("slide", {"target error": 0.1}, history={"residual": 1e-4})), []
         )
 
-    def test_depth(self):
+    def test_depth(self) -> None:
         r = made_up("slide", history=force("floor", deepest_penetration=0.03), contact_area=0.25)
         self.assertAlmostEqual(must.deepest(r), 0.06)
         self.assertEqual(must.deepest(made_up("slide")), 0.0)
 
-    def test_forces(self):
+    def test_forces(self) -> None:
         both = {**force("die", z=2.0), **force("ram", z=-2.0)}
         self.about(
             must.balanced("die", "ram"),
@@ -145,9 +156,9 @@ class Invariants(unittest.TestCase):
             lambda r: r.history["die.force_z"].__setitem__(0, -0.1),
         )
 
-    def test_friction(self):
+    def test_friction(self) -> None:
         history = force("die", x=0.3, z=1.0, contact_area=1.0)
-        contact = {
+        contact: dict[str, Any] = {
             "contact_pressure": 1.0,
             "contact_traction": numpy.array([[0.3, 0.0, 1.0]]),
             "contact_status": 2.0,
@@ -193,7 +204,7 @@ class Invariants(unittest.TestCase):
             lambda r: r.history.update({"ram.moment_z": r.history["ram.moment_z"] * 3}),
         )
 
-    def test_penetration(self):
+    def test_penetration(self) -> None:
         # 10 E/h on facets of 1/2: 20000, under a pressure of 100
         make = lambda: made_up(
             "upset",
@@ -218,7 +229,7 @@ class Invariants(unittest.TestCase):
             ),
         )
 
-    def test_energies(self):
+    def test_energies(self) -> None:
         t = numpy.linspace(0.1, 1, 10)
         make = lambda: made_up(
             "upset",
@@ -239,14 +250,14 @@ class Invariants(unittest.TestCase):
             lambda r: r.history["external_work"].__setitem__(9, 5.0),
         )
 
-    def test_jacobians(self):
+    def test_jacobians(self) -> None:
         self.about(
             must.jacobians,
             lambda: made_up("upset"),
             lambda r: r.fields["displacement"].__setitem__((7, slice(None)), (-0.9, -0.9, -0.9)),
         )
 
-    def test_augmented(self):
+    def test_augmented(self) -> None:
         make = lambda: made_up(
             "upset", {"augmentation": 1e-2}, history=force("ram", z=-200.0, deepest_penetration=0.004)
         )  # noqa: E731
@@ -259,13 +270,13 @@ class Invariants(unittest.TestCase):
             len(scenes.make("upset", {"augmentation": 1e-2}).checks), len(scenes.make("upset", {}).checks) + 2
         )
 
-    def test_driven(self):
+    def test_driven(self) -> None:
         make = lambda: made_up("upset", {"force": 0.01}, history=force("ram", z=-10.0))  # noqa: E731
         self.about(
             must.driven("ram.force_z", -10.0), make, lambda r: r.history["ram.force_z"].__setitem__(9, -10.01)
         )
 
-    def test_laden(self):
+    def test_laden(self) -> None:
         t = numpy.linspace(0.1, 1, 10)
         make = lambda: made_up(
             "laden.explicit", history={**force("floor", z=t), "momentum_z": 0.0, "time": t}
@@ -288,11 +299,11 @@ class Invariants(unittest.TestCase):
             lambda r: r.history.update({"floor.force_z": 2.5 * r.history["floor.force_z"]}),
         )
 
-    def test_believed(self):
+    def test_believed(self) -> None:
         t = numpy.linspace(0.1, 1, 10)
         fine = made_up("slide", history=force("die", z=t))
 
-        def make():
+        def make() -> Result:
             r = made_up("slide", history=force("die", z=1.02 * t))
             r.believed = {"error": 0.01}
             return r
@@ -305,7 +316,7 @@ class Invariants(unittest.TestCase):
             lambda r: r.history.update({"die.force_z": 1.05 * t}),
         )
 
-    def test_yields(self):
+    def test_yields(self) -> None:
         # J = 1; 1 % of E and 10 % hardening: 10 + 100 * 0.1
         make = lambda: made_up(
             "upset", {"law": "elastoplastic"}, von_mises_stress=20.0, equivalent_plastic_strain=0.1
@@ -330,10 +341,10 @@ class Invariants(unittest.TestCase):
         )
         self.assertTrue(all(f.holds for f in must.yields(small)))
 
-    def test_bar(self):
+    def test_bar(self) -> None:
         strain, across = -0.1, 0.03
         f = 1000 * strain / math.exp(strain)
-        history = {**force("ram", z=f), "elastic_energy": 500 * strain**2}
+        history: dict[str, ArrayLike] = {**force("ram", z=f), "elastic_energy": 500 * strain**2}
         make = lambda: made_up(
             "upset",
             move=stretched(strain, across),
@@ -358,7 +369,7 @@ class Invariants(unittest.TestCase):
         )
         self.about(must.uniform_stress, make, lambda r: r.fields["von_mises_stress"].__setitem__(0, 1.1))
 
-    def test_plastic_bar(self):
+    def test_plastic_bar(self) -> None:
         stress, plastic = closed_forms.uniaxial_hencky(1000, -0.1, 10, 100)
         self.assertAlmostEqual(-stress, 10 + 100 * plastic)
         across = closed_forms.lateral_hencky(1000, 0.3, -0.1, stress)
@@ -372,7 +383,7 @@ class Invariants(unittest.TestCase):
             must.bar, make, lambda r: r.history.update({"ram.force_z": 1.001 * r.history["ram.force_z"]})
         )
 
-    def test_strained(self):
+    def test_strained(self) -> None:
         make = lambda: made_up("upset", {"strained": True}, move=stretched(-0.1, 0.03))  # noqa: E731
         self.about(
             must.strained, make, lambda r: r.fields.update(displacement=0.85 * r.fields["displacement"])
@@ -382,7 +393,7 @@ class Invariants(unittest.TestCase):
         self.assertGreater(flat.knobs.penalty, 1e4)
         self.assertEqual(scenes.make("upset", {"aspect": 1e-3}).knobs.penalty, 10.0)
 
-    def test_bar_in_motion(self):
+    def test_bar_in_motion(self) -> None:
         strain, across = -0.1, 0.03
         make = lambda: made_up(
             "stretch.explicit",
@@ -393,7 +404,7 @@ class Invariants(unittest.TestCase):
             must.bar_in_motion, make, lambda r: r.fields.update(stress_zz=0.85 * r.fields["stress_zz"])
         )
 
-    def test_stack(self):
+    def test_stack(self) -> None:
         strain = -0.01
         pressure = closed_forms.confined_hencky(1000, 0.3, strain) / math.exp(strain)
         make = lambda: made_up(
@@ -406,7 +417,7 @@ class Invariants(unittest.TestCase):
             stress_zz=pressure,
         )
 
-        def sound():
+        def sound() -> Result:
             r = make()
             r.fields["body"] = (
                 (r.fields["places"][r.fields["cells"]].mean(axis=1)[:, 2] > 0).repeat(8).astype(float)
@@ -424,7 +435,7 @@ class Invariants(unittest.TestCase):
             lambda r: r.fields["stress_zz"].__setitem__(0, 0.9 * pressure),
         )
 
-    def test_symmetry(self):
+    def test_symmetry(self) -> None:
         mirrored = lambda: made_up(
             "slide", move=lambda x: numpy.array([x[0], (x[1] - 0.5) * x[2], x[0]])
         )  # noqa: E731
@@ -440,7 +451,7 @@ class Invariants(unittest.TestCase):
         )  # noqa: E731
         self.about(must.quarter_turn, turned, lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04))
 
-    def test_rest(self):
+    def test_rest(self) -> None:
         make = lambda: made_up("rest", history=force("die"))  # noqa: E731
         self.about(
             must.nothing_happens,
@@ -449,11 +460,11 @@ class Invariants(unittest.TestCase):
             lambda r: r.history["die.force_z"].__setitem__(0, 1e-3),
         )
 
-    def test_motion(self):
+    def test_motion(self) -> None:
         t = numpy.linspace(0.1, 1, 10)
         mass, speed = 1e-3, 10.0
         energy = 0.5 * mass * speed**2
-        history = {
+        history: dict[str, ArrayLike] = {
             **force("floor", z=2 * mass * speed / 0.9),
             "momentum_x": 0.0,
             "momentum_y": 0.0,
@@ -497,7 +508,7 @@ class Invariants(unittest.TestCase):
             lambda r: r.history.update({"floor.force_z": 1.3 * r.history["floor.force_z"]}),
         )
 
-    def test_impacts_are_looked_at(self):
+    def test_impacts_are_looked_at(self) -> None:
         # what a check leaves out by the scene's knobs it must not leave out of every scene
         for base, name in (("bar.explicit", "wall"), ("bars.implicit", "joint")):
             r = made_up(base, history={**force(name, z=1.0), "kinetic_energy": 1.0})
@@ -510,9 +521,13 @@ class Invariants(unittest.TestCase):
                     pass
             self.assertIn("stress of the impact", [f.name for f in found], base)
 
-    def test_skidding(self):
+    def test_skidding(self) -> None:
         t = numpy.linspace(0.1, 1, 10)
-        history = {"momentum_x": 1 - 0.2 * t * 0.5, "momentum_y": 0.0, "momentum_z": 0.0}
+        history: dict[str, ArrayLike] = {
+            "momentum_x": 1 - 0.2 * t * 0.5,
+            "momentum_y": 0.0,
+            "momentum_z": 0.0,
+        }
         make = lambda: made_up("skid.explicit", {"mu": 0.1}, history=history)  # noqa: E731
         self.about(
             must.skidding(1.0, 1.0, 1.0),
@@ -527,7 +542,7 @@ class Invariants(unittest.TestCase):
             must.skidding(1.0, 1.0, 1.0), smooth, lambda r: r.history["momentum_x"].__setitem__(4, 0.9999)
         )
 
-    def test_pile(self):
+    def test_pile(self) -> None:
         make = lambda: made_up(
             "pile.explicit",
             {"cycles": 100},
@@ -541,8 +556,8 @@ class Invariants(unittest.TestCase):
             lambda r: r.history["kinetic_energy"].__setitem__(9, 1e-3),
         )
 
-    def test_cycles(self):
-        def make():
+    def test_cycles(self) -> None:
+        def make() -> Result:
             r = made_up("slide", {"cycles": 3, "step": 0.5, "mu": 0.3})
             r.history = {
                 "time": numpy.arange(0.5, 4.25, 0.5),
@@ -552,7 +567,7 @@ class Invariants(unittest.TestCase):
 
         self.about(must.closed_cycles("die"), make, lambda r: r.history["die.force_x"].__setitem__(7, 1.001))
 
-    def test_same(self):
+    def test_same(self) -> None:
         make = lambda: made_up(
             "upset",
             move=stretched(-0.1, 0.03),
@@ -566,7 +581,7 @@ class Invariants(unittest.TestCase):
             lambda r: r.fields["displacement"].__setitem__((1, 0), 0.04),
         )
 
-    def test_same_in_other_units(self):
+    def test_same_in_other_units(self) -> None:
         make = lambda: made_up(
             "upset", history={**force("ram", z=1.0), "total_iterations": 15.0, "total_cuts": 0.0}
         )  # noqa: E731
@@ -579,14 +594,14 @@ class Invariants(unittest.TestCase):
             lambda r: r.history.update(step=r.history["step"] + 1),
         )
 
-    def test_nothing_is_not_right(self):
+    def test_nothing_is_not_right(self) -> None:
         self.assertFalse(must.Finding("", math.nan, 1.0).holds)
         self.assertEqual(must.part(0.0, 0.0), 0.0)
         self.assertEqual(must.part(1.0, 0.0), math.inf)
 
 
 class ClosedForms(unittest.TestCase):
-    def test_small_strains(self):
+    def test_small_strains(self) -> None:
         for nu in (-0.5, 0.0, 0.3, 0.499):
             stress, across = closed_forms.uniaxial_hypoelastic(1000, nu, [0.5e-3 * i for i in range(2001)])
             self.assertAlmostEqual(stress, 1000, delta=1e-4)
@@ -605,14 +620,14 @@ class ClosedForms(unittest.TestCase):
             closed_forms.bulk(1000, 0.3) + 4 / 3 * closed_forms.shear(1000, 0.3),
         )
 
-    def test_impact(self):
+    def test_impact(self) -> None:
         self.assertAlmostEqual(
             closed_forms.impact_stress(1000, 1e-3, 1000, 1e-3, 2.0), 1e-3 * closed_forms.bar_speed(1000, 1e-3)
         )
         rigid = closed_forms.impact_stress(1000, 1e-3, 1e30, 1e3, 2.0)
         self.assertAlmostEqual(rigid, 2e-3 * closed_forms.bar_speed(1000, 1e-3))
 
-    def test_friction(self):
+    def test_friction(self) -> None:
         limit = closed_forms.friction_limit
         self.assertEqual(limit("Coulomb", 2.0, 0.0, 0.3), 0.6)
         self.assertEqual(limit("shear limited", 2.0, 0.0, 0.3, largest=0.5), 0.5)
@@ -621,7 +636,7 @@ class ClosedForms(unittest.TestCase):
 
 
 class Frames(unittest.TestCase):
-    def test_there_and_back(self):
+    def test_there_and_back(self) -> None:
         frame = Frame(1e3, 1e-6, 2.0, (1, 2, 3), 40)
         v = numpy.array([[1.0, 2.0, 3.0]])
         written = {f"a.force_{i}": numpy.array([x]) for i, x in zip("xyz", frame.turned(v[0]) * frame.force)}
@@ -639,14 +654,14 @@ class Frames(unittest.TestCase):
             numpy.allclose(fields["displacement"], v) and numpy.allclose(fields["places"], 0, atol=1e-9)
         )
 
-    def test_text(self):
+    def test_text(self) -> None:
         self.assertEqual(scene_text({"a": {"b": 1, "c": None}}), "subsection a\n  set b = 1\nend\n")
         self.assertEqual(Frame(2.0).expressions(("0", "{t}", "1"), 2.0), "0 ; 2*(t) ; 2*(1)")
         self.assertEqual(Frame(time=10.0).expression("{t}"), "(t/10)")
 
 
 class Words(unittest.TestCase):
-    def test_messages(self):
+    def test_messages(self) -> None:
         self.assertEqual(messages.lacks(2, "scene.prm:3: 'a' in 'b' is '1'; allowed is a number > 2"), [])
         self.assertEqual(messages.lacks(2, "'a' is '1'"), ["where", "what to do"])
         self.assertEqual(messages.lacks(3, "scene.prm: it failed: try another"), ["when"])
@@ -655,7 +670,7 @@ class Words(unittest.TestCase):
         )
         self.assertEqual(messages.lacks(2, ""), ["any message"])
 
-    def test_plan(self):
+    def test_plan(self) -> None:
         cases = plan.cases()
         names = {case.name for case in cases}
         self.assertGreaterEqual(len(cases), 2000)
@@ -678,8 +693,8 @@ SPIN = "i=0; while [ $i -lt {0} ]; do i=$((i + 1)); done"
 
 
 class Told(unittest.TestCase):
-    def test_units(self):
-        def record(value, **errors):
+    def test_units(self) -> None:
+        def record(value: object, **errors: float) -> Record:
             return {
                 "parameters": ["units"],
                 "values": [value],
@@ -700,7 +715,7 @@ class Told(unittest.TestCase):
         )
 
 
-def write_warnings(work, *keys):
+def write_warnings(work: Path, *keys: str) -> None:
     """What a run would have left of these warnings."""
     (work / "results").mkdir(exist_ok=True)
     (work / "results/diagnostics.jsonl").write_text(
@@ -713,23 +728,23 @@ def write_warnings(work, *keys):
 class Running(unittest.TestCase):
     """Programs that are not billet."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def runner(self, *lines, **limits):
+    def runner(self, *lines: str, patience: float = PATIENCE, at_most: float = AT_MOST) -> Runner:
         program = self.folder / "program"
         program.write_text(
             "\n".join(["#!/bin/bash", "mkdir results; echo step > results/history.csv", *lines]) + "\n"
         )
         program.chmod(0o755)
-        return Runner(program, self.folder / "runs", **limits)
+        return Runner(program, self.folder / "runs", patience=patience, at_most=at_most)
 
-    def outcome(self, *lines, **limits):
+    def outcome(self, *lines: str, **limits: float) -> Record:
         return self.runner(*lines, **limits).run(plan.Case("upset", {}, (), ()))
 
-    def test_slow_is_not_hung(self):
+    def test_slow_is_not_hung(self) -> None:
         # Longer altogether than a step may take; each is told.
         steps = (
             f"for s in $(seq 500); do {SPIN.format(2000)}; echo $s >> results/history.csv; done; echo"
@@ -742,13 +757,13 @@ class Running(unittest.TestCase):
         self.assertEqual(found["outcome"], "hung")
         self.assertRegex(found["reason"], "not finished after 0.7 s of the processor, and [1-9][0-9]* rows")
 
-    def test_hung(self):
+    def test_hung(self) -> None:
         found = self.outcome("while :; do echo much; done", patience=0.3)
         self.assertEqual(found["outcome"], "hung")
         self.assertIn("no step was accepted in 0.3 s of the processor, after 0 rows", found["reason"])
         self.assertEqual(self.outcome("sleep 100", patience=0.1)["outcome"], "hung")
 
-    def test_round_off_is_capped(self):
+    def test_round_off_is_capped(self) -> None:
         case = plan.Case("upset", {}, (), ())
         said, noted = "round-off-limits-forces", "balanced-to-round-off"
         for key, balanced, allowed, right in (
@@ -770,7 +785,7 @@ class Running(unittest.TestCase):
                 verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
             self.assertEqual(verdict["outcome"], "right" if right else "wrong", (key, balanced))
 
-    def test_raised_penalty(self):
+    def test_raised_penalty(self) -> None:
         case = plan.Case("upset", {}, (), ())
         for key, right in ((None, False), ("penalty-raised", True), ("penalty-too-low", False)):
             runner = self.runner()
@@ -783,7 +798,7 @@ class Running(unittest.TestCase):
                 verdict = runner._verdict(case, setup, work, (0, "", "", 1.0))
             self.assertEqual(verdict["outcome"], "right" if right else "wrong", key)
 
-    def test_lost_symmetry(self):
+    def test_lost_symmetry(self) -> None:
         # Excused only where a nudge at the start changes the end: where it does not, the program is not
         # symmetric.
         case = plan.Case("skid.implicit", {"mu": 2}, (), ())
@@ -814,14 +829,14 @@ class Running(unittest.TestCase):
                 self.assertEqual(report.forgetful([{"name": "a/b", "outcome": "right", "errors": {}}]), "")
         self.assertIsNone(scenes.nudged(scenes.make("upset", {}), 1e-13))
         # a speed of 10 and, over 0.04, one size
-        self.assertEqual(
-            scenes.nudged(setup, 0.5)["Bodies"]["block"]["Initial velocity"], "10 + 17.5; 0 + -10.5; 0 + 5.25"
-        )
-        at_rest = scenes.nudged(scenes.make("laden.implicit", {}), 0.5)["Bodies"]["block"]["Initial velocity"]
-        for found, expected in zip(at_rest.split("; 0 + "), (12.5, -7.5, 3.75)):
-            self.assertAlmostEqual(float(found.removeprefix("0 + ")), expected)
+        moving = scenes.nudged(setup, 0.5) or {}
+        self.assertEqual(moving["Bodies"]["block"]["Initial velocity"], "10 + 17.5; 0 + -10.5; 0 + 5.25")
+        at_rest = scenes.nudged(scenes.make("laden.implicit", {}), 0.5) or {}
+        velocity = at_rest["Bodies"]["block"]["Initial velocity"]
+        for component, expected in zip(velocity.split("; 0 + "), (12.5, -7.5, 3.75)):
+            self.assertAlmostEqual(float(component.removeprefix("0 + ")), expected)
 
-    def test_other_programs(self):
+    def test_other_programs(self) -> None:
         runner = self.runner("exit 1")
         record = runner.run(plan.Case("upset", {}, (), ()))
         self.assertFalse(runner.stale(record))
@@ -838,7 +853,7 @@ class Running(unittest.TestCase):
         self.assertIn("1 scene ran with the program as it is, 2 with one other state", said)
         self.assertIn("2 crashed", said)
 
-    def test_doubt(self):
+    def test_doubt(self) -> None:
         runner, work = self.runner(), self.folder / "work"
         work.mkdir(exist_ok=True)
         setup = scenes.make("stretch.explicit", {})
@@ -858,7 +873,7 @@ class Running(unittest.TestCase):
                     outcome,
                 )
 
-    def test_soft(self):
+    def test_soft(self) -> None:
         runner, work = self.runner(), self.folder / "work"
         work.mkdir(exist_ok=True)
         setup = scenes.make("slide", {})
@@ -882,8 +897,10 @@ class Running(unittest.TestCase):
                     soft,
                 )
 
-    def test_safe(self):
-        def of(parameters, values, outcome="right", soft=False):
+    def test_safe(self) -> None:
+        def of(
+            parameters: list[str], values: list[Any], outcome: str = "right", soft: bool = False
+        ) -> Record:
             return {"parameters": parameters, "values": values, "outcome": outcome, "soft": soft}
 
         records = [
@@ -900,11 +917,12 @@ class Running(unittest.TestCase):
         )
         # Told ones are safe unless it is about penalties; soft ones are not, but for scenes that are soft
         # anyway.
-        told = {"depth": 0.0, "warnings": ["contact-too-soft"]}
+        nothing: Record = {}
+        told: Record = {"depth": 0.0, "warnings": ["contact-too-soft"]}
         self.assertEqual(
             [
                 report.outcome_of({**of([], [], soft=True), **r})
-                for r in (told, {**told, "depth": 1.0}, {**told, "warnings": ["penalty-too-low"]}, {})
+                for r in (told, {**told, "depth": 1.0}, {**told, "warnings": ["penalty-too-low"]}, nothing)
             ],
             ["told", "soft", "soft", "soft"],
         )
@@ -925,7 +943,7 @@ class Running(unittest.TestCase):
         self.assertEqual(report.safe(records, "nu"), "0.49, in pairs")
         self.assertEqual(report.safe(records, "aspect"), "")
 
-    def test_slow_ones_are_told(self):
+    def test_slow_ones_are_told(self) -> None:
         records = [
             {"name": "a/b", "outcome": "right", "seconds": 57.0, "steps": 13000.0},
             {"name": "c/d", "outcome": "right", "seconds": 1.0},

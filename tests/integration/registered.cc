@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A time integrator that is registered from outside the library: scenes name it, set its parameter, and are
-// refused those of others.
+// A time integrator that is registered from outside the library: scenes name it, set its parameter, are
+// refused those of others, and run with it.
 #include "billet/errors.h"
 #include "billet/integration/time_integrator_type.h"
 #include "billet/parameters/scene.h"
 
-#include "../testing.h"
+#include "../scenes/scene_run.h"
 
 #include <fstream>
 #include <sstream>
@@ -49,9 +49,30 @@ std::string refusal(const std::string &lines) {
   return "";
 }
 
+/// State of the scene after some steps of equal length.
+EnergyLedger run_with(const std::string &lines) {
+  parameters::Scene scene = read_with(lines);
+  scene.time_stepping.control = parameters::TimeStepping::Control::fixed;
+  scene.time_stepping.end_time = 2e-4;
+  testing::SceneRun run(scene);
+  run.finish();
+  return run.problem.state().energies;
+}
+
+void test_run() {
+  const EnergyLedger newmark = run_with("  set Method = Newmark\n"),
+                     same = run_with("  set Method = Bossak\n  set Inertia weight = 0\n"),
+                     damped = run_with("  set Method = Bossak\n  set Inertia weight = -0.2\n");
+  check("without weights it is the trapezoidal rule", same.kinetic == newmark.kinetic);
+  check("with weights it is another, close to it",
+        damped.kinetic != newmark.kinetic && std::abs(damped.kinetic / newmark.kinetic - 1.) < 0.05);
+  check("energies balance", std::abs(damped.drift()) / damped.external, 1e-3);
+}
+
 } // namespace
 
-int main() {
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   time_integrator_types().add(bossak_type());
   const TimeIntegrator integrator =
       read_with("  set Method = Bossak\n  set Inertia weight = -0.2\n").implicit_dynamics.integrator;
@@ -70,5 +91,6 @@ int main() {
     is_refused = true;
   }
   check("a name that is taken", is_refused);
+  test_run();
   return billet::testing::exit_code();
 }

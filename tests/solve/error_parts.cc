@@ -64,6 +64,65 @@ double next_step(const double tolerance, const std::vector<Pair> &pairs) {
   return Compared(tolerance, pairs).errors.longest_step();
 }
 
+/// Steps of h = 0.001 that are compared when `left` of the run is left, each time with one from which they
+/// differ by this part of the force. `unmeasured`: length of one step before, of which nothing is known.
+struct Late {
+  static constexpr double h = 1e-3, tolerance = 0.01;
+  ForceCourse course{1.};
+  StepErrors errors{{tolerance, false, false}};
+
+  Late(const double left, const double unmeasured, const std::vector<double> &differences) {
+    course.accept(1e-6, 10.);
+    course.accept(1. - 1e-6 - left, 10.);
+    if (unmeasured > 0.)
+      errors.accept(unmeasured, 1);
+    for (const double difference : differences) {
+      for (unsigned int i = 0; i < 2; ++i)
+        errors.accept(h, 1);
+      errors.measure(course, h, force(10.), force(10. * (1. + difference)), 0.);
+    }
+  }
+  /// The factor by which the next steps may be longer.
+  double stretch() const { return errors.longest_step() / h; }
+  /// The difference of steps that make errors grow at so many times the even rate: 1.4 c h = n 2 S ε/T.
+  static constexpr double at_rate(const double n) { return n * 2. * tolerance * 2. * h / 1.4; }
+};
+
+/// Limits of the rate at which errors may grow.
+void check_rates() {
+  constexpr double rounding = 1e-4; // of the error so far
+  // With a fifth of the run to go, all that is allowed would be 25 times the even rate.
+  check("errors late in the run grow at six times the even rate at most",
+        near(Late(0.2, 0., {Late::at_rate(3.)}).stretch(), 2., rounding) &&
+            near(Late(0., 0., {Late::at_rate(3.)}).stretch(), 2., rounding));
+  // Where half of the run has used up all that is allowed, 0.2 of the rate that leads to it in the other
+  // half.
+  check("what has used up all errors goes on at a fifth of the rate",
+        near(Late(0.5, 0.5, {Late::at_rate(0.4)}).stretch(), 2., 1e-9));
+  check("errors that grow suddenly count three times the last ones",
+        near(Late(0.2, 0., {Late::at_rate(1.), Late::at_rate(3.1)}).stretch(), 2., rounding) &&
+            near(Late(0.2, 0., {Late::at_rate(1.), Late::at_rate(30.)}).stretch(), 2., rounding));
+}
+
+/// Errors that fade: each pair of steps adds 0.004 of the force and halves what was before.
+void check_fading_errors() {
+  ForceCourse course(1.);
+  StepErrors errors({0.02, true, false});
+  double adds_up = 0.;
+  for (unsigned int pair = 0; pair < 40; ++pair) {
+    for (unsigned int i = 0; i < 2; ++i) {
+      course.accept(0.01, 10.);
+      errors.accept(0.01, 1);
+    }
+    adds_up = 0.5 * adds_up + 0.004;
+    errors.measure(course, 0.01, force(10.), force(10.04), 0.);
+  }
+  // But for the first pair, over which they rise.
+  check("errors that fade add up to twice those of a pair",
+        near(errors.integral(), 10. * adds_up * course.time(), 0.02));
+  check("and grow with the square of the step", near(errors.longest_step(), 0.01 * std::sqrt(2.5), 1e-9));
+}
+
 void check_steps() {
   constexpr double rounding = 1e-12;
   {
@@ -71,6 +130,9 @@ void check_steps() {
     const StepErrors errors({1e-3, false, false});
     check("the first comparison waits while three steps are left", !errors.wants_measurement(course, 0.33));
     check("but no longer", errors.wants_measurement(course, 0.34));
+    check("a part of 1e-9 of the run does not count",
+          !errors.wants_measurement(course, (1. + 0.9e-9) / 3.) &&
+              errors.wants_measurement(course, (1. + 1.1e-9) / 3.));
   }
   {
     const Compared steady(1e-3, {{0.01, 1e-5}});
@@ -171,5 +233,7 @@ int main() {
   check("penetrations that cause a tenth of what is allowed are measured seldom",
         wait_after(0.095) == 8 && wait_after(0.105) == 4);
   check_steps();
+  check_rates();
+  check_fading_errors();
   return billet::testing::exit_code();
 }

@@ -71,6 +71,18 @@ void check_limits() {
   ExplicitClock short_steps("scene.prm"), shorter("scene.prm");
   check("1e15 steps to the event are too many",
         !throws(short_steps, 1., 1.05e-15) && throws(shorter, 1., 0.95e-15));
+  // Steps that are planned stay although longer ones become possible.
+  const auto stays = [](const double n_steps) {
+    ExplicitClock clock("scene.prm");
+    for (unsigned int i = 0; i < 2; ++i) { // the first step counts as growth
+      clock.plan(1., 1. / n_steps);
+      clock.advance();
+    }
+    const double step = clock.step();
+    clock.plan(1., 1.05 / n_steps);
+    return clock.step() == step;
+  };
+  check("1e9 steps are planned at once, more are not", stays(0.95e9) && !stays(1.05e9));
 }
 
 } // namespace

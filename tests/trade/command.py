@@ -2,6 +2,8 @@
 """The command line: a whole sweep over a program whose limit and errors are known, failures, interruption and
 resumption, and what is said to the user; at last a small sweep over billet itself."""
 
+from __future__ import annotations
+
 import argparse
 import contextlib
 import csv
@@ -69,7 +71,7 @@ WHOLE = [
 ]
 
 
-def error(layers=4, step=0.1, penalty=10.0):
+def error(layers: int = 4, step: float = 0.1, penalty: float = 10.0) -> float:
     return 0.3 / layers**2 + 0.2 * step + 0.05 / penalty
 
 
@@ -79,8 +81,11 @@ SHAPE = math.sqrt((1 / 3 - 1 / 192) / (1 / 12 - 1 / 192))
 
 
 class TestCommand(unittest.TestCase):
+    temporary: TemporaryDirectory[str]
+    folder: Path
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.temporary = TemporaryDirectory()
         cls.folder = Path(cls.temporary.name)
         (cls.folder / "bar.prm").write_text(SCENE)
@@ -90,13 +95,13 @@ class TestCommand(unittest.TestCase):
         os.environ["FAKE_LOG"] = str(cls.folder / "log")
 
     @classmethod
-    def tearDownClass(cls):
+    def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
 
-    def setUp(self):
+    def setUp(self) -> None:
         self.log = self.folder / f"{self.id()}.log"
 
-    def said(self, *arguments, scene="bar.prm"):
+    def said(self, *arguments: str, scene: str = "bar.prm") -> tuple[int, str]:
         """Exit code and standard error of a command that ends early, run within this process."""
         previous, said = os.getcwd(), io.StringIO()
         os.chdir(self.folder)
@@ -109,7 +114,9 @@ class TestCommand(unittest.TestCase):
         finally:
             os.chdir(previous)
 
-    def trade(self, *arguments, scene="bar.prm", program=None, **environment):
+    def trade(
+        self, *arguments: str, scene: str = "bar.prm", program: str | None = None, **environment: str
+    ) -> subprocess.CompletedProcess[str]:
         done = subprocess.run(
             [
                 sys.executable,
@@ -128,14 +135,14 @@ class TestCommand(unittest.TestCase):
         self.assertNotIn("Traceback", done.stderr)
         return done
 
-    def runs(self):
+    def runs(self) -> int:
         return len(self.log.read_text().splitlines()) if self.log.exists() else 0
 
-    def rows(self, name):
+    def rows(self, name: str) -> list[dict[str, str]]:
         with open(self.folder / f"{name}.csv", newline="") as file:
             return list(csv.DictReader(file))
 
-    def test_sweep(self):
+    def test_sweep(self) -> None:
         """Stopped in the middle, taken up again, and all errors as they must be."""
         stopped = self.trade(*WHOLE, FAKE_INTERRUPT="7")
         self.assertEqual(stopped.returncode, 5, stopped.stderr)
@@ -250,7 +257,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(missed.returncode, 3)
         self.assertIn("Nothing tried is within 3 %", missed.stdout)
 
-    def test_weights_and_given_mesh(self):
+    def test_weights_and_given_mesh(self) -> None:
         done = self.trade(
             "--knobs",
             "penalty=10",
@@ -280,7 +287,7 @@ class TestCommand(unittest.TestCase):
                     delta=1e-6,
                 )
 
-    def test_forces_judge_whatever_counts(self):
+    def test_forces_judge_whatever_counts(self) -> None:
         """Runs that were kept when forces counted tell of locking when the shape alone does."""
         knobs = (
             "--knobs",
@@ -314,7 +321,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("locked", done.stdout)
 
-    def test_combination(self):
+    def test_combination(self) -> None:
         done = self.trade(
             "--knobs",
             "mesh=0.5",
@@ -337,7 +344,7 @@ class TestCommand(unittest.TestCase):
         # two layers, two steps
         self.assertEqual((combined["work"], combined["chosen"]), (str(2 * 2 * 5), "1"))
 
-    def test_bad_input(self):
+    def test_bad_input(self) -> None:
         cases = [
             (["--knobs", "speed"], "there is no knob 'speed'; there are mesh, steps, largest step"),
             (
@@ -449,7 +456,7 @@ class TestCommand(unittest.TestCase):
             ),
         )
 
-    def test_one_at_a_time(self):
+    def test_one_at_a_time(self) -> None:
         (self.folder / "busy").mkdir()
         with open(self.folder / "busy/lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
@@ -457,7 +464,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("another billet-trade works in the folder 'busy'", said)
 
-    def test_list(self):
+    def test_list(self) -> None:
         done = self.trade("--list")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(
@@ -465,7 +472,7 @@ class TestCommand(unittest.TestCase):
         )
         self.assertIn("facets overlap, planed, bilinear, mean gap: no bodies touch each other", done.stdout)
 
-    def test_time_that_is_too_short(self):
+    def test_time_that_is_too_short(self) -> None:
         done = self.trade(
             "--set",
             "Solver/Line search=none",
@@ -484,7 +491,7 @@ class TestCommand(unittest.TestCase):
             done.stderr,
         )
 
-    def test_errors_that_cancel(self):
+    def test_errors_that_cancel(self) -> None:
         """Long steps take away what a coarse mesh adds: it must not be chosen."""
         done = self.trade(
             "--knobs",
@@ -513,14 +520,14 @@ class TestCommand(unittest.TestCase):
         self.assertEqual((coarse["chosen"], found["steps", "40"]["chosen"]), ("0", "1"))
         self.assertIn("Not to be relied on", done.stdout)
 
-    def test_pilot_without_later_stops(self):
+    def test_pilot_without_later_stops(self) -> None:
         scene = Scene(SCENE + "subsection Time stepping\nset Stops = 0.25, 0.5, 1\nend\n")
         options = argparse.Namespace(set=[], mesh=None, until=0.5)
         self.assertEqual(pilot(scene, options).entries["Time stepping/Stops"], "0.25, 0.5")
         options.until = 0.1
         self.assertNotIn("Time stepping/Stops", pilot(scene, options).entries)
 
-    def test_factors_of_what_a_profile_sets(self):
+    def test_factors_of_what_a_profile_sets(self) -> None:
         """What the program itself says that it sets."""
         (self.folder / "fast.prm").write_text(
             "set Profile = fast\n"
@@ -542,7 +549,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(knobs.KNOBS["penalty"].turned(scene, "3")[penalty], "3")
         self.assertEqual(knobs.KNOBS["penalty"].turned(scene.changed({"Profile": None}), "3")[penalty], "30")
 
-    def test_reference_that_fails(self):
+    def test_reference_that_fails(self) -> None:
         done = self.trade(
             "--set",
             "Solver/Contact tangent=continuum",
@@ -556,7 +563,7 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 3)
         self.assertIn("the reference could not be made: its centre diverged", done.stderr)
 
-    def test_billet(self):
+    def test_billet(self) -> None:
         """The program itself, on eight bricks."""
         done = self.trade(
             "--knobs",

@@ -4,12 +4,15 @@
 from F = 1 + t, so that limit and errors are known. Some values fail, each in its own way. Each run adds a
 line to the file $FAKE_LOG; where that has $FAKE_INTERRUPT lines the sweep is interrupted as by Ctrl-C."""
 
+from __future__ import annotations
+
 import json
 import os
 import signal
 import sys
 import time
 from pathlib import Path
+from typing import Any, Iterable, Mapping
 
 from modules import ROOT  # noqa: F401  finds the next one
 from billet_tools.scene import entries
@@ -63,13 +66,13 @@ WORDS = {
 }
 
 
-def known(path):
+def known(path: str) -> bool:
     return any(path.split("/")[-1] == default.split("/")[-1] for default in entries(DEFAULTS)) or path.split(
         "/"
     )[0] in ("Tools", "Contact pairs")
 
 
-def check(file):
+def check(file: str) -> tuple[dict[str, str], str]:
     try:
         scene = entries(Path(file).read_text())
     except OSError:
@@ -83,7 +86,7 @@ def check(file):
     return scene, ""
 
 
-def pvtu(file, n, stretch):
+def pvtu(file: Path, n: int, stretch: float) -> None:
     places, moved = [], []
     for i in range(n):
         for z in (i / n, (i + 1) / n):
@@ -91,7 +94,7 @@ def pvtu(file, n, stretch):
                 places.append((x, y, z * (1 + stretch)))
                 moved.append((0, 0, z * stretch))
 
-    def array(name, values, size, kind="Float64"):
+    def array(name: str, values: Iterable[Any], size: int, kind: str = "Float64") -> str:
         return (
             f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{size}" format="ascii">'
             + " ".join(f"{v}" for value in values for v in (value if size > 1 else (value,)))
@@ -121,7 +124,7 @@ def pvtu(file, n, stretch):
     )
 
 
-def run(scene):
+def run(scene: Mapping[str, str]) -> int:
     log = Path(os.environ["FAKE_LOG"])
     with log.open("a") as out:
         out.write("run\n")
@@ -129,7 +132,7 @@ def run(scene):
         os.kill(os.getppid(), signal.SIGINT)
         time.sleep(60)  # it will be ended
 
-    def get(key, default):
+    def get(key: str, default: Any) -> Any:
         return next((v for path, v in scene.items() if path.split("/")[-1] == key), default)
 
     n, step, penalty = (
@@ -187,7 +190,7 @@ def run(scene):
     return 0
 
 
-def main():
+def main() -> int:
     if sys.argv[1] == "--version":
         print("billet 0 (fake)")
         return 0

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Knobs: what they change, and in which scenes they can."""
 
+from __future__ import annotations
+
 import unittest
 
 from modules import ROOT
 from billet_tools import UserError
 from billet_tools.trade import knobs
 from billet_tools.trade.reference import GIVEN, Plan, mesh_factors
-from billet_tools.scene import Scene, read_scene
+from billet_tools.scene import Changes, Scene, read_scene
 
 DEFAULTS = """subsection Bodies
  subsection (name of a body)
@@ -42,11 +44,11 @@ end
 """
 
 
-def shipped(name):
+def shipped(name: str) -> Scene:
     return Scene(read_scene(ROOT / "prm" / f"{name}.prm"), DEFAULTS)
 
 
-def body(mesh, planes=""):
+def body(mesh: str, planes: str = "") -> Scene:
     return Scene(
         (
             f"subsection Bodies\nsubsection b\nset Symmetry planes = {planes}\nsubsection"
@@ -56,8 +58,12 @@ def body(mesh, planes=""):
     )
 
 
+def not_asked(changes: Changes) -> int:
+    raise AssertionError("factors that are given need no count of elements")
+
+
 class TestMesh(unittest.TestCase):
-    def test_extruded(self):
+    def test_extruded(self) -> None:
         scene = shipped("billet_upsetting")
         self.assertEqual(
             knobs.make_mesh(scene, "2"),
@@ -73,7 +79,7 @@ class TestMesh(unittest.TestCase):
         with self.assertRaises(UserError):
             knobs.make_mesh(scene, "-1")
 
-    def test_counts(self):
+    def test_counts(self) -> None:
         # one element along y between two planes stays one
         changes = knobs.make_mesh(shipped("ironing"), "1.5")
         self.assertEqual(changes["Bodies/slab/Mesh/Arguments"], "54, 1, 9 : 0, 0, 0 : 18, 0.5, 3 : true")
@@ -88,7 +94,7 @@ class TestMesh(unittest.TestCase):
             knobs.make_mesh(thick, "2"), {"Bodies/b/Mesh/Arguments": "8, 2, 4 : 0, 0, 0 : 1, 1, 1"}
         )
 
-    def test_files(self):
+    def test_files(self) -> None:
         self.assertEqual(
             knobs.make_mesh(body("set Source = file\nset File = a.msh"), "4"),
             {"Bodies/b/Mesh/Refinements": 2},
@@ -96,14 +102,14 @@ class TestMesh(unittest.TestCase):
 
 
 class TestKnobs(unittest.TestCase):
-    def test_equal_steps(self):
+    def test_equal_steps(self) -> None:
         changes = knobs.make_steps(shipped("ironing"), "35")
         self.assertEqual(changes["Time stepping/Initial step"], "0.1")
         self.assertEqual(changes["Time stepping/Maximum step"], "0.1")
         with self.assertRaises(knobs.CannotTurn):
             knobs.make_steps(shipped("taylor_bar"), "10")
 
-    def test_penalties(self):
+    def test_penalties(self) -> None:
         scene = shipped("wagoner_punch").changed({"Contact pairs/blank on die/Tangential penalty": 4})
         self.assertEqual(
             knobs.make_penalty(scene, "10"),
@@ -118,7 +124,7 @@ class TestKnobs(unittest.TestCase):
             knobs.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"}
         )
 
-    def test_only_what_a_scene_can_use(self):
+    def test_only_what_a_scene_can_use(self) -> None:
         cannot = {
             "billet_upsetting": ["facets", "safety factor", "mass", "error tolerance"],
             "hertz_cylinders": ["instructions", "number type"],
@@ -133,19 +139,20 @@ class TestKnobs(unittest.TestCase):
             knobs.make_tangent(shipped("hertz_cylinders"), "symmetrised mean")
         self.assertTrue(knobs.make_tangent(shipped("billet_upsetting"), "symmetrised mean"))
 
-    def test_tolerances_keep_their_ratio(self):
+    def test_tolerances_keep_their_ratio(self) -> None:
         self.assertEqual(
             knobs.newton_tolerance(1e-6),
             {"Solver/Force tolerance": "1e-06", "Solver/Energy tolerance": "1e-10"},
         )
 
-    def test_own_knob(self):
+    def test_own_knob(self) -> None:
         knob = knobs.own_knob(
             "pace: Time stepping/Growth factor=1.2, 2 & Time stepping/Growth  iterations=3,6"
         )
         self.assertEqual((knob.name, knob.arguments), ("pace", ["1.2", "2"]))
         self.assertEqual(
-            knob.make(None, "2"), {"Time stepping/Growth factor": "2", "Time stepping/Growth iterations": "6"}
+            knob.make(Scene(""), "2"),
+            {"Time stepping/Growth factor": "2", "Time stepping/Growth iterations": "6"},
         )
         self.assertEqual(
             knobs.own_knob("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments, ["1, 2 : 3", "2, 4 : 3"]
@@ -154,7 +161,7 @@ class TestKnobs(unittest.TestCase):
             with self.assertRaises(UserError):
                 knobs.own_knob(wrong)
 
-    def test_unknown_knob(self):
+    def test_unknown_knob(self) -> None:
         with self.assertRaisesRegex(UserError, "no knob 'speed'; there are mesh, steps,"):
             knobs.asked_knob("speed=1", knobs.KNOBS)
         self.assertEqual(
@@ -164,16 +171,16 @@ class TestKnobs(unittest.TestCase):
 
 
 class TestPlan(unittest.TestCase):
-    def test_factors(self):
+    def test_factors(self) -> None:
         scene = shipped("billet_upsetting")
         self.assertEqual(mesh_factors(scene, None, lambda changes: 3840), [1, 2, 4])
         self.assertEqual(mesh_factors(scene, None, lambda changes: 30720), [0.5, 1, 2])
-        self.assertEqual(mesh_factors(scene, "1,1.5,2.25", None), [1, 1.5, 2.25])
+        self.assertEqual(mesh_factors(scene, "1,1.5,2.25", not_asked), [1, 1.5, 2.25])
         for wrong in ("2,4", "1", "1,2,3", "0,1"):
             with self.assertRaises(UserError):
-                mesh_factors(scene, wrong, None)
+                mesh_factors(scene, wrong, not_asked)
 
-    def test_runs(self):
+    def test_runs(self) -> None:
         plan = Plan(shipped("billet_upsetting"), lambda scene: 100, steps=8)
         self.assertEqual(
             [label for label, _ in plan.runs()],
@@ -193,7 +200,7 @@ class TestPlan(unittest.TestCase):
         self.assertEqual(plan.cross.get("Contact pairs/billet on die/Normal penalty"), "1.4e+06")
         self.assertEqual(plan.cross.get("Time stepping/Maximum step"), "0.0625")
 
-    def test_augmented_and_given(self):
+    def test_augmented_and_given(self) -> None:
         plan = Plan(shipped("hertz_cylinders"), lambda scene: 1, GIVEN)
         self.assertEqual([axis.name for axis in plan.axes], ["step", "penetration tolerance"])
 
@@ -209,7 +216,7 @@ class TestPlan(unittest.TestCase):
             ["0.01", "0.0025", "0.000625"],
         )
 
-    def test_explicit(self):
+    def test_explicit(self) -> None:
         scene = shipped("taylor_bar").changed(
             {"Bodies/bar/Material/Elasticity": "hypoelastic", "Explicit dynamics/Mass scaling step": 1e-7}
         )

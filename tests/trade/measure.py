@@ -1,32 +1,36 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Norms, Richardson extrapolation, Pareto front and choice, against closed forms."""
 
+from __future__ import annotations
+
 import math
 import unittest
 
 import numpy
 
-import modules  # noqa: F401  finds the next one
+import modules  # noqa: F401  finds the next ones
+from billet_tools.output import Array
 from billet_tools.trade import measure
 
 UNEVEN = numpy.array([0.0, 0.1, 0.25, 0.3, 0.6, 0.65, 1.0])
 
 
 class TestCurves(unittest.TestCase):
-    def test_trapezoids(self):
-        self.assertAlmostEqual(numpy.sum(measure.trapezoids(UNEVEN)), 1.0)
+    def test_trapezoids(self) -> None:
+        self.assertAlmostEqual(float(numpy.sum(measure.trapezoids(UNEVEN))), 1.0)
         self.assertAlmostEqual(measure.trapezoids(UNEVEN) @ (3 * UNEVEN + 1), 2.5)  # exact for straight lines
 
-    def test_interpolation_is_exact_for_parabolas(self):
+    def test_interpolation_is_exact_for_parabolas(self) -> None:
         at = numpy.linspace(0, 1, 57)
         values = numpy.stack([UNEVEN**2 - UNEVEN, 2 + 0 * UNEVEN], -1)
         found = measure.interpolate(UNEVEN, values, at)
         numpy.testing.assert_allclose(found, numpy.stack([at**2 - at, 2 + 0 * at], -1), atol=1e-14)
         numpy.testing.assert_allclose(
-            measure.interpolate([0, 1], numpy.array([[1.0], [3.0]]), numpy.array([0.5])), [[2.0]]
+            measure.interpolate(numpy.array([0.0, 1.0]), numpy.array([[1.0], [3.0]]), numpy.array([0.5])),
+            [[2.0]],
         )
 
-    def test_running_mean(self):
+    def test_running_mean(self) -> None:
         times = numpy.linspace(0, 1, 2001)
         window, at = 0.1, numpy.array([0.2, 0.5, 0.73])
         found = measure.running_mean(times, numpy.sin(20 * times), window, at)
@@ -34,10 +38,10 @@ class TestCurves(unittest.TestCase):
         numpy.testing.assert_allclose(found, exact, atol=1e-5)
         # A polygon's own mean is exact, at the ends over half the window.
         numpy.testing.assert_allclose(
-            measure.running_mean(UNEVEN, 2 * UNEVEN, 0.2, numpy.array([0.0, 0.5, 1.0])), [0.1, 1.0, 1.9]
+            measure.running_mean(UNEVEN, 2.0 * UNEVEN, 0.2, numpy.array([0.0, 0.5, 1.0])), [0.1, 1.0, 1.9]
         )
 
-    def test_norms(self):
+    def test_norms(self) -> None:
         weights = measure.trapezoids(numpy.array([0.0, 1.0, 3.0]))
         vectors = numpy.array([[3.0, 4.0], [0.0, 0.0], [0.0, 2.0]])
         self.assertAlmostEqual(measure.mean_length(vectors, weights), (0.5 * 5 + 1.0 * 2) / 3)
@@ -45,7 +49,7 @@ class TestCurves(unittest.TestCase):
             measure.root_mean_square(vectors, weights), math.sqrt((0.5 * 25 + 1.0 * 4) / 3)
         )
 
-    def test_rigid_motion(self):
+    def test_rigid_motion(self) -> None:
         rng = numpy.random.default_rng(1)
         places, weights = rng.normal(size=(30, 3)), rng.uniform(0.5, 2, 30)
         c, s = math.cos(2.5), math.sin(2.5)
@@ -60,7 +64,7 @@ class TestCurves(unittest.TestCase):
         numpy.testing.assert_allclose(stretched, 0.1 * (places - places.mean(axis=0)), atol=1e-13)
 
 
-def size(vector):
+def size(vector: Array) -> float:
     return float(numpy.linalg.norm(vector))
 
 
@@ -68,22 +72,22 @@ class TestRichardson(unittest.TestCase):
     limit = numpy.array([3.0, -1.0])
     direction = numpy.array([0.2, 0.5])
 
-    def sequence(self, order, ratio=2.0, n=3, sign=1.0):
+    def sequence(self, order: float, ratio: float = 2.0, n: int = 3, sign: float = 1.0) -> list[Array]:
         return [self.limit + self.direction * sign**i * ratio ** (-order * i) for i in range(n)]
 
-    def test_order_and_limit(self):
+    def test_order_and_limit(self) -> None:
         for ratio, order in ((2.0, 1.0), (2.0, 2.0), (1.5, 0.7), (4.0, 1.0)):
             found = measure.richardson(self.sequence(order, ratio), ratio, size)
-            self.assertAlmostEqual(found.observed, order)
+            self.assertAlmostEqual(found.observed or 0.0, order)
             numpy.testing.assert_allclose(found.values, self.limit, atol=1e-12)
             error = size(self.sequence(order, ratio)[-1] - self.limit)
             # that of the finest, with a quarter on top
             self.assertAlmostEqual(found.uncertainty, 1.25 * error)
 
-    def test_orders_beyond_two_are_not_believed(self):
+    def test_orders_beyond_two_are_not_believed(self) -> None:
         levels = self.sequence(3.5)
         found = measure.richardson(levels, 2.0, size)
-        self.assertAlmostEqual(found.observed, 3.5)
+        self.assertAlmostEqual(found.observed or 0.0, 3.5)
         self.assertEqual(found.order, 2.0)
         self.assertGreaterEqual(found.uncertainty, size(found.values - self.limit))
         # Nor is a last difference that is small by chance: what an order of two makes of the one before
@@ -93,7 +97,7 @@ class TestRichardson(unittest.TestCase):
         )
         self.assertAlmostEqual(found.uncertainty, 1.25 * 0.2 / 3)
 
-    def test_to_and_fro(self):
+    def test_to_and_fro(self) -> None:
         """Changes that turn round: the finest is taken, and the differences that are left bound its error."""
         levels = self.sequence(1.0, sign=-1.0)
         found = measure.richardson(levels, 2.0, size)
@@ -101,7 +105,7 @@ class TestRichardson(unittest.TestCase):
         numpy.testing.assert_array_equal(found.values, levels[-1])
         self.assertGreaterEqual(found.uncertainty, size(levels[-1] - self.limit))
 
-    def test_no_order(self):
+    def test_no_order(self) -> None:
         """Differences that do not fall: nothing is extrapolated, and the index for an order of a half
         counts."""
         levels = [numpy.array([0.0]), numpy.array([1.0]), numpy.array([2.0])]
@@ -110,7 +114,7 @@ class TestRichardson(unittest.TestCase):
         self.assertAlmostEqual(found.uncertainty, 1.25 / (math.sqrt(2) - 1))
         numpy.testing.assert_array_equal(found.values, levels[-1])
 
-    def test_few_levels(self):
+    def test_few_levels(self) -> None:
         two = measure.richardson(self.sequence(1.0)[:2], 2.0, size)
         self.assertAlmostEqual(two.uncertainty, 1.25 / (math.sqrt(2) - 1) * size(0.5 * self.direction))
         self.assertIsNone(two.order)
@@ -122,13 +126,13 @@ class TestChoice(unittest.TestCase):
     costs = [1.0, 2.0, 2.0, 4.0, 8.0, 9.0]
     errors = [0.5, 0.2, 0.3, 0.25, 0.01, 0.005]
 
-    def test_front(self):
+    def test_front(self) -> None:
         self.assertEqual(measure.pareto_front(self.costs, self.errors), [0, 1, 4, 5])
         # The last one is better by less than can be told.
         self.assertEqual(measure.pareto_front(self.costs, self.errors, 0.02), [0, 1, 4])
         self.assertEqual(measure.pareto_front([], []), [])
 
-    def test_front_dominates(self):
+    def test_front_dominates(self) -> None:
         rng = numpy.random.default_rng(2)
         costs, errors = rng.uniform(size=(2, 200))
         front = measure.pareto_front(costs, errors)
@@ -136,8 +140,8 @@ class TestChoice(unittest.TestCase):
             beaten = any(costs[j] <= costs[i] and errors[j] <= errors[i] and j != i for j in range(200))
             self.assertEqual(i in front, not beaten)
 
-    def test_choice(self):
-        def choose(target, uncertainty, noise=0.0):
+    def test_choice(self) -> None:
+        def choose(target: float, uncertainty: float, noise: float = 0.0) -> int | None:
             return measure.cheapest_within(
                 self.costs, self.errors, uncertainty, target, noise, [6, 5, 4, 3, 2, 1]
             )

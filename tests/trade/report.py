@@ -2,13 +2,17 @@
 """What runs are judged to be, what they are ranked by, what is said of them, and the picture, on points that
 are made up."""
 
+from __future__ import annotations
+
 import math
 import unittest
+from typing import Any, Mapping, Sequence, cast
 
 import modules  # noqa: F401  finds the next one
-from billet_tools.trade import picture, report
+from billet_tools.trade import picture, reference as reference_module, report, results
+from billet_tools.trade.outputs import Output
 from billet_tools.trade.reference import mesh_of
-from billet_tools.scene import Scene
+from billet_tools.scene import Changes, Scene
 from billet_tools.text import first_sentence
 
 DEFAULTS = "subsection Bodies\nsubsection (name of a body)\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n"
@@ -20,15 +24,15 @@ class Result:
 
     def __init__(
         self,
-        force=1.0,
-        elements=4,
-        seconds=1.0,
-        status="ok",
-        penetration=0.01,
-        drift=0.0,
-        reason="",
-        steps=10,
-    ):
+        force: float = 1.0,
+        elements: int = 4,
+        seconds: float = 1.0,
+        status: str = "ok",
+        penetration: float = 0.01,
+        drift: float = 0.0,
+        reason: str = "",
+        steps: int = 10,
+    ) -> None:
         self.force, self.elements, self.core_seconds, self.seconds = (
             force,
             elements,
@@ -43,10 +47,10 @@ class Result:
 class Force:
     name, meaning = "force", "a part"
 
-    def error(self, result, reference):
+    def error(self, result: Result, reference: float) -> float:
         return abs(result.force - reference)
 
-    def excess(self, result, reference):
+    def excess(self, result: Result, reference: float) -> float:
         return result.force / reference - 1
 
 
@@ -55,48 +59,82 @@ class Shape:
 
     name, meaning = "shape", "always the same"
 
-    def error(self, result, reference):
+    def error(self, result: Result, reference: float) -> float:
         return 0.02
 
 
 class Reference:
     """`meshes`: {layers: error of that mesh alone}."""
 
-    def __init__(self, uncertainty=0.01, meshes=None, output="force"):
+    def __init__(
+        self, uncertainty: float = 0.01, meshes: Mapping[str, float] | None = None, output: str = "force"
+    ) -> None:
         self.values, self.uncertainty = {output: 1.0}, {output: uncertainty}
         self.meshes = meshes or {}
-        self.rows, self.remarks = [["force", "mesh", "", [], None, None, uncertainty]], []
+        self.rows = [["force", "mesh", "", [], None, None, uncertainty]]
+        self.remarks: list[str] = []
 
-    def mesh_alone(self, scene):
+    def mesh_alone(self, scene: Scene) -> dict[str, float] | None:
         error = self.meshes.get(scene.get("Bodies/bar/Mesh/Layers"))
         return None if error is None else {"force": error}
 
-    def uncertainty_by_axis(self):
+    def uncertainty_by_axis(self) -> list[tuple[str, str, float]]:
         return [("force", "mesh", self.uncertainty["force"])]
 
 
-def point(curve, value, changes=None, **result):
+def point(curve: str, value: str, changes: Changes | None = None, **result: Any) -> report.Point:
     changes = changes or {}
     made = report.Point(curve, value, changes, SCENE.changed(changes), is_base=not curve)
-    made.result = Result(**result)
+    made.result = cast(results.Result, Result(**result))
     return made
 
 
-def layers(n, **more):
+def judge(
+    p: report.Point,
+    output: Force | Shape,
+    reference: Reference,
+    forces: tuple[Force, Reference] | None = None,
+) -> None:
+    report.judge(
+        p,
+        cast("list[Output]", [output]),
+        {output.name: 1.0},
+        cast(reference_module.Reference, reference),
+        SCENE,
+        report.Limits(),
+        cast(report.Forces, forces),
+    )
+
+
+def layers(n: int, **more: str) -> dict[str, str]:
     return {"Bodies/bar/Mesh/Layers": str(n), **more}
 
 
-def sweep(points, reference, target=None, output=Force(), forces=None):
+def sweep(
+    points: Sequence[report.Point],
+    reference: Reference,
+    target: float | None = None,
+    output: Force | Shape = Force(),
+    forces: Reference | None = None,
+) -> report.Sweep:
     """`forces`: the reference that knows them where they are not the output."""
     for p in points:
         p.work = p.result.elements * 10.0
         judging = (Force(), forces or reference) if forces or output.name == "force" else None
-        report.judge(p, [output], {output.name: 1.0}, reference, SCENE, report.Limits(), judging)
-    return report.Sweep(points, reference, [output], {output.name: 1.0}, SCENE, "work", target)
+        judge(p, output, reference, judging)
+    return report.Sweep(
+        points,
+        cast(reference_module.Reference, reference),
+        cast("list[Output]", [output]),
+        {output.name: 1.0},
+        SCENE,
+        "work",
+        target,
+    )
 
 
 class Judging(unittest.TestCase):
-    def test_marks(self):
+    def test_marks(self) -> None:
         points = [
             point("", "as written"),
             point("penalty", "0.001", force=0.05, elements=1, penetration=0.098),
@@ -122,26 +160,29 @@ class Judging(unittest.TestCase):
         reference = Reference()
         reference.values["shape"] = 1.0
         reference.uncertainty["shape"] = 0.01
-        report.judge(other, [shape], {"shape": 1.0}, reference, SCENE, report.Limits(), None)
+        judge(other, shape, reference)
         self.assertEqual(other.status, "useless")
 
-    def by_shape(self, forces, *ratios, known=0.01):
+    def by_shape(
+        self, forces: Reference | None, *ratios: float, known: float = 0.01
+    ) -> tuple[report.Sweep, list[str]]:
         points = [point("", "as written", elements=8)] + [
             point("element", str(r), force=r, elements=4) for r in ratios
         ]
         s = sweep(points, Reference(known, output="shape"), 0.05, Shape(), forces)
         return s, [p.status for p in points[1:]]
 
-    def test_forces_judge_where_they_are_no_output(self):
+    def test_forces_judge_where_they_are_no_output(self) -> None:
         s, found = self.by_shape(Reference(0.01), 2.39, 0.7, 1.1)
         self.assertEqual(found, ["locked", "soft", "ok"])
         self.assertTrue(math.isnan(s.points[1].error))
-        self.assertEqual(([p.value for p in s.front], s.chosen.value), (["1.1"], "1.1"))
+        self.assertEqual([p.value for p in s.front], ["1.1"])
+        self.assertEqual(s.chosen and s.chosen.value, "1.1")
         self.assertIn("`element = 2.39` locked (forces are 139 % too large in the mean)", " ".join(s.words()))
         # Nor do they choose: without them the error of the shape is all there is.
         self.assertEqual(self.by_shape(None, 2.39, 0.7)[1], ["ok", "ok"])
 
-    def test_forces_that_are_not_known_well(self):
+    def test_forces_that_are_not_known_well(self) -> None:
         for uncertainty, expected in (
             (0.33, ["locked", "ok", "ok", "soft"]),
             (0.6, ["locked", "ok", "ok", "ok"]),
@@ -155,7 +196,7 @@ class Judging(unittest.TestCase):
         self.assertEqual((found, s.is_blind), (["locked"], True))
         self.assertEqual(self.by_shape(Reference(0.6), 2.39, known=0.8)[1], ["ok"])
 
-    def test_reference_that_is_not_known(self):
+    def test_reference_that_is_not_known(self) -> None:
         points = [point("", "as written", force=2.0), point("penalty", "10", force=0.3)]
         s = sweep(points, Reference(0.8), 0.05)
         self.assertEqual([p.status for p in points], ["ok", "ok"])
@@ -169,7 +210,7 @@ class Judging(unittest.TestCase):
         # Nor does one that nothing is known of.
         self.assertTrue(sweep([point("", "as written")], Reference(math.nan)).is_blind)
 
-    def test_reasons_are_whole_sentences(self):
+    def test_reasons_are_whole_sentences(self) -> None:
         reason = (
             "scene.prm: the step from time 0 to 1e-06 failed after 0 accepted steps and 18 cuts: given up"
             " after 20 iterations, since at their pace 60 will not do; the largest residual is in body"
@@ -183,7 +224,7 @@ class Judging(unittest.TestCase):
 
 
 class Cancellation(unittest.TestCase):
-    def points(self):
+    def points(self) -> list[report.Point]:
         # The mesh takes 3 % away, long steps add 2.5 %: together they seem to be right.
         return [
             point("", "as written", force=1.025, elements=8),
@@ -198,7 +239,7 @@ class Cancellation(unittest.TestCase):
             ),
         ]
 
-    def test_finer_mesh_with_all_else_the_same(self):
+    def test_finer_mesh_with_all_else_the_same(self) -> None:
         points = self.points()
         s = sweep(points, Reference(0.01), 0.02)
         self.assertEqual(list(s.cancelled), [id(points[1])])
@@ -215,7 +256,7 @@ class Cancellation(unittest.TestCase):
         self.assertIn("errors cancel", s.page("", "", [], ""))
         self.assertIn("Most accuracy is bought by `steps = 80`", said)
 
-    def test_what_an_uncertain_reference_cannot_tell(self):
+    def test_what_an_uncertain_reference_cannot_tell(self) -> None:
         # A coarser mesh that seems better by less than is known; a gain that is less than is known; one that
         # is more.
         points = [
@@ -235,14 +276,14 @@ class Cancellation(unittest.TestCase):
         self.assertNotIn("a gain below", said)
         self.assertNotIn("coarser", said)
 
-    def test_mesh_alone(self):
+    def test_mesh_alone(self) -> None:
         points = self.points()
         s = sweep(points, Reference(0.01, {"2": 0.035}), 0.02)
         self.assertAlmostEqual(s.ranked(points[1]), 0.035)
         self.assertIn("3.5 % would be expected, which its mesh alone makes", " ".join(s.words()))
 
-    def test_shorter_steps_on_the_same_mesh(self):
-        def steps(n, **changes):
+    def test_shorter_steps_on_the_same_mesh(self) -> None:
+        def steps(n: int, **changes: str) -> dict[str, str]:
             return {"Time stepping/Maximum step": str(1 / n), **changes}
 
         # As of the billet: 60 bricks get worse with each refinement of the steps, by less than the reference
@@ -280,8 +321,8 @@ class Cancellation(unittest.TestCase):
         # A cheaper one counts with the larger error.
         points[4].result.elements = 59
         s = sweep(points, Reference(0.0101), 0.03)
-        self.assertIn("the cheapest is `mesh 0.5 × steps = 10`: error 1.3 %", s.choice(s.target))
-        self.assertNotIn("coarser", s.choice(s.target))
+        self.assertIn("the cheapest is `mesh 0.5 × steps = 10`: error 1.3 %", s.choice(0.03))
+        self.assertNotIn("coarser", s.choice(0.03))
         # Other scenes, steps that are hardly shorter, and errors that come and go tell nothing.
         for others in (
             [point("penalty", "0.1", steps(80, Penalty="0.1"), force=1.03, steps=80)],
@@ -293,18 +334,18 @@ class Cancellation(unittest.TestCase):
         ):
             self.assertEqual(sweep(points[:2] + others, Reference(0.0101)).cancelled, {})
 
-    def test_within_the_uncertainty_nothing_is_told(self):
+    def test_within_the_uncertainty_nothing_is_told(self) -> None:
         self.assertEqual(sweep(self.points(), Reference(0.03, {"2": 0.035})).cancelled, {})
 
 
 class Meshes(unittest.TestCase):
-    def test_other_elements_make_other_errors(self):
+    def test_other_elements_make_other_errors(self) -> None:
         defaults = (
             "subsection Bodies\nsubsection (name of a body)\nset Element = assumed strain\nsubsection"
             " Mesh\nset Layers = 4\nset Arguments =\nend\nend\nend\n"
         )
 
-        def scene(*lines):
+        def scene(*lines: str) -> Scene:
             return Scene(
                 "subsection Bodies\nsubsection bar\n" + "".join(line + "\n" for line in lines) + "end\nend\n",
                 defaults,
@@ -322,7 +363,7 @@ class Meshes(unittest.TestCase):
 
 
 class Pictures(unittest.TestCase):
-    def test_legend_is_whole(self):
+    def test_legend_is_whole(self) -> None:
         points = Cancellation().points() + [
             point(
                 "a knob of one's own with a very long name that wants lines", v, {"Solver/X": v}, force=1.003

@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Outputs of runs against closed forms, on distorted meshes."""
 
+from __future__ import annotations
+
 import json
 import math
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Callable, Mapping, cast
 
 import numpy
+from numpy.typing import ArrayLike
 
 import modules  # noqa: F401  finds the next ones
 from billet_tools import UserError, output
 from billet_tools.trade import outputs, results
+from billet_tools.output import Array, Fields
 from billet_tools.scene import Scene
+
+Make = Callable[[Array], Array]  # a field of places
 
 trapezoid = getattr(numpy, "trapezoid", None) or numpy.trapz
 CORNERS = numpy.array(
@@ -20,7 +27,7 @@ CORNERS = numpy.array(
 )
 
 
-def block(n, displacement, body=0, shift=0.0, **more):
+def block(n: int, displacement: Make, body: int = 0, shift: float = 0.0, **more: Make) -> Fields:
     """Fields of a unit cube of n³ sheared bricks, each with nodes of its own."""
     cells = [(CORNERS + [i, j, k]) / n for i in range(n) for j in range(n) for k in range(n)]
     places = numpy.concatenate(cells)
@@ -34,73 +41,75 @@ def block(n, displacement, body=0, shift=0.0, **more):
     return {**fields, **{name: make(places) for name, make in more.items()}}
 
 
-def join(a, b):
+def join(a: Fields, b: Fields) -> Fields:
     return {
         name: numpy.concatenate([a[name], b[name] + (len(a["places"]) if name == "cells" else 0)])
         for name in a
     }
 
 
-class Run:
+class MadeUp:
     """What an output asks a result for."""
 
-    body_meshes = results.Result.body_meshes.func
-
-    def __init__(self, fields=None, history=None):
+    def __init__(self, fields: Fields | None = None, history: Mapping[str, ArrayLike] | None = None) -> None:
         self.fields, self.history = fields, {k: numpy.array(v, float) for k, v in (history or {}).items()}
         self.body_meshes = (
             {int(b): results.BodyMesh(fields, b) for b in numpy.unique(fields["body"])} if fields else {}
         )
 
 
-def linear(places):
+def run_of(fields: Fields | None = None, history: Mapping[str, ArrayLike] | None = None) -> results.Result:
+    return cast(results.Result, MadeUp(fields, history))
+
+
+def linear(places: Array) -> Array:
     return places @ numpy.diag([0.1, -0.05, 0.2])
 
 
 class TestFields(unittest.TestCase):
-    def test_sampling(self):
-        mesh = Run(block(3, linear)).body_meshes[0]
+    def test_sampling(self) -> None:
+        mesh = run_of(block(3, linear)).body_meshes[0]
         fields = block(3, linear)
         for place in ([0.31, 0.4, 0.7], [0.5, 0.5, 0.5]):
-            (found,), distance = mesh.at(place, fields["displacement"])
+            (found,), distance = mesh.at(numpy.array(place), fields["displacement"])
             numpy.testing.assert_allclose(found, linear(numpy.array([place]))[0], atol=1e-9)
             self.assertAlmostEqual(distance, 0.0)
         # Outside: a point near by, which VTK finds in the element's own coordinates.
-        (found,), distance = mesh.at([0.5, 0.5, -0.25], fields["displacement"])
+        (found,), distance = mesh.at(numpy.array([0.5, 0.5, -0.25]), fields["displacement"])
         self.assertAlmostEqual(distance, 0.25, delta=0.01)
         numpy.testing.assert_allclose(found, [0.05, -0.025, 0.0], atol=0.006)
         numpy.testing.assert_allclose(mesh.volumes, 1 / 27)
 
-    def test_profile(self):
-        run = Run(block(4, linear))
+    def test_profile(self) -> None:
+        run = run_of(block(4, linear))
         profile = outputs.Profile("0.1, 0.5, 0.2 to 1, 0.5, 0.2", "stretch")
         numpy.testing.assert_allclose(profile.values(run), math.log(1.1), atol=1e-6)
-        self.assertAlmostEqual(profile.error(Run(block(4, lambda x: 0 * x)), profile.values(run)), 1.0)
+        self.assertAlmostEqual(profile.error(run_of(block(4, lambda x: 0 * x)), profile.values(run)), 1.0)
         for wrong in ("1,2,3", "0,0,0 to 0,0,0", "0,0 to 1,1,1"):
             with self.assertRaises(UserError):
                 outputs.Profile(wrong, "stretch")
 
-    def test_plastic_profile(self):
+    def test_plastic_profile(self) -> None:
         """Element means, smoothed at the nodes: inside the body of second order for a field that is
         linear."""
 
-        def strain(places):
+        def strain(places: Array) -> Array:
             return numpy.repeat(places.reshape(-1, 8, 3).mean(axis=1)[:, 1], 8)
 
-        run = Run(block(8, linear, equivalent_plastic_strain=strain))
+        run = run_of(block(8, linear, equivalent_plastic_strain=strain))
         profile = outputs.Profile("0.5, 0.25, 0.5 to 0.5, 0.75, 0.5", "plastic")
         numpy.testing.assert_allclose(
             profile.values(run)[:, None].ravel(), numpy.linspace(0.25, 0.75, 41), atol=1e-6
         )
         with self.assertRaisesRegex(UserError, "nothing yields"):
-            profile.values(Run(block(2, linear)))
+            profile.values(run_of(block(2, linear)))
 
-    def test_shape(self):
+    def test_shape(self) -> None:
         """A body that is stretched and one that flies: the flight is no deformation, and its error is
         measured by that."""
 
-        def both(stretch, flight):
-            return Run(
+        def both(stretch: float, flight: float) -> results.Result:
+            return run_of(
                 join(block(3, lambda x: stretch * x), block(2, lambda x: 0 * x + [flight, 0, 0], 1, 5.0))
             )
 
@@ -115,13 +124,13 @@ class TestFields(unittest.TestCase):
         off = both(0.1, 3.01)
         self.assertAlmostEqual(shape.error(off, exact), 0.01 * math.sqrt(0.5) / deformation)
 
-    def test_rebound(self):
+    def test_rebound(self) -> None:
         scene = Scene("subsection Tools\nsubsection ram\nsubsection Motion\nset Mass = 2\nend\nend\nend")
-        history = {
+        history: dict[str, ArrayLike] = {
             "time": [0, 1, 1.5],
             **{f"ram.travel_{a}": v for a, v in zip("xyz", ([0, 0, 0], [0, 0, 0], [0, -1, -3]))},
         }
-        run = Run(
+        run = run_of(
             block(2, linear, velocity=lambda x: 0 * x + [0, 3, 0] + numpy.outer(x[:, 1] - 0.5, [7, 0, 0])),
             history,
         )
@@ -129,7 +138,7 @@ class TestFields(unittest.TestCase):
         numpy.testing.assert_allclose(rebound.values(run), [[0, 3, 0], [0, 0, -4]], atol=1e-12)
         self.assertAlmostEqual(rebound.norm(rebound.values(run)), math.sqrt(12.5))
 
-    def test_facets(self):
+    def test_facets(self) -> None:
         fields = block(4, linear, contact_pair=lambda x: numpy.where(x[:, 2] > 1 - 1e-9, 0.0, -1.0))
         self.assertAlmostEqual(results.facet_size(fields), 0.25)
         self.assertTrue(math.isnan(results.facet_size(block(1, linear))))
@@ -140,9 +149,9 @@ class TestForce(unittest.TestCase):
         "subsection Tools\nsubsection die\nend\nend\nsubsection Time stepping\nset End time = 1\nend"
     )
 
-    def run_with(self, n, factor=1.0, first=1.0):
+    def run_with(self, n: int, factor: float = 1.0, first: float = 1.0) -> results.Result:
         times = numpy.arange(1, n + 1) / n
-        return Run(
+        return run_of(
             history={
                 "time": times,
                 "die.force_x": 0 * times,
@@ -150,7 +159,7 @@ class TestForce(unittest.TestCase):
             }
         )
 
-    def test_error(self):
+    def test_error(self) -> None:
         centre = self.run_with(20)
         force = outputs.Force(centre, self.scene, None, 0.05)
         exact = force.values(centre)
@@ -164,13 +173,13 @@ class TestForce(unittest.TestCase):
         # What lies before the first step of the reference is nobody's fault.
         self.assertLess(force.error(self.run_with(200, 1.0, 5.0), exact), 1e-9)
 
-    def test_corners(self):
+    def test_corners(self) -> None:
         """Of curves with a corner where all steps end runs are judged by what they are off, not by what
         interpolation makes of it."""
 
-        def run(n, off):
+        def run(n: int, off: float) -> results.Result:
             times = numpy.arange(1, n + 1) / n
-            return Run(
+            return run_of(
                 history={
                     "time": times,
                     "die.force_z": off * (1 + times) + numpy.where(times < 0.5, times, 4 - 6 * times),
@@ -193,16 +202,16 @@ class TestForce(unittest.TestCase):
         coarse = outputs.Force(centre, self.scene, None, 0.05)
         self.assertGreater(coarse.error(run(40, 0.0), exact), 0.01)
 
-    def test_columns(self):
+    def test_columns(self) -> None:
         with self.assertRaisesRegex(UserError, "no column 'die.force_y'; it has die.force_x, die.force_z"):
             outputs.Force(self.run_with(5), self.scene, ["die.force_y"], 0.05)
 
-    def test_explicit_force_is_smoothed(self):
+    def test_explicit_force_is_smoothed(self) -> None:
         scene = self.scene.changed({"Time stepping/Scheme": "explicit"})
         times = numpy.linspace(0, 1, 2001)
 
-        def ringing(amplitude):
-            return Run(
+        def ringing(amplitude: float) -> results.Result:
+            return run_of(
                 history={"time": times, "die.force_z": 1 + amplitude * numpy.sin(2 * math.pi * 20 * times)}
             )
 
@@ -210,12 +219,12 @@ class TestForce(unittest.TestCase):
         exact = force.values(ringing(0.0))
         self.assertLess(force.error(ringing(1.0), exact), 0.01)  # whole periods; but for the ends
         self.assertAlmostEqual(
-            force.error(Run(history={"time": times, "die.force_z": 1.1 + 0 * times}), exact), 0.1
+            force.error(run_of(history={"time": times, "die.force_z": 1.1 + 0 * times}), exact), 0.1
         )
 
 
 class TestHistory(unittest.TestCase):
-    def test_drift(self):
+    def test_drift(self) -> None:
         history = {
             "kinetic_energy": numpy.array([4.0, 1.0]),
             "plastic_work": numpy.array([0.0, 2.5]),
@@ -225,7 +234,7 @@ class TestHistory(unittest.TestCase):
         self.assertAlmostEqual(output.max_drift(history), 0.05)
         self.assertTrue(math.isnan(output.max_drift({})))
 
-    def test_cut_off_line(self):
+    def test_cut_off_line(self) -> None:
         with TemporaryDirectory() as folder:
             file = Path(folder, "history.csv")
             file.write_text("step,time\n1,0.5\n2,0.")
@@ -234,7 +243,7 @@ class TestHistory(unittest.TestCase):
             self.assertEqual(output.read_history(file)["time"].tolist(), [0.5])
             self.assertEqual(output.read_history(Path(folder, "none.csv")), {})
 
-    def test_what_failed_has_worked(self):
+    def test_what_failed_has_worked(self) -> None:
         """Iterations of a step that failed for good stand in no history, but in the message that ended the
         run, as do explicit steps."""
         with TemporaryDirectory() as folder:
@@ -242,7 +251,7 @@ class TestHistory(unittest.TestCase):
             (place / "stderr").write_text("error[solution-failed]: scene.prm: the step failed")
             (place / "results").mkdir()
 
-            def fail(key, **values):
+            def fail(key: str, **values: float) -> None:
                 record = {
                     "key": key,
                     "severity": "error",
@@ -270,7 +279,7 @@ class TestHistory(unittest.TestCase):
             kept = results.collect(place, 3, 10)
             self.assertEqual((kept["status"], kept["steps"]), ("drifted", 100))
 
-    def test_failures(self):
+    def test_failures(self) -> None:
         for code in (0, 6, 7):  # without complaint, with warnings, beside the target error
             self.assertEqual(results.failure(code, "", 1, {})[0], "ok")
         self.assertEqual(

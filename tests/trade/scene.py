@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes: reading, looking up, variants."""
 
+from __future__ import annotations
+
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -28,7 +30,7 @@ end
 
 
 class TestScene(unittest.TestCase):
-    def test_entries(self):
+    def test_entries(self) -> None:
         self.assertEqual(
             entries(TEXT),
             {
@@ -39,7 +41,7 @@ class TestScene(unittest.TestCase):
             },
         )
 
-    def test_variant(self):
+    def test_variant(self) -> None:
         new = variant(
             TEXT,
             {
@@ -61,7 +63,7 @@ class TestScene(unittest.TestCase):
         self.assertNotIn("                    3", new)  # the line that went on goes, too
         self.assertEqual(new.count("set Height = 7"), 2)  # wherever it stands
 
-    def test_unchanged(self):
+    def test_unchanged(self) -> None:
         self.assertEqual(variant(TEXT, {}), TEXT)
         for file in sorted((ROOT / "prm").glob("*.prm")):
             text = read_scene(file)
@@ -69,9 +71,9 @@ class TestScene(unittest.TestCase):
                 entries(variant(text, {"Output/New": 1})), {**entries(text), "Output/New": "1"}, file
             )
 
-    def test_includes_and_files(self):
-        with TemporaryDirectory() as folder:
-            folder = Path(folder)
+    def test_includes_and_files(self) -> None:
+        with TemporaryDirectory() as temporary:
+            folder = Path(temporary)
             (folder / "sub").mkdir()
             (folder / "part.stl").write_text("solid")
             (folder / "sub/b.prm").write_text("set File = part.stl\n")
@@ -79,7 +81,7 @@ class TestScene(unittest.TestCase):
             scene = Scene(read_scene(folder / "a.prm"))
             self.assertEqual(scene.files(folder), {"Tools/File": (folder / "part.stl").resolve()})
 
-    def test_defaults(self):
+    def test_defaults(self) -> None:
         scene = Scene(
             "subsection Bodies\n subsection x\n  set A = 1\n end\nend\n",
             "subsection Bodies\n subsection (name of a body)\n  set A = 5\n  set B = 6\n end\nend\n",

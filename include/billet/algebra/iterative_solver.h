@@ -12,7 +12,7 @@ namespace billet {
 
 /// Input of an iterative solver beside the matrix. The dofs of a node are numbered in succession.
 struct NodalGeometry {
-  /// For each owned dof, the position of its node along the dof's direction [length].
+  /// Position of the node of each owned dof along the dof's direction [length].
   std::vector<double> positions;
   /// Whether the row of each owned dof, by local number, is empty but for its diagonal.
   std::vector<bool> constrained;

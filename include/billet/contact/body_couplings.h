@@ -13,7 +13,7 @@ namespace billet {
 
 struct BodySurfaces;
 
-/// What contact between bodies adds to the matrix: the ContactBlocks of one kind of tangent.
+/// Couplings of the matrix by contact between bodies: the ContactBlocks of one kind of tangent.
 class BodyCouplings final : public ContactCouplings {
 public:
   /// `surfaces` are those of `contact`. All must outlive this object.

@@ -43,7 +43,7 @@ public:
         dealii::Tensor<1, 3> position;
         for (unsigned int i = 0; i < 2; ++i)
           position += crossing.weights[i] * positions[crossing.nodes[i]];
-        visit(make_supporting_point(position, crossing.normal, nullptr, ContactStatus::slip, {}),
+        visit(make_supporting_point(position, crossing.normal, Frictionless(), ContactStatus::slip, {}),
               crossing.surfaces[0], crossing.surfaces[1]);
       }
   }

@@ -55,12 +55,14 @@ public:
   }
   /// Calls visit(SupportingPoint, surface of the point, touched surface) for slaves and crossing edges.
   template <class Visit> void visit_supporting(const Visit &visit) const {
-    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
-      if (const SlaveState &state = parts_.touching[s]; state.presses())
-        visit(make_supporting_point(parts_.surfaces.positions()[parts_.slaves.node(s)], state.contact.normal,
-                                    parts_.settings.friction.get(), state.traction.status,
-                                    state.traction.traction),
-              parts_.slaves.surface(s), parts_.surfaces.facet(state.touched.facet).surface);
+    choose_friction(parts_.settings.friction, [&](const auto &law) {
+      for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+        if (const SlaveState &state = parts_.touching[s]; state.presses())
+          visit(make_supporting_point(parts_.surfaces.positions()[parts_.slaves.node(s)],
+                                      state.contact.normal, law, state.traction.status,
+                                      state.traction.traction),
+                parts_.slaves.surface(s), parts_.surfaces.facet(state.touched.facet).surface);
+    });
     if (parts_.edges)
       parts_.edges->visit_supporting(parts_.surfaces.positions(), visit);
   }

@@ -28,6 +28,8 @@ public:
 
 private:
   double augmentation_gap() const override;
+  /// Returns the elastic slip of each slave; 0 without friction [length].
+  std::vector<double> elastic_slips() const;
 
   FacetContactParts &parts_;
   const FacetMeasures &measures_;

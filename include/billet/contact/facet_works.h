@@ -22,13 +22,19 @@ public:
   StepWorks compute_step_works(double weight) const;
 
 private:
-  /// Whether slaves that leave transfer their load to slaves that enter, see FrictionAccount. Collective.
+  /// Whether slaves that leave transfer their load to slaves that enter, see FrictionAccount. With friction;
+  /// collective.
   bool hands_over() const;
-  void add_slave(std::size_t s, bool hands_over, FacetContactLoad &load) const;
-  void add_forces(std::size_t s, FacetContactLoad &load) const;
-  FrictionWorks friction_of(const std::size_t s) const {
-    return parts_.friction ? parts_.friction->works(s) : FrictionWorks();
+  /// Returns which dissipation of a slave counts. With friction; collective.
+  double FrictionWorks::*counted_dissipation() const {
+    return hands_over() ? &FrictionWorks::dissipation_handed_over : &FrictionWorks::dissipation;
   }
+  void add_friction(FacetContactLoad &load) const;
+  void add_slave(std::size_t s, FacetContactLoad &load) const;
+  void add_forces(std::size_t s, FacetContactLoad &load) const;
+  /// Computes the works on this rank; miscounted_friction(s) is the work of friction in them.
+  template <class Friction>
+  StepWorks local_step_works(double weight, const Friction &miscounted_friction) const;
 
   const FacetContactParts &parts_;
 };

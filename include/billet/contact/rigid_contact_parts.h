@@ -65,6 +65,8 @@ struct RigidContactParts {
 private:
   /// Whether an initial gap counts as closed, or an initial penetration as allowed.
   bool allows(const RigidSurface::Projection &projection) const;
+  /// Starts the histories of friction at the current positions.
+  void start_friction();
   /// Stores the positions of nodes that might pass through a thin tool, for the next step.
   void record_positions();
   /// Stores the pressures of the last update() for the works of the next step.

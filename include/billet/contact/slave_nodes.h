@@ -37,8 +37,9 @@ private:
 class SlavePenalties {
 public:
   /// Constructs the penalties. `stiffness` of each of the rank's nodes applies to one pass; two passes share
-  /// it.
-  SlavePenalties(const SlaveNodes &slaves, const std::vector<ContactStiffness> &stiffness, bool two_pass);
+  /// it. Without friction, tangential penalties are 0.
+  SlavePenalties(const SlaveNodes &slaves, const std::vector<ContactStiffness> &stiffness, bool two_pass,
+                 bool has_friction);
 
   const ContactStiffness &operator[](const std::size_t s) const { return stiffness_[s]; }
   void scale(double normal, double tangential);

@@ -104,7 +104,7 @@ SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const Con
                                                const dealii::Tensor<1, 3, Number> &normal, const Number &gap,
                                                const SlaveMotionOf<Number> &motion,
                                                const SlaveHistory &history_n, SlaveHistory &history,
-                                               const ContactTangent kind = ContactTangent::consistent,
+                                               const FrictionTangent &kind = {},
                                                dealii::Tensor<2, 3> *tangent = nullptr) {
   const FrameOf<Number> frame = history_n.is_active ? history_n.frame.transported(motion.rotation, normal)
                                                     : FrameOf<Number>::from_normal(normal);

@@ -32,15 +32,13 @@ struct SupportingPoint {
   }
 };
 
-/// Makes the point at `position` with this traction on the body; `friction` may be null. Without tangential
-/// traction the slip has no direction: such a point counts as frictionless.
+/// Makes the point at `position` with this traction on the body. Without tangential traction the slip has no
+/// direction: such a point counts as frictionless.
 inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &position,
-                                             const dealii::Tensor<1, 3> &normal, const FrictionLaw *friction,
+                                             const dealii::Tensor<1, 3> &normal, const FrictionLaw &friction,
                                              const ContactStatus status,
                                              const dealii::Tensor<1, 3> &traction) {
   SupportingPoint point{position, normal, SupportingPoint::Friction::none, {}};
-  if (friction == nullptr)
-    return point;
   const dealii::Tensor<1, 3> tangential = traction - (traction * normal) * normal;
   const double size = tangential.norm();
   if (size > 0.)
@@ -51,9 +49,14 @@ inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &positio
     return point;
   }
   point.friction = SupportingPoint::Friction::sticks;
-  const double limit = friction->limit(std::max(0., traction * normal), 0.).value;
+  const double limit = friction.limit(std::max(0., traction * normal), 0.).value;
   point.use = limit > 0. ? size / limit : 0.;
   return point;
+}
+inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &position,
+                                             const dealii::Tensor<1, 3> &normal, const Frictionless &,
+                                             const ContactStatus, const dealii::Tensor<1, 3> &) {
+  return {position, normal, SupportingPoint::Friction::none, {}};
 }
 
 } // namespace billet

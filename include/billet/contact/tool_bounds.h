@@ -7,7 +7,7 @@
 
 namespace billet {
 
-/// What contact with a tool contributes to the bounds of explicit steps, at the last update().
+/// Contributions of contact with a tool to the bounds of explicit steps, at the last update().
 class ToolBounds {
 public:
   /// The parts must outlive this object.

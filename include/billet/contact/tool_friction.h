@@ -45,7 +45,7 @@ public:
   /// except beyond the edge of the surface. `is_exact` is whether the kind of tangents is
   /// ContactTangent::exact.
   template <bool is_exact>
-  void press(std::size_t i, const ContactPoint &node, ContactTangent kind, const EdgeFading *fading,
+  void press(std::size_t i, const ContactPoint &node, const FrictionTangent &kind, const EdgeFading *fading,
              ToolContactState &state, History &history) const;
   /// Releases node i, which does not touch the tool; `normal` is that of the surface, in the tool's
   /// coordinates.

@@ -15,7 +15,8 @@ public:
   static constexpr bool has_friction = !std::is_same_v<Law, Frictionless>;
 
   /// The parts must outlive this object.
-  ToolNode(const RigidContactParts &parts, const ContactTangent kind) : parts_(parts), kind_(kind) {}
+  ToolNode(const RigidContactParts &parts, const ContactTangent kind)
+      : parts_(parts), kind_(FrictionTangent::of(kind)) {}
 
   /// Computes the state of node i at `position` and, with friction, its history, which otherwise is null.
   ToolContactState evaluate(std::size_t i, const dealii::Tensor<1, 3> &position,
@@ -23,7 +24,7 @@ public:
 
 private:
   const RigidContactParts &parts_;
-  const ContactTangent kind_;
+  const FrictionTangent kind_;
 };
 
 /// Calls visit(ToolNode) with the evaluation of the pair's friction law and scheme, for this kind of

@@ -28,6 +28,8 @@ public:
 
 private:
   double augmentation_gap() const override;
+  /// Returns the elastic slip of each node; 0 without friction [length].
+  std::vector<double> elastic_slips() const;
 
   RigidContactParts &parts_;
   double stiffening_ = 1., tangential_stiffening_ = 1.;

@@ -46,12 +46,22 @@ struct FrameTraction {
 struct TangentialIncrement {
   std::array<double, 2> value; ///< Δg [length]
   /// ∂Δg/∂(u_q, u_r, u_n): (1 0 0; 0 1 0) on a plane. The rotation of the frame and, where a node enters
-  /// contact within the step, its entry contribute. Only the exact tangent uses it.
+  /// contact within the step, its entry contribute. Only exact tangents set it.
   std::array<std::array<double, 3>, 2> gradient{{{1., 0., 0.}, {0., 1., 0.}}};
   /// The slip rate is slip × this [1/time]. In a step without duration this is 0, and `rate` is the slip
   /// rate.
   double per_time = 0.;
   double rate = 0.;
+};
+
+/// Terms of the derivative of friction that a kind of tangents keeps, see compute_traction(). They are chosen
+/// once, outside loops over nodes.
+struct FrictionTangent {
+  double min_beta = 0.; ///< lower bound of β
+  double upper = 1.;    ///< factor of the coupling t̂⊗n
+  double lower = 0.;    ///< factor of its mirror image n⊗t̂
+
+  static FrictionTangent of(ContactTangent kind);
 };
 
 /// Computes friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the
@@ -72,7 +82,8 @@ struct TangentialIncrement {
 /// - symmetrised mean: half of each;
 /// - exact: as for stick and consistent, with the increment's gradient in place of P.
 FrameTraction compute_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
-                               ContactTangent tangent, double gap, const std::array<double, 2> &tangential_n,
+                               const FrictionTangent &tangent, double gap,
+                               const std::array<double, 2> &tangential_n,
                                const TangentialIncrement &increment);
 
 /// Computes the traction without friction: only pressure and k_n n⊗n.

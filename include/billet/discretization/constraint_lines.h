@@ -35,6 +35,11 @@ Constraints build_constraints(const dealii::IndexSet &owned, const dealii::Index
 std::vector<ConstraintLine> collect_hanging_nodes(const dealii::DoFHandler<3> &dof_handler,
                                                   const dealii::IndexSet &relevant);
 
+/// Returns all lines that make relevant dofs depend on other nodes: those of hanging nodes. A new source of
+/// such constraints is added here; supports and contact between bodies take them all.
+std::vector<ConstraintLine> collect_links(const dealii::DoFHandler<3> &dof_handler,
+                                          const dealii::IndexSet &relevant);
+
 /// Returns whether constraints of any rank name dofs that another rank owns. Collective.
 bool couple_ranks(const Constraints &constraints, const dealii::IndexSet &owned, MPI_Comm communicator);
 

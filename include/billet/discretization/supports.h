@@ -101,7 +101,7 @@ private:
   Constraints build(std::vector<double> values) const;
 
   const Discretization &discretization_;
-  std::vector<ConstraintLine> hanging_nodes_, lines_;
+  std::vector<ConstraintLine> links_, lines_;
   std::vector<Prescription> prescriptions_; ///< of lines_
   std::vector<Redundancy> redundancies_;
   Constraints homogeneous_;

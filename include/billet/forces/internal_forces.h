@@ -16,8 +16,9 @@ public:
   /// Throws InputError, on all ranks, if an element is inverted in the undeformed mesh.
   InternalForces(const Scene &scene, const Discretization &discretization);
 
-  /// Begins a step of this length [time]; zero evaluates the state at the start.
-  void start_step(const double dt) { step_.dt = dt; }
+  /// Begins a step of this length that ends at time t [time]; zero evaluates the state at the start. Throws
+  /// SolutionFailure, on all ranks, for a temperature that is not finite.
+  void start_step(double t, double dt);
 
   /// Adds the forces [force] to `forces` (additive vector). Returns false if an element on this rank is not
   /// admissible.
@@ -61,6 +62,7 @@ private:
   void count() const;
 
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
+  std::vector<const Expression *> temperatures_;      // by body; null if its law does not depend on it
   PointStep step_;
   std::size_t n_plastic_ = 0, n_stabilised_ = 0; ///< elements
   HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};

@@ -8,8 +8,9 @@ namespace billet {
 /// through a callback, one lane at a time. σ_y(α) is concave except for `other`.
 enum class HardeningKind { linear, voce, power_law, other };
 
-/// Laws that the explicit kernels compute for several elements at once.
+/// Laws that the explicit kernels compute for several elements at once. The last one determines the count.
 enum class LaneLaw { hencky, neo_hookean, hypoelastic };
+constexpr unsigned int n_lane_laws = static_cast<unsigned int>(LaneLaw::hypoelastic) + 1;
 
 /// Parameters of a hardening law, in the user's units.
 struct LaneHardening {

@@ -19,6 +19,7 @@ namespace billet {
 ///   find_history()                 unless History is empty
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
+///   depends_on_temperature         true, if it reads PointStep::temperature
 ///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:
@@ -38,6 +39,7 @@ public:
     else
       return nullptr;
   }
+  bool depends_on_temperature() const override { return finds_temperature<Law>(0); }
   bool has_symmetric_moduli() const override { return Law::has_symmetric_moduli; }
   bool is_rate_form() const override { return Law::is_rate_form; }
   bool has_exact_dissipation() const override { return Law::has_exact_dissipation; }
@@ -109,6 +111,11 @@ private:
     return L::lane_law;
   }
   template <class L> static std::optional<LaneLaw> find_lane_law(long) { return {}; }
+
+  template <class L> static constexpr auto finds_temperature(int) -> decltype(L::depends_on_temperature) {
+    return L::depends_on_temperature;
+  }
+  template <class L> static constexpr bool finds_temperature(long) { return false; }
 
   History restore([[maybe_unused]] const double *state) const {
     if constexpr (has_history)

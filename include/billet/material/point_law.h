@@ -28,6 +28,8 @@ struct PointStep {
   /// Length of the step [time]. With zero, rate-dependent laws have no time to flow: this evaluates the
   /// stress of a known state.
   double dt = 0.;
+  /// Temperature of the body at the end of the step, for laws that depend on it [temperature].
+  double temperature = 0.;
   /// A point yields if q > σ_y (1 + `yield_slack`). In a state that has just yielded, round-off would decide:
   /// 1e-9 gives the tangent of unloading, −1e-9 that of further loading.
   double yield_slack = 0.;
@@ -70,6 +72,10 @@ public:
   const FlowStress *flow_stress() const { return shared_flow_stress().get(); }
   bool has_plasticity() const { return shared_flow_stress() != nullptr; }
 
+  /// Whether the law reads PointStep::temperature. Scenes must then give it, and otherwise must not. Stored
+  /// and dissipated energy are still the work of the stresses: such a law counts the energy that heat brings
+  /// as dissipated, with opposite sign.
+  virtual bool depends_on_temperature() const { return false; }
   virtual bool has_symmetric_moduli() const = 0;
   /// Whether the law is in rate form: a stored energy exists only up to the order of the step.
   virtual bool is_rate_form() const = 0;

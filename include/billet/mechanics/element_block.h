@@ -68,6 +68,9 @@ public:
 
   virtual std::size_t size() const = 0;
 
+  /// Sets PointStep::temperature, for evaluations of steps and of known states.
+  virtual void set_temperature(double temperature) = 0;
+
   /// Overwrites `force` [force] and, if given, `matrix` [force/length]. Returns false if the state is
   /// inadmissible (det F ≤ 0, not finite): the step must be cut.
   virtual bool evaluate(std::size_t element, const ElementVectors &displacements, ElementVectors &force,

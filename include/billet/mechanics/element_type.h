@@ -3,6 +3,7 @@
 #define BILLET_MECHANICS_ELEMENT_TYPE_H
 
 #include "billet/material/point_law.h"
+#include "billet/mechanics/lane_element.h"
 #include "billet/registered_type.h"
 
 #include <memory>
@@ -15,9 +16,6 @@ class ElementComparison;
 struct ComparedBrick;
 struct ElementEnergies;
 struct ElementFormulation;
-
-/// Bricks that the explicit kernels compute for several elements at once.
-enum class LaneElement { assumed_strain, mean_dilatation, one_point };
 
 /// Formulation of eight-node bricks: its factory and its properties.
 struct ElementKind {

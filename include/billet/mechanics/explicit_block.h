@@ -71,6 +71,9 @@ public:
     std::size_t inverted;    ///< index of an element with det F ≤ 0 or not finite, or size()
   };
 
+  /// Sets the temperature of the next call, see PointStep. Laws of the kernels do not depend on it.
+  virtual void set_temperature(double /*temperature*/) {}
+
   /// Subtracts internal and viscous forces at these displacements from `forces` and advances the history by
   /// dt, the time since the last call (0 in the first). After an inverted element, forces and history are
   /// invalid.

@@ -55,9 +55,13 @@ public:
   void renew(const double *displacements, bool from_the_start);
 
   std::size_t size() const { return n_elements_; }
-  /// Returns the count of numbers that a one-point element stores for its stabilisation: ĥ, the metric, two
-  /// bounds, and in float the modes b and c.
-  std::size_t stabilisation_size() const { return 12 + 6 + 2 + (is_single ? 12 : 0); }
+  /// Returns the count of points of an element that have a history.
+  std::size_t n_points() const { return (layout_.n_history - first_point_) / layout_.n_point_history; }
+  /// Returns the count of numbers that an element stores for its stabilisation. A one-point element stores ĥ,
+  /// the metric, two bounds, and in float the modes b and c; the others have none.
+  std::size_t stabilisation_size() const {
+    return element_ == LaneElement::one_point ? 12 + 6 + 2 + (is_single ? 12 : 0) : 0;
+  }
   const explicit_kernels::Layout &layout() const { return layout_; }
   explicit_kernels::BasicElements<Number> elements();
 

@@ -73,10 +73,14 @@ public:
 
   std::size_t size() const override { return elements_.size(); }
 
+  void set_temperature(const double temperature) override { at_rest_.temperature = temperature; }
+
   std::vector<ThicknessAxis> thickness_axes() const override { return axes_; }
 
   bool evaluate(const std::size_t element, const ElementVectors &displacements, ElementVectors &force,
-                ElementMatrix *matrix, const PointStep &step) override {
+                ElementMatrix *matrix, const PointStep &given_step) override {
+    PointStep step = given_step;
+    step.temperature = at_rest_.temperature;
     const Reference &reference = elements_[element];
     Kinematics kinematics;
     if (!Element::compute(reference, displacements, kinematics))
@@ -86,15 +90,14 @@ public:
     force.fill(0.);
     if constexpr (Element::is_stabilised) {
       typename Element::Stabilisation stabilisation;
-      PointStep step_of_point = step;
       if constexpr (keeps_element_history) {
         stabilisation = element_.stabilise(reference, kinematics, history_n_[element]);
         stabilisation.yield.energy = stabilisation.energy / reference.volume;
-        step_of_point.shared = &stabilisation.yield;
+        step.shared = &stabilisation.yield;
       } else
         stabilisation = element_.stabilise(reference, kinematics, {});
-      if (!update(reference, kinematics, 0, step_of_point, state_of(state_n_, element),
-                  state_of(state_, element), tau[0], matrix != nullptr ? moduli.data() : nullptr))
+      if (!update(reference, kinematics, 0, step, state_of(state_n_, element), state_of(state_, element),
+                  tau[0], matrix != nullptr ? moduli.data() : nullptr))
         return false;
       if constexpr (keeps_element_history)
         history_[element] = Element::flow(stabilisation, history_n_[element]);
@@ -140,7 +143,7 @@ public:
       const double *state = state_of(beat == Beat::committed ? state_n_ : state_, element, q);
       const double w = Element::reference_volume(reference, q);
       dealii::SymmetricTensor<2, 3> tau;
-      if (!update(reference, kinematics, q, {}, state, scratch_.data(), tau, nullptr))
+      if (!update(reference, kinematics, q, at_rest_, state, scratch_.data(), tau, nullptr))
         continue;
       summary.cauchy_stress += w * tau; // σ J w = τ w
       summary.stiffness_bound = std::max(summary.stiffness_bound, law_.bound_stiffness(tau));
@@ -182,7 +185,7 @@ public:
         for (unsigned int q = layer_firsts[layer]; q < layer_firsts[layer] + 4; ++q) {
           const double *state = state_of(state_n_, element, q);
           dealii::SymmetricTensor<2, 3> tau;
-          if (!update(reference, kinematics, q, {}, state, scratch_.data(), tau, nullptr))
+          if (!update(reference, kinematics, q, at_rest_, state, scratch_.data(), tau, nullptr))
             continue;
           tau -= Element::varying_pressure(reference, kinematics, q) * dealii::unit_symmetric_tensor<3>();
           summary.cauchy_stress += tau / (4. * Element::volume_ratio(kinematics, q));
@@ -220,7 +223,7 @@ public:
       return stress;
     for (unsigned int q = 0; q < n_points; ++q) {
       const double *state = state_of(state_n_, element, q);
-      if (update(reference, kinematics, q, {}, state, scratch_.data(), stress[q].deviator, nullptr))
+      if (update(reference, kinematics, q, at_rest_, state, scratch_.data(), stress[q].deviator, nullptr))
         stress[q].deviator = dealii::deviator(stress[q].deviator);
       stress[q].equivalent_plastic_strain = law_.equivalent_plastic_strain(state);
     }
@@ -241,7 +244,7 @@ public:
         for (unsigned int q = 0; q < n_points; ++q)
           if (n_state_ > 0)
             tau[q] = stress[q].deviator;
-          else if (!update(reference, kinematics, q, {}, nullptr, nullptr, tau[q], nullptr))
+          else if (!update(reference, kinematics, q, at_rest_, nullptr, nullptr, tau[q], nullptr))
             return false;
         return true;
       };
@@ -414,6 +417,7 @@ private:
   std::shared_ptr<const PointLaw> shared_law_;
   const Law &law_;
   std::size_t n_state_; ///< per point
+  PointStep at_rest_;   ///< evaluates the stress of a known state
   Element element_;
   // Selected once: computation or post-processing of the matrix.
   void (*finish_)(ElementMatrix &) = [](ElementMatrix &) {};

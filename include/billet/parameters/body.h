@@ -39,7 +39,8 @@ struct Mesh {
 
 /// Subsection Material.
 struct Material {
-  Located<double> density; ///< 0: not given
+  Located<double> density;          ///< 0: not given
+  Located<std::string> temperature; ///< expression of t; empty if the law does not depend on it
   std::shared_ptr<const Elasticity> elasticity;
   std::shared_ptr<const PointLaw> law;
 

@@ -42,6 +42,10 @@ struct TimeStepping {
   void parse(Reader &reader);
 };
 
+/// Names of schemes in scene files, checkpoints and messages.
+const NamedValues<TimeStepping::Scheme> &schemes();
+const std::string &name_of(TimeStepping::Scheme scheme);
+
 /// Subsection Explicit dynamics.
 struct ExplicitDynamics {
   double safety_factor;

@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_NAMED_VALUES_H
 #define BILLET_PARAMETERS_NAMED_VALUES_H
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,12 +21,20 @@ template <class Value> std::string selection(const NamedValues<Value> &values) {
   return result;
 }
 
-/// Returns the value with this name. Throws std::logic_error if there is none: the selection refuses such
-/// names before.
-template <class Value> Value chosen(const NamedValues<Value> &values, const std::string &name) {
+/// Returns the value with this name; nothing if there is none.
+template <class Value>
+std::optional<Value> find_value(const NamedValues<Value> &values, const std::string &name) {
   for (const auto &entry : values)
     if (entry.first == name)
       return entry.second;
+  return std::nullopt;
+}
+
+/// Returns the value with this name. Throws std::logic_error if there is none: the selection refuses such
+/// names before.
+template <class Value> Value chosen(const NamedValues<Value> &values, const std::string &name) {
+  if (const std::optional<Value> value = find_value(values, name))
+    return *value;
   throw std::logic_error("'" + name + "' is none of " + selection(values));
 }
 

@@ -49,8 +49,9 @@ struct Body {
   std::shared_ptr<const PointLaw> law;
   ElementFormulation formulation; ///< for implicit scenes
   double young_modulus;
-  double max_modulus; ///< uniaxial-strain modulus, K + 4/3 G [stress]
-  double density;     ///< undeformed
+  double max_modulus;                      ///< uniaxial-strain modulus, K + 4/3 G [stress]
+  double density;                          ///< undeformed
+  std::unique_ptr<Expression> temperature; ///< of the time; null if the law does not depend on it
   std::vector<Hold> holds;
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by `holds`
   std::vector<AppliedLoad> loads;

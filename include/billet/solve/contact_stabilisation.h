@@ -70,8 +70,8 @@ public:
   double commit(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n,
                 const std::vector<bool> &is_supported, double driven_work = 0.);
 
-  /// For checkpoints: φ and works of each body. The last forces, in the order of nodes(), are saved
-  /// separately.
+  /// Return and set φ and the works of each body, for checkpoints. The last forces, in the order of nodes(),
+  /// are saved separately.
   std::vector<double> save() const;
   void load(const std::vector<double> &values);
   const std::vector<double> &last_forces() const { return last_forces_; }

@@ -13,9 +13,10 @@ public:
   static constexpr unsigned int min = 4, max = 8;
   /// Part of the target below which errors are small and measurements become rare.
   static constexpr double little = 0.1;
-  /// Whether two successive measurements agree within a factor of 2.
+  /// Maximum ratio of two successive measurements that agree.
+  static constexpr double steady = 2.;
+  /// Whether two successive measurements agree.
   static bool is_steady(const double slope, const double last_slope) {
-    constexpr double steady = 2.;
     return slope <= steady * last_slope && slope >= last_slope / steady;
   }
 

@@ -99,26 +99,27 @@ struct NewtonReport {
 /// method cycles between the same states.
 bool is_cycling(const std::vector<NewtonIteration> &iterations);
 
-/// Maximum part of the force scale that round-off of contact penalties may leave as residual. Below it forces
-/// are as exact as contact by penalties permits, and two digits better than noise. Above it they no longer
-/// represent the scene.
-constexpr double max_round_off = 0.005;
-
-/// Maximum residual, as part of the forces, up to which a stalled step is accepted with a warning, ...
-constexpr double max_stalled_residual = 0.02;
-/// ... if the last correction is at most this part of the step's increment. A larger correction indicates an
-/// unconstrained motion.
-constexpr double max_stalled_correction = 0.03;
-
-/// Residual, as part of the forces, below which neither a small correction nor an unchanged contact status is
-/// required. Newton's method would change the state by about this part, and contact is already in balance.
-constexpr double exact_residual = 5e-6;
+/// Limits of the iterations that other classes know.
+struct NewtonLimits {
+  /// Maximum part of the force scale that round-off of contact penalties may leave as residual. Below it
+  /// forces are as exact as contact by penalties permits, and two digits better than noise. Above it they no
+  /// longer represent the scene.
+  static constexpr double max_round_off = 0.005;
+  /// Maximum residual over the estimate of round-off of contact penalties that is still due to it.
+  static constexpr double near_round_off = 10.;
+  /// Maximum residual, as part of the forces, up to which a stalled step is accepted with a warning, ...
+  static constexpr double max_stalled_residual = 0.02;
+  /// ... if the last correction is at most this part of the step's increment. A larger correction indicates
+  /// an unconstrained motion.
+  static constexpr double max_stalled_correction = 0.03;
+  /// Residual, as part of the forces, below which neither a small correction nor an unchanged contact status
+  /// is required. Newton's method would change the state by about this part, and contact is already in
+  /// balance.
+  static constexpr double exact_residual = 5e-6;
+};
 
 /// Whether the smallest of the last residuals is hardly smaller than the smallest of those before.
 bool is_stagnant(const std::vector<NewtonIteration> &iterations, double last_force, std::size_t window);
-
-/// Maximum relative tolerance of a linear system.
-constexpr double max_forcing_term = 1e-2;
 
 /// Solves by Newton's method. Starts from, and overwrites, `x`; the step's increment is x − x_n. If the
 /// iterations stall close to balance, they converge if `accepts_stalled`, else they fail; `is_stalled` is set

@@ -60,10 +60,12 @@ std::vector<double> load_history(const StateReader &reader, const std::string &b
                                  const PointStates &points, std::size_t width,
                                  const std::vector<std::uint64_t> &keys);
 
-/// Returns the stresses of a body that its saved history implies at these displacements (ghosted). Reads the
+/// Returns the stresses of a body that its saved history implies at these displacements (ghosted) and at the
+/// temperature of time t. Reads the
 /// current group, which any formulation may have written.
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, std::size_t body,
-                                       const Discretization &discretization, const Vector &displacements);
+                                       const Discretization &discretization, const Vector &displacements,
+                                       double t);
 
 /// Returns the index, among the groups "KIND 0", "KIND 1", ..., of the one with this name; none if there is
 /// none.

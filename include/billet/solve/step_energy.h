@@ -42,6 +42,9 @@ public:
   }
 
 private:
+  /// Tolerance of times and lengths, as part of the first rejected step.
+  static constexpr double rounding = 1e-6;
+
   double rejected_until_ = -1., first_length_ = 0.; ///< end of the first rejected step, and its length
 };
 

@@ -30,7 +30,7 @@ public:
   /// Sets whether the next matrices are nearly singular: a direct solver then replaces an iterative one.
   void expect_nearly_singular(const bool is) { is_nearly_singular_ = is; }
   bool is_iterative() const { return iterative_ != nullptr; }
-  /// For an iterative solver only; see IterativeSolver.
+  /// Pass these to the iterative solver; see IterativeSolver. They require is_iterative().
   void set_geometry(NodalGeometry geometry);
   void start_contact(const std::vector<int> &dofs);
 

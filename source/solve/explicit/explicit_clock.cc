@@ -18,7 +18,7 @@ struct Limits {
   static constexpr double short_step = 0.9, long_step = 0.99;
   /// Part of all steps by which the time to the event may exceed them without one more.
   static constexpr double rounding = 1e-9;
-  /// Maximum number of planned steps, for the counter's range.
+  /// Maximum number of steps that are planned at once, for the counter's range.
   static constexpr double max_planned = 1e9;
   /// Number of steps to the event from which on they are below the resolution of time.
   static constexpr double too_many = 1e15;
@@ -43,9 +43,10 @@ void ExplicitClock::plan(const double event, const double allowed) {
     --n_planned_;
     return;
   }
-  event_ = event;
   step_ = fresh;
-  n_planned_ = static_cast<unsigned int>(std::min(n, Limits::max_planned)) - 1;
+  const bool fits = n <= Limits::max_planned; // else this step only is planned
+  event_ = fits ? event : time_ + step_;
+  n_planned_ = fits ? static_cast<unsigned int>(n) - 1 : 0;
   if (!(time_ + step_ > time_) || !(n < Limits::too_many)) {
     std::ostringstream why;
     why << "the stable step, " << longest

@@ -3,6 +3,15 @@
 
 namespace billet {
 
+namespace {
+
+/// Returns the scheme's name in checkpoints.
+const std::string &name_of_scheme() {
+  return parameters::name_of(parameters::TimeStepping::Scheme::explicit_dynamics);
+}
+
+} // namespace
+
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : parts_(scene, discretization), ledger_(parts_), stable_step_(parts_.settings().safety_factor),
       crossing_limit_(parts_), penalties_(parts_) {
@@ -80,7 +89,7 @@ std::string ExplicitDynamics::method() const {
 
 void ExplicitDynamics::save(StateWriter &writer) const {
   const NodalRows rows(parts_.nodes);
-  writer.write_text("scheme", "explicit");
+  writer.write_text("scheme", name_of_scheme());
   parts_.clock.save(writer);
   parts_.motion.save(writer, rows, parts_.clock.step());
   ledger_.save(writer, state_.energies);
@@ -99,18 +108,18 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   RestartReport report;
   // Other tools or pairs do not affect the restart of the rest.
   const bool is_exact =
-      reader.read_text("scheme") == "explicit" && parts_.elements.has_same_formulations(reader);
+      reader.read_text("scheme") == name_of_scheme() && parts_.elements.has_same_formulations(reader);
   report.is_exact = is_exact;
   compare_parts(reader, parts_.scene, report);
   if (is_exact) {
     parts_.clock.load(reader);
     parts_.motion.load(reader, rows);
-    parts_.elements.load(reader);
+    parts_.elements.load(reader, time());
   } else {
     parts_.clock.begin(reader.number(reader.has("time before") ? "time before" : "time"));
     parts_.motion.load_foreign(reader, rows);
     parts_.nodes.copy(parts_.motion.displacements(), state_.displacements);
-    parts_.elements.load_stresses(reader, parts_.motion.displacements(), state_.displacements);
+    parts_.elements.load_stresses(reader, parts_.motion.displacements(), state_.displacements, time());
   }
   parts_.tools.load(reader, rows, is_exact, time());
   load_contacts(reader, rows.keys());

@@ -97,10 +97,17 @@ SolutionFailure ExplicitElements::describe_inverted(const std::size_t body, cons
   return clock.failure(why.str());
 }
 
+void ExplicitElements::set_temperatures(const double t) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (const auto &temperature = scene_.bodies()[b].temperature)
+      blocks_[b]->set_temperature(temperature->value(t));
+}
+
 double ExplicitElements::add_forces(const ExplicitBlock::Nodes &nodes, const ExplicitClock &clock,
                                     ExplicitWorks &works) {
   double stable_step = std::numeric_limits<double>::infinity();
   elastic_energy_ = hourglass_energy_ = 0.;
+  set_temperatures(clock.time());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto result = blocks_[b]->advance(nodes, clock.since_forces());
     if (result.inverted < blocks_[b]->size())
@@ -170,7 +177,8 @@ bool ExplicitElements::has_same_formulations(StateReader &reader) const {
   return are_same;
 }
 
-void ExplicitElements::load(StateReader &reader) {
+void ExplicitElements::load(StateReader &reader, const double t) {
+  set_temperatures(t);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     reader.in(group("body", b), [&] {
       const std::size_t width = blocks_[b]->history_size();
@@ -183,10 +191,11 @@ void ExplicitElements::load(StateReader &reader) {
 }
 
 void ExplicitElements::load_stresses(StateReader &reader, const NodalVectors &displacements,
-                                     const Vector &ghosted) {
+                                     const Vector &ghosted, const double t) {
+  set_temperatures(t);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     reader.in(group("body", b), [&] {
-      const auto stresses = load_stress(reader, scene_, b, nodes_.discretization(), ghosted);
+      const auto stresses = load_stress(reader, scene_, b, nodes_.discretization(), ghosted, t);
       for (std::size_t e = 0; e < blocks_[b]->size(); ++e)
         blocks_[b]->set_stress(e, displacements.data(), stresses[e]);
     });

@@ -13,9 +13,13 @@ namespace billet {
 
 namespace {
 
-// Limits of quasi-static motion, beyond what tools and supports prescribe: of a step and of the run, in
-// diameters of the scene.
-constexpr double max_step = 1., max_path = 10.;
+struct Limits {
+  /// Limits of quasi-static motion, beyond what tools and supports prescribe: of a step and of the run, in
+  /// diameters of the scene.
+  static constexpr double max_step = 1., max_path = 10.;
+  /// Minimum size of the set of resisting points, as part of the scene's radius.
+  static constexpr double min_size = 1e-6;
+};
 
 /// Whether supports constrain a dof. A hanging node, which depends on dofs of other nodes, moves as they do.
 bool is_held(const Constraints &constraints, const DofIndex dof) {
@@ -59,9 +63,9 @@ std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const 
       box.add(resistances.back().position);
     }
   // Size of the set of resisting points: if there is only one point, rotations about it are free.
-  const double size = resistances.empty()
-                          ? 1.
-                          : std::max((box.high - box.low).norm(), 1e-6 * problem.discretization().radius());
+  const double size = resistances.empty() ? 1.
+                                          : std::max((box.high - box.low).norm(),
+                                                     Limits::min_size * problem.discretization().radius());
   return find_free_motion(resistances, 0.5 * (box.low + box.high), size);
 }
 
@@ -132,15 +136,15 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   };
   std::ostringstream text;
   text.precision(3);
-  if (maximum[2] > max_step * diameter + 2. * driven) {
+  if (maximum[2] > Limits::max_step * diameter + 2. * driven) {
     text << "the step to time " << t << " moves a node by " << maximum[2] << ", which is "
          << maximum[2] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
-         << "; allowed is " << max_step << " diameters more than twice that";
+         << "; allowed is " << Limits::max_step << " diameters more than twice that";
     return fail(text.str());
   }
-  if (maximum[3] > max_path * diameter + 2. * driven_so_far) {
+  if (maximum[3] > Limits::max_path * diameter + 2. * driven_so_far) {
     text << "at time " << t << " a node has moved by " << maximum[3] << ", which is " << maximum[3] / diameter
-         << " times the diameter of the scene; allowed are " << max_path
+         << " times the diameter of the scene; allowed are " << Limits::max_path
          << " diameters more than twice the path of tools and supports";
     return fail(text.str());
   }

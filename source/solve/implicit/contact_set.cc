@@ -6,6 +6,20 @@
 
 namespace billet {
 
+namespace {
+
+struct Limits {
+  /// Unit of penetration in pairs without a tolerance [facet size]: the tightest tolerance that a target
+  /// error sets.
+  static constexpr double penetration = 1e-5;
+  /// Error of a position in penalties, as multiple of its last bit.
+  static constexpr double last_bits = 3.;
+  /// Minimum penalty of the pairs that cause most of the round-off, as part of the largest one.
+  static constexpr double as_stiff = 0.1;
+};
+
+} // namespace
+
 ContactSet::ContactSet(const Scene &scene, const Discretization &discretization)
     : Contacts(scene, discretization, scene.contact_tangent()), communicator_(discretization.communicator()),
       reach_(discretization.centre().norm() + discretization.radius()) {}
@@ -32,7 +46,6 @@ std::vector<double> ContactSet::augmentation_errors() const {
 }
 
 double ContactSet::find_penetration() const {
-  constexpr double unit = 1e-5; // facet sizes: the tightest tolerance that a target error sets
   double of_augmentation = 0.;
   for (const double error : augmentation_errors())
     of_augmentation = std::max(of_augmentation, error);
@@ -40,15 +53,14 @@ double ContactSet::find_penetration() const {
                                      return contact.settings().has_tolerance()
                                                 ? 0.
                                                 : contact.measures().penetration().of_facet;
-                                   }) / unit);
+                                   }) / Limits::penetration);
 }
 
 double ContactSet::find_spring_round_off() const {
-  constexpr double last_bits = 3.; // multiple of the effect of a position's last bit
   double force = 0.;
   for (const auto &contact : *this)
     force = std::max(force, contact.penalties().max_spring() * (reach_ + contact.measures().surface_reach()));
-  return last_bits * std::numeric_limits<double>::epsilon() *
+  return Limits::last_bits * std::numeric_limits<double>::epsilon() *
          dealii::Utilities::MPI::max(force, communicator_);
 }
 
@@ -60,10 +72,9 @@ std::string ContactSet::stiffest_pairs() const {
   const std::vector<double> springs =
       collect_max([](const auto &contact) { return contact.penalties().max_spring(); });
   const double stiffest = *std::max_element(springs.begin(), springs.end());
-  constexpr double as_stiff = 0.1;
   std::string result;
   for (std::size_t i = 0; i < springs.size(); ++i)
-    if (springs[i] >= as_stiff * stiffest)
+    if (springs[i] >= Limits::as_stiff * stiffest)
       result += (result.empty() ? "'" : ", '") + (*this)[i].name() + "'";
   return result;
 }

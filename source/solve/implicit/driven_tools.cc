@@ -7,6 +7,18 @@
 
 namespace billet {
 
+namespace {
+
+struct Factors {
+  /// Travel of a tool beyond its first touch, as part of the scene's radius, so that it does touch.
+  static constexpr double beyond_touch = 1e-6;
+  /// Tolerance of the solutions with the columns of the border over that of the residual: a tool may have to
+  /// move far while the bodies' residual is small.
+  static constexpr double of_columns = 1e-2;
+};
+
+} // namespace
+
 DrivenTools::DrivenTools(const Scene &scene, const Discretization &discretization, const Supports &supports,
                          ContactSet &contacts, const ImplicitScheme &scheme)
     : scene_(scene), discretization_(discretization), supports_(supports), contacts_(contacts),
@@ -116,14 +128,13 @@ double DrivenTools::imbalance(const std::size_t tool, const double t) const {
 }
 
 double DrivenTools::distance_to_touch(const std::size_t tool) const {
-  constexpr double more = 1e-6; // of the scene's radius, so that it does touch
   double way = std::numeric_limits<double>::infinity();
   if (scene_.tools()[tool].control() != Tool::Control::moment)
     for (const auto &contact : contacts_.of_tools())
       if (contact.tool() == tool)
         way = std::min(way, contact.drive().distance_to_touch(scene_.tools()[tool].force_direction()));
   way = dealii::Utilities::MPI::min(way, discretization_.communicator());
-  return way + more * discretization_.radius();
+  return way + Factors::beyond_touch * discretization_.radius();
 }
 
 void DrivenTools::assemble_tangent() {
@@ -162,12 +173,11 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
   const std::size_t n = unknown_.size();
   if (n == 0)
     return true;
-  constexpr double closer = 1e-2; // a tool may have to move far while the bodies' residual is small
   std::vector<Vector> Y(n, discretization_.make_owned_vector());
   dealii::FullMatrix<double> S(border_.block);
   dealii::Vector<double> rhs(n), solution(n);
   for (std::size_t j = 0; j < n; ++j) {
-    if (!solve(border_.columns[j], closer * relative_tolerance, Y[j]))
+    if (!solve(border_.columns[j], Factors::of_columns * relative_tolerance, Y[j]))
       return false;
     for (std::size_t i = 0; i < n; ++i)
       S(i, j) -= border_.rows[i] * Y[j];

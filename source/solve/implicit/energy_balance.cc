@@ -134,9 +134,8 @@ void StaticBalance::commit(double /*t*/) {
 }
 
 DiagnosticList StaticBalance::finish() const {
-  constexpr double doubtful = 0.04; // of all work
   const double floor = problem_.scales().round_off * problem_.discretization().radius();
-  if (!(std::abs(contact_balance_) > std::max(doubtful * max_energy_, floor)))
+  if (!(std::abs(contact_balance_) > std::max(Limits::doubtful * max_energy_, floor)))
     return {};
   const double percent = 100. * contact_balance_ / max_energy_;
   std::ostringstream text;

@@ -4,12 +4,9 @@
 #include "billet/errors.h"
 #include "billet/usage.h"
 
-#include <deal.II/lac/solver_cg.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace billet {
@@ -18,12 +15,10 @@ using dealii::Tensor;
 
 namespace {
 
-Vector find_row_sums(const Discretization &discretization, const Inertia &inertia) {
-  Vector ones = discretization.make_owned_vector(), ghosted = discretization.make_ghosted_vector();
-  ones = 1.;
-  ghosted = ones;
-  return inertia.times(ghosted);
-}
+struct Limits {
+  /// Error of each displacement or offset, as multiple of its last bit.
+  static constexpr double last_bits = 10.;
+};
 
 bool is_lumped(const Scene &scene) {
   return scene.parameters().implicit_dynamics.mass == parameters::ImplicitDynamics::Mass::lumped;
@@ -35,10 +30,11 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
                                const Supports &supports)
     : scene_(scene), discretization_(discretization), supports_(supports),
       integrator_(scene.parameters().implicit_dynamics.integrator), nodes_(discretization),
-      inertia_(scene, discretization, is_lumped(scene)), lumped_(find_row_sums(discretization, inertia_)),
-      loads_(scene, discretization, nodes_, inertia_), tools_(scene), held_(scene, discretization, supports),
-      error_(scene, discretization, nodes_, inertia_, lumped_) {
-  u_n_ = start_.velocity = start_.acceleration = damping_.end = damping_.start = damping_.forces_n =
+      mass_(scene, discretization, supports, is_lumped(scene)),
+      loads_(scene, discretization, nodes_, mass_.inertia()), tools_(scene),
+      held_(scene, discretization, supports),
+      error_(scene, discretization, nodes_, mass_.inertia(), mass_.row_sums()) {
+  step_.u_n = start_.velocity = start_.acceleration = damping_.end = damping_.start = damping_.forces_n =
       discretization.make_owned_vector();
   set_initial_velocities();
   check_before_start([&] { held_.start(0., scene.parameters().time_stepping.initial_step); });
@@ -67,57 +63,6 @@ void ImplicitMotion::set_initial_velocities() {
   start_.velocity.compress(dealii::VectorOperation::insert);
 }
 
-namespace {
-
-/// Mass matrix on free dofs, x -> CᵀMC x, C the homogeneous constraints.
-struct CondensedMass {
-  const Inertia &inertia;
-  const Supports &supports;
-  Vector &ghosted;
-
-  void vmult(Vector &result, const Vector &x) const {
-    Vector all = x;
-    supports.homogeneous().distribute(all);
-    ghosted = all;
-    result = inertia.times(ghosted);
-    supports.condense(result);
-  }
-};
-
-/// Divides by the row sums.
-struct LumpedMass {
-  const Vector &row_sums;
-
-  void vmult(Vector &result, const Vector &x) const {
-    result = x;
-    std::transform(result.begin(), result.end(), row_sums.begin(), result.begin(), std::divides<>());
-  }
-};
-
-} // namespace
-
-Vector ImplicitMotion::accelerations_by(const Vector &forces) const {
-  Vector rhs = forces, result = discretization_.make_owned_vector();
-  rhs *= -1.;
-  supports_.condense(rhs);
-  const double size = rhs.l2_norm();
-  if (size == 0.)
-    return result;
-  // The mass over its row sums has eigenvalues from 1/27 to 1 in bricks: about thirty iterations.
-  constexpr double relative_tolerance = 1e-12;
-  constexpr unsigned int max_iterations = 1000;
-  dealii::SolverControl control(max_iterations, relative_tolerance * size, false, false);
-  dealii::SolverCG<Vector> solver(control);
-  Vector scratch = discretization_.make_ghosted_vector();
-  try {
-    solver.solve(CondensedMass{inertia_, supports_, scratch}, result, rhs, LumpedMass{lumped_});
-  } catch (const dealii::SolverControl::NoConvergence &) {
-    // Round-off in bodies of very different densities prevents convergence; the error is of that size.
-  }
-  supports_.homogeneous().distribute(result);
-  return result;
-}
-
 void ImplicitMotion::choose_contact_damping(const ForceState &start) {
   damping_.forces_n = start.supports;
   if (damping_.is_on && start.contact.l2_norm() == 0.)
@@ -131,12 +76,12 @@ void ImplicitMotion::damp_contact(const ForceState &start) {
   damping_.forces_n -= start.contact;
   damping_.is_on = true;
   damping_.start = start_.acceleration;
-  damping_.start -= accelerations_by(start.contact);
+  damping_.start -= mass_.accelerations_by(start.contact);
 }
 
 void ImplicitMotion::finish_contact(const Vector &contact_forces) {
   if (damping_.is_on)
-    damping_.end = accelerations_by(contact_forces);
+    damping_.end = mass_.accelerations_by(contact_forces);
 }
 
 Vector ImplicitMotion::end_accelerations() const {
@@ -147,15 +92,9 @@ Vector ImplicitMotion::end_accelerations() const {
 }
 
 Vector ImplicitMotion::driving_forces(const Vector &forces) const {
-  Vector result = inertia_.times(ghosted(held_.at_start().acceleration));
+  Vector result = mass_.times(held_.at_start().acceleration);
   result += forces;
   result *= -1.;
-  return result;
-}
-
-Vector ImplicitMotion::ghosted(const Vector &owned) const {
-  Vector result = discretization_.make_ghosted_vector();
-  result = owned;
   return result;
 }
 
@@ -167,54 +106,54 @@ void ImplicitMotion::set_accelerations(const Vector &accelerations) {
 
 void ImplicitMotion::start_step(const double t_n, const double t, const Vector &displacements,
                                 const std::vector<double> &offsets) {
-  if (t_n_ == t_n && step_ == t - t_n)
+  if (step_.t_n == t_n && step_.length == t - t_n)
     return;
   Usage::count(Capability::inertia, displacements.locally_owned_size());
-  t_n_ = t_n;
-  step_ = t - t_n;
-  u_n_ = displacements;
+  step_.t_n = t_n;
+  step_.length = t - t_n;
+  step_.u_n = displacements;
   tools_.start_step(offsets);
   held_.start_step(t_n, t);
-  // Ten times the effect of the last bit of each displacement or offset.
-  const double last_bit = 10. * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_);
+  const double last_bit =
+      Limits::last_bits * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_.length);
   const double n_nodes = static_cast<double>(discretization_.dof_handler().n_dofs()) / 3.;
-  round_off_force_ = last_bit * inertia_.total() / std::sqrt(n_nodes) *
-                     std::max(displacements.linfty_norm(), step_ * start_.velocity.linfty_norm());
-  round_off_force_ += tools_.round_off_force(last_bit, step_, discretization_.radius());
+  step_.round_off_force = last_bit * mass_.inertia().total() / std::sqrt(n_nodes) *
+                          std::max(displacements.linfty_norm(), step_.length * start_.velocity.linfty_norm());
+  step_.round_off_force += tools_.round_off_force(last_bit, step_.length, discretization_.radius());
 }
 
 void ImplicitMotion::extrapolate(Vector &displacements, std::vector<double> &offsets) const {
-  displacements.add(step_, start_.velocity, 0.5 * step_ * step_, start_.acceleration);
-  tools_.extrapolate(step_, offsets);
+  displacements.add(step_.length, start_.velocity, 0.5 * step_.length * step_.length, start_.acceleration);
+  tools_.extrapolate(step_.length, offsets);
 }
 
 void ImplicitMotion::set_rates(const Vector &displacements) {
   Vector increment = displacements;
-  increment -= u_n_;
+  increment -= step_.u_n;
   const auto set = [&](const TimeIntegrator::Rate &weights, const Vector &held, Vector &rate) {
     rate = increment;
     rate *= weights.increment;
     rate.add(weights.velocity, start_.velocity, weights.acceleration, start_accelerations());
     held_.prescribe(held, rate);
   };
-  set(integrator_.velocity(step_), held_.at_end().velocity, trial_.velocity);
-  set(integrator_.acceleration(step_), held_.at_end().acceleration, trial_.acceleration);
+  set(integrator_.velocity(step_.length), held_.at_end().velocity, trial_.velocity);
+  set(integrator_.acceleration(step_.length), held_.at_end().acceleration, trial_.acceleration);
 }
 
 double ImplicitMotion::add_loads(const double t, const Vector &displacements, Vector &residual) {
-  if (step_ > 0.)
+  if (step_.length > 0.)
     set_rates(displacements);
   return loads_.subtract(t, displacements, trial_.velocity, residual);
 }
 
 double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
   residual.add(contact_weight() - 1., contact);
-  if (step_ == 0.)
+  if (step_.length == 0.)
     return 0.;
   Vector weighted = trial_.acceleration;
   weighted *= integrator_.inertia_now();
   weighted.add(integrator_.inertia_before(), start_accelerations());
-  const Vector inertia = inertia_.times(ghosted(weighted));
+  const Vector inertia = mass_.times(weighted);
   residual += inertia;
   if (integrator_.forces_before() != 0.)
     residual.add(integrator_.forces_before(), damping_.forces_n);
@@ -222,8 +161,8 @@ double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
 }
 
 void ImplicitMotion::add_tangent(const double t, const TangentSystem &system) const {
-  inertia_.add_tangent(integrator_.mass_factor(step_), system);
-  loads_.add_tangent(t, integrator_.damping_factor(step_), system);
+  mass_.inertia().add_tangent(integrator_.mass_factor(step_.length), system);
+  loads_.add_tangent(t, integrator_.damping_factor(step_.length), system);
 }
 
 double ImplicitMotion::step_error(const Vector &displacements) const {
@@ -231,7 +170,7 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
     return 0.;
   Vector change = end_accelerations();
   change -= start_.acceleration;
-  return error_.of_step(integrator_.error_factor() * step_ * step_, change, displacements);
+  return error_.of_step(integrator_.error_factor() * step_.length * step_.length, change, displacements);
 }
 
 void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
@@ -245,7 +184,7 @@ void ImplicitMotion::commit(const Vector &displacements, const Vector &increment
   Vector held_velocity = held_.at_start().velocity;
   held_velocity += held_.at_end().velocity;
   held_velocity *= 0.5;
-  const Vector impulse = inertia_.times(ghosted(change));
+  const Vector impulse = mass_.times(change);
   const double support_work = held_velocity * impulse + held_.change() * mean_forces;
   energies.external += support_work;
   energies.numerical -= mean_velocity * impulse + increment * mean_forces - support_work;
@@ -257,8 +196,9 @@ void ImplicitMotion::commit(const Vector &displacements, const Vector &increment
 }
 
 void ImplicitMotion::update_state(SolutionState &state) const {
-  state.velocities = ghosted(start_.velocity);
-  const Vector momenta = inertia_.times(state.velocities);
+  state.velocities = discretization_.make_ghosted_vector();
+  state.velocities = start_.velocity;
+  const Vector momenta = mass_.inertia().times(state.velocities);
   std::array<double, 6> own{};
   for (unsigned int node = 0; node < nodes_.size(); ++node) {
     const auto &dofs = nodes_.dofs(node);

@@ -11,6 +11,13 @@ namespace billet {
 
 namespace {
 
+struct Limits {
+  /// Force by round-off of displacements over that by the last bit of a displacement of the scene's size.
+  static constexpr double last_bits = 100.;
+  /// Part of a correction below which it is useless.
+  static constexpr double min_part = 1e-3;
+};
+
 /// Makes the motion of a dynamic scene; null for a static one. Throws InputError if prescribed displacements
 /// contradict each other.
 std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretization &discretization,
@@ -26,11 +33,10 @@ std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretiza
 
 /// Returns a hundred times the force by the last bit of a displacement of the scene's size.
 double find_round_off_force(const Scene &scene, const Discretization &discretization) {
-  constexpr double last_bits = 100.;
   double stiffest = 0.;
   for (const auto &body : scene.bodies())
     stiffest = std::max(stiffest, body.max_modulus);
-  return last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
+  return Limits::last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
          discretization.radius();
 }
 
@@ -186,8 +192,7 @@ double ImplicitProblem::max_step_length(const Vector &x, const Vector &direction
   set_trial(end);
   const double part = contacts_.find_free_part(
       {from, step_.ghosted, tools_from, tools_.placements(step_.time), false}, obstacle_);
-  constexpr double minimum = 1e-3; // shorter corrections are useless
-  return part < minimum ? 0. : part;
+  return part < Limits::min_part ? 0. : part;
 }
 
 double ImplicitProblem::find_free_part(const bool is_thorough) {
@@ -200,7 +205,7 @@ double ImplicitProblem::find_free_part(const bool is_thorough) {
 void ImplicitProblem::start_step(const double t) {
   step_.time = t;
   step_.duration = t - state_.time;
-  internal_.start_step(step_.duration);
+  internal_.start_step(t, step_.duration);
   stabilisation_.start_step(step_.duration);
   scheme().start_step(state_.time, t, step_.start.displacements, tools_.start_offsets());
   const std::vector<Placement> placements = tools_.placements(t);
@@ -214,7 +219,7 @@ void ImplicitProblem::start_at_rest() {
   for (auto &contact : contacts_)
     contact.start_step({state_.time, state_.time, 0., state_.placements, state_.placements});
   step_.duration = 0.;
-  internal_.start_step(0.);
+  internal_.start_step(state_.time, 0.);
 }
 
 void ImplicitProblem::evaluate_start() {

@@ -9,13 +9,11 @@ namespace billet {
 
 namespace {
 
-/// Limits of repeated and accepted steps.
+/// Limits of repeated steps.
 struct Limits {
   /// Maximum number of raises of penalties in a step, each by a factor of at least 2, of less than 100 in
   /// all.
   static constexpr unsigned int max_raises = 6;
-  /// Lower limit of the reference value of forces after they vanish, as part of their largest one.
-  static constexpr double lasting = 1e-3;
 };
 
 } // namespace
@@ -176,7 +174,7 @@ void ImplicitSolution::commit(const double t, NewtonReport &report) {
   append(report.diagnostics, paths_.check_motion(t));
   augmentation_.commit();
   rules_->predictor().commit();
-  scales.lasting = std::max(scales.lasting, Limits::lasting * scales.force);
+  scales.lasting = std::max(scales.lasting, ForceScales::Limits::lasting * scales.force);
   step.last_increment = step.trial.displacements;
   step.last_increment -= step.start.displacements;
   problem_.tools().commit();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace billet {
 
@@ -13,7 +14,7 @@ void ImplicitSolution::save(StateWriter &writer) const {
   const NodeKeys keys(discretization);
   const OwnedNodes nodes(discretization, keys);
   const StepState &step = problem_.step();
-  writer.write_text("scheme", problem_.scheme().name());
+  writer.write_text("scheme", parameters::name_of(problem_.scheme().kind()));
   writer.write("time", {state().time});
   writer.write("energies", to_numbers(state().energies));
   save_nodal(writer, "displacements", nodes, step.start.displacements);
@@ -42,8 +43,10 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   StepState &step = problem_.step();
   SolutionState &state = problem_.state();
   RestartReport report;
-  const std::string scheme = reader.read_text("scheme");
-  const bool is_implicit = scheme != "explicit", is_own = scheme == problem_.scheme().name();
+  using Scheme = parameters::TimeStepping::Scheme;
+  const std::optional<Scheme> scheme =
+      parameters::find_value(parameters::schemes(), reader.read_text("scheme"));
+  const bool is_implicit = scheme != Scheme::explicit_dynamics, is_own = scheme == problem_.scheme().kind();
   report.is_exact = is_own;
   compare_parts(reader, problem_.scene(), report);
   state.energies = to_energies(reader.read("energies"));
@@ -98,7 +101,8 @@ void ImplicitSolution::balance(RestartReport &report) {
     throw InputError("its state is not admissible here: elements are inverted, or forces are not finite");
   report.imbalance = residual.l2_norm();
   report.force_scale = problem_.force_scale();
-  problem_.scales().lasting = std::max(problem_.scales().lasting, 1e-3 * problem_.force_scale());
+  problem_.scales().lasting =
+      std::max(problem_.scales().lasting, ForceScales::Limits::lasting * problem_.force_scale());
   step.start.supports = step.trial.supports;
   step.start.contact = step.trial.contact;
   step.start.internal = step.trial.internal;

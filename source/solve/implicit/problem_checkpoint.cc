@@ -71,7 +71,8 @@ bool ProblemCheckpoint::load_body(const std::size_t body, StateReader &reader) {
     is_same = problem_.on_all_ranks(load_thickness_axes(reader, element_keys(discretization, body)) ==
                                     block.thickness_axes());
   if (!is_same) {
-    const auto stresses = load_stress(reader, problem_.scene(), body, discretization, displacements);
+    const auto stresses =
+        load_stress(reader, problem_.scene(), body, discretization, displacements, problem_.state().time);
     for (std::size_t e = 0; e < block.size(); ++e)
       block.set_stress(e, gather(displacements, discretization.elements(body)[e].dofs), stresses[e]);
     return false;

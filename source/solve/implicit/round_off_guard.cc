@@ -24,8 +24,9 @@ void RoundOffGuard::commit(const double t, const NewtonReport &report) {
 std::string RoundOffGuard::describe(const double part) const {
   std::ostringstream text;
   text.precision(2);
-  text << "round-off limits the residual to " << part << " of the forces; allowed is " << max_stalled_residual
-       << ". The penalty of contact pair " << problem_.contacts().stiffest_pairs()
+  text << "round-off limits the residual to " << part << " of the forces; allowed is "
+       << NewtonLimits::max_stalled_residual << ". The penalty of contact pair "
+       << problem_.contacts().stiffest_pairs()
        << " is too high for such small displacements and sixteen digits. Try a lower penalty, with a "
           "'Penetration tolerance' if penetration is then too large, or bodies nearer to the origin";
   return text.str();
@@ -36,7 +37,8 @@ bool RoundOffGuard::may_explain(const NewtonReport &report) const {
       !(report.force > 0.)) // there may be no residual
     return false;
   const double springs = problem_.scales().spring_round_off, forces = problem_.force_scale();
-  return springs > max_round_off * forces && report.force * forces <= Limits::by_much * springs;
+  return springs > NewtonLimits::max_round_off * forces &&
+         report.force * forces <= NewtonLimits::near_round_off * springs;
 }
 
 DiagnosticList RoundOffGuard::check(const double part, const double accuracy) const {

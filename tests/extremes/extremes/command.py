@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command line."""
 
+from __future__ import annotations
+
 import argparse
 import fnmatch
 import sys
 import time
 from collections import Counter
 from pathlib import Path
+from typing import Sequence
 
 from billet_tools import UserError
 from billet_tools.kept import hash_of
@@ -19,7 +22,7 @@ BAD = ("wrong", "crashed", "hung", "unhelpful")
 UNEXPECTED = (*BAD, "doubtful", "failed")  # of the fixed scenes, which run, or are refused
 
 
-def parse(arguments):
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
     p = argparse.ArgumentParser(
         prog="extremes",
         description=(
@@ -67,7 +70,7 @@ def parse(arguments):
     return p.parse_args(arguments)
 
 
-def chosen(options, runner):
+def chosen(options: argparse.Namespace, runner: Runner) -> list[plan.Case]:
     cases = plan.cases()
     if options.fixed:
         by_name = {case.name: case for case in cases}
@@ -94,7 +97,7 @@ def chosen(options, runner):
     return cases
 
 
-def run(arguments):
+def run(arguments: Sequence[str]) -> int:
     options = parse(arguments)
     try:
         return perform(options)
@@ -106,7 +109,7 @@ def run(arguments):
         return 5
 
 
-def perform(options):
+def perform(options: argparse.Namespace) -> int:
     runner = Runner(find_program(options.program), Path(options.folder).resolve(), options.keep)
     cases = chosen(options, runner)
     if options.list:

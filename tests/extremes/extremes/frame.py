@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The units and the frame in which scenes are written down."""
 
+from __future__ import annotations
+
 import math
+from typing import Any, Iterable, Sequence
 
 import numpy
 
+from billet_tools.output import Array
 
-def number(value):
+Vector = Sequence[float]
+
+
+def number(value: float) -> str:
     """So that it is read back as it is."""
     short = f"{value:.15g}"
     return short if float(short) == float(value) else repr(float(value))
 
 
-def rotation(axis, degrees):
+def rotation(axis: Vector, degrees: float) -> Array:
     axis = numpy.asarray(axis, float) / numpy.linalg.norm(axis)
     angle = math.radians(degrees)
     cross = numpy.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
@@ -24,7 +31,14 @@ class Frame:
     stresses and times times so much, everything turned by `degrees` about `axis`. What a run gives is read
     back into base units."""
 
-    def __init__(self, length=1.0, stress=1.0, time=1.0, axis=(1, 1, 1), degrees=0.0):
+    def __init__(
+        self,
+        length: float = 1.0,
+        stress: float = 1.0,
+        time: float = 1.0,
+        axis: Vector = (1, 1, 1),
+        degrees: float = 0.0,
+    ) -> None:
         self.length, self.stress, self.time = length, stress, time
         self.axis, self.degrees = axis, degrees
         self.turn = rotation(axis, degrees)
@@ -36,28 +50,28 @@ class Frame:
         self.mass = self.density * length**3
         self.momentum = self.mass * self.speed
 
-    def vector(self, v, unit=1.0):
+    def vector(self, v: Vector | Array, unit: float = 1.0) -> str:
         return ", ".join(number(x) for x in self.turned(v) * unit)
 
-    def turned(self, v):
+    def turned(self, v: Vector | Array) -> Array:
         v = numpy.asarray(v, float)
         return self.turn @ v if self.degrees else v
 
-    def expressions(self, parts, unit=1.0):
+    def expressions(self, parts: Iterable[object], unit: float = 1.0) -> str:
         """Three expressions of t, for x, y, z; t in base units."""
-        parts = [str(part) for part in parts]
+        texts = [str(part) for part in parts]
         scale = "" if unit == 1.0 else f"{number(unit)}*"
         if self.degrees:
-            parts = [" + ".join(f"{number(r)}*({e})" for r, e in zip(row, parts)) for row in self.turn]
-        return " ; ".join(self.expression(e, scale) for e in parts)
+            texts = [" + ".join(f"{number(r)}*({e})" for r, e in zip(row, texts)) for row in self.turn]
+        return " ; ".join(self.expression(e, scale) for e in texts)
 
-    def expression(self, part, scale=""):
+    def expression(self, part: str, scale: str = "") -> str:
         if self.time != 1.0:
             part = part.replace("{t}", f"(t/{number(self.time)})")
         part = part.replace("{t}", "t")
         return part if part in ("0", "0.0") or not scale else f"{scale}({part})"
 
-    def mesh(self, **what):
+    def mesh(self, **what: Any) -> dict[str, Any]:
         """A mesh whose lengths are base units."""
         what = dict(what)
         if self.length != 1.0:
@@ -67,6 +81,6 @@ class Frame:
             what["Rotation angle"] = number(self.degrees)
         return what
 
-    def planes(self, planes):
+    def planes(self, planes: Iterable[tuple[Vector, float]]) -> str:
         """Symmetry planes (normal, distance)."""
         return " ; ".join(f"{self.vector(n)} = {number(d * self.length)}" for n, d in planes)

@@ -2,12 +2,20 @@
 """What must hold in a scene, computed from what the run wrote, not from what it thinks of itself. Each takes
 a Result and gives Findings: an error, and how large it may be. All numbers are in base units and upright."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Callable, Sequence
 
 import numpy
+from billet_tools.output import Array, History
+from numpy.typing import NDArray
 
 from . import closed_forms
+
+if TYPE_CHECKING:
+    from .results import Result
 
 ROUNDING = 3e-7  # of fields, which are written with 24 bits
 
@@ -20,23 +28,26 @@ class Finding:
     said: str = ""
 
     @property
-    def holds(self):
+    def holds(self) -> bool:
         return bool(self.error <= self.allowed)  # NaN does not
 
-    def __str__(self):
+    def __str__(self) -> str:
         return (
             f"{self.name}: off by {self.error:.3g}, allowed"
             f" {self.allowed:.3g}{': ' + self.said if self.said else ''}"
         )
 
 
-def part(error, scale):
+Check = Callable[["Result"], "list[Finding]"]
+
+
+def part(error: float, scale: float) -> float:
     """error/scale, where nothing over nothing is nothing."""
     error, scale = float(error), float(scale)
     return 0.0 if error == 0 else (error / scale if scale > 0 else math.inf)
 
 
-def newton(r, times=10.0, least=1e-5):
+def newton(r: Result, times: float = 10.0, least: float = 1e-5) -> float:
     """Of forces: what Newton's method may leave."""
     return max(
         least,
@@ -45,7 +56,7 @@ def newton(r, times=10.0, least=1e-5):
     )
 
 
-def finite(r):
+def finite(r: Result) -> list[Finding]:
     """Nothing that is written is infinite or not a number, and the run came to its end."""
     bad = sum(int(numpy.sum(~numpy.isfinite(v))) for v in r.history.values())
     bad += sum(int(numpy.sum(~numpy.isfinite(v))) for v in r.fields.values() if v.dtype.kind == "f")
@@ -57,7 +68,7 @@ def finite(r):
     ]
 
 
-def residual(r):
+def residual(r: Result) -> list[Finding]:
     """No step of statics is accepted with more than 'Force tolerance' asks for (in motion there may be no
     forces); what chooses tolerances by itself is looked at by its errors. Beside that the last bits of
     positions may stay, times the springs of a face of unit size."""
@@ -88,7 +99,7 @@ def residual(r):
     ]
 
 
-def deepest(r):
+def deepest(r: Result) -> float:
     """How deep nodes go in, relative to a facet: the root of the largest area of a node."""
     area = float(numpy.max(r.fields.get("contact_area", numpy.zeros(1)), initial=0.0))
     depth = max(
@@ -105,14 +116,14 @@ def deepest(r):
 # --- forces ---------------------------------------------------------------------------------------
 
 
-def largest_force(r):
+def largest_force(r: Result) -> float:
     return max((float(numpy.max(numpy.abs(r.force(name)), initial=0.0)) for name in r.named), default=0.0)
 
 
-def balanced(a, b):
+def balanced(a: str, b: str) -> Check:
     """The forces of two tools on a body without supports are opposite."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         return [
             Finding(
                 "equilibrium",
@@ -124,23 +135,23 @@ def balanced(a, b):
     return check
 
 
-def driven(column, value):
+def driven(column: str, value: float) -> Check:
     """A tool that a force, or a moment, drives presses with just that."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         return [Finding("driven", part(abs(r.history[column][-1] - value), abs(value)), newton(r, 10, 1e-4))]
 
     return check
 
 
-def bears(name, pressure, end):
+def bears(name: str, pressure: float, end: float) -> Check:
     """The floor takes the momentum that the pressure gives, but for what the block still has of it; with
     springs, no more than that."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         h = r.history
-        gap = numpy.diff(numpy.concatenate(([0.0], h["time"])))
-        f = numpy.concatenate(([0.0], h[f"{name}.force_z"]))
+        gap = numpy.diff(numpy.append(0.0, h["time"]))
+        f = numpy.append(0.0, h[f"{name}.force_z"])
         taken = float(numpy.sum(0.5 * (f[1:] + f[:-1]) * gap))
         given = 0.5 * pressure * end
         if r.knobs.spring:
@@ -159,7 +170,7 @@ def bears(name, pressure, end):
     return check
 
 
-def believed(r, fine):
+def believed(r: Result, fine: Result) -> list[Finding]:
     """What a run with a 'Target error' believes to be off is no less than a third of what it is off a fine
     run, in its forces over time; of a fine run itself no more is known than 2e-4."""
     names = [name for name in r.named if name in fine.named]
@@ -177,30 +188,30 @@ def believed(r, fine):
     return [Finding("believed error", part(off, size), 3 * told + 2e-4, f"believed {told:.3g}")]
 
 
-def sideways_free(name):
+def sideways_free(name: str) -> Check:
     """A frictionless or symmetrically loaded flat tool has no force across its normal."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         f = r.force(name)
         return [Finding("no force across", part(numpy.max(numpy.abs(f[:, :2])), largest_force(r)), newton(r))]
 
     return check
 
 
-def pushes(name):
+def pushes(name: str) -> Check:
     """A tool below a body never pulls."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         f = r.force(name)
         return [Finding("pushes", part(max(0.0, -float(numpy.min(f[:, 2]))), largest_force(r)), 1e-9)]
 
     return check
 
 
-def force_cone(name):
+def force_cone(name: str) -> Check:
     """The whole force of a flat tool along its face is within the limit of its force across."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         f, law, area = (
             r.force(name),
             r.setup.facts["friction"],
@@ -225,11 +236,11 @@ def force_cone(name):
     return check
 
 
-def gross_slip(name):
+def gross_slip(name: str) -> Check:
     """Where every node slides, Coulomb's law holds of the whole force, and it is dragged where the tool
     goes."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         law, status = r.setup.facts["friction"], r.fields.get("contact_status")
         if (
             law["law"] != "Coulomb"
@@ -246,8 +257,8 @@ def gross_slip(name):
     return check
 
 
-def moment_cone(name):
-    def check(r):
+def moment_cone(name: str) -> Check:
+    def check(r: Result) -> list[Finding]:
         m, f, law = r.history[f"{name}.moment_z"], numpy.abs(r.force(name)[:, 2]), r.setup.facts["friction"]
         if law["law"] == "pressure dependent":
             return []
@@ -264,7 +275,7 @@ def moment_cone(name):
     return check
 
 
-def cone(r):
+def cone(r: Result) -> list[Finding]:
     """At each node: no tension, and traction within the law's limit of its pressure."""
     if "contact_pressure" not in r.fields:
         return []
@@ -283,10 +294,10 @@ def cone(r):
     ]
 
 
-def penalty_depth(name, facet):
+def penalty_depth(name: str, facet: float) -> Check:
     """Under a uniform pressure nodes go in by the pressure over the penalty."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         if (
             "penalty" not in r.knobs.chosen
             or r.knobs.augmentation is not None
@@ -307,11 +318,11 @@ def penalty_depth(name, facet):
     return check
 
 
-def augmented(name, facet):
+def augmented(name: str, facet: float) -> Check:
     """With augmentation nodes go in no deeper than the 'Penetration tolerance' of a facet, at the end of any
     step."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         return [
             Finding(
                 "penetration, augmented",
@@ -323,10 +334,10 @@ def augmented(name, facet):
     return check
 
 
-def depth_bound(name, bound):
+def depth_bound(name: str, bound: float) -> Check:
     """Nodes go in no deeper than the tool went down."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         return [
             Finding(
                 "penetration bound",
@@ -338,7 +349,7 @@ def depth_bound(name, bound):
     return check
 
 
-def touched(r, name):
+def touched(r: Result, name: str) -> bool:
     """Where tractions are augmented, what presses need not be deep."""
     return any(
         float(numpy.max(r.history[f"{name}.{what}"], initial=0.0)) > 0
@@ -346,10 +357,10 @@ def touched(r, name):
     )
 
 
-def touches(name):
+def touches(name: str) -> Check:
     """Where the ends are led together to the end, and the ring does not grow around them."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         if r.knobs.step and r.knobs.step < 0.1 or r.knobs.nu < 0:
             return []
         return [Finding("touches", 0.0 if touched(r, name) else 1.0, 0.5)]
@@ -357,16 +368,16 @@ def touches(name):
     return check
 
 
-def meets(name):
+def meets(name: str) -> Check:
     """What flies at a tool, or what a tool comes down on, is touched by it."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         return [Finding("meets the tool", 0.0 if touched(r, name) else 1.0, 0.5)]
 
     return check
 
 
-def energies(r):
+def energies(r: Result) -> list[Finding]:
     """What is dissipated grows, what is stored is positive, and the columns add up."""
     h = r.history
     found = []
@@ -377,7 +388,7 @@ def energies(r):
     )
     for column in ("plastic_work", "friction_dissipation"):
         if column in h and len(h[column]):
-            falls = float(numpy.max(-numpy.diff(numpy.concatenate(([0.0], h[column]))), initial=0.0))
+            falls = float(numpy.max(-numpy.diff(numpy.append(0.0, h[column])), initial=0.0))
             found.append(Finding(f"{column} grows", part(falls, scale), 1e-6))
     found.append(
         Finding(
@@ -416,7 +427,7 @@ CORNERS = numpy.array(
 )
 
 
-def jacobi_matrices(points):
+def jacobi_matrices(points: Array) -> Array:
     """At the 2 x 2 x 2 points of hexahedra: (elements, 8, 3, 3); points: (elements, 8, 3), in VTK's order."""
     result = []
     for q in range(8):
@@ -430,11 +441,11 @@ def jacobi_matrices(points):
     return numpy.array(result).transpose(1, 0, 2, 3)
 
 
-def determinants(points):
+def determinants(points: Array) -> Array:
     return numpy.linalg.det(jacobi_matrices(points))
 
 
-def volume_ratio(r):
+def volume_ratio(r: Result) -> Array:
     cells = r.fields["cells"]
     x = r.fields["places"]
     return determinants((x + r.fields["displacement"])[cells]).sum(axis=1) / determinants(x[cells]).sum(
@@ -442,7 +453,7 @@ def volume_ratio(r):
     )
 
 
-def volume_ratio_of_law(r):
+def volume_ratio_of_law(r: Result) -> Array:
     """det of the mean deformation gradient, but of mean dilatation the ratio of the volumes."""
     if r.knobs.element == "mean dilatation":
         return volume_ratio(r)
@@ -456,14 +467,14 @@ def volume_ratio_of_law(r):
     return numpy.linalg.det(mean)
 
 
-def jacobians(r):
+def jacobians(r: Result) -> list[Finding]:
     """No element is inside out."""
     d = determinants((r.fields["places"] + r.fields["displacement"])[r.fields["cells"]])
     lowest = float(numpy.min(d.mean(axis=1) if r.knobs.element == "one point" else d))
     return [Finding("elements inside out", 1.0 if lowest < -1e-6 * float(numpy.max(d)) else 0.0, 0.5)]
 
 
-def yields(r):
+def yields(r: Result) -> list[Finding]:
     """q(τ) <= σ_y(α): von Mises' stress times J, the one by which the element divides τ."""
     k = r.knobs
     if k.law != "elastoplastic" or "equivalent_plastic_strain" not in r.fields:
@@ -500,14 +511,14 @@ def yields(r):
     ]
 
 
-def ends(r):
+def ends(r: Result) -> tuple[float, float]:
     """Mean displacements of the faces z = 0 and z = height."""
     z, u = r.fields["places"][:, 2], r.fields["displacement"][:, 2]
     h = r.setup.facts["height"]
     return u[z < 1e-6 * h].mean(), u[z > (1 - 1e-6) * h].mean()
 
 
-def stretch(r):
+def stretch(r: Result) -> tuple[float, float]:
     """Logarithmic strain between the faces, and how well it is known."""
     low, high = ends(r)
     h = r.setup.facts["height"]
@@ -515,7 +526,7 @@ def stretch(r):
     return strain, 4 * ROUNDING * (abs(low) + abs(high)) / (h + high - low)
 
 
-def strained(r):
+def strained(r: Result) -> list[Finding]:
     """The block itself is strained as named, in the mean: neither penalties nor the step gave way instead."""
     named, (reached, known) = r.setup.facts["strain"], stretch(r)
     return [
@@ -525,7 +536,7 @@ def strained(r):
     ]
 
 
-def bar_in_motion(r):
+def bar_in_motion(r: Result) -> list[Finding]:
     """Slowly strained, its stress is that of a bar, but for waves."""
     strain, known = stretch(r)
     expected = expected_stress(r, strain)
@@ -542,7 +553,7 @@ def bar_in_motion(r):
     ]
 
 
-def expected_stress(r, strain):
+def expected_stress(r: Result, strain: float) -> tuple[float, float, float] | None:
     """(Kirchhoff stress, logarithmic strain across, allowed relative error), None where there is no closed
     form."""
     k = r.knobs
@@ -554,7 +565,7 @@ def expected_stress(r, strain):
     if k.kinematics == "hypoelastic":
         # What counts are the steps, parts of a linear motion; what contact took of it is spread evenly. Where
         # they are many and short the midpoint rule's error, x²/12 of each step's x, is small.
-        times = numpy.concatenate(([0.0], numpy.cumsum(r.history["step_length"])))
+        times = numpy.append(0.0, numpy.cumsum(r.history["step_length"]))
         named = r.setup.facts["strain"]
         strains = numpy.log1p(math.expm1(named) * times / times[-1])
         x = float(numpy.max(numpy.abs(numpy.diff(strains))))
@@ -578,7 +589,7 @@ def expected_stress(r, strain):
     return stress, closed_forms.lateral_hencky(k.young, k.nu, strain, stress), loose
 
 
-def bar(r):
+def bar(r: Result) -> list[Finding]:
     """The tool's force is that of a bar with the strain that was reached."""
     strain, known = stretch(r)
     expected = expected_stress(r, strain)
@@ -606,7 +617,7 @@ def bar(r):
     return found
 
 
-def bar_stress(r):
+def bar_stress(r: Result) -> list[Finding]:
     """σ_zz is that of a bar, and its sides move in as they must."""
     strain, known = stretch(r)
     expected = expected_stress(r, strain)
@@ -633,7 +644,7 @@ def bar_stress(r):
     ]
 
 
-def bar_shape(r):
+def bar_shape(r: Result) -> list[Finding]:
     """The sides move out as they must."""
     strain, known = stretch(r)
     expected = expected_stress(r, strain)
@@ -653,7 +664,7 @@ def bar_shape(r):
     ]
 
 
-def uniform_stress(r):
+def uniform_stress(r: Result) -> list[Finding]:
     if r.knobs.mu > 0:
         return []
     v = r.fields["von_mises_stress"]
@@ -666,7 +677,7 @@ def uniform_stress(r):
     ]
 
 
-def uniform_stress_of_bodies(r):
+def uniform_stress_of_bodies(r: Result) -> list[Finding]:
     """A patch test: in each body the stress is uniform."""
     found = []
     for b in (0, 1):
@@ -681,11 +692,11 @@ def uniform_stress_of_bodies(r):
     return found
 
 
-def stack(young_low, young_high):
+def stack(young_low: float, young_high: float) -> Check:
     """Two confined columns: each has the stress of its own stretch, and both are the pair's force over the
     area."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         k, x, u = r.knobs, r.fields["places"][:, 2], r.fields["displacement"][:, 2]
         if k.law != "elastic" or k.press == 0:
             return []
@@ -723,15 +734,15 @@ def stack(young_low, young_high):
 # --- symmetry -------------------------------------------------------------------------------------
 
 
-def partners(places, images, bodies):
+def partners(places: Array, images: Array, bodies: Array) -> NDArray[numpy.int64] | None:
     """Index of the place of the same body where each image is; None if the mesh itself is not symmetric."""
     scale = float(numpy.max(numpy.abs(places))) or 1.0
 
-    def keys(p):
+    def keys(p: Array) -> list[tuple[int, ...]]:
         whole = numpy.column_stack((numpy.round(p / scale * 2e4 + 1e-3), bodies))
         return [tuple(row) for row in whole.astype(int)]
 
-    index = {}
+    index: dict[tuple[int, ...], int] = {}
     for i, key in enumerate(keys(places)):
         index.setdefault(key, i)
     try:
@@ -745,7 +756,7 @@ SYMMETRIES = ("mirror symmetry", "diagonal symmetry", "symmetry of quarter turns
 NUDGE = 1e-13
 
 
-def sensitivity(r, nudged):
+def sensitivity(r: Result, nudged: Result) -> float:
     """How far displacements at the end differ from those of the same motion with its first velocity nudged. A
     motion that forgets how it began keeps no symmetry better than that."""
     u = r.fields["displacement"]
@@ -754,7 +765,9 @@ def sensitivity(r, nudged):
     )
 
 
-def symmetry(r, name, map_point, map_vector):
+def symmetry(
+    r: Result, name: str, map_point: Callable[[Array], Array], map_vector: Callable[[Array], Array]
+) -> list[Finding]:
     if r.knobs.distortion:
         return []
     x, u = r.fields["places"], r.fields["displacement"]
@@ -767,11 +780,11 @@ def symmetry(r, name, map_point, map_vector):
     ]
 
 
-def mirror(normal, distance):
+def mirror(normal: Sequence[float], distance: float) -> Check:
     n = numpy.asarray(normal, float)
 
-    def check(r):
-        def vector(u):
+    def check(r: Result) -> list[Finding]:
+        def vector(u: Array) -> Array:
             return u - 2 * numpy.outer(u @ n, n)
 
         return symmetry(r, "mirror symmetry", lambda x: vector(x) + 2 * distance * n, vector)
@@ -779,13 +792,13 @@ def mirror(normal, distance):
     return check
 
 
-def diagonal_symmetry(r):
+def diagonal_symmetry(r: Result) -> list[Finding]:
     swap = [1, 0, 2]
     return symmetry(r, "diagonal symmetry", lambda x: x[:, swap], lambda u: u[:, swap])
 
 
-def quarter_turn(r):
-    def turn(v):
+def quarter_turn(r: Result) -> list[Finding]:
+    def turn(v: Array) -> Array:
         return numpy.stack((-v[:, 1], v[:, 0], v[:, 2]), axis=1)
 
     return symmetry(r, "symmetry of quarter turns", turn, turn)
@@ -794,7 +807,7 @@ def quarter_turn(r):
 # --- motion ---------------------------------------------------------------------------------------
 
 
-def nothing_happens(r):
+def nothing_happens(r: Result) -> list[Finding]:
     e = r.knobs.young
     forces = max((float(numpy.max(numpy.abs(r.force(name)), initial=0.0)) for name in r.named), default=0.0)
     return [
@@ -803,7 +816,7 @@ def nothing_happens(r):
     ]
 
 
-def ledger(h):
+def ledger(h: History) -> Array:
     gains = (
         "kinetic_energy",
         "elastic_energy",
@@ -816,10 +829,10 @@ def ledger(h):
         "tool_kinetic_energy",
         "release_dissipation",
     )
-    return sum(h[c] for c in h if c in gains or c.endswith(("_dissipation",)))
+    return numpy.asarray(sum(h[c] for c in h if c in gains or c.endswith(("_dissipation",))))
 
 
-def drift(r):
+def drift(r: Result) -> list[Finding]:
     """Energies balance; the program's own sum is done again here."""
     h = r.history
     total = ledger(h) - h["external_work"]
@@ -838,7 +851,7 @@ def drift(r):
     ]
 
 
-def energy_not_made(r):
+def energy_not_made(r: Result) -> list[Finding]:
     h = r.history
     begin = 0.5 * r.setup.facts.get("mass", 0.0) * r.setup.facts["speed"] ** 2
     if not begin or r.knobs.mass_scaling:
@@ -852,10 +865,10 @@ def energy_not_made(r):
     ]
 
 
-def momentum(expected, scale, held=()):
+def momentum(expected: Sequence[float], scale: float, held: Sequence[int] = ()) -> Check:
     """Stays as it is, but for components that supports hold."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         p = numpy.stack([r.history[f"momentum_{i}"] for i in "xyz"], axis=1)
         p[:, list(held)] = 0
         if r.knobs.mass_scaling:
@@ -875,10 +888,10 @@ def momentum(expected, scale, held=()):
     return check
 
 
-def impulse(name, speed):
+def impulse(name: str, speed: float) -> Check:
     """Momentum changes by the tool's force over time; none across it."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         h, m = r.history, r.setup.facts["mass"]
         p, f, t = h["momentum_z"], h[f"{name}.force_z"], h["time"]
         found = [
@@ -895,8 +908,8 @@ def impulse(name, speed):
             mean = 0.5 * (f[1:] + f[:-1])
             other = mean if r.is_explicit else f[1:]
             low, high = (
-                numpy.concatenate(([0.0], numpy.cumsum(rule(mean, other) * numpy.diff(t))))
-                for rule in (numpy.minimum, numpy.maximum)
+                numpy.append(0.0, numpy.cumsum(least * numpy.diff(t)))
+                for least in (numpy.minimum(mean, other), numpy.maximum(mean, other))
             )
             missing = float(numpy.max(numpy.maximum(low - (p - p[0]), p - p[0] - high))) / (m * speed)
             found.append(Finding("impulse", missing, 0.15))
@@ -905,10 +918,10 @@ def impulse(name, speed):
     return check
 
 
-def impact_force(name, force, begin, end):
+def impact_force(name: str, force: float, begin: float, end: float) -> Check:
     """ρ c v A, in the mean, until the wave is back."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         k = r.knobs
         # from 1e3 on nodes rattle, and rows of the history are samples of blows
         stiffest = k.penalty * max(k.modulus_ratio, 1 / k.modulus_ratio)
@@ -932,10 +945,10 @@ def impact_force(name, force, begin, end):
     return check
 
 
-def skidding(mass, speed, gravity):
+def skidding(mass: float, speed: float, gravity: float) -> Check:
     """Friction takes, since the start, no more than µ times what the floor gave upwards."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         h, law = r.history, r.setup.facts["friction"]
         t, along, up = h["time"], h["momentum_x"], h["momentum_z"] + mass * gravity * h["time"]
         scale = mass * max(speed, gravity * float(t[-1]))
@@ -965,10 +978,10 @@ def skidding(mass, speed, gravity):
     return check
 
 
-def stays_put(weight):
+def stays_put(weight: float) -> Check:
     """The floor bears the weight, and nothing wanders off sideways."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         h = r.history
         late = h["time"] > 0.5 * h["time"][-1]
         mean = float(numpy.mean(h["foot.force_z" if "foot.force_z" in h else "floor.force_z"][late]))
@@ -986,10 +999,10 @@ def stays_put(weight):
     return check
 
 
-def closed_cycles(name):
+def closed_cycles(name: str) -> Check:
     """After the first ones, a cycle ends where the one before did."""
 
-    def check(r):
+    def check(r: Result) -> list[Finding]:
         t, f = r.history["time"], r.force(name)
         at = [int(numpy.argmin(numpy.abs(t - (1 + i)))) for i in range(r.knobs.cycles + 1)]
         if r.knobs.cycles < 3 or abs(t[at[-1]] - t[at[-2]] - 1) > 1e-6:
@@ -1008,7 +1021,7 @@ def closed_cycles(name):
 # --- two runs -------------------------------------------------------------------------------------
 
 
-def same(r, other, loose=1e-6, count="exact"):
+def same(r: Result, other: Result, loose: float = 1e-6, count: str = "exact") -> list[Finding]:
     """The same scene in other units, or turned: as many iterations and steps, and the same history. Where
     units are no powers of two round-off differs, and a node that is just at the limit of friction may slip in
     the one and stick in the other: one correction more or less, or two ('nearly'), but as many steps and
@@ -1017,13 +1030,13 @@ def same(r, other, loose=1e-6, count="exact"):
     if count:
         for column in ("step", "total_iterations", "total_cuts"):
             if column in r.history and column in other.history:
-                a, b = float(r.history[column][-1]), float(other.history[column][-1])
+                mine, its = float(r.history[column][-1]), float(other.history[column][-1])
                 found.append(
                     Finding(
                         f"as many: {column}",
-                        abs(a - b),
+                        abs(mine - its),
                         2.0 if count == "nearly" and column == "total_iterations" else 0.0,
-                        f"{a:g} for {b:g}",
+                        f"{mine:g} for {its:g}",
                     )
                 )
     for name in r.named:

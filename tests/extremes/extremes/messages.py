@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Whether what billet says of a refusal or a failure helps: where, what and why, and what to do."""
 
+from __future__ import annotations
+
 import re
 
 WHERE = re.compile(r"scene\.prm(:\d+)?:|command line:")
@@ -12,12 +14,12 @@ TODO = re.compile(
 WORTHLESS = re.compile(r"(?<![\w'])-?(nan|inf)\b", re.IGNORECASE)
 
 
-def reason(stderr):
+def reason(stderr: str) -> str:
     said = re.sub(r"-{40,}.*?-{40,}", "", stderr, flags=re.DOTALL)
     return re.sub(r"^error\[[\w-]+\]: ", "", re.sub(r"\s+", " ", said).strip())
 
 
-def lacks(code, said):
+def lacks(code: int, said: str) -> list[str]:
     """What a message has not that it should have; nothing, where it is a help."""
     missing = []
     if not said:

@@ -2,9 +2,15 @@
 """Which scenes there are: each parameter over its range, alone and in pairs, in every kind of run that it
 concerns."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any, Collection, Iterable, Iterator, Mapping, Union
 
 from .scenes import FEATURES
+
+Value = Union[float, str]
+Changes = Mapping[str, Any]
 
 
 @dataclass
@@ -15,15 +21,15 @@ class Case:
     believes."""
 
     base: str
-    changes: dict
-    parameters: tuple
-    values: tuple
-    like: dict = None
+    changes: Changes
+    parameters: tuple[str, ...]
+    values: tuple[Value, ...]
+    like: Changes | None = None
     count: str = "exact"
     loose: float = 1e-6
 
     @property
-    def name(self):
+    def name(self) -> str:
         turned = ",".join(
             f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in self.changes.items()
         )
@@ -34,12 +40,13 @@ class Case:
         )
 
 
-def decades(low, high, each=1):
+def decades(low: int, high: int, each: int = 1) -> list[float]:
     return [10.0 ** (e / each) for e in range(low * each, high * each + 1)]
 
 
-PLASTIC = {"law": "elastoplastic"}
-ROUGH = {"mu": 0.2}
+AS_IT_IS: Changes = {}
+PLASTIC: Changes = {"law": "elastoplastic"}
+ROUGH: Changes = {"mu": 0.2}
 IMPLICIT_TOOLS = ("upset", "slide", "ball", "twist", "place")
 BODIES = ("stack", "drag", "clip")
 EXPLICIT = tuple(f"{b}.explicit" for b in ("drop", "bar", "bars", "skid", "fold"))
@@ -74,26 +81,38 @@ STEPS = [1e-6, 1e-4, 1e-2, 0.05, 0.1, 0.25, 0.5, 1.0]
 PENALTIES = decades(-3, 8)
 
 
-def single(parameter, bases, values, knob=None, along=None):
+def single(
+    parameter: str,
+    bases: Iterable[str],
+    values: Iterable[Value],
+    knob: str | None = None,
+    along: Changes | None = None,
+) -> Iterator[Case]:
     """One parameter alone."""
     for base in bases:
         for value in values:
             yield Case(base, {**(along or {}), (knob or parameter): value}, (parameter,), (value,))
 
 
-def product(names, bases, firsts, seconds, along=None):
+def product(
+    names: tuple[str, str],
+    bases: Iterable[str],
+    firsts: Iterable[Value],
+    seconds: Iterable[Value],
+    along: Changes | None = None,
+) -> Iterator[Case]:
     for base in bases:
         for a in firsts:
             for b in seconds:
                 yield Case(base, {**(along or {}), names[0]: a, names[1]: b}, tuple(names), (a, b))
 
 
-def strain_of(law, more=()):
+def strain_of(law: str, more: Collection[object] = ()) -> str:
     """A row of the table for each law, elastic or not: they end at different strains."""
     return "strain" + (f", {law}" if law != "Hencky" else "") + (", yields" if more else "")
 
 
-def cases():
+def cases() -> list[Case]:
     """All of them, each once."""
     seen, result = set(), []
     for case in everything():
@@ -103,7 +122,8 @@ def cases():
     return result
 
 
-def everything():  # noqa: C901
+def everything() -> Iterator[Case]:  # noqa: C901
+    more: Changes
     # contact
     yield from single(
         "penalty",
@@ -236,7 +256,7 @@ def everything():  # noqa: C901
         for element in ELEMENTS:
             for law in LAWS:
                 for more in (
-                    ({}, PLASTIC)
+                    (AS_IT_IS, PLASTIC)
                     if base not in ("clip", "twist", "fold.implicit", "skid.implicit")
                     else (PLASTIC,)
                 ):
@@ -248,7 +268,7 @@ def everything():  # noqa: C901
                     )
     # shape and loading
     for law in LAWS:
-        for more in ({}, PLASTIC):
+        for more in (AS_IT_IS, PLASTIC):
             row = strain_of(law, more)
             yield from single(
                 row, ("upset",), STRAINS, "strain", {"kinematics": law, "strained": True, **more}
@@ -294,7 +314,7 @@ def everything():  # noqa: C901
     yield from single("radius", ("ball",), decades(-3, 6), along={})
     yield from single("radius", ("ball",), decades(-3, 6), along=ROUGH)
     yield from product(("radius", "penalty"), ("ball",), decades(-2, 4, 1)[::2], PENALTIES[::3])
-    for more in ({}, {"mu": 0.3}, {**PLASTIC}):
+    for more in (AS_IT_IS, {"mu": 0.3}, {**PLASTIC}):
         for feature in FEATURES:
             yield Case("place", {"feature": feature, **more}, ("feature",), (feature,))
     yield from single("feature", ("place",), FEATURES, along={"penalty": 1e4})
@@ -423,7 +443,7 @@ def everything():  # noqa: C901
     for base in EXPLICIT:
         for element in ELEMENTS:
             for law in LAWS:
-                for more in ({}, PLASTIC):
+                for more in (AS_IT_IS, PLASTIC):
                     yield Case(
                         base,
                         {"number type": "float", "element": element, "kinematics": law, **more},
@@ -541,7 +561,7 @@ def everything():  # noqa: C901
     yield from single("smoothing", ("bars.explicit", "fold.explicit"), [0.05, 0.5])
     yield from single("margin", ("drag", "clip", "fold.explicit", "bars.implicit"), [0.01, 0.1, 1.0, 10.0])
     # what a run believes to be off, beside what it is off a fine one
-    fine = {"augmentation": 1e-4, "first step": 5e-3, "largest step": 5e-3, "tolerance": 1e-9}
+    fine: Changes = {"augmentation": 1e-4, "first step": 5e-3, "largest step": 5e-3, "tolerance": 1e-9}
     for base, more in (
         ("upset", {**ROUGH, **PLASTIC}),
         ("slide", ROUGH),
@@ -591,9 +611,9 @@ def everything():  # noqa: C901
     yield from single("radius", strikes, decades(-3, 6))
     yield from product(("radius", "speed"), strikes, [1e-3, 1e-2, 0.1, 10.0, 1e3], [1e-3, 0.1, 0.3, 1.0])
     yield from product(("radius", "penalty"), strikes, [1e-3, 1e-2, 0.1, 1e3], [0.1, 1.0, 100.0, 1e4])
-    for more in ({}, {"mu": 0.3}, {**PLASTIC}):
+    for more in (AS_IT_IS, {"mu": 0.3}, {**PLASTIC}):
         yield from single("feature", strikes, FEATURES, along=more)
-    for more in ({}, {"mu": 0.3}):
+    for more in (AS_IT_IS, {"mu": 0.3}):
         yield from product(("feature", "speed"), strikes, FEATURES, [0.03, 0.1, 0.15, 0.3, 1.0], along=more)
     yield from product(
         ("feature", "penalty"), strikes, ["rectangle", "disc"], [1.0, 100.0, 1e3, 1e5], along={"speed": 0.3}
@@ -603,7 +623,7 @@ def everything():  # noqa: C901
         yield from single(
             "oscillations", strikes, [10 * turns], along={"turns": 0.02, "mu": 0.3, "feature": "coincident"}
         )
-    for more in ({}, {**PLASTIC}, {**PLASTIC, "hardening modulus": 0.0}):
+    for more in (AS_IT_IS, {**PLASTIC}, {**PLASTIC, "hardening modulus": 0.0}):
         yield from single(strain_of("Hencky", more), presses, STRAINS, "strain", {"strained": True, **more})
     yield from single(
         strain_of("neo-Hookean"),

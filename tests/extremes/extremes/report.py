@@ -1,20 +1,27 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What became of all scenes: extremes.md with its tables, and pictures over pairs of parameters."""
 
+from __future__ import annotations
+
 import math
 import re
 from collections import Counter, defaultdict
+from pathlib import Path
+from typing import AbstractSet, Any, Sequence
 
 from matplotlib import pyplot
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
+from billet_tools.records import Record
 from billet_tools.text import table
 
 from .invariants import NUDGE, SYMMETRIES
 from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE
 from .plan import FRICTION_LAWS
 from .scenes import KINDS, KNOBS
+
+Records = Sequence[Record]
 
 COLOURS = {
     "right": "#4c9f70",
@@ -103,21 +110,21 @@ STRAINS = (
     ),
 )
 WORDS |= {row: "logarithmic strain" + row[len("strain") :] for row in STRAINS}
-KNOB_OF = {"augmented penalty": "penalty", **dict.fromkeys(STRAINS, "strain")}
-DEFAULTS = {**KNOBS, "law": "Hencky"}
+KNOB_OF: dict[str, str] = {"augmented penalty": "penalty", **dict.fromkeys(STRAINS, "strain")}
+DEFAULTS: dict[str, Any] = {**KNOBS, "law": "Hencky"}
 PENALTIES = ("penalty", "augmented penalty")
 STRAINED = (*STRAINS, "aspect")  # a penalty that is soft would hide what they do
 
 
-def shown(value):
+def shown(value: object) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def alone(records, parameter):
+def alone(records: Records, parameter: str) -> list[Record]:
     return [r for r in records if parameter in r["parameters"]]
 
 
-def outcome_of(record):
+def outcome_of(record: Record) -> str | None:
     """As the tables have it: where all that must hold does, but a penalty is soft, "soft", or "told" if only
     a warning says by how much."""
     if record.get("outcome") != "right" or not record.get("soft"):
@@ -130,14 +137,14 @@ def outcome_of(record):
     )
 
 
-def is_default(record, but=None):
+def is_default(record: Record, but: str | None = None) -> bool:
     return all(
         p == but or v == DEFAULTS.get(KNOB_OF.get(p, p))
         for p, v in zip(record["parameters"], record["values"])
     )
 
 
-def variant(record):
+def variant(record: Record) -> str:
     """The scene in which its parameters are turned: the base, with what is set beside."""
     turned = {KNOB_OF.get(p, p) for p in record["parameters"]}
     return "/".join(
@@ -148,12 +155,12 @@ def variant(record):
     )
 
 
-def soft_by_default(records):
+def soft_by_default(records: Records) -> set[str]:
     """The scenes whose penalty is soft whatever other parameter is turned."""
     return {variant(r) for r in records if is_default(r) and outcome_of(r) == "soft"}
 
 
-def safe(records, parameter, soft=frozenset()):
+def safe(records: Records, parameter: str, soft: AbstractSet[str] = frozenset()) -> str:
     """Of the scenes in which this parameter alone is turned, any other being as it is by default: the values,
     in a row around the default, at which all are right, and no penalty is soft, but for those that are `soft`
     by default where it is not about penalties; words: those at which all are. Where it is never turned alone,
@@ -176,7 +183,7 @@ def safe(records, parameter, soft=frozenset()):
     )
 
 
-def span(own, parameter):
+def span(own: Records, parameter: str) -> str:
     by_value = defaultdict(set)
     for r in own:
         by_value[r["values"][r["parameters"].index(parameter)]].add(r["outcome"])
@@ -202,7 +209,7 @@ def span(own, parameter):
             runs.append(row)
             row = []
 
-    def worth(run):
+    def worth(run: list[float]) -> tuple[bool, int]:
         holds = default is not None and isinstance(default, (int, float)) and run[0] <= default <= run[-1]
         return holds, len(run)
 
@@ -210,14 +217,14 @@ def span(own, parameter):
     return shown(best[0]) if len(best) == 1 else f"{shown(best[0])} to {shown(best[-1])}"
 
 
-def tried(records, parameter):
+def tried(records: Records, parameter: str) -> str:
     values = {r["values"][r["parameters"].index(parameter)] for r in alone(records, parameter)}
     if any(isinstance(v, str) for v in values):
         return f"{len(values)} of them"
     return f"{shown(min(values))} to {shown(max(values))}"
 
 
-def reasons(records, outcome):
+def reasons(records: Records, outcome: str) -> list[tuple[str, list[Record]]]:
     """Messages without their numbers and names, most frequent first."""
     found = defaultdict(list)
     for r in records:
@@ -232,15 +239,15 @@ def reasons(records, outcome):
     return sorted(found.items(), key=lambda item: -len(item[1]))
 
 
-def examples(records):
+def examples(records: Records) -> str:
     """One of each kind of scene, at most three, those with the fewest parameters."""
-    first = {}
+    first: dict[str, str] = {}
     for r in sorted(records, key=lambda r: (len(r["parameters"]), len(r["name"]))):
         first.setdefault(r["base"], r["name"])
     return ", ".join(f"`{name}`" for name in list(first.values())[:3])
 
 
-def programs(records, ours):
+def programs(records: Records, ours: str) -> str:
     """In words: which programs the outcomes are of; `ours`: the one that is named now."""
     count = Counter(r["program"] for r in records)
     checks = Counter(r.get("checks of") for r in records)
@@ -265,9 +272,10 @@ def programs(records, ours):
     )
 
 
-def units(records):
+def units(records: Records) -> str:
     """In words: how many take another number of iterations in other units."""
-    named, exact = [], []
+    named: list[bool] = []
+    exact: list[bool] = []
     for r in records:
         if r["parameters"] == ["units"] and "errors" in r:
             differs = any(error for name, error in r["errors"].items() if name.startswith("as many"))
@@ -282,11 +290,11 @@ def units(records):
     )
 
 
-def steps(record):
+def steps(record: Record) -> str:
     return f", {record['steps']:.0f} steps" if "steps" in record else ""
 
 
-def slow(records):
+def slow(records: Records) -> str:
     """In words: what took longer than hung runs are given for a step."""
     took = sorted(((r.get("processor seconds", r["seconds"]), r) for r in records), key=lambda pair: -pair[0])
     long = [(s, r) for s, r in took if s > PATIENCE]
@@ -304,7 +312,7 @@ def slow(records):
     )
 
 
-def forgetful(records):
+def forgetful(records: Records) -> str:
     """In words: motions in which a symmetry is lost to round-off."""
     lost = [r for r in records if r["outcome"] == "right" and r.get("sensitivity")]
     if not lost:
@@ -336,11 +344,11 @@ REASONS = (
 )
 
 
-def reason_for(name):
+def reason_for(name: str) -> str:
     return next((reason for pattern, reason in REASONS if re.match(pattern, name)), "")
 
 
-def changed(records, before):
+def changed(records: Records, before: Records) -> list[str]:
     """A section on the scenes that have come out otherwise than an older version's."""
     then = {r["name"]: r for r in before}
     both = [(then[r["name"]], r) for r in records if r["name"] in then]
@@ -351,7 +359,7 @@ def changed(records, before):
     if not both:
         return []
 
-    def said(older, newer):
+    def said(older: Record, newer: Record) -> str:
         words = " ".join((newer["reason"] or older["reason"]).split())
         return re.sub(r"^scene\.prm(:\d+)?: ", "", words)[:200].replace("|", "\\|")
 
@@ -372,7 +380,7 @@ def changed(records, before):
     ]
 
 
-def write(records, folder, planned=0, program="", before=()):
+def write(records: Records, folder: Path, planned: int = 0, program: str = "", before: Records = ()) -> None:
     (folder / "results").mkdir(parents=True, exist_ok=True)
     (folder / "images").mkdir(parents=True, exist_ok=True)
     soft = soft_by_default(records)
@@ -431,7 +439,7 @@ def write(records, folder, planned=0, program="", before=()):
     names = []
     for r in records:
         names += [p for p in r["parameters"] if p not in names]
-    rows = []
+    rows: list[list[Any]] = []
     for name in names:
         mine = alone(records, name)
         count = Counter(map(outcome_of, mine))
@@ -507,7 +515,7 @@ PICTURES = {
 }
 
 
-def draw_all(records, folder):
+def draw_all(records: Records, folder: Path) -> list[str]:
     said = []
     for name, (pair, x, y, bases) in PICTURES.items():
         if draw(records, folder / f"extremes_{name}.png", pair, x, y, bases):
@@ -515,8 +523,15 @@ def draw_all(records, folder):
     return said
 
 
-def draw(records, file, pair, x_label, y_label, bases):
-    cells = {base: {} for base, _ in bases}
+def draw(
+    records: Records,
+    file: Path,
+    pair: tuple[str, str],
+    x_label: str,
+    y_label: str,
+    bases: Sequence[tuple[str, str]],
+) -> bool:
+    cells: dict[str, dict[tuple[float, float], Record]] = {base: {} for base, _ in bases}
     for r in records:
         if r["base"] in cells and set(r["parameters"]) == set(pair):
             v = dict(zip(r["parameters"], r["values"]))
@@ -544,12 +559,12 @@ def draw(records, file, pair, x_label, y_label, bases):
         )
         for i, b in enumerate(ys):
             for j, a in enumerate(xs):
-                r = found.get((a, b))
-                if r and r.get("iterations"):
+                drawn = found.get((a, b))
+                if drawn and drawn.get("iterations"):
                     ax.text(
                         j,
                         i,
-                        f"{r['iterations'] / max(r['steps'], 1):.1f}",
+                        f"{drawn['iterations'] / max(drawn['steps'], 1):.1f}",
                         ha="center",
                         va="center",
                         fontsize=6.5,
@@ -578,7 +593,7 @@ def draw(records, file, pair, x_label, y_label, bases):
     return True
 
 
-def power(value):
+def power(value: float) -> str:
     if value > 0 and abs(math.log10(value) - round(math.log10(value))) < 1e-9 and not 0.05 < value < 50:
         return f"$10^{{{round(math.log10(value))}}}$"
     return f"{value:.4g}"

@@ -1,15 +1,24 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a run wrote, read back into base units and the upright frame."""
 
+from __future__ import annotations
+
 from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy
-from billet_tools.output import pictures_of, read_estimates, read_grid, read_history
+from numpy.typing import NDArray
+from billet_tools.output import Array, Fields, History, pictures_of, read_estimates, read_grid, read_history
+
+if TYPE_CHECKING:
+    from .frame import Frame
+    from .scenes import Setup
 
 VECTORS = ("displacement", "contact_traction", "velocity")
 
 
-def upright(fields, frame):
+def upright(fields: Fields, frame: Frame) -> Fields:
     """From the numbers in the file. Stress components are not turned back: their scalars do."""
     f = dict(fields)
     unit = {
@@ -40,7 +49,7 @@ def upright(fields, frame):
     return f
 
 
-def in_base_units(history, frame):
+def in_base_units(history: History, frame: Frame) -> History:
     h = dict(history)
     turned = {}
     for name, values in h.items():
@@ -76,7 +85,9 @@ def in_base_units(history, frame):
 class Result:
     """Of one run; `setup` says what it was."""
 
-    def __init__(self, setup, history, fields, believed=None):
+    def __init__(
+        self, setup: Setup, history: History, fields: Fields, believed: dict[str, float] | None = None
+    ) -> None:
         """`believed`: {quantity: value} of error_estimate.csv."""
         self.setup, self.knobs, self.believed = setup, setup.knobs, believed or {}
         self.history, self.fields = in_base_units(history, setup.frame), (
@@ -84,7 +95,7 @@ class Result:
         )
 
     @classmethod
-    def read(cls, setup, folder):
+    def read(cls, setup: Setup, folder: Path) -> Result:
         pictures = pictures_of(folder)
         return cls(
             setup,
@@ -94,21 +105,21 @@ class Result:
         )
 
     @cached_property
-    def named(self):
+    def named(self) -> list[str]:
         """Tools and pairs with forces."""
         return [name[: -len(".force_x")] for name in self.history if name.endswith(".force_x")]
 
-    def force(self, name):
+    def force(self, name: str) -> Array:
         return numpy.stack([self.history[f"{name}.force_{i}"] for i in "xyz"], axis=1)
 
     @property
-    def is_explicit(self):
+    def is_explicit(self) -> bool:
         return self.setup.sections["Time stepping"].get("Scheme") == "explicit"
 
     @property
-    def between_bodies(self):
+    def between_bodies(self) -> bool:
         return any("Second body" in pair for pair in self.setup.sections.get("Contact pairs", {}).values())
 
     @property
-    def in_contact(self):
+    def in_contact(self) -> NDArray[numpy.bool_]:
         return self.fields["contact_status"] > 0

@@ -2,6 +2,8 @@
 """Runs scenes and keeps what became of them: a file for each below the run folder, so that a run that was
 stopped goes on."""
 
+from __future__ import annotations
+
 import dataclasses
 import json
 import os
@@ -12,15 +14,17 @@ import subprocess
 import time
 import traceback
 from pathlib import Path
+from typing import Collection
 
 from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
 from billet_tools.program import ALONE
-from billet_tools.records import read_records, warnings_of
+from billet_tools.records import Record, read_records, warnings_of
 from billet_tools.scene import scene_text
 
 from . import invariants, messages
+from .plan import Case, Changes
 from .results import Result
-from .scenes import make, nudged
+from .scenes import Setup, make, nudged
 
 OUTCOMES = ("right", "doubtful", "refused", "failed", "unhelpful", "wrong", "crashed", "hung")
 # Messages of a run that comes to its end, and what they make of it: doubtful, soft, ...
@@ -75,7 +79,7 @@ BEYOND_DOUBT = (
 PATIENCE, AT_MOST = 30.0, 300.0
 
 
-def processor_seconds(pid):
+def processor_seconds(pid: int) -> float:
     """Of a process and those of its session that run; 0 where it has gone."""
     total = 0
     for file in Path("/proc").glob("[0-9]*/stat"):
@@ -89,15 +93,15 @@ def processor_seconds(pid):
     return total / os.sysconf("SC_CLK_TCK")
 
 
-def slug(name):
+def slug(name: str) -> str:
     return re.sub(r"[^\w.=+-]+", "_", name)[:100] + "-" + hash_of(name)[:8]
 
 
-def rows(history):
+def rows(history: Path) -> int:
     return max(history.read_text().count("\n") - 1, 0) if history.exists() else 0
 
 
-def read_kept(folder, case):
+def read_kept(folder: Path, case: Case) -> Record | None:
     """Its outcome, as a Runner of this folder has kept it, or None."""
     return read_json(folder / "kept" / (slug(case.name) + ".json"))
 
@@ -106,7 +110,14 @@ class Runner:
     """`folder`: kept/ has a JSON file for each case; work/ is where a scene runs; scenes/ has those that are
     not right."""
 
-    def __init__(self, program, folder, keep_all=False, patience=PATIENCE, at_most=AT_MOST):
+    def __init__(
+        self,
+        program: Path,
+        folder: Path,
+        keep_all: bool = False,
+        patience: float = PATIENCE,
+        at_most: float = AT_MOST,
+    ) -> None:
         self.program, self.folder, self.keep_all = program, folder, keep_all
         self.patience, self.at_most = patience, at_most
         for name in ("kept", "scenes", "work"):
@@ -115,19 +126,19 @@ class Runner:
         self.checks_hash = hash_of(*((Path(__file__).parent / f"{name}.py").read_bytes() for name in JUDGES))[
             :12
         ]
-        self._references = {}
+        self._references: dict[tuple[str, str], Result | None] = {}
 
-    def kept(self, case):
+    def kept(self, case: Case) -> Record | None:
         return read_kept(self.folder, case)
 
-    def stale(self, record):
+    def stale(self, record: Record) -> bool:
         """Whether this outcome is of another program than ours, or was judged by other checks."""
         return record["program"] != self.program_hash or record.get("checks of") != self.checks_hash
 
-    def run(self, case):
+    def run(self, case: Case) -> Record:
         """Its outcome, kept."""
         begin = time.monotonic()
-        record = {
+        record: Record = {
             "name": case.name,
             "base": case.base,
             "changes": case.changes,
@@ -145,14 +156,14 @@ class Runner:
         write_json(file, record)
         return record
 
-    def _judge(self, case):
+    def _judge(self, case: Case) -> Record:
         setup = make(case.base, case.changes)
         text = scene_text(setup.sections)
         work = self.folder / "work" / slug(case.name)
         told = self._execute(text, work)
         scene = self.folder / "scenes" / (slug(case.name) + ".prm")
         scene.unlink(missing_ok=True)
-        verdict = {**self._verdict(case, setup, work, told), "processor seconds": round(told[3], 3)}
+        verdict: Record = {**self._verdict(case, setup, work, told), "processor seconds": round(told[3], 3)}
         if verdict["outcome"] not in ("right", "refused") or self.keep_all:
             scene.write_text(
                 f"# {case.name}: {verdict['outcome']}. {' '.join(verdict['reason'].split())[:300]}\n" + text
@@ -160,7 +171,7 @@ class Runner:
         shutil.rmtree(work, ignore_errors=True)
         return verdict
 
-    def _verdict(self, case, setup, work, told):
+    def _verdict(self, case: Case, setup: Setup, work: Path, told: tuple[int, str, str, float]) -> Record:
         code, stderr, hung, _ = told
         said = messages.reason(stderr)
         if hung:
@@ -175,7 +186,7 @@ class Runner:
         result = Result.read(setup, work / "results")
         found = [finding for check in (*setup.checks, invariants.residual) for finding in check(result)]
         if case.like is not None:
-            other = self._reference(case)
+            other = self._reference(case.base, case.like)
             if other is None:
                 return {
                     "outcome": "wrong",
@@ -188,7 +199,7 @@ class Runner:
             )
         records = read_records(work / "results/diagnostics.jsonl")
 
-        def of(keys):
+        def of(keys: Collection[str]) -> list[Record]:
             return [r for r in records if r["key"] in keys]
 
         if of(RAISED):
@@ -207,7 +218,7 @@ class Runner:
             dataclasses.replace(f, allowed=max(f.allowed, rounded)) if f.name in BALANCES else f
             for f in found
         ]
-        numbers = {}
+        numbers: Record = {}
         if any(f.name in invariants.SYMMETRIES and not f.holds for f in found):
             numbers["sensitivity"] = self._sensitivity(setup, result, work)
             found = [
@@ -241,7 +252,7 @@ class Runner:
         said = f"{doubts[0]['message']} - " if outcome == "doubtful" else ""
         return {"outcome": outcome, "reason": said + "; ".join(broken), **numbers}
 
-    def _sensitivity(self, setup, result, work):
+    def _sensitivity(self, setup: Setup, result: Result, work: Path) -> float:
         """Of this run to a nudge at its start; 0 of a static one, or where the nudged one does not run."""
         sections = nudged(setup, invariants.NUDGE)
         if sections is None:
@@ -254,24 +265,24 @@ class Runner:
         shutil.rmtree(beside, ignore_errors=True)
         return differs
 
-    def _reference(self, case):
-        key = (case.base, json.dumps(case.like, sort_keys=True))
+    def _reference(self, base: str, changes: Changes) -> Result | None:
+        key = (base, json.dumps(changes, sort_keys=True))
         if key not in self._references:
-            setup = make(case.base, case.like)
-            work = self.folder / "work" / slug(f"{case.base} {key[1]} as reference")
+            setup = make(base, changes)
+            work = self.folder / "work" / slug(f"{base} {key[1]} as reference")
             code, _, _, _ = self._execute(scene_text(setup.sections), work)
             self._references[key] = Result.read(setup, work / "results") if code in (0, 7) else None
             shutil.rmtree(work, ignore_errors=True)
         return self._references[key]
 
-    def _execute(self, text, work):
+    def _execute(self, text: str, work: Path) -> tuple[int, str, str, float]:
         """Exit code, what was said on standard error, why it was given up ('': it was not), and seconds of
         the processor."""
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
 
-        def bounded():
+        def bounded() -> None:
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
             # should nobody be left to watch it
             resource.setrlimit(resource.RLIMIT_CPU, (int(self.at_most) + 60, int(self.at_most) + 70))
@@ -297,7 +308,7 @@ class Runner:
         spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         return process.returncode, (work / "stderr").read_text(errors="replace"), hung, spent
 
-    def _watch(self, process, history):
+    def _watch(self, process: subprocess.Popen[bytes], history: Path) -> str:
         """Waits for its end, or until it is worth no more waiting: says why. A step is accepted when the
         history grows."""
         size, last, last_seen, begin = -1, 0.0, time.monotonic(), time.monotonic()

@@ -3,13 +3,20 @@
 not set have the defaults below. Base units: block sizes about 1, E = 1000; dynamic ones with a density of
 1e-3, so that bars carry waves at 1000."""
 
+from __future__ import annotations
+
 import math
+from typing import Any, Callable, Mapping, Sequence
 
 from . import invariants as must
 from .closed_forms import bar_speed
 from .frame import Frame, number
 
-KNOBS = {
+Sections = dict[str, Any]  # of a scene file, {name: value or sections}
+Vector = Sequence[float]
+Planes = Sequence[tuple[Vector, float]]  # (normal, distance)
+
+KNOBS: dict[str, Any] = {
     # frame
     "length": 1.0,
     "stress": 1.0,
@@ -89,16 +96,16 @@ UPRIGHT = (1.0, 1.0, 1.0)
 class Knobs:
     """As attributes, blanks as underscores."""
 
-    def __init__(self, changes):
+    def __init__(self, changes: Mapping[str, Any]) -> None:
         unknown = set(changes) - set(KNOBS)
         if unknown:
             raise KeyError(f"unknown knobs {unknown}")
         self.chosen, self.all = dict(changes), {**KNOBS, **changes}
 
-    def but(self, changes):
+    def but(self, changes: Mapping[str, Any]) -> Knobs:
         return Knobs({**self.chosen, **changes})
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         return self.all[name.replace("_", " ")]
 
 
@@ -106,11 +113,13 @@ class Setup:
     """`sections` of the scene file, the `frame` they are written in, what `must` hold (functions of a
     Result), and `facts` that these functions need, in base units."""
 
-    def __init__(self, knobs, frame, sections, checks, **facts):
+    def __init__(
+        self, knobs: Knobs, frame: Frame, sections: Sections, checks: list[must.Check], **facts: Any
+    ) -> None:
         self.knobs, self.frame, self.sections, self.checks, self.facts = knobs, frame, sections, checks, facts
 
 
-def nudged(setup, part):
+def nudged(setup: Setup, part: float) -> Sections | None:
     """The sections of `setup` with every first velocity changed, so that no symmetry is left, by about this
     part of it, and by what moves it until the end by this part of its size; None of a static scene."""
     time_stepping = setup.sections["Time stepping"]
@@ -128,33 +137,33 @@ def nudged(setup, part):
     return {**setup.sections, "Bodies": bodies}
 
 
-def reach(k, end):
+def reach(k: Knobs, end: float) -> float:
     """When a scene of equal steps ends: with tiny ones after twenty."""
     return end if k.step is None or k.step >= 0.01 else 20 * k.step
 
 
-def turn(k):
+def turn(k: Knobs) -> float:
     """When it has been pressed enough, and begins to slide: with tiny steps after ten."""
     return 1.0 if k.step is None or k.step >= 0.01 else 10 * k.step
 
 
-def pressed(k):
+def pressed(k: Knobs) -> str:
     """How a part goes down: by `press` until its turn."""
     return f"{number(-k.press)}*(if({{t}} < {number(turn(k))}, {{t}}, {number(turn(k))}))"
 
 
-def drawn(k, rate):
+def drawn(k: Knobs, rate: float) -> str:
     """How a part goes along from then on."""
     return f"{number(rate)}*({{t}} - {number(turn(k))})*({{t}} > {number(turn(k))})"
 
 
-def frame_of(k):
+def frame_of(k: Knobs) -> Frame:
     return Frame(k.length, k.stress, k.time, UPRIGHT, k.turned)
 
 
-def material(k, f, young=None, density=None):
+def material(k: Knobs, f: Frame, young: float | None = None, density: float | None = None) -> Sections:
     e = young or k.young
-    m = {"Law": k.law, "Young modulus": number(e * f.stress), "Poisson ratio": number(k.nu)}
+    m: Sections = {"Law": k.law, "Young modulus": number(e * f.stress), "Poisson ratio": number(k.nu)}
     if k.kinematics != "Hencky":
         m["Elasticity"] = k.kinematics
     if density:
@@ -182,8 +191,16 @@ def material(k, f, young=None, density=None):
     return m
 
 
-def body(k, f, mesh, planes=None, young=None, density=None, **more):
-    b = {"Mesh": f.mesh(**mesh), "Material": material(k, f, young, density)}
+def body(
+    k: Knobs,
+    f: Frame,
+    mesh: Sections,
+    planes: Planes | None = None,
+    young: float | None = None,
+    density: float | None = None,
+    **more: Any,
+) -> Sections:
+    b: Sections = {"Mesh": f.mesh(**mesh), "Material": material(k, f, young, density)}
     if k.element != "assumed strain":
         b["Element"] = k.element
     if planes:
@@ -192,7 +209,7 @@ def body(k, f, mesh, planes=None, young=None, density=None, **more):
     return b
 
 
-def box(n, low, high, **more):
+def box(n: tuple[int, int, int], low: Vector, high: Vector, **more: Any) -> Sections:
     # deal.II's box, at base units; written as a product, since deal.II takes corners of any order.
     return {
         "Primitive": "subdivided_hyper_rectangle",
@@ -203,13 +220,13 @@ def box(n, low, high, **more):
     }
 
 
-def plane(f, point, normal):
+def plane(f: Frame, point: Vector, normal: Vector) -> Sections:
     return {"plane": {"Shape": "plane", "Point": f.vector(point, f.length), "Normal": f.vector(normal)}}
 
 
-def pair(k, f, **more):
+def pair(k: Knobs, f: Frame, **more: Any) -> Sections:
     # What the program chooses by itself, unless a penalty is turned: in statics as much as contact needs.
-    p = {"Normal penalty": number(k.penalty)} if "penalty" in k.chosen else {}
+    p: Sections = {"Normal penalty": number(k.penalty)} if "penalty" in k.chosen else {}
     if k.tangential_penalty is not None:
         p["Tangential penalty"] = number(k.tangential_penalty)
     if k.augmentation is not None:
@@ -241,7 +258,7 @@ def pair(k, f, **more):
     return p
 
 
-def friction(k):
+def friction(k: Knobs) -> Sections:
     """Parameters of the law, base units."""
     return {
         "law": k.friction_law,
@@ -254,7 +271,7 @@ def friction(k):
     }
 
 
-def tolerances(k):
+def tolerances(k: Knobs) -> Sections:
     """Of Newton's method: for comparisons to many digits, unless the scene, its profile or its target error
     has others."""
     if k.tolerance is not None:
@@ -262,7 +279,9 @@ def tolerances(k):
     return {} if k.profile or k.target_error else {"Force tolerance": "1e-6", "Energy tolerance": "1e-10"}
 
 
-def statics(k, f, end=1.0, first=None, stops=()):
+def statics(
+    k: Knobs, f: Frame, end: float = 1.0, first: float | None = None, stops: Sequence[float] = ()
+) -> Sections:
     t = {
         "End time": number(end * f.time),
         "Initial step": number((first or k.first_step) * f.time),
@@ -289,11 +308,11 @@ def statics(k, f, end=1.0, first=None, stops=()):
     return {**top(k), **whole}
 
 
-def output(**more):
+def output(**more: Any) -> Sections:
     return {"Folder": "results", "Step interval": 1000000, "Verbosity": "steps", **more}
 
 
-def top(k):
+def top(k: Knobs) -> Sections:
     return {
         name: value
         for name, value in {"Profile": k.profile, "Target error": k.target_error}.items()
@@ -301,7 +320,7 @@ def top(k):
     }
 
 
-def dynamics(k, f, scheme, end, rows=400):
+def dynamics(k: Knobs, f: Frame, scheme: str, end: float, rows: int = 400) -> Sections:
     """`end` in base units of time."""
     whole = {**top(k), "Time stepping": {"Scheme": scheme, "End time": number(end * f.time)}}
     if scheme == "explicit":
@@ -351,7 +370,7 @@ def dynamics(k, f, scheme, end, rows=400):
 # --- statics with tools ---------------------------------------------------------------------------
 
 
-def shaped(k, n):
+def shaped(k: Knobs, n: int) -> str:
     """Vertices of a unit block moved: graded along z so that the thickest layer is `grading` times the
     thinnest, its inner node and the middles of its edges moved by `distortion` halves of a brick."""
     x, y, z = "x", "y", "z"
@@ -366,7 +385,7 @@ def shaped(k, n):
     return " ; ".join((x, y, z))
 
 
-def stiff(k, height, facet):
+def stiff(k: Knobs, height: float, facet: float) -> Knobs:
     """With penalties that give way by less than a fiftieth of what is left of the height, or of its change,
     if the block is to be `strained` as named; else as it is."""
     if not k.strained:
@@ -376,7 +395,7 @@ def stiff(k, height, facet):
     return k.but({"penalty": max(k.penalty, 10.0 ** math.ceil(math.log10(least)))})
 
 
-def upset(k):
+def upset(k: Knobs) -> Setup:
     """A block between two plane tools, held in two planes of symmetry: a bar in compression."""
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
     k = stiff(k, h, 1 / n)
@@ -427,7 +446,7 @@ def upset(k):
     )
 
 
-def pull(k):
+def pull(k: Knobs) -> Setup:
     """One brick stretched by supports, free across: no contact."""
     f, n, h = frame_of(k), k.bricks or 1, k.aspect
     top_moves = h * (math.exp(k.strain) - 1)
@@ -469,7 +488,7 @@ def pull(k):
     )
 
 
-def slide(k):
+def slide(k: Knobs) -> Setup:
     """A block pressed on a plane that is drawn away under it; or to and fro, `cycles` times."""
     f, n = frame_of(k), k.bricks or 2
     way = k.slide
@@ -517,7 +536,7 @@ def slide(k):
     return Setup(k, f, sections, checks, friction=friction(k), slip_rate=way)
 
 
-def ball(k):
+def ball(k: Knobs) -> Setup:
     """A quarter of a block between a rigid sphere, whose pole is on a node, and a bed."""
     f, n = frame_of(k), k.bricks or 3
     r = k.radius
@@ -564,7 +583,7 @@ def ball(k):
     )
 
 
-def twist(k):
+def twist(k: Knobs) -> Setup:
     """A plane tool pressed on a block and turned, or swung, about an axis through the middle node."""
     f, n = frame_of(k), k.bricks or 2
     angle = (
@@ -622,12 +641,12 @@ def twist(k):
     )
 
 
-def features(f, k):
+def features(f: Frame, k: Knobs | None) -> dict[str, Sections]:
     """Tools with edges, poles, axes, apices and seams exactly where nodes of the block are; faces at z = 0.5,
     looking down."""
     v, w = (lambda p: f.vector(p, f.length)), f.vector
 
-    def rectangle(x, y, a, b):
+    def rectangle(x: float, y: float, a: float, b: float) -> Sections:
         return {
             "Shape": "rectangle",
             "Centre": v((x, y, 0.5)),
@@ -731,7 +750,7 @@ def features(f, k):
 FEATURES = tuple(features(Frame(), None))
 
 
-def place(k):
+def place(k: Knobs) -> Setup:
     """A quarter of a block pressed on a bed by a tool whose features are exactly on nodes."""
     f, n = frame_of(k), k.bricks or 2
     sections = {
@@ -765,7 +784,7 @@ def place(k):
     return Setup(k, f, sections, checks, friction=friction(k))
 
 
-def rest(k):
+def rest(k: Knobs) -> Setup:
     """A block that just touches two tools, and nothing moves."""
     f, n = frame_of(k), k.bricks or 2
     sections = {
@@ -788,13 +807,13 @@ def rest(k):
 # --- statics between bodies -----------------------------------------------------------------------
 
 
-def contact_of_bodies(k):
+def contact_of_bodies(k: Knobs) -> Sections:
     return {
         name: value for name, value in {"Facets": k.facets, "Passes": k.passes}.items() if value is not None
     }
 
 
-def stack(k):
+def stack(k: Knobs) -> Setup:
     """Two confined blocks pressed on each other: the stress is uniform. Their meshes do not fit where facets
     overlap."""
     f = frame_of(k)
@@ -852,14 +871,14 @@ def stack(k):
     )
 
 
-def touching(k):
+def touching(k: Knobs) -> Setup:
     """The same two blocks, just touching, and nothing moves."""
     setup = stack(k.but({"press": 0.0}))
     setup.checks = [must.finite, must.nothing_happens]
     return setup
 
 
-def drag(k):
+def drag(k: Knobs) -> Setup:
     """A block pressed on a wider one and drawn over it."""
     f = frame_of(k)
     along, down = drawn(k, k.slide), pressed(k)
@@ -912,7 +931,7 @@ def drag(k):
     )
 
 
-def clip(k):
+def clip(k: Knobs) -> Setup:
     """An open ring is pinched until its ends touch: a body with itself."""
     f, n = frame_of(k), k.bricks or 12
     gap = 0.1
@@ -947,7 +966,7 @@ def clip(k):
     close = 0.5 * gap * 1.1 * 4 * k.press / 0.08 * 1.0
     move = f"{number(close)}*{{t}}"
 
-    def pinch(sign):
+    def pinch(sign: str) -> str:
         return f"0 ; {f.expression(sign + move, number(f.length) + '*')} ; 0"
 
     sections = {
@@ -991,11 +1010,15 @@ def clip(k):
 # --- dynamics -------------------------------------------------------------------------------------
 
 
-def velocity(f, v):
+def velocity(f: Frame, v: Vector) -> str:
     return " ; ".join(number(x) for x in f.turned(v) * f.speed)
 
 
-def drop(k, scheme):
+def thrown(f: Frame, v: Vector) -> Sections:
+    return {"Initial velocity": velocity(f, v)}
+
+
+def drop(k: Knobs, scheme: str) -> Setup:
     """A block flies onto a plane and back; speed as part of the bar's wave speed."""
     f, n = frame_of(k), k.bricks or 2
     c = bar_speed(k.young, k.density)
@@ -1009,7 +1032,7 @@ def drop(k, scheme):
                 f,
                 box((n, n, n), (-0.5, -0.5, gap), (0.5, 0.5, 1 + gap)),
                 density=k.density,
-                **{"Initial velocity": velocity(f, (0, 0, -v))},
+                **thrown(f, (0, 0, -v)),
             )
         },
         "Tools": {"floor": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
@@ -1038,7 +1061,7 @@ def drop(k, scheme):
     )
 
 
-def strike(k, scheme):
+def strike(k: Knobs, scheme: str) -> Setup:
     """A quarter of a block flies up against a tool whose features are exactly on nodes, and back; with a
     radius, against a ball whose pole is on one. A whole block where the tool turns."""
     f, n = frame_of(k), k.bricks or 2
@@ -1088,7 +1111,7 @@ def strike(k, scheme):
                 ),
                 None if turns else [((1, 0, 0), 0), ((0, 1, 0), 0)],
                 density=k.density,
-                **{"Initial velocity": velocity(f, (0, 0, v))},
+                **thrown(f, (0, 0, v)),
             )
         },
         "Tools": {"ram": {"Surfaces": surfaces, **motion}},
@@ -1109,7 +1132,7 @@ def strike(k, scheme):
     return Setup(k, f, sections, checks, friction=friction(k), mass=(4 if turns else 1) * k.density, speed=v)
 
 
-def press(k, scheme):
+def press(k: Knobs, scheme: str) -> Setup:
     """The bar of upset, pressed at a speed to a strain: a block on planes of symmetry under a tool that comes
     down."""
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
@@ -1130,7 +1153,7 @@ def press(k, scheme):
                 mesh,
                 [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
                 density=k.density,
-                **{"Initial velocity": velocity(f, (0, 0, 0))},
+                **thrown(f, (0, 0, 0)),
             )
         },
         "Tools": {
@@ -1165,7 +1188,7 @@ def press(k, scheme):
     )
 
 
-def stretch(k, scheme):
+def stretch(k: Knobs, scheme: str) -> Setup:
     """The brick of `pull` in motion: slow enough that its stress is that of a bar."""
     f, n, h = frame_of(k), k.bricks or 2, k.aspect
     c = bar_speed(k.young, k.density)
@@ -1188,7 +1211,7 @@ def stretch(k, scheme):
                         ),
                     }
                 },
-                **{"Initial velocity": velocity(f, (0, 0, 0))},
+                **thrown(f, (0, 0, 0)),
             )
         },
         **dynamics(k, f, scheme, abs(moves) / v),
@@ -1212,7 +1235,7 @@ def stretch(k, scheme):
     )
 
 
-def bar(k, scheme):
+def bar(k: Knobs, scheme: str) -> Setup:
     """A slender bar hits a plane: the force is ρ c v A until the wave is back."""
     f, n = frame_of(k), k.bricks or 16
     k = k.but({"nu": 0.0}) if k.nu == KNOBS["nu"] else k
@@ -1227,7 +1250,7 @@ def bar(k, scheme):
                 f,
                 box((1, 1, n), (0, 0, 0), (width, width, 1)),
                 density=k.density,
-                **{"Initial velocity": velocity(f, (0, 0, -v))},
+                **thrown(f, (0, 0, -v)),
             )
         },
         "Tools": {"wall": {"Surfaces": plane(f, (0, 0, 0), (0, 0, 1))}},
@@ -1254,7 +1277,7 @@ def bar(k, scheme):
     )
 
 
-def bars(k, scheme):
+def bars(k: Knobs, scheme: str) -> Setup:
     """A bar hits another one at rest, both free: momentum stays, and the force is that of the two
     impedances."""
     f, n = frame_of(k), k.bricks or 8
@@ -1265,14 +1288,14 @@ def bars(k, scheme):
     width = 1.0 / n
     end = 1.6 / max(speeds)
 
-    def made(low, high, i, initial):
+    def made(low: float, high: float, i: int, initial: float) -> Sections:
         return body(
             k,
             f,
             box((1, 1, n), (0, 0, low), (width, width, high)),
             young=young[i],
             density=density[i],
-            **({"Initial velocity": velocity(f, (0, 0, initial))} if initial else {}),
+            **(thrown(f, (0, 0, initial)) if initial else {}),
         )
 
     sections = {
@@ -1315,7 +1338,7 @@ def bars(k, scheme):
     )
 
 
-def flung(k, f, speed, gravity):
+def flung(k: Knobs, f: Frame, speed: float, gravity: float) -> Sections:
     """A block with a speed along x, that weighs."""
     n = k.bricks or 2
     return body(
@@ -1323,19 +1346,17 @@ def flung(k, f, speed, gravity):
         f,
         box((n, n, 1), (-0.5, -0.5, 0), (0.5, 0.5, 0.5)),
         density=k.density,
-        **{
-            "Initial velocity": velocity(f, (speed, 0, 0)),
-            "Loads": {
-                "gravity": {
-                    "Type": "acceleration",
-                    "Acceleration": f.expressions(("0", "0", number(-gravity)), f.acceleration),
-                }
-            },
+        **thrown(f, (speed, 0, 0)),
+        Loads={
+            "gravity": {
+                "Type": "acceleration",
+                "Acceleration": f.expressions(("0", "0", number(-gravity)), f.acceleration),
+            }
         },
     )
 
 
-def skid(k, scheme):
+def skid(k: Knobs, scheme: str) -> Setup:
     """A block with a speed along a plane, under gravity: friction takes no more momentum than its limit
     allows."""
     f = frame_of(k)
@@ -1368,7 +1389,7 @@ def skid(k, scheme):
     )
 
 
-def glide(k, scheme):
+def glide(k: Knobs, scheme: str) -> Setup:
     """A block with a speed along a wider one that is held below, under gravity."""
     f = frame_of(k)
     c = bar_speed(k.young, k.density)
@@ -1416,7 +1437,7 @@ def glide(k, scheme):
     )
 
 
-def fold(k, scheme):
+def fold(k: Knobs, scheme: str) -> Setup:
     """The open ring of `clip` in motion: its ends fly at each other, and touch."""
     setup = clip(k.but({"density": 0.0}))
     f = setup.frame
@@ -1451,7 +1472,7 @@ def fold(k, scheme):
     )
 
 
-def lying(k, scheme):
+def lying(k: Knobs, scheme: str) -> Setup:
     """Two blocks that just touch each other and a plane, at rest, without loads: nothing may happen."""
     f, n = frame_of(k), k.bricks or 2
     c = bar_speed(k.young, k.density)
@@ -1476,7 +1497,7 @@ def lying(k, scheme):
     return Setup(k, f, sections, [must.finite, must.nothing_happens])
 
 
-def laden(k, scheme):
+def laden(k: Knobs, scheme: str) -> Setup:
     """A block on a plane under a pressure that grows slowly, and springs, where there are some, on its
     top."""
     f, n = frame_of(k), k.bricks or 2
@@ -1528,7 +1549,7 @@ def laden(k, scheme):
     )
 
 
-def pile(k, scheme):
+def pile(k: Knobs, scheme: str) -> Setup:
     """Three blocks on a plane under gravity, pressed by no more than their weight; `cycles` stands for steps,
     in thousands."""
     f = frame_of(k)
@@ -1573,13 +1594,13 @@ def pile(k, scheme):
     )
 
 
-def with_scheme(scene, scheme):
+def with_scheme(scene: Callable[[Knobs, str], Setup], scheme: str) -> Callable[[Knobs], Setup]:
     made = lambda k: scene(k, scheme)  # noqa: E731
     made.__doc__ = scene.__doc__
     return made
 
 
-BASES = {
+BASES: dict[str, Callable[[Knobs], Setup]] = {
     "upset": upset,
     "pull": pull,
     "slide": slide,
@@ -1674,7 +1695,7 @@ YIELD = {
 }
 
 
-def make(base, changes):
+def make(base: str, changes: Mapping[str, Any]) -> Setup:
     setup = BASES[base](Knobs({"yield": YIELD.get(base, KNOBS["yield"]), **changes}))
     if setup.knobs.augmentation is not None and base in FACETS and setup.knobs.bricks is None:
         names, facet = FACETS[base]

@@ -3,6 +3,7 @@
 #define BILLET_MECHANICS_EXPLICIT_KERNEL_H
 
 #include "billet/material/lane_forms.h"
+#include "billet/mechanics/lane_element.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -119,12 +120,19 @@ constexpr unsigned int thinning = shear + 6;
 constexpr unsigned int modes = thinning + 3; ///< modes of the reference positions, in float
 } // namespace assumed_strain
 
-/// Table of kernels, indexed by element (assumed_strain, mean_dilatation, one_point), law (as LaneLaw), and
-/// whether there is plasticity.
+/// Table of kernels, indexed by LaneElement, LaneLaw, and whether there is plasticity.
 template <class Number> struct KernelTable {
   unsigned int n_lanes;
-  Kernel<Number> kernels[3][3][2];
+  Kernel<Number> kernels[n_lane_elements][n_lane_laws][2];
 };
+
+/// Returns a kernel of the table; null if it has none.
+template <class Number>
+Kernel<Number> find_kernel(const KernelTable<Number> &table, const LaneElement element, const LaneLaw law,
+                           const bool has_plasticity) {
+  const auto i = static_cast<unsigned int>(element), j = static_cast<unsigned int>(law);
+  return i < n_lane_elements && j < n_lane_laws ? table.kernels[i][j][has_plasticity ? 1 : 0] : nullptr;
+}
 
 extern const KernelTable<double> scalar_kernels, sse2_kernels, avx2_kernels, avx512_kernels;
 extern const KernelTable<float> scalar_float_kernels, sse2_float_kernels, avx2_float_kernels,

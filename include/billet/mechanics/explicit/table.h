@@ -7,6 +7,15 @@
 
 namespace billet::explicit_kernels {
 
+// A new element or law needs its kernels in the table, and its place in these lists.
+static_assert(static_cast<int>(LaneElement::assumed_strain) == 0 &&
+                  static_cast<int>(LaneElement::mean_dilatation) == 1 &&
+                  static_cast<int>(LaneElement::one_point) == 2 && n_lane_elements == 3,
+              "the table has the kernels of these elements, in this order");
+static_assert(static_cast<int>(LaneLaw::hencky) == 0 && static_cast<int>(LaneLaw::neo_hookean) == 1 &&
+                  static_cast<int>(LaneLaw::hypoelastic) == 2 && n_lane_laws == 3,
+              "the table has the kernels of these laws, in this order");
+
 const KernelTable<Number> BILLET_KERNEL_TABLE = {
     n_lanes,
     {{{advance_assumed_strain<Hencky, false>, advance_assumed_strain<Hencky, true>},

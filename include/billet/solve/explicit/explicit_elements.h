@@ -49,13 +49,14 @@ public:
   void save(StateWriter &writer) const;
   /// Whether the checkpoint's histories belong to the same formulations.
   bool has_same_formulations(StateReader &reader) const;
-  void load(StateReader &reader);
+  void load(StateReader &reader, double t);
   /// Sets histories that give the stresses of another formulation at these displacements, in both forms
   /// (`ghosted`: with ghosts).
-  void load_stresses(StateReader &reader, const NodalVectors &displacements, const Vector &ghosted);
+  void load_stresses(StateReader &reader, const NodalVectors &displacements, const Vector &ghosted, double t);
 
 private:
   void make_blocks();
+  void set_temperatures(double t);
   void count_memory();
   std::string describe_formulation(std::size_t body) const;
   SolutionFailure describe_inverted(std::size_t body, std::size_t element, const double *displacements,

@@ -43,12 +43,14 @@ private:
   struct Limits;
   /// Series of augmentations.
   struct Series;
-  /// For each contact, the error of its augmentation over its tolerance, or its softness over the limit of
-  /// SoftnessLimit. At the trial state. Collective.
+  /// Errors that demand an augmentation where they are above 1.
   struct Demands {
+    /// Error of the augmentation of each contact over its tolerance, or its softness over the limit of
+    /// SoftnessLimit if that is larger.
     std::vector<double> of_contacts;
     double by_tolerances = 0., maximum = 0.; ///< over all contacts
   };
+  /// Returns the demands at the trial state. Collective.
   Demands find_demands(const std::vector<ContactSprings> &springs) const;
   /// Returns the springs of each contact; empty if no pair limits softness. Collective.
   std::vector<ContactSprings> contact_springs() const;

@@ -78,6 +78,11 @@ public:
   void load(const StateReader &reader) override;
 
 private:
+  struct Limits {
+    /// Work lost or created by contact in the whole run, as part of all work, above which a message is due.
+    static constexpr double doubtful = 0.04;
+  };
+
   double trial_contact_loss_ = 0.;
   StepEnergy step_energy_;
 };

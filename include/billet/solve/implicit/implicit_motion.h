@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_MOTION_H
 #define BILLET_SOLVE_IMPLICIT_IMPLICIT_MOTION_H
 
+#include "billet/solve/implicit/free_mass.h"
 #include "billet/solve/implicit/heavy_tools.h"
 #include "billet/solve/implicit/load_forces.h"
 #include "billet/solve/implicit/motion_error.h"
@@ -25,14 +26,16 @@ public:
   /// Starts at time 0, with the initial velocities. Throws InputError.
   ImplicitMotion(const Scene &scene, const Discretization &discretization, const Supports &supports);
 
-  std::string name() const override { return "implicit dynamics"; }
+  parameters::TimeStepping::Scheme kind() const override {
+    return parameters::TimeStepping::Scheme::implicit_dynamics;
+  }
   bool has_inertia() const override { return true; }
-  double mass() const override { return lumped_.l1_norm() / 3.; }
+  double mass() const override { return mass_.row_sums().l1_norm() / 3.; }
   double wanted_accuracy() const override { return error_.wanted_accuracy(); }
-  double round_off_force() const override { return round_off_force_; }
+  double round_off_force() const override { return step_.round_off_force; }
 
   // At the start, and where forces jump, M a = −F has to be solved:
-  void add_mass(const TangentSystem &system) const { inertia_.add_tangent(1., system); }
+  void add_mass(const TangentSystem &system) const { mass_.inertia().add_tangent(1., system); }
   /// Returns −F − M a for the accelerations that supports prescribe.
   Vector driving_forces(const Vector &forces) const;
   /// Sets the solution of these equations. On constrained dofs it satisfies the homogeneous constraints.
@@ -97,33 +100,33 @@ private:
     Vector start;    ///< a_n without contact
     Vector forces_n; ///< F_n of the residual: all forces; with (I4), without contact
   };
+  /// The step that is tried.
+  struct TrialStep {
+    double t_n = 0., length = 0.; ///< length 0: none yet [time]
+    Vector u_n;                   ///< displacements at its start [length]
+    double round_off_force = 0.;  ///< what the last bits of displacements do to inertia [force]
+  };
   void set_initial_velocities();
   void set_rates(const Vector &displacements);
-  HeavyTools::Step tool_step() const { return {integrator_, step_, damping_.is_on}; }
+  HeavyTools::Step tool_step() const { return {integrator_, step_.length, damping_.is_on}; }
   /// Returns a_n; with (I4), that of the other forces.
   const Vector &start_accelerations() const { return damping_.is_on ? damping_.start : start_.acceleration; }
   /// Returns the accelerations at the end of the step, including contact.
   Vector end_accelerations() const;
-  /// Returns c = −M⁻¹ F of these forces. Collective.
-  Vector accelerations_by(const Vector &forces) const;
-  Vector ghosted(const Vector &owned) const;
 
   const Scene &scene_;
   const Discretization &discretization_;
   const Supports &supports_;
   TimeIntegrator integrator_;
   LocalNodes nodes_;
-  Inertia inertia_;
-  Vector lumped_; ///< row sums of the mass
+  FreeMass mass_;
   LoadForces loads_;
   HeavyTools tools_;
   SupportRates held_;
   MotionError error_;
-  double t_n_ = 0., step_ = 0.; ///< of the step that is tried; 0: none yet
-  Vector u_n_;
+  TrialStep step_;
   Rates start_, trial_;
   ContactDamping damping_;
-  double round_off_force_ = 0.;
   HeldMemory memory_{Capability::inertia};
 };
 

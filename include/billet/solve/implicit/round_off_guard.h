@@ -39,8 +39,6 @@ private:
     /// Maximum number of successive steps limited by round-off. When loads begin, or nodes lie on a tool to
     /// the last bit, forces are small and soon grow.
     static constexpr unsigned int max_lost_steps = 3;
-    /// Maximum residual over the round-off of springs, as in solve_newton().
-    static constexpr double by_much = 10.;
     /// Part of the round-off of bodies below which they have no other forces.
     static constexpr double unloaded = 0.1;
   };

@@ -3,11 +3,11 @@
 #define BILLET_SOLVE_IMPLICIT_SCHEME_H
 
 #include "billet/discretization/supports.h"
+#include "billet/parameters/control.h"
 #include "billet/solve/implicit/step_state.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 
-#include <string>
 #include <vector>
 
 namespace billet {
@@ -22,8 +22,10 @@ public:
   ImplicitScheme(const ImplicitScheme &) = delete;
   ImplicitScheme &operator=(const ImplicitScheme &) = delete;
 
-  /// Returns the name in checkpoints.
-  virtual std::string name() const { return "quasi-static"; }
+  /// Returns the scheme, whose name checkpoints store.
+  virtual parameters::TimeStepping::Scheme kind() const {
+    return parameters::TimeStepping::Scheme::quasi_static;
+  }
   /// Whether inertia resists motions that neither supports nor contact resist.
   virtual bool has_inertia() const { return false; }
   /// Returns the mass of all bodies. Collective.

@@ -24,9 +24,8 @@ public:
   StepRules &operator=(const StepRules &) = delete;
 
   virtual Predictor &predictor() = 0;
+  virtual const Predictor &predictor() const = 0;
   virtual EnergyBalance &balance() = 0;
-  const Predictor &predictor() const { return const_cast<StepRules &>(*this).predictor(); }
-  const EnergyBalance &balance() const { return const_cast<StepRules &>(*this).balance(); }
 
   /// Check the contacts at time 0, with InputError, and start the run there. Collective.
   virtual void check_start() {}
@@ -85,6 +84,7 @@ public:
         raises_(problem, books) {}
 
   Predictor &predictor() override { return predictor_; }
+  const Predictor &predictor() const override { return predictor_; }
   EnergyBalance &balance() override { return balance_; }
   void check_start() override;
   void check_next_step() const override;
@@ -119,6 +119,7 @@ public:
         balance_(problem, paths, motion), initial_(problem, motion), penalties_(problem, books) {}
 
   Predictor &predictor() override { return predictor_; }
+  const Predictor &predictor() const override { return predictor_; }
   EnergyBalance &balance() override { return balance_; }
   void start(const Solution &solution) override;
   bool rejects(double t, NewtonReport &report) override;

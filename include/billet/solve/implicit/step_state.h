@@ -33,6 +33,11 @@ struct StepState {
 
 /// Reference values of residuals [force].
 struct ForceScales {
+  struct Limits {
+    /// Lower limit of the reference value after forces vanish, as part of their largest one.
+    static constexpr double lasting = 1e-3;
+  };
+
   double force = 0.;            ///< of the last residual
   double lasting = 0.;          ///< lower limit by earlier forces
   double round_off = 0.;        ///< by round-off of displacements

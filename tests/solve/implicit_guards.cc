@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Limits of what an implicit step may pass over, PathGuard, and of what round-off may take, RoundOffGuard.
+#include "billet/solve/implicit/path_guard.h"
+#include "billet/solve/implicit/round_off_guard.h"
+
+#include "../scenes/scene_run.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+parameters::Scene read(const std::string &name) {
+  return parameters::Scene::read(std::string(SOURCE_DIR) + "/" + name);
+}
+
+void check_cuts() {
+  auto parameters = read("confined_element.prm");
+  parameters.time_stepping.min_step = 0.5;
+  SceneRun run(parameters);
+  const PathGuard paths(run.problem.equation());
+  check("steps are cut until they are 1e-9 longer than the minimum",
+        paths.may_be_cut(0.5 * (1. + 1.1e-9)) && !paths.may_be_cut(0.5 * (1. + 0.9e-9)));
+}
+
+/// Block and floor turn together, by 2 pi in a time of 1.
+void check_turns() {
+  auto parameters = read("../scenes/block_on_plane.prm");
+  parameters.time_stepping.initial_step = 1.;
+  SceneRun run(parameters);
+  run.advance();
+  const PathGuard paths(run.problem.equation());
+  const auto turns_too_far = [&](const double degrees) {
+    NewtonReport report;
+    return paths.turns_too_far(1. + degrees / 360., report);
+  };
+  check("a tool with friction turns by 15 degrees at most", !turns_too_far(14.9) && turns_too_far(15.1));
+}
+
+enum class Meeting { none, accepted, too_early };
+
+/// A step of a block that is 0.09 facet sizes above the floor and would move by so many.
+Meeting meet(const double motion) {
+  constexpr double step = 1e-4;
+  auto parameters = read("implicit_guards.prm");
+  parameters.implicit_dynamics.error_tolerance = 0.;
+  parameters.bodies[0].initial_velocity.value = {{"0", "0", std::to_string(-motion / step)}};
+  SceneRun run(parameters);
+  const NewtonReport report = run.problem.step(step, 0.);
+  return report.failure.find("nodes approach by") != std::string::npos ? Meeting::too_early
+         : run.load().area > 0.                                        ? Meeting::accepted
+                                                                       : Meeting::none;
+}
+
+void check_first_contacts() {
+  check("in a step of first contact nodes approach by a tenth of a facet",
+        meet(0.098) == Meeting::accepted && meet(0.102) == Meeting::too_early);
+}
+
+/// Steps that round-off limits.
+void check_lost_steps(const SceneRun &run) {
+  RoundOffGuard guard(run.problem.equation());
+  NewtonReport lost;
+  lost.converged = lost.is_lost_in_round_off = true;
+  const auto n_accepted = [&] {
+    for (unsigned int n = 0; n < 10; ++n) {
+      NewtonReport report = lost;
+      if (guard.rejects(0.5, report))
+        return n;
+      guard.commit(0.5, report);
+    }
+    return 10U;
+  };
+  check("three steps in a row may be lost in round-off", n_accepted() == 3);
+  guard.commit(0.5, NewtonReport());
+  check("and again after one that is not", n_accepted() == 3);
+  guard.commit(0.5, NewtonReport());
+  NewtonReport last = lost;
+  check("the last one may not", guard.rejects(1., last) && !last.converged);
+}
+
+void check_round_off(SceneRun &run) {
+  ForceScales &scales = run.problem.equation().scales();
+  const RoundOffGuard guard(run.problem.equation());
+  NewtonReport report;
+  report.iterations.resize(1);
+  const auto may_explain = [&](const double residual, const double springs) {
+    scales.force = 1.;
+    scales.spring_round_off = springs;
+    report.force = residual;
+    return guard.may_explain(report);
+  };
+  check("round-off of springs explains residuals up to ten times as large",
+        may_explain(0.098, 0.01) && !may_explain(0.102, 0.01));
+  check("if it is 0.005 of the forces", may_explain(0.01, 0.0051) && !may_explain(0.01, 0.0049));
+  const auto is_told = [&](const double round_off) {
+    scales = ForceScales();
+    scales.force = 1.;
+    scales.round_off = round_off;
+    return guard.check(0.01, 1.).size() == 1;
+  };
+  check("forces below a tenth of the round-off of bodies are none", is_told(9.8) && !is_told(10.2));
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_cuts();
+  check_turns();
+  check_first_contacts();
+  SceneRun run(read("confined_element.prm"));
+  check_lost_steps(run);
+  check_round_off(run);
+  return testing::exit_code();
+}
