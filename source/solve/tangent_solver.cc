@@ -83,6 +83,19 @@ void TangentSolver::set_geometry(NodalGeometry geometry) { iterative_->set_geome
 
 void TangentSolver::start_contact(const std::vector<int> &dofs) { iterative_->start_contact(dofs); }
 
+void TangentSolver::Retries::add_failure() {
+  constexpr unsigned int max_doublings = 5;
+  ++n_failures;
+  pause = (1u << std::min(n_failures - 1, max_doublings)) - 1;
+}
+
+bool TangentSolver::Retries::skips() {
+  if (pause == 0)
+    return false;
+  --pause;
+  return true;
+}
+
 bool TangentSolver::factorize_directly() {
   if (!direct_)
     direct_ = make_direct_solver(direct_method_, *matrix_, communicator_);
@@ -101,10 +114,10 @@ void TangentSolver::note_memory() {
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator_);
   const auto share = [n_ranks](const double bytes) { return static_cast<std::size_t>(bytes / n_ranks); };
   const std::size_t factors = direct_ ? share(direct_->memory()) : 0;
-  matrix_memory_.set(count_owned_entries(*matrix_) * (sizeof(double) + sizeof(int)) +
+  memory_.matrix.set(count_owned_entries(*matrix_) * (sizeof(double) + sizeof(int)) +
                      (symmetric_ ? factors : 0));
-  unsymmetric_memory_.set(symmetric_ ? 0 : factors);
-  iterative_memory_.set(is_direct_now_ ? 0 : share(iterative_->memory()));
+  memory_.unsymmetric.set(symmetric_ ? 0 : factors);
+  memory_.iterative.set(is_direct_now_ ? 0 : share(iterative_->memory()));
 }
 
 bool TangentSolver::factorize() {
@@ -120,10 +133,8 @@ bool TangentSolver::factorize() {
         "iterative one");
     return factorize_directly();
   }
-  if (pause_ > 0) {
-    --pause_;
+  if (retries_.skips())
     return factorize_directly();
-  }
   direct_.reset(); // both together would need too much memory
   is_direct_now_ = false;
   if (!iterative_->factorize())
@@ -142,9 +153,7 @@ bool TangentSolver::factorize() {
 
 bool TangentSolver::fall_back() {
   iterative_->release();
-  // It is tried again, but less and less often if that fails.
-  ++n_failures_;
-  pause_ = (1u << std::min(n_failures_ - 1, 5u)) - 1;
+  retries_.add_failure();
   diagnostics_.emplace_back(diagnostic::direct_solver,
                             iterative_->failure() + ": a direct solver replaces it whenever that happens");
   return factorize_directly();
@@ -153,7 +162,7 @@ bool TangentSolver::fall_back() {
 bool TangentSolver::solve(const Vector &b, Vector &x, const double relative_tolerance) {
   if (!is_direct_now_) {
     if (iterative_->solve(b, x, relative_tolerance)) {
-      n_failures_ = 0;
+      retries_.n_failures = 0;
       return true;
     }
     if (!fall_back())

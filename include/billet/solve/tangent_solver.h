@@ -50,6 +50,20 @@ public:
   DiagnosticList check_condition();
 
 private:
+  /// When the iterative solver is tried again after failures: less and less often.
+  struct Retries {
+    unsigned int n_failures = 0; ///< in succession
+    unsigned int pause = 0;      ///< remaining matrices for which it is not tried
+
+    void add_failure();
+    /// Returns whether the next matrix is one of the pause, which it shortens.
+    bool skips();
+  };
+  struct Memory {
+    HeldMemory matrix{Capability::matrix}, unsymmetric{Capability::unsymmetric_matrix},
+        iterative{Capability::iterative_solver};
+  };
+
   bool factorize_directly();
   bool fall_back();
   void note_memory();
@@ -62,14 +76,12 @@ private:
   std::unique_ptr<LinearSolver> direct_;
   bool is_direct_now_;
   bool is_nearly_singular_ = false;
-  unsigned int n_failures_ = 0; ///< of the iterative solver in succession
-  unsigned int pause_ = 0;      ///< remaining matrices for which it is not tried
+  Retries retries_;
   bool has_reported_memory_ = false;
   ConditionWatch condition_; ///< of what is factorised directly
   std::string name_, failure_;
   DiagnosticList diagnostics_;
-  HeldMemory matrix_memory_{Capability::matrix}, unsymmetric_memory_{Capability::unsymmetric_matrix},
-      iterative_memory_{Capability::iterative_solver};
+  Memory memory_;
 };
 
 } // namespace billet
