@@ -2,6 +2,8 @@
 """The billet in billet and in CalculiX on finer meshes: processor seconds and memory for each Newton
 iteration."""
 
+from __future__ import annotations
+
 import statistics
 
 from billet_runs import Run, arguments, mesh, n_elements, number, publish, table
@@ -20,13 +22,13 @@ CCX = {"ccx C3D8R, node to surface": NODES, "ccx C3D8R, surface to surface": FAC
 
 rows = []
 for level in (2,) if options.quick else (2, 3):
-    grid = read_mesh(level)
-    runs = {name: [] for name in [*BILLET, *CCX]}
+    nodes, bricks = read_mesh(level)
+    runs: dict[str, list[Run | CcxRun]] = {name: [] for name in [*BILLET, *CCX]}
     for _ in range(REPEAT[level]):
         for name, solver in BILLET.items():
             runs[name].append(Run({**mesh(level), **steps, "Solver/Linear solver": solver}))
         for name, contact in CCX.items():
-            runs[name].append(CcxRun(*grid, "C3D8R", contact, increment=STEP, part=PART, limit=LIMIT))
+            runs[name].append(CcxRun(nodes, bricks, "C3D8R", contact, increment=STEP, part=PART, limit=LIMIT))
     rates = {
         name: statistics.median(run.seconds / run.iterations for run in repeated)
         for name, repeated in runs.items()

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet in billet and in CalculiX, on the same meshes, alternately."""
 
+from __future__ import annotations
+
 import re
 import statistics
 import subprocess
+from typing import Any, NamedTuple
 
 from billet_runs import (
     PAIR,
     PENALTY,
     PROGRAM,
+    Changes,
     Measured,
     Run,
     arguments,
@@ -27,34 +31,43 @@ options = arguments("billet-ccx")
 REPEAT = 3
 
 
-BILLET = {
+class Settings(NamedTuple):
+    element: str
+    contact: str
+    friction: float = 0.1
+    increment: float = 0.02
+
+
+BILLET: dict[str, Changes] = {
     "billet, default": {},
     "billet, tolerance 5e-3": {"Solver/Force tolerance": 5e-3, "Solver/Energy tolerance": 5e-3},
     "billet, steps of 2 %": fixed_steps(50),
 }
-CCX = {
-    "ccx C3D8R, node to surface": ("C3D8R", NODES),
-    "ccx C3D8R, surface to surface": ("C3D8R", FACES_CONTACT),
-    "ccx C3D8R, node to surface, 10 %": ("C3D8R", NODES, 0.1, 0.1),
-    "ccx C3D8, node to surface, 10 %": ("C3D8", NODES, 0.1, 0.1),
-    "ccx C3D8, node to surface": ("C3D8", NODES),
-    "ccx C3D8I, node to surface": ("C3D8I", NODES),
+CCX: dict[str, Settings] = {
+    "ccx C3D8R, node to surface": Settings("C3D8R", NODES),
+    "ccx C3D8R, surface to surface": Settings("C3D8R", FACES_CONTACT),
+    "ccx C3D8R, node to surface, 10 %": Settings("C3D8R", NODES, 0.1, 0.1),
+    "ccx C3D8, node to surface, 10 %": Settings("C3D8", NODES, 0.1, 0.1),
+    "ccx C3D8, node to surface": Settings("C3D8", NODES),
+    "ccx C3D8I, node to surface": Settings("C3D8I", NODES),
 }
 
 rows = []
 for level in (1,) if options.quick else (1, 2, 3) if options.large else (1, 2):
-    grid = read_mesh(level)
-    entries = {**BILLET, **CCX}
+    nodes, bricks = read_mesh(level)
+    entries: dict[str, Any] = {**BILLET, **CCX}
     if level == 3:  # ccx takes minutes
         entries = {
             name: entry for name, entry in entries.items() if "C3D8," not in name and "C3D8I" not in name
         }
-    runs = {name: [] for name in entries}
+    runs: dict[str, list[Run | CcxRun]] = {name: [] for name in entries}
     for _ in range(1 if level == 3 else REPEAT):
         for name, entry in entries.items():
             if "C3D8I" in name and level > 1 and runs[name]:  # half a minute, for an answer of no use
                 continue
-            runs[name].append(CcxRun(*grid, *entry) if name in CCX else Run({**mesh(level), **entry}))
+            runs[name].append(
+                CcxRun(nodes, bricks, *CCX[name]) if name in CCX else Run({**mesh(level), **entry})
+            )
     for name, repeated in runs.items():
         run = repeated[0]
         rows.append(
@@ -71,21 +84,24 @@ for level in (1,) if options.quick else (1, 2, 3) if options.large else (1, 2):
         )
 
 
-def ends(run):
+def ends(run: Run | CcxRun) -> str:
     """At 60 and at 64 % reduction."""
     return " / ".join(f"{interpolate(run.times, run.forces, time):.2f}" for time in (0.9375, 1.0))
 
 
 STEPS = (48, 192, 768)  # of which one ends at 60 %
-grid = read_mesh(1)
+nodes, bricks = read_mesh(1)
 frictionless = [["billet"] + [ends(Run({**fixed_steps(n), PAIR + "Friction coefficient": 0})) for n in STEPS]]
 for name in ("ccx C3D8R, node to surface", "ccx C3D8R, surface to surface"):
-    frictionless += [[name] + [ends(CcxRun(*grid, *CCX[name], friction=0, increment=1.0 / n)) for n in STEPS]]
+    frictionless += [
+        [name] + [ends(CcxRun(nodes, bricks, *CCX[name][:2], friction=0, increment=1.0 / n)) for n in STEPS]
+    ]
 exact = " / ".join(f"{frictionless_force(time, PENALTY):.2f}" for time in (0.9375, 1.0))
 frictionless += [["closed form"] + [exact] * len(STEPS)]
 
 start = Measured([PROGRAM, "--version"], ".").seconds
-version = re.search(r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout)
+said = subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout
+version = re.findall(r"Version (\S+)", said)[0]
 
 publish(
     "billet-ccx",
@@ -93,7 +109,7 @@ publish(
     options,
     (
         "Upsetting by 64 %, µ = 0.1, penalties 3.5e5 N/mm³, the same nodes and bricks; CalculiX"
-        f" {version.group(1)} with its own direct solver (SPOOLES), increments of 2 % of the travel at most,"
+        f" {version} with its own direct solver (SPOOLES), increments of 2 % of the travel at most,"
         " or of 10 % where it is said, as billet may take them by default; its default tolerances (0.5 % of"
         " the force). Alternately on one core without other threads: CPU seconds (user and system) are the"
         f" median of {REPEAT} runs{'' if options.quick else ' (one of C3D8I on 480 bricks)'}"

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet without friction against the closed form: what is left is the penalty's penetration."""
 
+from __future__ import annotations
+
 import math
 
 from billet_runs import (
@@ -21,7 +23,7 @@ options = arguments("billet-frictionless")
 TIMES = {0.9375: "60 %", 1.0: "64 %"}
 
 
-def errors(run, penalty):
+def errors(run: Run, penalty: float) -> list[str]:
     cells = []
     for time in TIMES:
         reached = any(abs(t - time) < 1e-9 for t in run.times)
@@ -31,7 +33,7 @@ def errors(run, penalty):
     return cells
 
 
-def row(refinements, steps, factor):
+def row(refinements: int, steps: int, factor: float) -> list[object]:
     run = Run(
         {
             **mesh(refinements),
@@ -42,8 +44,10 @@ def row(refinements, steps, factor):
         },
         options.ranks,
     )
-    result = [run.iterations] + errors(run, factor * PENALTY) if run.converged else [run.failure] + ["–"] * 4
-    return [n_elements(refinements), steps, f"{factor:g}"] + result
+    cells: list[object] = [run.failure, *["–"] * 4]
+    if run.converged:
+        cells = [run.iterations, *errors(run, factor * PENALTY)]
+    return [n_elements(refinements), steps, f"{factor:g}", *cells]
 
 
 meshes = (1, 2) if options.quick else (1, 2, 3)

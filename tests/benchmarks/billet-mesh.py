@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet's force curve on finer and finer meshes."""
 
+from __future__ import annotations
+
 import math
 
 from billet_runs import Run, arguments, curve_error, mesh, n_elements, number, percent, publish, table
@@ -14,13 +16,13 @@ runs = {level: Run({**mesh(level), **stepping}, options.ranks) for level in leve
 finest = runs[levels[-1]]
 
 
-def order(coarse, middle, fine):
+def order(coarse: float, middle: float, fine: float) -> float:
     """log2 of the ratio of successive differences (each mesh halves the last), where they have one sign."""
     ratio = (coarse - middle) / (middle - fine) if middle != fine else 0.0
     return math.log2(ratio) if ratio > 0 else math.nan
 
 
-def solver(run):
+def solver(run: Run) -> str:
     return "iterative" if any(int(row["linear_iterations"]) for row in run.rows) else "direct"
 
 
@@ -42,7 +44,7 @@ rows = [
 if len(levels) > 2:
     last = [runs[level] for level in levels[-3:]]
     orders = [order(*(run.force(t) for run in last)) for t in TIMES]
-    rows.append(["order"] + [""] * 7 + [number(p, 2) for p in orders] + [""])
+    rows.append(["order", *[""] * 7, *(number(p, 2) for p in orders), ""])
     step_apart = curve_error(last[0], last[1]), curve_error(last[1], last[2])
     norm = (
         f"In the norm of the last column, each mesh differs from the next by {percent(step_apart[0])}, then "

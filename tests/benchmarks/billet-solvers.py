@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet on finer meshes: a direct and an iterative linear solver."""
 
+from __future__ import annotations
+
 import sys
 import tempfile
 from pathlib import Path
@@ -25,7 +27,7 @@ options = arguments("billet-solvers")
 CASES = ((2, 1.0),) if options.quick else ((2, 1.0), (3, 1.0)) + (((4, 0.04),) if options.large else ())
 
 
-def run(level, end, solver):
+def run(level: int, end: float, solver: str) -> tuple[list[dict[str, str]], float, float]:
     """History of the run, processor seconds, peak memory in MB; of one rank."""
     text = variant(
         read_scene(SCENE),

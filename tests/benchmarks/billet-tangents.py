@@ -1,31 +1,41 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Iterations with each contact tangent, under automatic and under fixed steps, beside the paper's."""
 
-from billet_runs import PAIR, TANGENT, TANGENTS, Run, arguments, fixed_steps, number, publish, table
+from __future__ import annotations
+
+from billet_runs import PAIR, TANGENT, TANGENTS, Changes, Run, arguments, fixed_steps, number, publish, table
 
 options = arguments("billet-tangents")
-TIGHT = {"Solver/Force tolerance": 1e-6}
+TIGHT: Changes = {"Solver/Force tolerance": 1e-6}
 # The paper needs 1.4 iterations a step: its tolerance, which it does not give, must have been of this kind.
-LOOSE = {"Solver/Force tolerance": 1e-2, "Solver/Energy tolerance": 1e-2}
-PLAIN = {"Solver/Line search": "none", "Solver/Predictor": "tangent"}
-OLDER = {"Bodies/billet/Element": "mean dilatation"}
+LOOSE: Changes = {"Solver/Force tolerance": 1e-2, "Solver/Energy tolerance": 1e-2}
+PLAIN: Changes = {"Solver/Line search": "none", "Solver/Predictor": "tangent"}
+OLDER: Changes = {"Bodies/billet/Element": "mean dilatation"}
 PAPER = {"consistent": "53 / 38", "continuum": "80 / 43"}
 
+PLAINER: list[tuple[Changes, float]] = [
+    ({}, 3.5e5),
+    ({}, 3.5e6),
+    ({**PLAIN, **LOOSE}, 3.5e5),
+    ({**PLAIN, **LOOSE, **OLDER}, 3.5e5),
+    ({**PLAIN, **LOOSE, **OLDER}, 3.5e6),
+]
 
-def run(tangent, *changes):
-    merged = {TANGENT: tangent}
+
+def run(tangent: str, *changes: Changes) -> Run:
+    merged: dict[str, object] = {TANGENT: tangent}
     for change in changes:
         merged.update(change)
     return Run(merged, options.ranks)
 
 
-def outcome(r):
+def outcome(r: Run) -> str:
     if r.converged:
         return str(r.iterations)
     return f"{r.times[-1]:.2g}: {r.failure}"
 
 
-def automatic(tangent, *changes):
+def automatic(tangent: str, *changes: Changes) -> list[object]:
     # A tangent that needs thousands of steps is no choice: it may give up.
     r = run(tangent, {"Time stepping/Minimum step": 1e-4}, *changes)
     return (
@@ -82,13 +92,7 @@ publish(
             [t]
             + [
                 outcome(run(t, fixed_steps(50), {PAIR + "Normal penalty": penalty}, changes))
-                for changes, penalty in (
-                    ({}, 3.5e5),
-                    ({}, 3.5e6),
-                    ({**PLAIN, **LOOSE}, 3.5e5),
-                    ({**PLAIN, **LOOSE, **OLDER}, 3.5e5),
-                    ({**PLAIN, **LOOSE, **OLDER}, 3.5e6),
-                )
+                for changes, penalty in PLAINER
             ]
             for t in TANGENTS
         ],

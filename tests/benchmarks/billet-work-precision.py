@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What accuracy of the billet's force curve costs: mesh, step and contact tangent."""
 
+from __future__ import annotations
+
+from typing import Iterator
+
 from billet_runs import (
     TANGENT,
     Run,
@@ -21,7 +25,7 @@ levels = (1, 2) if options.quick else (1, 2, 3)
 REFERENCE_STEPS = 400  # on the finest mesh
 
 
-def combinations():
+def combinations() -> Iterator[tuple[int, int | None, str]]:
     """Mesh, steps (None: automatic) and tangent of every run. On the largest mesh the exact tangent alone,
     and the consistent one once: the tangents' answers do not differ, and the smaller meshes tell how their
     costs do. The mean needs thousands of automatic steps."""
@@ -36,8 +40,9 @@ def combinations():
 
 runs = {}
 for level, steps, tangent in combinations():
-    changes = {**mesh(level), TANGENT: tangent}
-    changes.update({} if steps is None else fixed_steps(steps))
+    changes: dict[str, object] = {**mesh(level), TANGENT: tangent}
+    if steps is not None:
+        changes.update(fixed_steps(steps))
     run = Run(changes, options.ranks)
     if run.converged and run.seconds < 5.0:  # what takes longer scatters little
         run.seconds = sorted([run.seconds] + [Run(changes, options.ranks).seconds for _ in range(2)])[1]

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the benchmarks share: runs of billet, errors of force curves, tables."""
 
+from __future__ import annotations
+
 import argparse
 import math
 import os
@@ -9,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Sequence
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -16,7 +19,7 @@ from billet_tools.kept import hash_of_file  # noqa: E402
 from billet_tools.output import read_rows  # noqa: E402
 from billet_tools.program import Measured, command_of  # noqa: E402
 from billet_tools.records import read_records  # noqa: E402
-from billet_tools.scene import read_scene, variant  # noqa: E402
+from billet_tools.scene import Changes, read_scene, variant  # noqa: E402
 from billet_tools.text import number, percent, table  # noqa: E402, F401  for the benchmarks
 
 PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
@@ -31,16 +34,16 @@ PAIR = "Contact pairs/billet on die/"
 TANGENT = "Solver/Contact tangent"
 
 
-def mesh(refinements):
+def mesh(refinements: int) -> dict[str, object]:
     """60, 480, 3840, ... bricks for 1, 2, 3, ...: each brick is cut into eight."""
     return {MESH + "Refinements": refinements, MESH + "Layers": 5 * 2 ** (refinements - 1)}
 
 
-def n_elements(refinements):
+def n_elements(refinements: int) -> int:
     return 60 * 8 ** (refinements - 1)
 
 
-def fixed_steps(n):
+def fixed_steps(n: int) -> dict[str, object]:
     return {"Time stepping/Step control": "fixed", "Time stepping/Initial step": repr(1.0 / n)}
 
 
@@ -50,7 +53,14 @@ class Run:
     of all ranks), `megabytes` (of the largest rank), `rows` of the history, what was `said` on the console.
     Results stay in `folder`, if there is one."""
 
-    def __init__(self, changes=None, ranks=1, scene=SCENE, tool="die", folder=None):
+    def __init__(
+        self,
+        changes: Changes | None = None,
+        ranks: int = 1,
+        scene: Path = SCENE,
+        tool: str = "die",
+        folder: str | Path | None = None,
+    ) -> None:
         text = variant(
             read_scene(scene),
             {
@@ -99,11 +109,11 @@ class Run:
             flush=True,
         )
 
-    def force(self, time):
+    def force(self, time: float) -> float:
         return interpolate(self.times, self.forces, time)
 
 
-def count_instructions(folder):
+def count_instructions(folder: str | Path) -> int:
     """Of a run of scene.prm in this folder by callgrind, without what libraries do before it."""
     done = subprocess.run(
         [
@@ -121,10 +131,10 @@ def count_instructions(folder):
     )
     if done.returncode != 0:
         sys.exit(f"under valgrind billet ended with {done.returncode}: {done.stderr}")
-    return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+    return int(re.findall(r"Collected : (\d+)", done.stderr)[0])
 
 
-def interpolate(times, values, time):
+def interpolate(times: Sequence[float], values: Sequence[float], time: float) -> float:
     """The value at this time, straight lines between; NaN beyond the last."""
     for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):
         if t0 <= time <= t1:
@@ -132,7 +142,7 @@ def interpolate(times, values, time):
     return math.nan
 
 
-def frictionless_force(time, penalty=math.inf):
+def frictionless_force(time: float, penalty: float = math.inf) -> float:
     """Closed form of the force on the whole billet in kN without friction, for a law that yields in Kirchhoff
     stress τ: along the axis ln λ = −τ/E − ε_p with τ = σ_y + H ε_p; force = τ A_0 / λ; force over current
     area = penalty times penetration, by which the billet is less upset."""
@@ -149,7 +159,7 @@ def frictionless_force(time, penalty=math.inf):
     return force / 1e3
 
 
-def curve_error(run, reference):
+def curve_error(run: Run, reference: Run) -> float:
     """Integral of |F - F*| over that of |F*| by the trapezoidal rule over the ends of the run's steps: what
     lies between them was not computed, and the jump to first yield within the first step is nobody's
     fault."""
@@ -158,13 +168,13 @@ def curve_error(run, reference):
     times, forces = run.times[1:], run.forces[1:]
     exact = [reference.force(time) for time in times]
 
-    def integral(values):
+    def integral(values: Sequence[float]) -> float:
         return sum(0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], times, times[1:]))
 
     return integral([abs(f - g) for f, g in zip(forces, exact)]) / integral([abs(g) for g in exact])
 
 
-def arguments(name, has_scenes=False):
+def arguments(name: str, has_scenes: bool = False) -> argparse.Namespace:
     """Command line of a benchmark; the same for all, so that `all` can pass it on. Those that run scenes by
     themselves take some of them, too."""
     parser = argparse.ArgumentParser(prog=f"scripts/benchmarks {name}")
@@ -183,12 +193,12 @@ def arguments(name, has_scenes=False):
     return parser.parse_args()
 
 
-def program_hash():
+def program_hash() -> str:
     """Names the program that is measured by the start of its hash."""
     return hash_of_file(Path(PROGRAM))[:8]
 
 
-def publish(name, title, options, *parts):
+def publish(name: str, title: str, options: argparse.Namespace, *parts: str | None) -> None:
     """Prints the page and writes it to doc/results/NAME.md."""
     flags = [f"--{key}" for key in ("quick", "large") if getattr(options, key)]
     flags += [f"--ranks {options.ranks}"] if options.ranks > 1 else []

@@ -2,19 +2,28 @@
 """How accurate the elements are: patch test, bending, distorted bricks, shells, incompressibility, hinges and
 springback."""
 
+from __future__ import annotations
+
 import math
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy
 
-from billet_runs import arguments, number, publish, table
+from billet_runs import Changes, arguments, number, publish, table
 from brick_runs import AS, E, ELEMENTS, MD, NU, SOFT, STIFF, Bricks, Solution, held, planes, plastic, signed
+from billet_tools.output import Array
+
+Solve = Callable[[str], tuple[float, Solution]]  # by the element: the error, and the run
+Place = Sequence[Array]  # x, y, z of points
 
 options = arguments("brick-accuracy")
 LAWS = ("Hencky", "neo-Hookean", "hypoelastic")
 PLANE_STRAIN = E / (1 - NU**2)
 
 
-def dead_load(kind, traction, axis, far, components="x, y, z"):
+def dead_load(
+    kind: int, traction: float, axis: int, far: float, components: str = "x, y, z"
+) -> dict[str, object]:
     """A traction along an axis on a boundary, per undeformed area: the clamp, boundary 1, and with it the
     body goes away by `far` from soft springs, without inertia to speak of."""
     direction, away = ["0"] * 3, ["0"] * 3
@@ -33,11 +42,19 @@ def dead_load(kind, traction, axis, far, components="x, y, z"):
     }
 
 
-unwarned, worst, titles = [], {}, []
-scenes = {}  # for other laws: solve() of compare(), by name
+unwarned: list[list[str]] = []
+worst: dict[str, float] = {}
+titles: list[str] = []
+scenes: dict[str, Any] = {}  # for other laws: solve() of compare(), by name
 
 
-def compare(labels, solve, show=signed, claim=None, stiffness=1):
+def compare(
+    labels: Sequence[object],
+    solve: Solve,
+    show: Callable[[float], str] = signed,
+    claim: str | None = None,
+    stiffness: int = 1,
+) -> list[object]:
     """A row: what was done, the error of each element, and what the runs warn of where it is above 5 %.
     `solve(element)` gives the error, of a stiffness (or -1: of a displacement), and the run. The largest one
     with assumed strains counts for the claim."""
@@ -72,7 +89,7 @@ HEAD = [*ELEMENTS, "warnings, where off by more than 5 %"]
 GRADIENT = numpy.array([[0.3, 0.2, -0.1], [0.1, -0.2, 0.15], [-0.2, 0.1, 0.25]])
 
 
-def patch():
+def patch() -> str:
     """Of a cube of 2 x 2 x 2 distorted bricks all of the surface moves as one deformation gradient wants.
     Where it is zero, the inner node, single precision shows displacements to 1e-16 and less."""
     mesh, generator = Bricks([0, 1, 2], [0, 1, 2], [0, 1, 2]), numpy.random.RandomState(1)
@@ -156,18 +173,27 @@ def patch():
 # Bending of a strip.
 
 
-def strip(layers, aspect, element, length=None, skew=0.0, way=None, changes=None, steps=1):
+def strip(
+    layers: int,
+    aspect: float,
+    element: str,
+    length: float | None = None,
+    skew: float = 0.0,
+    way: float | None = None,
+    changes: Changes | None = None,
+    steps: int | None = 1,
+) -> tuple[float, Solution]:
     """A cantilever in plane strain, which is half a strip on two supports: in z it is held along the lower
     edges of its ends, which turn freely. Returns its stiffness over that of a beam with shear, and the
     run."""
-    length = length or max(60.0, 6 * aspect / layers)
-    n, way = round(length * layers / aspect), way or 3e-7 * length**2
+    span = length or max(60.0, 6 * aspect / layers)
+    n, way = round(span * layers / aspect), way or 3e-7 * span**2
 
-    def tilt(x, y, z):
-        return numpy.where((x > 1e-9) & (x < length - 1e-9), x + skew * z, x), y, z
+    def tilt(x: Array, y: Array, z: Array) -> Place:
+        return numpy.where((x > 1e-9) & (x < span - 1e-9), x + skew * z, x), y, z
 
-    mesh = Bricks(numpy.linspace(0, length, n + 1), [0, 1], numpy.linspace(-0.5, 0.5, layers + 1), tilt)
-    mesh.add_handle(7, (length, 0, -0.5), (1, 1, -1))
+    mesh = Bricks(numpy.linspace(0, span, n + 1), [0, 1], numpy.linspace(-0.5, 0.5, layers + 1), tilt)
+    mesh.add_handle(7, (span, 0, -0.5), (1, 1, -1))
     mesh.add_handle(8, (0, 0, -0.5), (-1, 1, -1))
     run = Solution(
         f"strip {layers} x {aspect}",
@@ -182,11 +208,11 @@ def strip(layers, aspect, element, length=None, skew=0.0, way=None, changes=None
         },
         steps=steps,
     )
-    compliance = length**3 / (3 * PLANE_STRAIN / 12) + length / (5 / 6 * E / (2 * (1 + NU)))
+    compliance = span**3 / (3 * PLANE_STRAIN / 12) + span / (5 / 6 * E / (2 * (1 + NU)))
     return 2 * run.work / way**2 * compliance - 1, run
 
 
-def elastic_strip():
+def elastic_strip() -> str:
     aspects, layers = ((1, 10), (1,)) if options.quick else ((1, 2.5, 5, 10, 100), (1, 2, 4))
     rows = [
         compare([n, f"{aspect:g} : 1"], lambda element: strip(n, aspect, element), claim="strip")
@@ -206,7 +232,7 @@ def elastic_strip():
     )
 
 
-def hinge(layers, aspect, element, length):
+def hinge(layers: int, aspect: float, element: str, length: float) -> tuple[float, Solution]:
     """Force at the end, over that of a plastic hinge."""
     yield_stress, n = 0.01 * E / length, 20  # so that deflections are 2 % of the length
     # three times that of first yield
@@ -227,15 +253,15 @@ def hinge(layers, aspect, element, length):
     return run.slope(way) * length / (2 / math.sqrt(3) * yield_stress / 4), run
 
 
-def plastic_strip():
+def plastic_strip() -> str:
     finest, short, issued = 8 if options.quick else 12, 10.0, 30.0
     right, before = hinge(finest, 1, AS, short)[0], hinge(finest // 2, 1, AS, short)[0]
 
-    def error(layers, aspect, element, length):
+    def error(layers: int, aspect: float, element: str, length: float) -> tuple[float, Solution]:
         force, run = hinge(layers, aspect, element, length)
         return force / right - 1, run
 
-    def row(n, aspect, length):
+    def row(n: int, aspect: float, length: float) -> list[object]:
         along, lever = round(length * n / aspect), aspect / n / (2 * length)
         return compare(
             [f"{2 * length:g}", n, f"{aspect:g} : 1", along, signed(1 / (1 - lever) - 1)],
@@ -270,7 +296,7 @@ def plastic_strip():
     )
 
 
-def skewed_strip():
+def skewed_strip() -> str:
     rows = [
         compare([f"{aspect} : 1"], lambda element: strip(1, aspect, element, 60.0, 0.5)) for aspect in (10, 5)
     ]
@@ -281,7 +307,7 @@ def skewed_strip():
     )
 
 
-def circle(n, aspect, element):
+def circle(n: int, aspect: float, element: str) -> tuple[float, float, Solution]:
     """Errors of the last step's moment and of the work of a strip of n bricks that is bent to a full
     circle."""
     length = float(n * aspect)
@@ -318,7 +344,7 @@ def circle(n, aspect, element):
     )
 
 
-def full_circle():
+def full_circle() -> str:
     rows = []
     for n, aspect in ((20, 10),) if options.quick else ((20, 10), (40, 10), (40, 5), (20, 30)):
         results = {element: circle(n, aspect, element) for element in ELEMENTS}
@@ -353,7 +379,17 @@ def full_circle():
 # Cook's membrane.
 
 
-def cook(n, element, nu, modulus, traction, far, changes=None, steps=1, pictures=False):
+def cook(
+    n: int,
+    element: str,
+    nu: float,
+    modulus: float,
+    traction: float,
+    far: float,
+    changes: Changes | None = None,
+    steps: int = 1,
+    pictures: bool = False,
+) -> Solution:
     side = numpy.linspace(0, 1, n + 1)
     mesh = Bricks(side, side, [0, 1], lambda x, y, z: (48 * x, 44 * x + y * (44 - 28 * x), z))
     return Solution(
@@ -368,12 +404,12 @@ def cook(n, element, nu, modulus, traction, far, changes=None, steps=1, pictures
     )
 
 
-def elastic_cook():
+def elastic_cook() -> str:
     rows, said = [], []
     finest = 32 if options.quick else 64
     for nu in (0.3, 0.4999):
 
-        def rise(n, element, nu=nu):
+        def rise(n: int, element: str, nu: float = nu) -> tuple[float, Solution]:
             run = cook(n, element, nu, 1.0, 2e-4 / 16, 10.0)
             return 2 * run.work / 4e-8, run  # mean of the loaded edge, for unit modulus and force
 
@@ -383,7 +419,12 @@ def elastic_cook():
             " dilatation)"
         )
 
-        def error(n, element, rise=rise, right=right):
+        def error(
+            n: int,
+            element: str,
+            rise: Callable[[int, str], tuple[float, Solution]] = rise,
+            right: float = right,
+        ) -> tuple[float, Solution]:
             found, run = rise(n, element)
             return found / right - 1, run
 
@@ -400,12 +441,12 @@ def elastic_cook():
     )
 
 
-def large_cook():
+def large_cook() -> str:
     # The springs' force falls by rise/far.
     right, far, modulus = 14.74, 1e3, 2.6 * 0.4225
     traction = 1 / 16 / (1 - right / far)
 
-    def error(n, element):
+    def error(n: int, element: str) -> tuple[float, Solution]:
         run = cook(
             n,
             element,
@@ -435,8 +476,8 @@ def large_cook():
     )
 
 
-def plastic_cook():
-    law = {
+def plastic_cook() -> str:
+    law: dict[str, object] = {
         **plastic(0.45, 0.12924),
         **{
             f"Bodies/body/Material/{key}": value
@@ -449,14 +490,14 @@ def plastic_cook():
     }
     far = 1e4
 
-    def rise(n, element):
+    def rise(n: int, element: str) -> tuple[float, Solution]:
         run = cook(n, element, 0.29, 206.9, 0.3125, far, law, 20, True)
         return (math.nan if run.failure else run.where((48, 60, 0))[1] - 60 + far), run
 
     finest = 16 if options.quick else 32
     right, before = rise(finest, AS)[0], rise(finest // 2, AS)[0]
 
-    def error(n, element):
+    def error(n: int, element: str) -> tuple[float, Solution]:
         found, run = rise(n, element)
         return found / right - 1, run
 
@@ -477,21 +518,22 @@ def plastic_cook():
 # MacNeal's and Harder's obstacle course.
 
 
-def share(error):
+def share(error: float) -> str:
     return number(1 + error, 3)
 
 
-def slender_beam(shape, load, element):
+def slender_beam(shape: str, load: str, element: str) -> tuple[float, Solution]:
     """Displacement or angle at the end of the beam of 6 x 0.2 x 0.1 over theory, less 1."""
     modulus = 1e7
 
-    def distort(x, y, z):
+    def distort(x: Array, y: Array, z: Array) -> Place:
         i = numpy.rint(x)
-        sign = numpy.where(
-            (i > 0) & (i < 6),
-            {"regular": 0, "parallelograms": 1, "trapezoids": numpy.where(i % 2 == 1, 1, -1)}[shape],
-            0,
-        )
+        signs: dict[str, Any] = {
+            "regular": 0,
+            "parallelograms": 1,
+            "trapezoids": numpy.where(i % 2 == 1, 1, -1),
+        }
+        sign = numpy.where((i > 0) & (i < 6), signs[shape], 0)
         return x + sign * z, y, z
 
     mesh = Bricks(range(7), [-0.05, 0.05], [-0.1, 0.1], distort)
@@ -510,7 +552,7 @@ def slender_beam(shape, load, element):
     return 2 * run.work / force**2 / right - 1, run
 
 
-def slender_beams():
+def slender_beams() -> str:
     rows = [
         compare([shape, load], lambda element: slender_beam(shape, load, element), share, stiffness=-1)
         for shape in ("regular", "parallelograms", "trapezoids")
@@ -534,8 +576,8 @@ def slender_beams():
     )
 
 
-def hemisphere(n, element):
-    def place(a, b, r):
+def hemisphere(n: int, element: str) -> tuple[float, Solution]:
+    def place(a: Array, b: Array, r: Array) -> Place:
         a, b = numpy.radians(a), numpy.radians(b)
         return r * numpy.cos(b) * numpy.cos(a), r * numpy.cos(b) * numpy.sin(a), r * numpy.sin(b)
 
@@ -558,8 +600,8 @@ def hemisphere(n, element):
     return way**2 / run.work / 0.094 - 1, run
 
 
-def pinched_cylinder(n, element):
-    def place(a, z, r):
+def pinched_cylinder(n: int, element: str) -> tuple[float, Solution]:
+    def place(a: Array, z: Array, r: Array) -> Place:
         return r * numpy.sin(numpy.radians(a)), r * numpy.cos(numpy.radians(a)), z
 
     mesh, way = (
@@ -581,8 +623,8 @@ def pinched_cylinder(n, element):
     return way**2 / (2 * run.work) / 4 / 1.8248e-5 - 1, run
 
 
-def twisted_beam(n, load, element):
-    def place(x, y, z):
+def twisted_beam(n: int, load: str, element: str) -> tuple[float, Solution]:
+    def place(x: Array, y: Array, z: Array) -> Place:
         c, s = numpy.cos(x / 12 * math.pi / 2), numpy.sin(x / 12 * math.pi / 2)
         return x, y * c - z * s, y * s + z * c
 
@@ -599,7 +641,7 @@ def twisted_beam(n, load, element):
     return 2 * run.work / right - 1, run
 
 
-def shells():
+def shells() -> str:
     many, finest = ((8, 16), 32) if options.quick else ((8, 16, 32), 64)
     fine = [share(solve(finest, AS)[0]) for solve in (hemisphere, pinched_cylinder)]
     rows = [
@@ -642,7 +684,7 @@ def shells():
 # Hardly compressible bodies, and a ring.
 
 
-def thick_cylinder(n, element):
+def thick_cylinder(n: int, element: str) -> tuple[float, Solution]:
     nu, inner, outer, way = 0.4999, 3.0, 9.0, 1e-4
     radii = numpy.interp(numpy.linspace(0, 5, 5 * n + 1), range(6), (3, 3.5, 4.2, 5.2, 6.75, 9))
     mesh = Bricks(
@@ -667,7 +709,7 @@ def thick_cylinder(n, element):
     return run.work / (0.5 * pressure * math.pi / 2 * inner * way) - 1, run
 
 
-def punch(n, element):
+def punch(n: int, element: str) -> tuple[float, Solution]:
     """Force over E, depth and width."""
     mesh, way = Bricks(numpy.linspace(0, 2, 2 * n + 1), [0, 1], numpy.linspace(0, 1, n + 1)), 1e-4
     mesh.rename(6, 7, lambda x, y, z: x < 1)
@@ -681,7 +723,7 @@ def punch(n, element):
     return 2 * run.work / way**2 / E, run
 
 
-def incompressible():
+def incompressible() -> str:
     finest = 16 if options.quick else 64
     fine, coarse, others = (
         punch(finest, AS)[0],
@@ -690,7 +732,7 @@ def incompressible():
     )
     right, other = 2 * fine - coarse, 2 * others[0] - others[1]
 
-    def error(n, element):
+    def error(n: int, element: str) -> tuple[float, Solution]:
         found, run = punch(n, element)
         return found / right - 1, run
 
@@ -714,7 +756,7 @@ def incompressible():
     )
 
 
-def ring(layers, around, element):
+def ring(layers: int, around: int, element: str) -> tuple[float, Solution]:
     """Force over E, way and width."""
     mesh = Bricks(
         numpy.linspace(9.5, 10.5, layers + 1),
@@ -733,11 +775,11 @@ def ring(layers, around, element):
     return 2 * run.work / way**2, run
 
 
-def rings():
+def rings() -> str:
     finest = (8, 64) if options.quick else (16, 128)
     right, before = ring(*finest, AS)[0], ring(finest[0] // 2, finest[1] // 2, AS)[0]
 
-    def error(layers, around, element):
+    def error(layers: int, around: int, element: str) -> tuple[float, Solution]:
         found, run = ring(layers, around, element)
         return found / right - 1, run
 
@@ -763,12 +805,12 @@ def rings():
 # Springback.
 
 
-def wipe(layers, size, element, points=2):
+def wipe(layers: int, size: float, element: str, points: int = 2) -> tuple[list[float], Solution]:
     """Angles of the flange under the roll and without it, in degrees, and the run. `points`: through the
     thickness of each brick."""
     mesh = Bricks(numpy.linspace(-6, 12, round(18 / size) + 1), [0, 1], numpy.linspace(0, 1, layers + 1))
     mesh.rename(6, 7, lambda x, y, z: x < -4)
-    tools = {
+    tools: dict[str, dict[str, object]] = {
         "die/Surfaces/face/": {
             "Shape": "extruded profile",
             "Corners": "-20, 0 ; 0, 0 : 4 ; 0, -20",
@@ -824,15 +866,15 @@ def wipe(layers, size, element, points=2):
     return angles, run
 
 
-def springback():
-    def spring(layers, size, element):
+def springback() -> str:
+    def spring(layers: int, size: float, element: str) -> tuple[float, Solution]:
         angles, run = wipe(layers, size, element)
         return (math.nan if run.failure else angles[0] - angles[1]), run
 
     finest = (4, 0.5) if options.quick else (6, 0.25)
     right, before = spring(*finest, AS)[0], spring(finest[0] - 2, finest[1], AS)[0]
 
-    def error(layers, size, element):
+    def error(layers: int, size: float, element: str) -> tuple[float, Solution]:
         found, run = spring(layers, size, element)
         return found / right - 1, run
 
@@ -844,7 +886,7 @@ def springback():
 
     scenes[f"Springback, two bricks, {sizes[-1]:g} long"] = lambda element: error(2, sizes[-1], element)
 
-    def with_points(layers, size, points):
+    def with_points(layers: int, size: float, points: int) -> list[object]:
         angles, run = wipe(layers, size, AS, points)
         seconds = number(run.seconds, 2)
         return (
@@ -884,7 +926,7 @@ def springback():
 # Free vibrations.
 
 
-def vibration(label, mesh, element, velocity, period):
+def vibration(label: str, mesh: Bricks, element: str, velocity: str, period: float) -> tuple[float, Solution]:
     """The period of explicit steps over the right one, less 1: from the kinetic energy, a + b cos 4πt/T + c
     sin 4πt/T but for what other modes have; and the run, of two periods."""
     run = Solution(
@@ -908,11 +950,11 @@ def vibration(label, mesh, element, velocity, period):
         return math.nan, run
     time, energy = (numpy.array([row[key] for row in run.rows]) for key in ("time", "kinetic_energy"))
 
-    def misfit(t):
+    def misfit(t: float) -> float:
         waves = numpy.column_stack(
             [numpy.ones_like(time), numpy.cos(4 * math.pi * time / t), numpy.sin(4 * math.pi * time / t)]
         )
-        return numpy.linalg.norm(energy - waves @ numpy.linalg.lstsq(waves, energy, rcond=None)[0])
+        return float(numpy.linalg.norm(energy - waves @ numpy.linalg.lstsq(waves, energy, rcond=None)[0]))
 
     tried = period * numpy.linspace(0.3, 2.0, 1701)
     near = tried[numpy.argmin([misfit(t) for t in tried])]
@@ -920,14 +962,14 @@ def vibration(label, mesh, element, velocity, period):
     return fine[numpy.argmin([misfit(t) for t in fine])] / period - 1, run
 
 
-def periods():
+def periods() -> str:
     e, density, shear = 1e3, 1e-3, 1e3 / 2.6
 
-    def bar(n, length, aspect):
+    def bar(n: int, length: float, aspect: float) -> Bricks:
         across = numpy.linspace(-0.5, 0.5, n + 1)
         return Bricks(across, across, numpy.linspace(0, length, round(length * n / aspect) + 1))
 
-    def bending(n, aspect, element):
+    def bending(n: int, aspect: float, element: str) -> tuple[float, Solution]:
         length, k = 20.0, 1.875104
         # Euler's beam with rotary inertia by Rayleigh's quotient, and shear by Dunkerley's formula.
         slow = (
@@ -947,7 +989,7 @@ def periods():
             period,
         )
 
-    def torsion(n, aspect, element):
+    def torsion(n: int, aspect: float, element: str) -> tuple[float, Solution]:
         length = 20.0
         period = 4 * length / math.sqrt(0.140577 * 6 * shear / density)
         turn = f"0.1*sin(pi*z/{2 * length})"
@@ -977,7 +1019,7 @@ def periods():
     )
 
 
-def laws():
+def laws() -> str:
     """The scenes again, with each law."""
     rows = []
     for name, solve in scenes.items():
@@ -998,7 +1040,7 @@ def laws():
     )
 
 
-def write_sections():
+def write_sections() -> Iterator[str]:
     for title, build in (
         ("Patch test", patch),
         ("Strip in bending, elastic", elastic_strip),

@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the benchmarks of elements share: meshes of bricks, runs of one body, parts of its scene."""
 
+from __future__ import annotations
+
 import math
 import signal
 import sys
 import tempfile
 from pathlib import Path
+from typing import Callable, Iterator, Sequence
 
 import numpy
 
-from billet_runs import PROGRAM, Measured, variant
-from billet_tools.output import read_grid, read_numbers
+from billet_runs import PROGRAM, Changes, Measured, variant
+from billet_tools.output import Array, Fields, read_grid, read_numbers
 from billet_tools.records import read_records, warnings_of
+
+Picture = tuple[Array, Array, Fields]  # where nodes are, where they were, all fields
 
 ELEMENTS = ("assumed strain", "mean dilatation", "one point")
 AS, MD, OP = ELEMENTS
@@ -32,7 +37,13 @@ class Bricks:
     """A grid over x, y, z as a mesh of bricks; boundary ids 1 to 6 at both ends along x, y and z. `place`
     moves its points, rows of x, y, z."""
 
-    def __init__(self, x, y, z, place=None):
+    def __init__(
+        self,
+        x: Sequence[float] | Array,
+        y: Sequence[float] | Array,
+        z: Sequence[float] | Array,
+        place: Callable[..., Sequence[Array]] | None = None,
+    ) -> None:
         counts = len(x), len(y), len(z)
         numbers = numpy.arange(math.prod(counts)).reshape(counts[::-1]).transpose()  # [i, j, k]
         self.points = numpy.array([(a, b, c) for c in z for b in y for a in x], float)
@@ -56,14 +67,14 @@ class Bricks:
                     for q in range(layer.shape[1] - 1)
                 ]
 
-    def rename(self, old, new, condition):
+    def rename(self, old: int, new: int, condition: Callable[..., bool]) -> None:
         """Another id for the faces of this one whose centre fulfils a condition."""
         self.faces = [
             (new if kind == old and condition(*self.points[face].mean(axis=0)) else kind, face)
             for kind, face in self.faces
         ]
 
-    def add_handle(self, kind, corner, size, across=2):
+    def add_handle(self, kind: int, corner: Sequence[float], size: Sequence[float], across: int = 2) -> None:
         """A brick from `corner` by `size` that shares an edge or a corner with the grid, and no more. Its
         face across an axis through `corner` gets the id: held by that, the handle moves as a rigid body, and
         holds what it shares."""
@@ -78,8 +89,8 @@ class Bricks:
         self.faces.append((kind, [cell[i] for i in ((0, 4, 7, 3), (0, 1, 5, 4), (0, 1, 2, 3))[across]]))
         self.cells.append(cell if math.prod(size) > 0 else cell[4:] + cell[:4])
 
-    def write(self, path):
-        def elements():
+    def write(self, path: str | Path) -> None:
+        def elements() -> Iterator[str]:
             for kind, face in self.faces:
                 yield f"3 2 {kind} {kind} " + " ".join(str(node + 1) for node in face)
             for cell in self.cells:
@@ -103,18 +114,18 @@ class Solution:
 
     def __init__(
         self,
-        label,
-        mesh,
-        element,
-        changes,
-        law=None,
-        modulus=E,
-        nu=NU,
-        steps=1,
-        pictures=False,
-        limit=None,
-        keep=None,
-    ):
+        label: str,
+        mesh: Bricks,
+        element: str,
+        changes: Changes,
+        law: str | None = None,
+        modulus: float = E,
+        nu: float = NU,
+        steps: int | None = 1,
+        pictures: bool = False,
+        limit: int | None = None,
+        keep: Path | None = None,
+    ) -> None:
         body, material = "Bodies/body/", "Bodies/body/Material/"
         scene = {
             body + "Mesh/Source": "file",
@@ -162,22 +173,22 @@ class Solution:
         )
 
     @staticmethod
-    def read(file):
+    def read(file: Path) -> Picture:
         fields = read_grid(file)
         return fields["points"], fields["points"] - fields["displacement"], fields
 
-    def where(self, point, picture=-1):
+    def where(self, point: Sequence[float], picture: int = -1) -> Array:
         """Where a node is that was at this point."""
         moved, start, _ = self.pictures[picture]
         return moved[abs(start - numpy.array(point)).max(axis=1).argmin()]
 
-    def slope(self, length=1.0):
+    def slope(self, length: float = 1.0) -> float:
         """Work per path in the last step; `length` is the path of all of the run."""
         last, before = self.rows[-1], self.rows[-2]
         return (last["external_work"] - before["external_work"]) / (last["time"] - before["time"]) / length
 
 
-def held(name, kind, components, displacement=None):
+def held(name: str, kind: object, components: str, displacement: str | None = None) -> dict[str, object]:
     path = f"Bodies/body/Supports/{name}/"
     return {
         path + "Boundary ids": kind,
@@ -186,11 +197,11 @@ def held(name, kind, components, displacement=None):
     }
 
 
-def planes(text):
+def planes(text: str) -> dict[str, object]:
     return {"Bodies/body/Symmetry planes": text}
 
 
-def plastic(yield_stress, hardening=0.0):
+def plastic(yield_stress: float, hardening: float = 0.0) -> dict[str, str]:
     return {
         "Bodies/body/Material/Law": "elastoplastic",
         "Bodies/body/Material/Yield stress": repr(yield_stress),
@@ -198,6 +209,6 @@ def plastic(yield_stress, hardening=0.0):
     }
 
 
-def signed(error):
+def signed(error: float) -> str:
     value = 100 * error
     return f"{value:+.{2 if abs(value) < 10 else 1 if abs(value) < 100 else 0}f}"

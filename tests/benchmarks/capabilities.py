@@ -2,9 +2,12 @@
 """What a scene pays for each capability that it asks for: instructions and memory, from one elastic body
 on."""
 
+from __future__ import annotations
+
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from billet_runs import PROGRAM, Measured, arguments, count_instructions, number, publish, table
 from billet_tools.output import read_rows
@@ -17,7 +20,7 @@ STEPS, FEW_STEPS = 3, 1
 END, SHORT_END = 1e-5, 2e-6
 
 
-def body(name, bottom, plastic, element, more):
+def body(name: str, bottom: str, plastic: bool, element: str, more: str) -> str:
     supports = {
         "lower": "set Symmetry planes = x = 0 ; y = 0 ; z = 0",
         "upper": "set Symmetry planes = x = 0 ; y = 0",
@@ -42,17 +45,17 @@ end
 
 
 def scene(
-    whole=True,
-    explicit=False,
-    plastic=False,
-    element="assumed strain",
-    tool=False,
-    friction=False,
-    second=False,
-    augmented=False,
-    edges=False,
-    self_contact=False,
-):
+    whole: bool = True,
+    explicit: bool = False,
+    plastic: bool = False,
+    element: str = "assumed strain",
+    tool: bool = False,
+    friction: bool = False,
+    second: bool = False,
+    augmented: bool = False,
+    edges: bool = False,
+    self_contact: bool = False,
+) -> str:
     push = (
         "subsection Loads\n subsection push\n set Type = pressure\n set Boundary ids = 5\n set Pressure ="
         f" 400*t/{END}\n end\n end"
@@ -119,7 +122,7 @@ class Run:
     """`instructions` of a run, without what libraries do before it; `rows` of capabilities.csv by name, the
     `last` of the history, `megabytes`."""
 
-    def __init__(self, text):
+    def __init__(self, text: str) -> None:
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
             (place / "scene.prm").write_text(text)
@@ -139,25 +142,28 @@ class Run:
             flush=True,
         )
 
-    def paid(self):
+    def paid(self) -> str:
         return ", ".join(name.lower() for name, row in self.rows.items() if row["calls"])
 
-    def counted(self):
+    def counted(self) -> float:
         return sum(row["bytes"] for row in self.rows.values()) / 1e6
 
-    def iterations(self):
+    def iterations(self) -> int:
         return int(self.last["total_iterations"])
 
-    def steps(self):
+    def steps(self) -> int:
         return int(self.last["step"])
 
 
-def runs_of(changes):
+def runs_of(changes: dict[str, Any]) -> tuple[Run, Run]:
     """The short run and the whole one."""
     return Run(scene(whole=False, **changes)), Run(scene(**changes))
 
 
-def static_rows(cases):
+Cases = list[tuple[str, dict[str, bool]]]  # a name, and what of scene() is true
+
+
+def static_rows(cases: Cases) -> list[list[object]]:
     rows, base = [], None
     for name, changes in cases:
         short, run = runs_of(changes)
@@ -180,7 +186,7 @@ def static_rows(cases):
     return rows
 
 
-def explicit_rows(cases):
+def explicit_rows(cases: Cases) -> list[list[object]]:
     rows, base = [], None
     for name, changes in cases:
         short, run = runs_of({"explicit": True, **changes})
@@ -203,7 +209,7 @@ def explicit_rows(cases):
     return rows
 
 
-STATIC = [
+STATIC: Cases = [
     ("one elastic body", {}),
     ("plastic", {"plastic": True}),
     ("against a tool", {"plastic": True, "tool": True}),
@@ -215,7 +221,7 @@ STATIC = [
         {"plastic": True, "tool": True, "friction": True, "second": True, "augmented": True},
     ),
 ]
-EXPLICIT = [
+EXPLICIT: Cases = [
     ("one elastic body", {}),
     ("plastic", {"plastic": True}),
     ("against a tool", {"plastic": True, "tool": True}),

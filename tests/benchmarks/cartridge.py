@@ -2,13 +2,17 @@
 """Cartridge in the chamber of a revolver: where contact comes to at which pressure, contact pressure along
 the axis, hoop strain of the case, penetration."""
 
+from __future__ import annotations
+
 import tempfile
 
 import matplotlib
 import numpy
+from numpy.typing import NDArray
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
 from explicit_runs import ExplicitRun
+from billet_tools.output import Array, Fields
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -20,7 +24,7 @@ PAIR = "case in chamber"
 NAME = "cartridge"
 
 
-def wall(z):
+def wall(z: Array) -> Array:
     """Thickness of the case; where its bottom is, that of the wall beside it."""
     return 0.9 - 0.62 * numpy.clip((z - 3) / 29, 0, 1)
 
@@ -29,7 +33,7 @@ class Picture:
     """Sides of the case and the chamber that face each other, in a picture: mean values over rings at the
     same height."""
 
-    def __init__(self, points, fields):
+    def __init__(self, points: Array, fields: Fields) -> None:
         start = points - fields["displacement"]
         radius = numpy.hypot(start[:, 0] - AXIS, start[:, 1])
         is_case = fields["body"] == 1
@@ -40,10 +44,10 @@ class Picture:
         self.strain = float(fields["equivalent_plastic_strain"][is_case].max())
 
     @staticmethod
-    def rings(start, fields, chosen):
+    def rings(start: Array, fields: Fields, chosen: NDArray[numpy.bool_]) -> dict[str, Array]:
         z, index = numpy.unique(start[chosen, 2].round(4), return_inverse=True)
 
-        def mean(values):
+        def mean(values: Array) -> Array:
             return numpy.bincount(index, values) / numpy.bincount(index)
 
         # Normal to the wall of the ring as it was.
@@ -57,15 +61,15 @@ class Picture:
             "hoop": mean(radial) / RADIUS,
         }
 
-    def hoop(self, z):
+    def hoop(self, z: float) -> float:
         return float(numpy.interp(z, self.case["z"], self.case["hoop"]))
 
-    def contact_from(self):
+    def contact_from(self) -> float | None:
         """Lowest ring most of which touches."""
         touched = self.case["z"][self.case["touched"] > 0.5]
         return float(touched.min()) if len(touched) else None
 
-    def contact_to(self):
+    def contact_to(self) -> float | None:
         touched = self.case["z"][self.case["touched"] > 0.5]
         return float(touched.max()) if len(touched) else None
 

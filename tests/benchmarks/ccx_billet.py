@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet in CalculiX: its mesh, its deck, its runs."""
 
+from __future__ import annotations
+
 import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Sequence
 
 from billet_runs import PENALTY, PROGRAM, SCENE, mesh, variant
-from ccx_decks import FACES, CcxJob, read_bricks
+from ccx_decks import FACES, Brick, CcxJob, Node, read_bricks
 
 NODES, FACES_CONTACT = "NODE TO SURFACE", "SURFACE TO SURFACE"
 
 
-def read_mesh(refinements):
+def read_mesh(refinements: int) -> tuple[list[Node], list[Brick]]:
     """Nodes and bricks (in VTK's order, which is Abaqus', too) of billet's mesh, from its fields at time
     0."""
     changes = {
@@ -30,10 +33,19 @@ def read_mesh(refinements):
     return read_bricks(text, 4)
 
 
-def write_deck(path, nodes, bricks, element, contact, friction, increment, part):
+def write_deck(
+    path: Path,
+    nodes: list[Node],
+    bricks: list[Brick],
+    element: str,
+    contact: str,
+    friction: float,
+    increment: float,
+    part: float,
+) -> None:
     """The deck of one eighth of the billet under a die that is one brick with all nodes prescribed, until
     that part of the travel."""
-    count = {}
+    count: dict[tuple[int, ...], int] = {}
     for brick in bricks:
         for face in FACES:
             key = tuple(sorted(brick[i] for i in face))
@@ -46,12 +58,12 @@ def write_deck(path, nodes, bricks, element, contact, friction, increment, part)
             if outer and not any(all(nodes[c][axis] < 1e-6 for c in corners) for axis in range(3)):
                 slave.append(f"{number_ + 1}, S{side + 1}")
 
-    def node_set(name, members):
+    def node_set(name: str, members: Sequence[int]) -> list[str]:
         lines = [", ".join(str(m + 1) for m in members[i : i + 12]) for i in range(0, len(members), 12)]
         return [f"*NSET, NSET={name}"] + lines
 
     first, wide, high = len(nodes), 40.0, 55.0
-    die = [
+    die: list[Node] = [
         (x, y, z) for z in (15.0, high) for x, y in ((-5.0, -5.0), (wide, -5.0), (wide, wide), (-5.0, wide))
     ]
     lines = ["*NODE, NSET=ALL"]
@@ -108,7 +120,17 @@ class CcxRun:
     `megabytes`, `iterations` (with those of cut increments), `steps`, `cuts`, `converged`, `times` and
     `forces` (on the whole billet, in kN, from time 0 on), as a run of billet has them."""
 
-    def __init__(self, nodes, bricks, element, contact, friction=0.1, increment=0.02, part=1.0, limit=None):
+    def __init__(
+        self,
+        nodes: list[Node],
+        bricks: list[Brick],
+        element: str,
+        contact: str,
+        friction: float = 0.1,
+        increment: float = 0.02,
+        part: float = 1.0,
+        limit: int | None = None,
+    ) -> None:
         with tempfile.TemporaryDirectory() as folder:
             write_deck(Path(folder, "deck.inp"), nodes, bricks, element, contact, friction, increment, part)
             job = CcxJob(folder, part, limit)

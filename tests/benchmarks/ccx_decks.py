@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the comparisons with CalculiX share: billet's mesh from its own output, runs of CalculiX."""
 
+from __future__ import annotations
+
 import base64
 import os
 import re
 import struct
 import zlib
 from pathlib import Path
+from typing import Any
 
 from billet_runs import Measured
+
+Node = tuple[float, ...]  # x, y, z
+Brick = list[int]  # numbers of its nodes
 
 CCX_ENVIRONMENT = {
     **os.environ,
@@ -20,11 +26,13 @@ CCX_ENVIRONMENT = {
 FACES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))  # S1 ... S6
 
 
-def data_array(text, name, form):
+def data_array(text: str, name: str, form: str) -> list[Any]:
     """The values of a DataArray as deal.II writes it: base64 of (blocks, size, last size, packed sizes), then
     zlib."""
     pattern = r'<DataArray[^>]*Name="' + name + r'"[^>]*>' if name else r"<Points>\s*<DataArray[^>]*>"
-    encoded = re.search(pattern + r"\s*(\S+)\s*</DataArray>", text).group(1)
+    found = re.search(pattern + r"\s*(\S+)\s*</DataArray>", text)
+    assert found, f"no data array {name}"
+    encoded = found[1]
     n_blocks = struct.unpack("<I", base64.b64decode(encoded[:8])[:4])[0]
     head_length = 4 * ((4 * (3 + n_blocks) + 2) // 3)
     packed_sizes = struct.unpack(
@@ -37,14 +45,16 @@ def data_array(text, name, form):
     return [value for value, in struct.iter_unpack("<" + form, values)]
 
 
-def read_bodies(text, digits):
+def read_bodies(text: str, digits: int) -> tuple[list[Node], list[list[Brick]]]:
     """Nodes, and the bricks (in VTK's order, which is Abaqus', too) of each body, of the fields that billet
     writes at time 0. Corners of a body that agree to so many decimals are one node."""
     flat = data_array(text, "", "f")
     points = list(zip(flat[0::3], flat[1::3], flat[2::3]))
     corners = data_array(text, "connectivity", "i")
     body_of = [int(body) for body in data_array(text, "body", "f")]
-    index, nodes, of_point = {}, [], []
+    index: dict[tuple[float, ...], int] = {}
+    nodes: list[Node] = []
+    of_point = []
     for point, body in zip(points, body_of):  # deal.II writes each brick's own corners
         place = tuple(round(x, digits) for x in point)
         key = (body,) + place
@@ -52,13 +62,13 @@ def read_bodies(text, digits):
             index[key] = len(nodes)
             nodes.append(place)
         of_point.append(index[key])
-    bodies = {body: [] for body in sorted(set(body_of))}
+    bodies: dict[int, list[Brick]] = {body: [] for body in sorted(set(body_of))}
     for i in range(0, len(corners), 8):
         bodies[body_of[corners[i]]].append([of_point[corner] for corner in corners[i : i + 8]])
     return nodes, list(bodies.values())
 
 
-def read_bricks(text, digits):
+def read_bricks(text: str, digits: int) -> tuple[list[Node], list[Brick]]:
     """The same of all bodies together."""
     nodes, bodies = read_bodies(text, digits)
     return nodes, [brick for bricks in bodies for brick in bricks]
@@ -69,8 +79,8 @@ class CcxJob:
     `iterations` (with those of cut increments), `steps`, `cuts`, the `time` until which it has come, and
     `failure`: why not farther."""
 
-    def __init__(self, folder, end, limit=None):
-        def records(name):
+    def __init__(self, folder: str | Path, end: float, limit: int | None = None) -> None:
+        def records(name: str) -> list[list[str]]:
             path = Path(folder, name)
             lines = [line.split() for line in path.read_text().splitlines()] if path.exists() else []
             return [words for words in lines if words and words[0].isdigit()]

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Contact patch test: stress errors of facets and passes where meshes do not match."""
 
+from __future__ import annotations
+
 import tempfile
 
 import numpy
@@ -15,7 +17,7 @@ PAIR = "Contact pairs/patch/"
 IDS = {"upper": "4", "lower": "5"}
 
 
-def cubes(n_lower, n_upper):
+def cubes(n_lower: int, n_upper: int) -> dict[str, str]:
     """Cubes of 2 mm, so many elements across."""
     return {
         "Bodies/lower/Mesh/Arguments": f"{n_lower}, {n_lower}, 4 : 0, 0, -2 : 2, 2, 0 : true",
@@ -23,7 +25,7 @@ def cubes(n_lower, n_upper):
     }
 
 
-def block_on_slab(n_lower, n_upper):
+def block_on_slab(n_lower: int, n_upper: int) -> dict[str, str]:
     """The upper cube on a slab of 4 mm that is pressed as much beside it. All of its top may be touched."""
     n = 2 * n_lower
     return {
@@ -36,7 +38,7 @@ def block_on_slab(n_lower, n_upper):
     }
 
 
-def run(geometry, facets, passes, slave, penalty=10):
+def run(geometry: dict[str, str], facets: str, passes: str, slave: str, penalty: float = 10) -> list[object]:
     master = "lower" if slave == "upper" else "upper"
     ids = dict(IDS, lower="5, 6") if geometry.get("Bodies/lower/Loads/beside/Type") else IDS
     with tempfile.TemporaryDirectory() as folder:
@@ -102,7 +104,7 @@ HEAD = [
 ]
 
 
-def rows(geometry):
+def rows(geometry: dict[str, str]) -> list[list[object]]:
     return [
         [facets, passes, "both" if passes == "two" else slave] + run(geometry, facets, passes, slave)
         for facets, passes, slave in METHODS

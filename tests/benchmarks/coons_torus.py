@@ -4,13 +4,16 @@
 Angles are those of billet's shape `torus`: in the tube's section 0 away from the axis and 90 along it; around
 the axis from x."""
 
+from __future__ import annotations
+
 import argparse
 import math
+from typing import Any, Sequence
 
 
-def parsed():
+def parsed() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
-    number = {"type": float, "metavar": "X"}
+    number: dict[str, Any] = {"type": float, "metavar": "X"}
     parser.add_argument(
         "--centre", type=float, nargs=3, default=[0.0, 0.0, 0.0], metavar="X", help="of the ring"
     )
@@ -40,10 +43,10 @@ def parsed():
     return options
 
 
-def main():
+def main() -> None:
     options = parsed()
 
-    def point(around, along):
+    def point(around: float, along: float) -> str:
         """In parts of the sector and of the tube's angle."""
         turn = math.radians(options.start + around * options.sector)
         angle = math.radians(options.from_angle + along * (options.to_angle - options.from_angle))
@@ -51,7 +54,7 @@ def main():
         offset = (radius * math.cos(turn), radius * math.sin(turn), options.tube * math.sin(angle))
         return ", ".join(repr(c + d) for c, d in zip(options.centre, offset))
 
-    def arc(start, end):
+    def arc(start: Sequence[float], end: Sequence[float]) -> str:
         middle = [0.5 * (a + b) for a, b in zip(start, end)]
         return f"arc: {point(*start)} via {point(*middle)} to {point(*end)}"
 

@@ -2,19 +2,23 @@
 """Crushed bodies with each element: perturbed meshes, closed forms, finer meshes, billet, Taylor's bar,
 necking, a closed die."""
 
+from __future__ import annotations
+
 import math
 import os
 import tempfile
 import textwrap
 from pathlib import Path
+from typing import Any, Iterable, Mapping
 
 import matplotlib
 import numpy
 from scipy.spatial import cKDTree
 
-from billet_runs import ROOT, Run, arguments, fixed_steps, mesh, n_elements, number, publish, table
-from brick_runs import AS, E, ELEMENTS, MD, OP, Bricks, Solution, held, planes, plastic, signed
+from billet_runs import ROOT, Changes, Run, arguments, fixed_steps, mesh, n_elements, number, publish, table
+from brick_runs import AS, E, ELEMENTS, MD, OP, Bricks, Picture, Solution, held, planes, plastic, signed
 from explicit_runs import ExplicitRun, norm
+from billet_tools.output import Array
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -34,7 +38,7 @@ TIMES = {
 }
 HARDENING, PERFECT = "plastic, hardening", "perfectly plastic"
 HEIGHTS_OF_GAPS = {0.65: 1.4, 0.6: 1.6, 0.55: 1.8}
-LAWS = {
+LAWS: dict[str, tuple[str, float, Mapping[str, str]]] = {
     "neo-Hookean, ν = 0.3": ("neo-Hookean", 0.3, {}),
     "neo-Hookean, ν = 0.4999": ("neo-Hookean", 0.4999, {}),
     "Hencky, ν = 0.3": ("Hencky", 0.3, {}),
@@ -45,12 +49,15 @@ LAWS = {
 SOFT_LAW = "neo-Hookean, ν = 0.3"
 
 
-def kept(label):
+def kept(label: str) -> Path | None:
     return Path(KEEP, "".join(c if c.isalnum() or c in ".-" else "_" for c in label)) if KEEP else None
 
 
-def solve(label, bricks, element, changes, law=HARDENING, **settings):
+def solve(
+    label: str, bricks: Bricks, element: str, changes: Changes, law: str = HARDENING, **settings: Any
+) -> Solution:
     kinematics, nu, material = LAWS[law]
+    run_settings: dict[str, Any] = {"nu": nu, "steps": None, "pictures": True, "limit": 280, **settings}
     return Solution(
         f"{label}, {law}",
         bricks,
@@ -58,11 +65,13 @@ def solve(label, bricks, element, changes, law=HARDENING, **settings):
         {**TIMES, **material, **changes},
         law=kinematics,
         keep=kept(f"{label}-{law}-{element}"),
-        **{"nu": nu, "steps": None, "pictures": True, "limit": 280, **settings},
+        **run_settings,
     )
 
 
-def tool(name, shape, way, faces, friction=0.0, **pairing):
+def tool(
+    name: str, shape: Mapping[str, object], way: str, faces: object, friction: float = 0.0, **pairing: object
+) -> dict[str, object]:
     """Changes for a rigid tool and its contact with these faces of the body."""
     path, pair = f"Tools/{name}/", f"Contact pairs/{name}/"
     return {
@@ -78,35 +87,35 @@ def tool(name, shape, way, faces, friction=0.0, **pairing):
     }
 
 
-def plane(point, normal):
+def plane(point: str, normal: str) -> dict[str, object]:
     return {"Shape": "plane", "Point": point, "Normal": normal}
 
 
 TOP = plane("0, 0, 1", "0, 0, -1")
 
 
-def reached(run, time):
+def reached(run: Solution, time: float) -> bool:
     return bool(run.rows) and run.rows[-1]["time"] > time - 1e-6
 
 
-def history(run, key, time):
+def history(run: Solution, key: str, time: float) -> float:
     """NaN if the run has not come so far."""
     return min(run.rows, key=lambda row: abs(row["time"] - time))[key] if reached(run, time) else math.nan
 
 
-def height_reached(run):
+def height_reached(run: Solution) -> float:
     return 1 - 0.25 * run.rows[-1]["time"] if run.rows else 1.0
 
 
-def shown(error):
+def shown(error: float) -> str:
     return "–" if math.isnan(error) else signed(error)
 
 
-def small(value):
+def small(value: float) -> str:
     return number(float(value), 2)
 
 
-def beside(finest):
+def beside(finest: Iterable[float]) -> tuple[float, str]:
     """Mean of values that two elements give on a finer mesh, and half their difference over it, shown."""
     there = [value for value in finest if not math.isnan(value)]
     right = sum(there) / len(there) if there else math.nan
@@ -114,15 +123,15 @@ def beside(finest):
     return right, "–" if math.isnan(spread) else f"± {100 * spread:.2g}"
 
 
-claims = {}  # of assumed strains: the worst of what was found, its limit
+claims: dict[str, tuple[float, float]] = {}  # of assumed strains: the worst of what was found, its limit
 
 
-def claim(text, found, limit):
+def claim(text: str, found: float, limit: float) -> None:
     worst, _ = claims.get(text, (0.0, limit))
     claims[text] = (math.nan if math.isnan(found) or math.isnan(worst) else max(abs(found), worst)), limit
 
 
-def what_is_wanted():
+def what_is_wanted() -> str:
     return table(
         ["of assumed strains", "limit", "found", "holds"],
         [
@@ -132,14 +141,14 @@ def what_is_wanted():
     )
 
 
-def notes(runs):
+def notes(runs: Mapping[str, Solution]) -> str:
     """What runs warn of, and how they fail, in short."""
     return (
         "; ".join(f"{element}: {', '.join(run.keys)}" for element, run in runs.items() if run.keys) or "none"
     )
 
 
-def wrapped(text):
+def wrapped(text: str) -> str:
     """Prose in lines of 100 characters; tables, headings and pictures as they are."""
     return "\n\n".join(
         (
@@ -154,17 +163,18 @@ def wrapped(text):
 # Meshes, and what a deformation of them looks like.
 
 
-def block(n, moved, seed=1):
+def block(n: int, moved: float, seed: int = 1) -> Bricks:
     """A unit cube of n x n x n bricks; its nodes are moved at random by up to so much of an edge, those of
     the surface within it."""
-    bricks, generator = Bricks(*3 * [numpy.linspace(0, 1, n + 1)]), numpy.random.RandomState(seed)
+    along = numpy.linspace(0, 1, n + 1)
+    bricks, generator = Bricks(along, along, along), numpy.random.RandomState(seed)
     for axis in range(3):
         inner = abs(bricks.points[:, axis] - 0.5) < 0.5 - 1e-9
         bricks.points[inner, axis] += moved / n * generator.uniform(-1, 1, inner.sum())
     return bricks
 
 
-def flat_block(n, moved):
+def flat_block(n: int, moved: float) -> Bricks:
     """The same for plane strain: n x 1 x n bricks, in which both layers of nodes move alike."""
     bricks, moves = Bricks(
         numpy.linspace(0, 1, n + 1), [0, 1], numpy.linspace(0, 1, n + 1)
@@ -181,7 +191,7 @@ class Waves:
     mean squares of the hourglass amplitudes of the bricks: the part that alternates from each brick to its
     neighbours, and the other one."""
 
-    def __init__(self, bricks, n, picture):
+    def __init__(self, bricks: Bricks, n: int, picture: Picture) -> None:
         moved, start, _ = picture
         _, where = cKDTree(start).query(bricks.points)
         u, X = (moved - start)[where], bricks.points
@@ -213,7 +223,7 @@ class Waves:
 # Frictionless between plates.
 
 
-def bar(law, stretch):
+def bar(law: str, stretch: float) -> float:
     """Of a bar pressed without friction: Kirchhoff stress along it, over the closed forms of the laws."""
     kinematics, nu, material = LAWS[law]
     strain = math.log(stretch)
@@ -233,7 +243,9 @@ def bar(law, stretch):
     return G * J ** (-2 / 3) * (along - mean) + K * math.log(J)
 
 
-def between_plates(n, moved, law, element, pairing):
+def between_plates(
+    n: int, moved: float, law: str, element: str, pairing: Mapping[str, Any]
+) -> tuple[Solution, dict[float, tuple[float, Waves]]]:
     bricks = block(n, moved)
     run = solve(
         f"plates {n} {moved}{' uneven' if pairing else ''}",
@@ -251,7 +263,7 @@ def between_plates(n, moved, law, element, pairing):
     return run, found
 
 
-def plates():
+def plates() -> str:
     cases = [(4, moved) for moved in (1e-6, 0.05, 0.2)] + ([] if options.quick else [(8, 0.2)])
     rows = []
     for law in LAWS:
@@ -293,7 +305,7 @@ def plates():
     )
 
 
-def uneven():
+def uneven() -> str:
     rows = []
     for law in LAWS:
         runs = {
@@ -337,7 +349,7 @@ def uneven():
 RIPPLE = 0.02
 
 
-def walled(n, waves, moved, law, element):
+def walled(n: int, waves: float, moved: float, law: str, element: str) -> tuple[Solution, list[float]]:
     """All normal displacements of a cube are given, as of plane strain without change of volume; the wall x =
     1 has a ripple of so many half waves, straight between its crests."""
     bricks = block(n, moved)
@@ -370,7 +382,7 @@ def walled(n, waves, moved, law, element):
     return run, found
 
 
-def walls():
+def walls() -> str:
     rows = []
     for law in LAWS:
         runs = [walled(4, 4, 0.2, law, element) for element in ELEMENTS]
@@ -398,9 +410,11 @@ def walls():
 # Rough plates.
 
 
-def rough(n, moved, law, element, flat=True, until=3, sides=True):
+def rough(
+    n: int, moved: float, law: str, element: str, flat: bool = True, until: float = 3, sides: bool = True
+) -> tuple[Solution, Bricks]:
     """`sides`: they touch the plane, too, as soon as they reach it."""
-    bricks = (flat_block if flat else block)(n, moved)
+    bricks = flat_block(n, moved) if flat else block(n, moved)
     faces = "6" if not sides else "2, 6" if flat else "2, 4, 6"
     run = solve(
         f"rough {'flat' if flat else 'solid'} {n} {moved}{'' if sides else ' no sides'}",
@@ -417,7 +431,7 @@ def rough(n, moved, law, element, flat=True, until=3, sides=True):
     return run, bricks
 
 
-def curve(run, times):
+def curve(run: Solution, times: Array) -> tuple[Array, Array]:
     """Force and contact area at these times, NaN where the run did not come; forces grow exponentially
     between steps."""
     own = [row["time"] for row in run.rows]
@@ -432,7 +446,7 @@ class Curves:
     force's error, and the mean errors of the contact area and of the force per contact area, with their
     signs."""
 
-    def __init__(self, run, fine, first, last):
+    def __init__(self, run: Solution, fine: Iterable[Solution], first: float, last: float) -> None:
         times = numpy.linspace(first, last, round((last - first) / 0.05) + 1)
         right, area = numpy.nanmean([curve(f, times) for f in fine], axis=0)
         own, own_area = curve(run, times)
@@ -441,7 +455,7 @@ class Curves:
         self.area = (own_area / area - 1)[known].mean() if known.any() else math.nan
         self.pressure = (own / own_area / (right / area) - 1)[known].mean() if known.any() else math.nan
 
-    def __str__(self):
+    def __str__(self) -> str:
         return (
             "–"
             if math.isnan(self.force)
@@ -455,7 +469,7 @@ CURVES = (
 )
 
 
-def rough_flat():
+def rough_flat() -> str:
     rows, along, pictures = [], [], {}
     for law in (SOFT_LAW, HARDENING, PERFECT):
         finest = 8 if options.quick else 16 if law == PERFECT else 32
@@ -541,7 +555,13 @@ def rough_flat():
     )
 
 
-def draw(runs):
+def in_turn(points: Array, face: list[int]) -> list[int]:
+    """The corners of a face in the x-z plane, one after the other around its centre."""
+    centre = points[face].mean(axis=0)
+    return sorted(face, key=lambda p: math.atan2(points[p, 2] - centre[2], points[p, 0] - centre[0]))
+
+
+def draw(runs: Mapping[str, Solution]) -> None:
     figure, axes = pyplot.subplots(
         2, len(runs), figsize=(12, 4.5), squeeze=False, sharex="row", sharey="row", constrained_layout=True
     )
@@ -553,15 +573,7 @@ def draw(runs):
                 moved, start, fields = run.pictures[round(5 * time)]
                 cells = [range(i, i + 8) for i in range(0, len(moved), 8)]
                 faces = [[p for p in cell if abs(start[p, 1]) < 1e-6] for cell in cells]
-                around = [
-                    sorted(
-                        face,
-                        key=lambda p, c=moved[face].mean(axis=0): math.atan2(
-                            moved[p, 2] - c[2], moved[p, 0] - c[0]
-                        ),
-                    )
-                    for face in faces
-                ]
+                around = [in_turn(moved, face) for face in faces]
                 strain = numpy.array([fields["equivalent_plastic_strain"][face].mean() for face in faces])
                 collection = PolyCollection(
                     [moved[face][:, (0, 2)] for face in around],
@@ -578,7 +590,7 @@ def draw(runs):
     pyplot.close(figure)
 
 
-def rough_solid():
+def rough_solid() -> str:
     rows, along, gaps, n = [], [], [], 4
     for law, until, low in (
         ((SOFT_LAW, 3, 0.25),) if options.quick else ((SOFT_LAW, 3, 0.25), (HARDENING, 2.4, 0.4))
@@ -666,7 +678,7 @@ def rough_solid():
     return text
 
 
-def rough_free():
+def rough_free() -> str:
     rows = []
     fine = [rough(16, 1e-6, HARDENING, element, until=2, sides=False)[0] for element in (AS, OP)]
     right, spread = beside([history(f, "press.force_z", 2) for f in fine])
@@ -703,7 +715,7 @@ def rough_free():
 # Known scenes.
 
 
-def billet():
+def billet() -> str:
     finest = 2 if options.quick else 3
     runs = {
         (element, r): Run(
@@ -738,7 +750,7 @@ def billet():
     )
 
 
-def taylor():
+def taylor() -> str:
     rows, beyond = [], []
     for refinements in (1, 2, 3) if options.large else (1, 2):
         for element in ELEMENTS:
@@ -784,7 +796,9 @@ def taylor():
     )
 
 
-def neck_run(refinements, layers, element):
+def neck_run(
+    refinements: int, layers: int, element: str
+) -> tuple[Solution, dict[int, float], dict[int, float]]:
     """Simo's bar, an eighth of it: radius 6.413, half length 26.667, in kN and mm; layers are finer towards
     the neck."""
     radius, half, material = 6.413, 26.667, "Bodies/body/Material/"
@@ -843,7 +857,7 @@ def neck_run(refinements, layers, element):
     return run, found, forces
 
 
-def neck():
+def neck() -> str:
     meshes, finest = ((1, 10), (2, 20)), (2, 20) if options.quick else (3, 24)
     _, radii, forces = neck_run(*finest, AS)
     rows = []
@@ -887,7 +901,7 @@ def neck():
 # A closed die.
 
 
-def die(n, law, element):
+def die(n: int, law: str, element: str) -> tuple[Solution, list[float]]:
     """A unit cube in a box of 1.25 x 1.25: a ram goes down until the box has 1.001 times the volume of the
     cube."""
     last = 1.001 / 1.25**2
@@ -917,7 +931,7 @@ def die(n, law, element):
     return run, ratios
 
 
-def volume(corners):
+def volume(corners: Array) -> float:
     """Of a trilinear brick, by eight points."""
     x, y, z = numpy.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]).T
     total = 0.0
@@ -933,7 +947,7 @@ def volume(corners):
     return total
 
 
-def closed_die():
+def closed_die() -> str:
     rows = []
     for law in (HARDENING, PERFECT):
         fine = [] if options.quick else [die(8, law, element) for element in (AS, MD)]
@@ -997,7 +1011,7 @@ LOCAL = {
 }
 
 
-def local(kind, n, law, element):
+def local(kind: str, n: int, law: str, element: str) -> tuple[Solution, dict[float, float]]:
     shape, direction, way, faces = LOCAL[kind]
     unit = numpy.array(direction) / numpy.linalg.norm(direction)
     motion = " ; ".join(f"{way * c!r}*t" for c in unit.tolist())
@@ -1020,7 +1034,7 @@ def local(kind, n, law, element):
     }
 
 
-def locally():
+def locally() -> str:
     rows = []
     for kind in LOCAL:
         for law in (HARDENING,):

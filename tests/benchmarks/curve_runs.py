@@ -2,6 +2,8 @@
 """Runs of any scene, their cost, and the errors of their curves: what benchmarks of profiles and target
 errors share."""
 
+from __future__ import annotations
+
 import copy
 import csv
 import functools
@@ -11,19 +13,22 @@ from bisect import bisect_right
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Iterable, Sequence
 
-from billet_runs import PROGRAM, ROOT, read_scene, variant  # finds billet_tools, too
+from billet_runs import PROGRAM, ROOT, Changes, read_scene, variant  # finds billet_tools, too
 from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
 from billet_tools.output import read_estimates, read_rows
 from billet_tools.program import COMPLETED, FAILED, Measured, command_of
 from billet_tools.scene import with_absolute_files
 
+Curves = dict[str, list[tuple[float, ...]]]  # vectors at the times of a run, by name
+
 KEPT = ROOT / "results/runs"
-_asked = Counter()  # what this process runs several times, to time it, runs as often
+_asked: Counter[str] = Counter()  # what this process runs several times, to time it, runs as often
 
 
 @functools.lru_cache(maxsize=1)
-def program_hash():
+def program_hash() -> str:
     return hash_of_file(Path(PROGRAM))
 
 
@@ -34,7 +39,9 @@ class CurveRun:
     scenes element updates), what it `believed` (error_estimate.csv), what was `said`, and its `failure`. Kept
     in results/runs, where the same run of the same program is found again."""
 
-    def __init__(self, scene, changes, ranks=1):
+    timed = False  # once more, alone
+
+    def __init__(self, scene: Path, changes: Changes, ranks: int = 1) -> None:
         text = variant(
             with_absolute_files(read_scene(scene), scene.parent),
             {"Output/Format": "none", "Output/Verbosity": "steps", "Output/Folder": "results", **changes},
@@ -58,7 +65,7 @@ class CurveRun:
             flush=True,
         )
 
-    def _run(self, text, ranks):
+    def _run(self, text: str, ranks: int) -> None:
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
             (place / "scene.prm").write_text(text)
@@ -72,11 +79,11 @@ class CurveRun:
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]
         self.times = [float(row["time"]) for row in rows]
         names = [key[: -len(".force_x")] for key in (rows[0] if rows else {}) if key.endswith(".force_x")]
-        self.forces = {
+        self.forces: Curves = {
             name: [tuple(float(row[f"{name}.force_{axis}"]) for axis in "xyz") for row in rows]
             for name in names
         }
-        self.energies = {
+        self.energies: Curves = {
             "kinetic": [(float(row.get("kinetic_energy", 0.0)),) for row in rows],
             "stored or dissipated": [
                 (
@@ -99,7 +106,7 @@ class CurveRun:
             else (int(rows[-1]["total_iterations"]) if rows else 0)
         )
 
-    def at(self, name, time):
+    def at(self, name: str, time: float) -> tuple[float, ...]:
         """The curve's value, straight lines between the rows, from zero at time 0."""
         times, curve = self.times, self.curves[name]
         i = bisect_right(times, time)
@@ -111,13 +118,13 @@ class CurveRun:
         return tuple(a + part * (b - a) for a, b in zip(before, curve[i]))
 
 
-def run_all(scene, variants, ranks=1, at_once=3):
+def run_all(scene: Path, variants: Iterable[Changes], ranks: int = 1, at_once: int = 3) -> list[CurveRun]:
     """A CurveRun of each of these changes, in their order."""
     with ThreadPoolExecutor(at_once) as pool:
         return list(pool.map(lambda changes: CurveRun(scene, changes, ranks), variants))
 
 
-def error(run, reference):
+def error(run: CurveRun, reference: CurveRun) -> float:
     """∫Σ|F − F*| dt over ∫Σ|F*| dt at the ends of the run's steps, by the trapezoidal rule, over all
     curves."""
     if not run.finished or not run.times:
@@ -133,7 +140,7 @@ def error(run, reference):
         )
         size.append(sum(sum(b * b for b in exact[name]) ** 0.5 for name in run.curves))
 
-    def integral(values):
+    def integral(values: Sequence[float]) -> float:
         return sum(
             0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], run.times, run.times[1:])
         )
@@ -141,25 +148,25 @@ def error(run, reference):
     return integral(off) / integral(size) if integral(size) > 0 else float("nan")
 
 
-def impulses(run):
+def impulses(run: CurveRun) -> Curves:
     """∫F dt of each tool and pair until each of the run's times, by the trapezoidal rule."""
     result = {}
     for name, forces in run.forces.items():
-        sums = [(0.0, 0.0, 0.0)]
+        sums: list[tuple[float, ...]] = [(0.0, 0.0, 0.0)]
         for s, t, a, b in zip(run.times, run.times[1:], forces, forces[1:]):
             sums.append(tuple(total + 0.5 * (t - s) * (x + y) for total, x, y in zip(sums[-1], a, b)))
         result[name] = sums
     return result
 
 
-def with_curves(run, curves):
+def with_curves(run: CurveRun, curves: Curves) -> CurveRun:
     """The run with other curves, for error()."""
     run = copy.copy(run)
     run.curves = curves
     return run
 
 
-def write_csv(name, head, rows):
+def write_csv(name: str, head: Iterable[str], rows: Iterable[Iterable[object]]) -> None:
     """doc/results/NAME.csv."""
     with open(ROOT / "doc/results" / f"{name}.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")

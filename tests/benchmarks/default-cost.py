@@ -2,11 +2,24 @@
 """What the default element and the default contact cost: every shipped scene, beside the same with mean
 dilatation and penalties alone, the defaults of before."""
 
+from __future__ import annotations
+
 import re
 import tempfile
 from pathlib import Path
 
-from billet_runs import PROGRAM, ROOT, Measured, arguments, number, publish, read_scene, table, variant
+from billet_runs import (
+    PROGRAM,
+    ROOT,
+    Changes,
+    Measured,
+    arguments,
+    number,
+    publish,
+    read_scene,
+    table,
+    variant,
+)
 from billet_tools.output import read_rows
 from billet_tools.program import ALONE
 from billet_tools.scene import read_entries, with_absolute_files
@@ -17,7 +30,7 @@ LIMIT = 1.15  # of the iterations
 ENDS = {"cartridge": 1e-4, "tube_crush": 2e-4, "tube_impact": 2e-4, "taylor_bar": 2e-5}
 
 
-def run(path, changes):
+def run(path: Path, changes: Changes) -> tuple[int, int, float, float, int]:
     text = variant(
         with_absolute_files(read_scene(path), path.parent),
         {
@@ -47,7 +60,7 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
     is_explicit = entries.get("Time stepping/Scheme") == "explicit"
     if options.quick and path.stem not in ("billet_upsetting", "taylor_bar"):
         continue
-    changes = (
+    changes: dict[str, object] = (
         {"Time stepping/End time": ENDS[path.stem], "Time stepping/Stops": None} if path.stem in ENDS else {}
     )
     bodies = {key.split("/")[1] for key in entries if key.startswith("Bodies/")}

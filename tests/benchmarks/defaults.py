@@ -2,10 +2,14 @@
 """How far the defaults are off: every shipped scene without any numerical parameter, beside a mesh twice as
 fine with small steps and tight contact."""
 
+from __future__ import annotations
+
 import csv
 import math
 import re
 import subprocess
+from pathlib import Path
+from typing import Mapping
 
 # finds billet_tools, too
 from billet_runs import PROGRAM, ROOT, arguments, number, percent, program_hash, publish, read_scene, table
@@ -71,10 +75,10 @@ OF_ENERGY = ("hollow_block",)
 SAME = ("patch_test", "patch_test_cut")  # a uniform stress, which any mesh has
 
 
-def numerical(entries):
+def numerical(entries: Mapping[str, str]) -> dict[str, object]:
     """What the scene sets and need not: {key: None}."""
 
-    def is_numerical(key):
+    def is_numerical(key: str) -> bool:
         section, name = key.split("/")[0], key.split("/")[-1]
         if section == "Bodies":
             return name in DROPPED
@@ -85,14 +89,14 @@ def numerical(entries):
     return {key: None for key in entries if is_numerical(key)}
 
 
-def tight(entries, depth):
+def tight(entries: Mapping[str, object], depth: float | None) -> dict[str, object]:
     """Small steps, and contact that hardly gives way: augmented to this `depth`, in facet sizes, or, without
     one, as it is by itself."""
     names = sorted({key.split("/")[1] for key in entries if key.startswith("Contact pairs/")})
-    end = float(entries.get("Time stepping/End time", 1))
+    end = float(str(entries.get("Time stepping/End time", 1)))
     scheme = entries.get("Time stepping/Scheme", "quasi-static")
     if scheme != "quasi-static":
-        in_place_of = (
+        in_place_of: dict[str, object] = (
             {}
             if scheme == "explicit"
             else {
@@ -132,13 +136,16 @@ HEAD = [
 ]
 
 
-def measure(path, parameters):
+def measure(path: Path, parameters: str) -> dict[str, str]:
     """Runs a scene by its defaults and beside its reference: a row of defaults.csv."""
     entries = read_entries(path)
     bare = numerical(entries)
     if path.stem in ENDS:
         bare |= {"Time stepping/End time": ENDS[path.stem], "Time stepping/Stops": None}
-    shortened = {**entries, **{key: value for key, value in bare.items() if value is not None}}
+    shortened: dict[str, object] = {
+        **entries,
+        **{key: value for key, value in bare.items() if value is not None},
+    }
     coarser = COARSER.get(path.stem)
     finer = {} if coarser or path.stem in SAME else make_mesh(Scene(read_scene(path), parameters), "2")
     run = CurveRun(path, {**bare, **(coarser or {})}, options.ranks)
@@ -171,7 +178,7 @@ def measure(path, parameters):
     return dict(zip(HEAD, map(str, values)))
 
 
-def verdict(row):
+def verdict(row: dict[str, str]) -> str:
     """Judges a row: within the limit, told by a warning, or missed."""
     if row["finished"] != "True":
         return "stops: " + row["stopped"]
@@ -182,7 +189,7 @@ def verdict(row):
     return "told" if row["warnings"] else "missed"
 
 
-def table_row(row):
+def table_row(row: dict[str, str]) -> list[object]:
     """Returns the cells of the page's table."""
     scene = row["scene"]
     changed = [f"until {ENDS[scene]:g}"] if scene in ENDS else []

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The billet between elastic dies: how the force comes to that of rigid ones as the dies grow stiff."""
 
+from __future__ import annotations
+
 import tempfile
 from pathlib import Path
 
 from billet_runs import (
     ROOT,
+    Changes,
     Run,
     arguments,
     curve_error,
@@ -31,20 +34,20 @@ IN_FIXED_STEPS.write_text(variant(read_scene(SCENE), {"Time stepping/Maximum ste
 rigid = Run(fixed_steps(50), options.ranks)
 
 
-def die(ratio):
+def die(ratio: float) -> dict[str, object]:
     return {"Bodies/die/Material/Young modulus": ratio * E}
 
 
-def method(facets, passes):
+def method(facets: str, passes: str) -> dict[str, object]:
     return {PAIR + "Facets": facets, PAIR + "Passes": passes}
 
 
-def line(*changes):
+def line(*changes: Changes) -> list[object]:
     """Figures of a run in the rigid one's steps."""
     joined = {key: value for change in changes for key, value in change.items()}
     run = Run({**joined, **LOADED}, options.ranks, IN_FIXED_STEPS, "billet on die")
     if not run.converged:
-        return [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 4
+        return [f"{run.failure} at {number(run.times[-1])}", *["–"] * 4]
     difference = max(abs(f / g - 1) for f, g in zip(run.forces[1:], rigid.forces[1:]))
     return [
         number(run.forces[-1], 4),
@@ -55,14 +58,14 @@ def line(*changes):
     ]
 
 
-def at_ease(*changes):
+def at_ease(*changes: Changes) -> list[object]:
     """Figures of the scene as it is, in automatic steps, with the way up."""
     joined = {key: value for change in changes for key, value in change.items()}
     run = Run(joined, options.ranks, SCENE, "billet on die")
     return (
         [run.steps, run.iterations, run.cuts, number(-run.forces[-1] if run.forces[-1] else 0.0)]
         if run.converged
-        else [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 3
+        else [f"{run.failure} at {number(run.times[-1])}", *["–"] * 3]
     )
 
 

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The die of Wagoner's punch, its fillet drawn in many ways: force curves, and what a projection costs."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Iterator
 
 from billet_runs import (
     PROGRAM,
@@ -28,7 +31,7 @@ COST = str(Path(PROGRAM).resolve().parents[1] / "tests/benchmarks/bin/projection
 SCENE = ROOT / "prm/wagoner_punch.prm"
 
 
-def without_fillet(text):
+def without_fillet(text: str) -> str:
     """The scene without its torus."""
     lines, inside = [], False
     for line in text.splitlines():
@@ -40,7 +43,7 @@ def without_fillet(text):
     return "\n".join(lines)
 
 
-def made(generator, path, *flags):
+def made(generator: str, path: Path, *flags: str) -> str:
     """Writes a file by one of the generators beside this script."""
     command = [
         sys.executable,
@@ -60,7 +63,7 @@ def made(generator, path, *flags):
     return str(path)
 
 
-def shapes(folder):
+def shapes(folder: Path) -> Iterator[tuple[str, dict[str, str] | None]]:
     """Name and parameters of each way to draw the fillet."""
     yield "torus", None
     yield "revolved profile", {
@@ -97,7 +100,7 @@ def shapes(folder):
             )
 
 
-def scene_with(fillet, folder):
+def scene_with(fillet: dict[str, str] | None, folder: Path) -> Path:
     text = read_scene(SCENE)
     if fillet is not None:
         text = variant(without_fillet(text), {FILLET + key: value for key, value in fillet.items()})

@@ -2,6 +2,8 @@
 """Two elastic cylinders against Hertz, over meshes and facets; a round punch twisted on a block, over its
 angle."""
 
+from __future__ import annotations
+
 import math
 import tempfile
 
@@ -13,7 +15,7 @@ from explicit_runs import ExplicitRun
 options = arguments("elastic-contact")
 
 
-def cylinders(n, facets, passes, augmented):
+def cylinders(n: int, facets: str, passes: str, augmented: float) -> list[object]:
     """Half-width and largest pressure relative to Hertz's for the load that is transmitted, from p² linear in
     x²."""
     mesh = {
@@ -56,7 +58,7 @@ def cylinders(n, facets, passes, augmented):
     ]
 
 
-def twist():
+def twist() -> tuple[list[list[str]], int, int]:
     """Torque over the angle relative to full sliding, and the radius to which nodes stick."""
     with tempfile.TemporaryDirectory() as folder:
         mesh = (

@@ -2,17 +2,21 @@
 """Elements and plasticity kinematics of implicit scenes on the billet: force, iterations, and what they
 cost."""
 
+from __future__ import annotations
+
 import os
 import re
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Any, Callable
 
 from billet_runs import (
     PAIR,
     PROGRAM,
     SCENE,
     TANGENT,
+    Changes,
     Run,
     arguments,
     count_instructions,
@@ -44,15 +48,15 @@ STEPS = 50
 FRICTIONLESS = {PAIR + "Friction coefficient": 0}
 
 
-def run(element, law, changes, ranks=options.ranks):
+def run(element: str, law: str, changes: Changes, ranks: int = options.ranks) -> Run:
     return Run({ELEMENT: element, KINEMATICS: law, **changes}, ranks)
 
 
-def force(result):
+def force(result: Run) -> str:
     return number(result.force(1.0), 5)
 
 
-def evaluation_instructions(what):
+def evaluation_instructions(what: str) -> dict[tuple[str, str], float]:
     """Instructions of one evaluation by (element, law): callgrind's inclusive count of
     LawBlock::evaluate()."""
     with tempfile.TemporaryDirectory() as folder:
@@ -70,7 +74,7 @@ def evaluation_instructions(what):
             text=True,
             check=True,
         ).stdout
-    counts = {}
+    counts: dict[tuple[str, str], float] = {}
     for line in said.splitlines():
         found = re.match(
             r"\s*([\d,]+) .*LawBlock<billet::(\w+)(?:<\w+>)?, billet::LawForm<.*?double, (\d)ul>.*?>, "
@@ -83,7 +87,7 @@ def evaluation_instructions(what):
     return counts
 
 
-def instructions_of_run(text, column):
+def instructions_of_run(text: str, column: str) -> tuple[int, int]:
     """Of billet without what libraries do before it, and the last number in this column of the history."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
@@ -92,13 +96,13 @@ def instructions_of_run(text, column):
         return instructions, int(read_rows(place / "results/history.csv")[-1][column])
 
 
-def instructions_of_each(text_of, column):
+def instructions_of_each(text_of: Callable[[float], str], column: str) -> float:
     """Of an iteration or a step: the difference of a short run and a longer one."""
     (short, few), (long, more) = (instructions_of_run(text_of(end), column) for end in (0.3, 1))
     return (long - short) / (more - few)
 
 
-def implicit_scene(element, law):
+def implicit_scene(element: str, law: str) -> Callable[[float], str]:
     """The billet of 60 bricks, in its first steps; to `end` of them."""
     return lambda end: variant(
         read_scene(SCENE),
@@ -115,7 +119,7 @@ def implicit_scene(element, law):
     )
 
 
-def explicit_scene(element, law):
+def explicit_scene(element: str, law: str) -> Callable[[float], str]:
     """A block of 6³ bricks that yields at once."""
     return lambda end: variant(
         "",
@@ -140,7 +144,7 @@ def explicit_scene(element, law):
     )
 
 
-def beside_mean_dilatation(rows_of_runs):
+def beside_mean_dilatation(rows_of_runs: list[list[Any]]) -> list[list[str]]:
     """What iterations and steps cost over those with mean dilatation, the default until 2026-11-22, and what
     was wanted."""
     found, some = [], LAWS[:1] if options.quick else LAWS

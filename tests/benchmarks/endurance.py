@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A million explicit steps of a stack at rest, and the memory of long runs."""
 
+from __future__ import annotations
+
 import subprocess
 import tempfile
 import time
 from pathlib import Path
+from typing import Sequence
 
 import numpy
 
-from billet_runs import PROGRAM, ROOT, arguments, number, publish, read_scene, table, variant
-from billet_tools.output import pictures_of, read_grid, read_numbers
+from billet_runs import PROGRAM, ROOT, Changes, arguments, number, publish, read_scene, table, variant
+from billet_tools.output import Array, pictures_of, read_grid, read_numbers
 
 options = arguments("endurance")
 STEP = 3.026e-5  # of the stack, about
@@ -19,7 +22,7 @@ N_STEPS = 100_000 if options.quick else 1_000_000
 class WatchedRun:
     """A run whose resident memory is sampled: `memory`, pairs of (accepted steps, megabytes)."""
 
-    def __init__(self, scene, changes, folder):
+    def __init__(self, scene: Path, changes: Changes, folder: str) -> None:
         self.folder = Path(folder)
         (self.folder / "scene.prm").write_text(
             variant(read_scene(scene), {"Output/Folder": "results", "Output/Verbosity": "quiet", **changes})
@@ -37,16 +40,16 @@ class WatchedRun:
         self.ended = process.returncode == 0
         self.rows = read_numbers(history)
 
-    def at(self, part):
+    def at(self, part: float) -> float:
         """Megabytes when this part of the steps was done."""
         last = self.memory[-1][0]
         return next(megabytes for step, megabytes in self.memory if step >= part * last)
 
-    def displacements(self, index):
+    def displacements(self, index: int) -> Array:
         return read_grid(pictures_of(self.folder / "results")[index])["displacement"]
 
 
-def window(rows, key, low, high):
+def window(rows: Sequence[dict[str, float]], key: str, low: float, high: float) -> tuple[float, float]:
     values = numpy.array([row[key] for row in rows if low <= row["time"] <= high])
     return values.mean(), values.max() - values.min()
 
@@ -113,7 +116,7 @@ with tempfile.TemporaryDirectory() as folder:
     )
 
 
-def cycle(rows, last):
+def cycle(rows: Sequence[dict[str, float]], last: float) -> tuple[float, float, float]:
     """Largest sideways force of the four steps of the cycle that ends then, the force down, and what friction
     takes in it."""
     steps = {row["time"]: row for row in rows if last - 1 <= row["time"] <= last}

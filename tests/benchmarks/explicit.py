@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Explicit dynamics in the program as a user runs it: nanoseconds per element and step."""
 
+from __future__ import annotations
+
 import os
 import re
 import statistics
@@ -8,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Mapping
 
 from billet_runs import PROGRAM, arguments, number, publish, table
 
@@ -74,7 +77,9 @@ KERNELS = {
 GOALS = {"AVX-512": (65, 170, 190, 260), "AVX2": (85, 220, 260, 370)}
 
 
-def measure(kernel, instructions, number_type, bodies, more=""):
+def measure(
+    kernel: str, instructions: str, number_type: str, bodies: Mapping[str, str], more: str = ""
+) -> tuple[float, float] | None:
     """(by the clock, of the process) ns per element and step, or nothing if the machine has no such
     instructions."""
     element, kinematics = KERNELS[kernel]
@@ -108,7 +113,7 @@ def measure(kernel, instructions, number_type, bodies, more=""):
     return float(found.group(3)), float(found.group(4))
 
 
-def probe():
+def probe() -> tuple[list[float], dict[str, float]]:
     said = subprocess.run([str(PROBE), "0"], capture_output=True, text=True, check=True).stdout
     triad = [float(value) for value in re.findall(r"triad (\S+) GB/s", said)]
     names = {"scalar": "scalar", "sse2": "SSE2", "avx2": "AVX2", "avx512": "AVX-512"}
@@ -123,7 +128,7 @@ SETS = ("AVX-512",) if options.quick else ("scalar", "SSE2", "AVX2", "AVX-512")
 SLOW = ("scalar", "SSE2")
 TYPES = ("double", "float")
 CONTACT_KERNELS = ("one point, hypoelastic", "8 points, Hencky")
-cases = {
+cases: dict[tuple[str, str, str, str], list[tuple[float, float]]] = {
     (kernel, instructions, number_type, "one"): []
     for instructions in SETS
     for kernel in KERNELS
@@ -136,7 +141,9 @@ cases.update(
         for name in ("apart", "not fitting", "fitting")
     }
 )
-triads, peaks, loads = [], {}, []
+triads: list[float] = []
+peaks: dict[str, list[float]] = {}
+loads: list[float] = []
 for repetition in range(REPEAT):  # alternately, so that what else the machine does hits all alike
     triad, peak = probe()
     triads += triad
@@ -150,11 +157,11 @@ for repetition in range(REPEAT):  # alternately, so that what else the machine d
         times += [got] if got else []
 
 
-def middle(times, which=1):
+def middle(times: list[tuple[float, float]], which: int = 1) -> float:
     return statistics.median(t[which] for t in times)
 
 
-def show(times):
+def show(times: list[tuple[float, float]]) -> str:
     if not times:
         return "–"
     return f"{middle(times, 0):.0f} / {middle(times):.0f} ({min(t[1] for t in times):.0f})"
@@ -184,15 +191,15 @@ for instructions in SETS:
         ]
     )
     if instructions in GOALS:
-        rows.append([f"goal, {instructions}, double", ""] + list(GOALS[instructions]))
+        rows.append([f"goal, {instructions}, double", ""] + [str(goal) for goal in GOALS[instructions]])
 flops = []
 for instructions in SETS:
     if instructions in peaks:
-        peak, bandwidth = statistics.median(peaks[instructions]), statistics.median(triads)
+        most, bandwidth = statistics.median(peaks[instructions]), statistics.median(triads)
         flops.append(
             [instructions]
             + [
-                f"{middle(cases[k, instructions, 'double', 'one']) * peak:.0f} / "
+                f"{middle(cases[k, instructions, 'double', 'one']) * most:.0f} / "
                 f"{middle(cases[k, instructions, 'double', 'one']) * bandwidth:.0f}"
                 for k in KERNELS
             ]

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What benchmarks of explicit scenes share: runs, their histories and their last pictures."""
 
+from __future__ import annotations
+
 import sys
 from pathlib import Path
+from typing import Iterable
 
 import numpy
 
-from billet_runs import PROGRAM, read_scene, variant
-from billet_tools.output import max_drift, pictures_of, read_grid, read_history, read_numbers
+from billet_runs import PROGRAM, Changes, read_scene, variant
+from billet_tools.output import Array, Fields, max_drift, pictures_of, read_grid, read_history, read_numbers
 from billet_tools.program import FAILED, Measured, command_of
 
 
@@ -15,7 +18,7 @@ class ExplicitRun:
     """A run in `folder`: `rows` of the history as numbers, `seconds` (user and system, of all ranks), whether
     it `finished`, what was `said`, and `failure`."""
 
-    def __init__(self, scene, changes, folder, ranks=1):
+    def __init__(self, scene: Path, changes: Changes, folder: str | Path, ranks: int = 1) -> None:
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / "scene.prm").write_text(
@@ -30,18 +33,19 @@ class ExplicitRun:
         print(f"[{scene.stem}: {said}] {self.steps} steps, {self.seconds:.3g} s", file=sys.stderr, flush=True)
 
     @property
-    def steps(self):
+    def steps(self) -> int:
         return int(self.rows[-1]["step"]) if self.rows else 0
 
-    def max_drift(self):
+    def max_drift(self) -> float:
         """Of the energy ledger, relative to the largest sum of energies."""
         return max_drift(read_history(self.folder / "results/history.csv"))
 
-    def picture(self, number=-1):
+    def picture(self, number: int = -1) -> tuple[Array, Fields]:
         """Points of a written picture, and its fields by name."""
         fields = read_grid(pictures_of(self.folder / "results")[number])
         return fields["points"], fields
 
 
-def norm(vectors, axes):
-    return numpy.sqrt(sum(vectors[:, axis] ** 2 for axis in axes))
+def norm(vectors: Array, axes: Iterable[int]) -> Array:
+    total: Array = numpy.sqrt(sum(vectors[:, axis] ** 2 for axis in axes))
+    return total

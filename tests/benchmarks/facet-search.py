@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Cost of the search of contact partners over the number of facets."""
 
+from __future__ import annotations
+
 import math
 import subprocess
 from pathlib import Path
@@ -14,7 +16,7 @@ said = subprocess.run([COST, largest], check=True, capture_output=True, text=Tru
 rows = [[float(word) for word in line.split()] for line in said.splitlines()[1:]]
 
 
-def exponent(column):
+def exponent(column: int) -> float:
     """Of the whole cost over n log n, fitted to all sizes: 0 where the two grow alike."""
     points = [(math.log(row[0]), math.log(row[column] / math.log(row[0]))) for row in rows]
     mean = [sum(values) / len(points) for values in zip(*points)]

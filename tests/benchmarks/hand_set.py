@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Counts in words, which must not count what cannot be compared."""
 
+from __future__ import annotations
+
 import math
+from typing import Sequence
 
 MOST = 1.5  # times what the cheapest run by hand costs
 
 
-def beside_hand_set(works, seconds):
+def beside_hand_set(works: Sequence[float], seconds: Sequence[float]) -> str:
     """How many of the ratios of work, and of seconds, to the cheapest run by hand are at most MOST; NaN: no
     run by hand is as accurate as that, so that there is nothing to compare with, and the try counts on
     neither side."""

@@ -2,9 +2,12 @@
 """A rigid sphere on an elastic half-space: force, contact radius and pressure against Hertz, over mesh and
 penalty."""
 
+from __future__ import annotations
+
 import math
 import tempfile
 from pathlib import Path
+from typing import Iterable, Sequence
 
 import numpy
 
@@ -16,7 +19,7 @@ E, NU, RADIUS, A = 1000.0, 0.3, 10.0, 0.1
 EFFECTIVE = E / (1 - NU**2)
 
 
-def grid(n, far):
+def grid(n: int, far: float) -> list[float]:
     """n elements over the contact radius and a half, then each longer than the last, `far` contact radii in
     all at least."""
     x, step, growth = [0.0], A / n, 1.45 ** (6 / n)
@@ -28,11 +31,11 @@ def grid(n, far):
     return x
 
 
-def write_mesh(path, x):
+def write_mesh(path: Path, x: Sequence[float]) -> None:
     """A quarter of the half-space as a Gmsh file; boundary 1: x = 0, 2: y = 0, 3: top, 4: far away."""
     n, m = len(x), len(x) - 1
 
-    def node(i, j, k):
+    def node(i: int, j: int, k: int) -> int:
         return 1 + i + n * (j + n * k)
 
     with open(path, "w") as out:
@@ -57,16 +60,16 @@ def write_mesh(path, x):
         for k in range(m):
             for j in range(m):
                 for i in range(m):
-                    corners = [
+                    nodes = [
                         node(i + a, j + b, k + c) for c in (1, 0) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))
                     ]
-                    elements.append("5 2 0 0 " + " ".join(map(str, corners)))
+                    elements.append("5 2 0 0 " + " ".join(map(str, nodes)))
         out.write(f"$EndNodes\n$Elements\n{len(elements)}\n")
         out.writelines(f"{i + 1} {text}\n" for i, text in enumerate(elements))
         out.write("$EndElements\n")
 
 
-def contact(folder):
+def contact(folder: str | Path) -> tuple[float, float]:
     """Radius and largest pressure, from p² = p_0² (1 − r²/a²) over the nodes well inside."""
     fields = read_grid(pictures_of(Path(folder, "results"))[-1])
     start, pressure = fields["points"] - fields["displacement"], fields["contact_pressure"]
@@ -83,7 +86,7 @@ def contact(folder):
     return math.sqrt(top / -slope), math.sqrt(top)
 
 
-def solve(n, far, penalty, sphere=RADIUS):
+def solve(n: int, far: float, penalty: float, sphere: float = RADIUS) -> tuple[float, int, Run, list[float]]:
     """Extent over A, bricks, the run, and the errors in percent of force, contact radius and largest
     pressure."""
     x = grid(n, far)
@@ -110,16 +113,16 @@ def solve(n, far, penalty, sphere=RADIUS):
     return x[-1] / A, (len(x) - 1) ** 3, r, errors
 
 
-def signed(values):
+def signed(values: Iterable[float]) -> list[str]:
     return [f"{value:+.2f}" for value in values]
 
 
-def row(n, far, penalty):
+def row(n: int, far: float, penalty: float) -> list[object]:
     extent, bricks, r, errors = solve(n, far, penalty)
     return [n, f"{extent:.0f}", penalty, bricks, r.iterations, number(r.seconds)] + signed(errors)
 
 
-def to_infinity(n, sphere):
+def to_infinity(n: int, sphere: float) -> list[object]:
     """The force's error at two extents, and where it goes, as one over the extent."""
     (x, _, _, (near, *_)), (y, _, _, (far, *_)) = solve(n, 120, 1000, sphere), solve(n, 480, 1000, sphere)
     pressure = 200 * A / (math.pi * sphere) / (1 - NU**2)  # % of E

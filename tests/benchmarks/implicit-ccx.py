@@ -2,6 +2,8 @@
 """Deformable bodies in contact in billet and in CalculiX: the shipped scenes on the same meshes, with the
 same penalties."""
 
+from __future__ import annotations
+
 import argparse
 import json
 import math
@@ -9,10 +11,12 @@ import re
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Any, Callable, Sequence
 
 import numpy
 
-from billet_runs import ROOT, number, percent, publish, table
+from billet_runs import ROOT, Changes, number, percent, publish, table
+from billet_tools.output import Array
 from ccx_decks import FACES, CcxJob, read_bodies
 from explicit_runs import ExplicitRun
 
@@ -32,10 +36,20 @@ NEAR = 1e-4
 SHORTER = ("ironing", "billet_deformable_dies", "passing_spheres")  # also in increments of a tenth
 
 
+Motion = dict[tuple[Any, int], float]  # {(set or node, component): displacement}
+
+
 class Deck:
     """A shipped scene in CalculiX's words: the mesh, sets by conditions on nodes, one contact pair, steps."""
 
-    def __init__(self, scene, materials, digits=5, turn=None, plates=()):
+    def __init__(
+        self,
+        scene: str,
+        materials: Sequence[tuple[Any, ...]],
+        digits: int = 5,
+        turn: Array | None = None,
+        plates: Sequence[tuple[Sequence[float], Sequence[float]]] = (),
+    ) -> None:
         """Of each body its element, Young's modulus, Poisson's ratio, and yield stresses over plastic
         strains, if any. Plates, which stand for plane tools, are bricks between two corners, the last
         bodies."""
@@ -54,25 +68,28 @@ class Deck:
         for (x0, y0, z0), (x1, y1, z1) in plates:
             self.bodies.append([[len(self.nodes) + i for i in range(8)]])
             self.nodes += [(x, y, z) for z in (z0, z1) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
-        self.pairs = [("SLAVE", "MASTER", None)]
-        self.materials, self.sizes, self.lines, self.steps = materials, {}, [], []
+        self.pairs: list[tuple[str, str, float | None]] = [("SLAVE", "MASTER", None)]
+        self.materials = materials
+        self.sizes: dict[str, tuple[int, float]] = {}
+        self.lines: list[str] = []
+        self.steps: list[tuple[float, float, float, Motion]] = []
         self.numbers, last = [], 0
         for bricks in self.bodies:
             self.numbers.append(range(last + 1, last + 1 + len(bricks)))
             last += len(bricks)
 
-    def members(self, body, condition):
+    def members(self, body: int, condition: Callable[..., bool]) -> list[int]:
         used = sorted({corner for brick in self.bodies[body] for corner in brick})
         return [i for i in used if condition(*self.nodes[i])]
 
-    def node_set(self, name, members):
+    def node_set(self, name: str, members: Sequence[int]) -> Sequence[int]:
         self.lines += [f"*NSET, NSET={name}"]
         self.lines += [", ".join(str(m + 1) for m in members[i : i + 12]) for i in range(0, len(members), 12)]
         return members
 
-    def surface(self, name, body, condition):
+    def surface(self, name: str, body: int, condition: Callable[..., bool]) -> None:
         """The outer faces of the body all of whose corners are so."""
-        count = {}
+        count: dict[tuple[int, ...], int] = {}
         for brick in self.bodies[body]:
             for face in FACES:
                 key = tuple(sorted(brick[i] for i in face))
@@ -88,20 +105,28 @@ class Deck:
                     areas.append(0.5 * numpy.linalg.norm(numpy.cross(c - a, d - b)))
         self.sizes[name] = (body, math.sqrt(sum(areas) / len(areas)))
 
-    def penalty(self):
+    def penalty(self) -> float:
         """billet's own: ten times E/h of both sides in series, h the root of the faces' mean area."""
         return 10.0 / sum(size / self.materials[body][1] for body, size in self.sizes.values())
 
-    def hold(self, name, members, *components):
+    def hold(self, name: str, members: Sequence[int], *components: int) -> None:
         """For good."""
         self.node_set(name, members)
         self.lines += ["*BOUNDARY"] + [f"{name}, {i}, {i}" for i in components]
 
-    def step(self, period, first, largest, motion):
+    def step(self, period: float, first: float, largest: float, motion: Motion) -> None:
         """Displacements {(set or node, component): value} at the end; between, they go straight."""
         self.steps.append((period, first, largest, motion))
 
-    def write(self, path, contact, friction, penalty, prints, shorter=1):
+    def write(
+        self,
+        path: str | Path,
+        contact: str,
+        friction: float,
+        penalty: float,
+        prints: Sequence[str],
+        shorter: int = 1,
+    ) -> float:
         lines = ["*NODE, NSET=ALL"]
         lines += [f"{i + 1}, {x:.7g}, {y:.7g}, {z:.7g}" for i, (x, y, z) in enumerate(self.nodes)]
         for body, bricks in enumerate(self.bodies):
@@ -139,7 +164,7 @@ class Deck:
                 if motion
                 else []
             )
-            lines += prints + ["*END STEP"]
+            lines += [*prints, "*END STEP"]
         Path(path).write_text("\n".join(lines) + "\n")
         return sum(step[0] for step in self.steps)
 
@@ -148,7 +173,7 @@ TOTALS = ["*NODE PRINT, NSET=HELD, TOTALS=ONLY", "RF"]
 NODAL = ["*NODE PRINT, NSET=HELD", "RF"]
 
 
-def totals(folder):
+def totals(folder: str | Path) -> list[tuple[float, ...]]:
     """Times and sums of reactions."""
     found = re.findall(
         r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)", Path(folder, "deck.dat").read_text(), re.S
@@ -156,9 +181,9 @@ def totals(folder):
     return [tuple(float(x) for x in line) for line in found]
 
 
-def blocks(folder, what, n):
+def blocks(folder: str | Path, what: str, n: int) -> list[tuple[float, list[list[float]]]]:
     """Times and lines of n integers, then numbers, of what CalculiX prints under `what`."""
-    result = []
+    result: list[tuple[float, list[list[float]]]] = []
     for line in Path(folder, "deck.dat").read_text().splitlines():
         words = line.split()
         if line.strip().startswith(what):
@@ -170,7 +195,7 @@ def blocks(folder, what, n):
     return result
 
 
-def at(rows, time, column=0):
+def at(rows: Any, time: float, column: int = 0) -> Any:
     """The row at this time; None where the run has not come so far."""
     row = min(rows, key=lambda r: abs(r[column] - time), default=None)
     return row if row is not None and abs(row[column] - time) < 1e-6 * max(1.0, time) else None
@@ -183,7 +208,7 @@ class Ironing:
     name, friction, prints = "ironing", 0.3, TOTALS
     result = "vertical force [N], horizontal / vertical, means from 1 to 9 mm"
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck("ironing", [("C3D8", 100, 0.3), ("C3D8", 1000, 0.3)])
         deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 7 + math.sqrt(16 - (x - 4) ** 2)) < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: abs(z - 3) < NEAR)
@@ -199,16 +224,16 @@ class Ironing:
         deck.step(0.5, 0.05, 0.1, {("HELD", 3): 0.4})
         return deck
 
-    def mean(self, rows):  # time, horizontal, vertical
+    def mean(self, rows: list[tuple[float, float, float]]) -> str:  # time, horizontal, vertical
         rows = [row for row in rows if 1.2 - 1e-6 < row[0] < 2.8 + 1e-6]
         if not rows or rows[-1][0] < 2.7:
             return "–"
         return f"{sum(r[2] for r in rows) / len(rows):.2f}, {sum(r[1] / r[2] for r in rows) / len(rows):.3f}"
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         return self.mean([(r["time"], -r["face.force_x"], r["face.force_z"]) for r in run.rows])
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         return self.mean([(t, x, -z) for t, x, _, z in totals(folder)])
 
 
@@ -217,7 +242,7 @@ class PressFit:
     augmented = "Contact pairs/fit/Penetration tolerance"
     result = "pressure [MPa] (Lamé: 25.76)"
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck("press_fit", [("C3D8", 2e5, 0.3), ("C3D8", 2e5, 0.3)])
         deck.surface("SLAVE", 0, lambda x, y, z: abs(math.hypot(x, y) - 20.01) < NEAR)
         deck.surface("MASTER", 1, lambda x, y, z: abs(math.hypot(x, y) - 20) < NEAR)
@@ -230,10 +255,10 @@ class PressFit:
         deck.step(1, 0.5, 0.5, {})
         return deck
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         return number(abs(run.rows[-1]["fit.force_x"]) / 20, 4)
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         row = at(totals(folder), 1)
         return number(abs(row[1]) / 20, 4) if row else "–"
 
@@ -243,7 +268,7 @@ class Hertz:
     augmented = "Contact pairs/faces/Penetration tolerance"
     result = "force [N]"
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck("hertz_cylinders", [("C3D8", 1e5, 0.3), ("C3D8", 2e5, 0.3)], 6)
         deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 10 + math.sqrt(100 - x * x)) < 1e-5)
         deck.surface("MASTER", 0, lambda x, y, z: abs(z + 20 - math.sqrt(400 - x * x)) < 1e-5)
@@ -261,10 +286,10 @@ class Hertz:
         deck.step(1, 0.1, 0.1, {("HELD", 1): 0, ("HELD", 2): 0, ("HELD", 3): -0.04})
         return deck
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         return number(abs(run.rows[-1]["faces.force_z"]), 4)
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         row = at(totals(folder), 1)
         return number(abs(row[3]), 4) if row else "–"
 
@@ -273,7 +298,7 @@ class Dies:
     name, friction, prints = "billet_deformable_dies", 0.1, TOTALS
     result = "force on the whole billet at the end of the upsetting [kN]"
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck(
             "billet_deformable_dies", [("C3D8R", 200e3, 0.3, (700, 0), (2200, 5)), ("C3D8", 20e6, 0.3)]
         )
@@ -297,11 +322,11 @@ class Dies:
 
     penalty = 3.5e5
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         row = at([(r["time"], r) for r in run.rows], 1)
         return number(4e-3 * abs(row[1]["billet on die.force_z"]), 4)
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         row = at(totals(folder), 1)
         return number(4e-3 * abs(row[3]), 4) if row else "–"
 
@@ -310,10 +335,10 @@ class Spheres:
     name, friction, prints = "passing_spheres", 0.3, TOTALS
     result = "largest force [N]"
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck("passing_spheres", [("C3D8", 100, 0.3), ("C3D8", 100, 0.3)])
 
-        def sphere(*centre):
+        def sphere(*centre: float) -> Callable[..., bool]:
             return lambda *x: abs(math.dist(x, centre) - 10) < 1e-3
 
         deck.surface("SLAVE", 1, sphere(-12, 0, 18.5))
@@ -323,10 +348,10 @@ class Spheres:
         deck.step(1, 0.04, 0.04, {("HELD", 1): 24, ("HELD", 2): 0, ("HELD", 3): 0})
         return deck
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         return number(max(math.hypot(*(r["faces.force_" + i] for i in "xyz")) for r in run.rows), 4)
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         rows = totals(folder)
         return number(max(math.hypot(*row[1:]) for row in rows), 4) if at(rows, 1) else "–"
 
@@ -336,15 +361,15 @@ class Twist:
     result = "force after pressing [N], torque after twisting [N mm]"
     N = 10  # straight parts of the turn
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck("twisted_hemisphere", [("C3D8", 1000, 0.3), ("C3D8", 1000, 0.3)])
         deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 10 + math.sqrt(100 - x * x - y * y)) < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: z > -NEAR)
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < -6 + NEAR), 1, 2, 3)
         self.held = deck.node_set("HELD", deck.members(1, lambda x, y, z: z > 6 - NEAR))
 
-        def turned(angle, down):
-            motion = {("HELD", 3): down}
+        def turned(angle: float, down: float) -> Motion:
+            motion: Motion = {("HELD", 3): down}
             for i in self.held:
                 x, y, _ = deck.nodes[i]
                 motion[(i + 1, 1)] = x * (math.cos(angle) - 1) - y * math.sin(angle)
@@ -358,14 +383,14 @@ class Twist:
         deck.step(1, 0.1, 0.1, turned(0.152, 0.1))
         return deck
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         rows = {round(r["time"], 6): r for r in run.rows}
         times = sorted(rows)
         before = max(t for t in times if t < 2 - 1e-6)
         torque = (rows[2.0]["external_work"] - rows[before]["external_work"]) / (0.16 * (2 - before))
         return f"{number(abs(rows[1.0]['face.force_z']), 4)}, {number(torque, 4)}"
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         found = blocks(folder, "forces", 1)
         pressed, twisted = at(found, 1), at(found, 2)
         force = number(abs(sum(row[3] for row in pressed[1])), 4) if pressed else "–"
@@ -378,7 +403,7 @@ class Twist:
         return f"{force}, {number(torque, 4)}"
 
 
-def deviation(stresses):
+def deviation(stresses: Sequence[Sequence[float]] | Sequence[Array]) -> str:
     """Largest difference of an element's stress from the mean of all, relative to that."""
     s = numpy.array(stresses)  # xx, yy, zz, xy, xz, yz
     weight = numpy.array([1, 1, 1, 2, 2, 2])
@@ -390,12 +415,12 @@ class Patch:
     friction, prints = 0.0, ["*EL PRINT, ELSET=BODY0", "S", "*EL PRINT, ELSET=BODY1", "S"]
     result = "largest deviation of an element's stress from the mean"
     name, poisson, travel, cut, penalty = "patch_test", 0.3, -0.2, 0.0, 4e6
-    turn = numpy.array([[2, 2, -1], [-1, 2, 2], [2, -1, 2]]) / 3  # into the block's own axes
+    turn: Array | None = numpy.array([[2, 2, -1], [-1, 2, 2], [2, -1, 2]]) / 3  # into the block's own axes
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck(self.name, [("C3D8", 2e5, self.poisson), ("C3D8", 2e5, self.poisson)], 6, self.turn)
 
-        def in_cut(x, y, z):
+        def in_cut(x: float, y: float, z: float) -> bool:
             return abs(z - self.cut * (x - 1)) < NEAR
 
         deck.surface("SLAVE", 1, in_cut)
@@ -411,7 +436,7 @@ class Patch:
         deck.step(1, 0.5, 0.5, {("HELD", 1): 0, ("HELD", 2): 0, ("HELD", 3): self.travel})
         return deck
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         _, fields = run.picture()
         found = deviation(
             numpy.stack(
@@ -424,11 +449,11 @@ class Patch:
         )
         return "< 1e-5 %" if float(found.split()[0]) < 1e-4 and self.friction == 0 else found
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         last = [rows for time, rows in blocks(folder, "stresses", 2) if abs(time - 1) < 1e-6]
         if not last:
             return "–"
-        elements = {}
+        elements: dict[float, list[list[float]]] = {}
         for element, _, *stress in sum(last, []):
             elements.setdefault(element, []).append(stress)
         return deviation([numpy.mean(points, axis=0) for points in elements.values()])
@@ -442,14 +467,14 @@ class TurnedBlocks:
     name, friction, prints = "turned_blocks", 0.2, TOTALS
     result = "force after pressing [N], its relative change after 360°"
 
-    def deck(self):
+    def deck(self) -> Deck:
         deck = Deck("turned_blocks", [("C3D8", 1000, 0.3), ("C3D8", 2000, 0.2)])
         deck.surface("SLAVE", 1, lambda x, y, z: z < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: z > -NEAR)
         foot = deck.members(0, lambda x, y, z: z < -2 + NEAR)
         head = deck.node_set("HELD", deck.members(1, lambda x, y, z: z > 1.6 - NEAR))
 
-        def motion(press, angle):
+        def motion(press: float, angle: float) -> Motion:
             c, s, result = math.cos(angle), math.sin(angle), {}
             for members, moved in ((foot, 0), (head, press)):
                 for i in members:
@@ -466,18 +491,18 @@ class TurnedBlocks:
             deck.step(1, 1, 1, motion(1 - 0.13 * (n + 1), 0))
         return deck
 
-    def text(self, pressed, turned):
+    def text(self, pressed: tuple[float, ...] | None, turned: tuple[float, ...] | None) -> str:
         if not pressed:
             return "–"
         force = math.hypot(*pressed[1:])
         change = math.hypot(*(a - b for a, b in zip(pressed[1:], turned[1:]))) / force if turned else math.nan
         return f"{number(force, 4)}, {number(change, 2)}"
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         rows = [(r["time"],) + tuple(r["blocks.force_" + i] for i in "xyz") for r in run.rows]
         return self.text(at(rows, 1), at(rows, 37))
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         rows = totals(folder)
         return self.text(at(rows, 1), at(rows, 37))
 
@@ -486,7 +511,7 @@ class HollowBlock:
     name, friction, prints = "hollow_block", 0.0, TOTALS
     result = "work of squeezing [N mm], part of it left after release"
 
-    def deck(self):
+    def deck(self) -> Deck:
         plates = (((-1, -1, 5), (20, 2, 9)), ((-1, -1, -9), (20, 2, -5)))
         deck = Deck("hollow_block", [("C3D8", 1, 0.4), ("C3D8", 1, 0.4), ("C3D8", 1, 0.4)], plates=plates)
         deck.surface("SLAVE", 0, lambda x, y, z: abs(math.hypot(x, z) - 3) < NEAR)
@@ -512,14 +537,14 @@ class HollowBlock:
         deck.step(1, 0.05, 0.05, {("HELD", 3): 0})
         return deck
 
-    def text(self, squeezing, left):
+    def text(self, squeezing: float, left: float) -> str:
         return f"{number(squeezing, 4)}, {number(abs(left / squeezing), 2)}"
 
-    def billet(self, run):
+    def billet(self, run: ExplicitRun) -> str:
         rows = [(r["time"], r["external_work"]) for r in run.rows]
         return self.text(at(rows, 1)[1], at(rows, 2)[1])
 
-    def ccx(self, folder, deck):
+    def ccx(self, folder: str | Path, deck: Deck) -> str:
         rows = [(0.0, 0.0, 0.0, 0.0)] + totals(folder)
         if not at(rows, 2):
             return "–"
@@ -529,10 +554,11 @@ class HollowBlock:
                 0.5 * (before[3] + after[3]) * 5 * (after[0] - before[0]) * (-1 if after[0] < 1 + 1e-6 else 1)
             )
             squeezing = work if abs(after[0] - 1) < 1e-6 else squeezing
+        assert squeezing is not None
         return self.text(squeezing, work)
 
 
-SCENES = [
+SCENES: list[Any] = [
     Ironing(),
     PressFit(),
     Hertz(),
@@ -550,14 +576,14 @@ if options.scene:
     SCENES = [scene for scene in SCENES if scene.name in options.scene]
 
 
-def compare(scene):
+def compare(scene: Any) -> Any:
     """Rows of both tables."""
     kept = options.keep / f"{scene.name}.json" if options.keep else None
     if kept and kept.exists():
         return json.loads(kept.read_text())
-    rows = []
+    rows: list[list[object]] = []
     augmented = getattr(scene, "augmented", None)
-    variants = (
+    variants: dict[str, Changes] = (
         {"billet, augmented": {}, "billet, penalty alone": {augmented: 0}} if augmented else {"billet": {}}
     )
     for name, changes in variants.items():
@@ -607,9 +633,8 @@ def compare(scene):
 
 if __name__ == "__main__":
     compared = [compare(scene) for scene in SCENES]
-    version = re.search(
-        r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout
-    ).group(1)
+    said = subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout
+    version = re.findall(r"Version (\S+)", said)[0]
     options.quick = options.quick or bool(options.scene)
     publish(
         "implicit-ccx",

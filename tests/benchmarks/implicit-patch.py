@@ -2,11 +2,14 @@
 """Patch tests in statics: stress errors of facets, passes, penalties and augmentation on distorted meshes
 that do not match."""
 
+from __future__ import annotations
+
 import tempfile
+from typing import Sequence
 
 import numpy
 
-from billet_runs import ROOT, arguments, publish, table
+from billet_runs import ROOT, Changes, arguments, publish, table
 from explicit_runs import ExplicitRun
 
 options = arguments("implicit-patch")
@@ -23,7 +26,7 @@ METHODS = [
 PENALTIES = (0.01, 1, 10, 100) if options.quick else (0.01, 0.1, 1, 10, 100, 1e4)
 
 
-def solve(scene, facets, passes, penalty, tolerance, changes):
+def solve(scene: str, facets: str, passes: str, penalty: float, tolerance: float, changes: Changes) -> str:
     """Largest deviation of an element's stress from the mean, relative to the mean, and Newton iterations."""
     with tempfile.TemporaryDirectory() as folder:
         r = ExplicitRun(
@@ -53,7 +56,13 @@ def solve(scene, facets, passes, penalty, tolerance, changes):
     ) + f" ({int(r.rows[-1]['total_iterations'])})"
 
 
-def rows(scene, tolerance=0, unit=UNIT, changes=None, penalties=PENALTIES):
+def rows(
+    scene: str,
+    tolerance: float = 0,
+    unit: float = UNIT,
+    changes: Changes | None = None,
+    penalties: Sequence[float] = PENALTIES,
+) -> list[list[str]]:
     return [
         [facets, passes]
         + [solve(scene, facets, passes, unit * k, tolerance, changes or {}) for k in penalties]

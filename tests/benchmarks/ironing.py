@@ -2,6 +2,8 @@
 """Shallow ironing: forces of a deformable die on a deformable slab, by facets and by the length of the steps;
 stopped and gone on with."""
 
+from __future__ import annotations
+
 import tempfile
 from pathlib import Path
 
@@ -17,11 +19,11 @@ METHODS = [("overlap", "one"), ("planed", "one"), ("planed", "two"), ("bilinear"
 PARTS = (0.02, 0.1, 0.6) if options.quick else (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6)
 
 
-def method(facets, passes):
+def method(facets: str, passes: str) -> dict[str, object]:
     return {PAIR + "Facets": facets, PAIR + "Passes": passes}
 
 
-def sweep(facets, passes, part):
+def sweep(facets: str, passes: str, part: float) -> tuple[float | None, float | None, Run]:
     """The slide alone, in equal steps of 1, of `part` of a facet each. Means of both forces over the
     stretch."""
     n = round(SLIDE / (part * FACET))
@@ -54,7 +56,7 @@ def sweep(facets, passes, part):
     ]
     path = [row for row in path if row[0] > FROM - 1e-6]
 
-    def mean(k):
+    def mean(k: int) -> float:
         return sum(0.5 * (a[k] + b[k]) * (b[0] - a[0]) for a, b in zip(path, path[1:])) / (
             path[-1][0] - path[0][0]
         )
@@ -62,12 +64,12 @@ def sweep(facets, passes, part):
     return mean(1), mean(2), run
 
 
-def ratio(run, time):
+def ratio(run: Run, time: float) -> float:
     row = min(run.rows, key=lambda r: abs(float(r["time"]) - time))
     return -float(row["face.force_x"]) / float(row["face.force_z"])
 
 
-rows = []
+rows: list[list[object]] = []
 for facets, passes in METHODS:
     run = Run(method(facets, passes), options.ranks, SCENE, "face")
     drawn = [
@@ -77,38 +79,41 @@ for facets, passes in METHODS:
     ]
     after = run.rows[-1]
     rows.append(
-        [facets, passes]
-        + (
-            [
-                run.steps,
-                run.iterations,
-                run.cuts,
-                f"{min(drawn):.4f} to {max(drawn):.4f}",
-                number(max(float(r["face.deepest_penetration"]) for r in run.rows) / FACET, 2),
-                number(max(abs(float(after["face.force_" + i])) for i in "xyz"), 2),
-                number(float(after["elastic_energy"]), 2),
-            ]
-            if run.converged
-            else [f"{run.failure} at {number(run.times[-1])}"] + ["–"] * 6
-        )
+        [
+            facets,
+            passes,
+            *(
+                [
+                    run.steps,
+                    run.iterations,
+                    run.cuts,
+                    f"{min(drawn):.4f} to {max(drawn):.4f}",
+                    number(max(float(r["face.deepest_penetration"]) for r in run.rows) / FACET, 2),
+                    number(max(abs(float(after["face.force_" + i])) for i in "xyz"), 2),
+                    number(float(after["elastic_energy"]), 2),
+                ]
+                if run.converged
+                else [f"{run.failure} at {number(run.times[-1])}", *["–"] * 6]
+            ),
+        ]
     )
 
 sweeps = [[sweep(facets, passes, part) for facets, passes in METHODS] for part in PARTS]
 
 
-def spread(k):
-    ratios = [line[k][0] / line[k][1] for line in sweeps if line[k][0] is not None]
+def spread(k: int) -> str:
+    ratios = [x / z for x, z, _ in (line[k] for line in sweeps) if x is not None and z is not None]
     return percent((max(ratios) - min(ratios)) / min(ratios)) if len(ratios) == len(sweeps) else "–"
 
 
 STOP = 20  # steps: the die is being drawn
 
 
-def forces(run):
+def forces(run: Run) -> list[list[float]]:
     return [[float(row["face.force_" + i]) for i in "xyz"] for row in run.rows]
 
 
-def going_on():
+def going_on() -> list[list[object]]:
     """The scene on 1 and 2 ranks, and the rest of it from a checkpoint on 1 and 2: difference of each force
     from the run without interruption on as many ranks as before, relative to the largest."""
     lines = []
@@ -193,7 +198,7 @@ publish(
             + [
                 (
                     f"{x / z:.4f} ({run.iterations / run.steps:.1f})"
-                    if x is not None
+                    if x is not None and z is not None
                     else f"{run.failure} after {run.steps} steps"
                 )
                 for x, z, run in line

@@ -2,7 +2,7 @@
 """What knobs that have no table of their own cost and change: line search, predictor, forcing, symmetry of
 the model, smoothing of facets and the margin of their search, and which facets."""
 
-from billet_runs import ROOT, arguments, number, percent, publish, table
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
 from curve_runs import error, run_all
 
 options = arguments("knobs")
@@ -42,7 +42,7 @@ KINDS = [
 ]
 
 # scene, what all of its runs have, [(knob, value, changes)], the first is what errors are measured against
-GROUPS = [
+GROUPS: list[tuple[str, Changes, list[tuple[str, str, Changes]]]] = [
     (
         "billet_upsetting",
         {},

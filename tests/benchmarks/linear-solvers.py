@@ -2,6 +2,8 @@
 """One linear system of two bodies in contact: iterations, processor seconds and memory of the linear
 solvers."""
 
+from __future__ import annotations
+
 import argparse
 
 import subprocess
@@ -30,12 +32,14 @@ DIRECT_BYTES = {"sticking": 300, "sliding": 500}  # of n^(4/3), enough to be saf
 SEVERAL_RANKS = 1.7  # times that
 
 
-def available_memory():
+def available_memory() -> int:
     with open("/proc/meminfo") as file:
         return 1024 * next(int(line.split()[1]) for line in file if line.startswith("MemAvailable"))
 
 
-def run(solver, size, penalty, tie, ranks, preconditioner="softened"):
+def run(
+    solver: str, size: int, penalty: str, tie: str, ranks: int, preconditioner: str = "softened"
+) -> dict[str, float] | None:
     """What the program prints, by name; None where the machine has too little memory, or the run failed."""
     name = "-".join([solver, str(size), penalty, tie, str(ranks), preconditioner])
     kept = options.keep / name if options.keep else None
@@ -69,7 +73,7 @@ def run(solver, size, penalty, tie, ranks, preconditioner="softened"):
     return {key: float(value) for key, value in zip(words[::2], words[1::2])}
 
 
-def cells(result):
+def cells(result: dict[str, float] | None) -> list[str]:
     if result is None:
         return ["–"] * 5
     iterations = (
@@ -130,7 +134,7 @@ for size in SIZES:
             )
 
 
-def memory():
+def memory() -> str | None:
     """Where MUMPS has not run: what it would need, by its growth."""
     found = {}
     for size in SIZES:
@@ -139,7 +143,7 @@ def memory():
                 result = run("MUMPS", size, PENALTIES[-1], tie, ranks)
                 if result:
                     found[size, tie, ranks] = result["peak"]
-    largest, middle = SIZES[-1], SIZES[-2] if len(SIZES) > 1 else None
+    largest, middle = SIZES[-1], SIZES[-2] if len(SIZES) > 1 else 0
     if (largest, "sticking", 1) not in found or (middle, "sticking", 1) not in found:
         return None
     growth = found[largest, "sticking", 1] / found[middle, "sticking", 1]

@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Iterations and errors of three scenes over eight decades of the penalty, beside augmentation."""
 
+from __future__ import annotations
+
 import math
 
-from billet_runs import ROOT, Run, arguments, percent, publish, table
+from billet_runs import ROOT, Changes, Run, arguments, percent, publish, table
 
 options = arguments("penalty-range")
 FACTORS = (0.1, 1, 10, 1e3, 1e5) if options.quick else (0.1, 1, 10, 100, 1e3, 1e4, 1e5, 1e6)
 TOLERANCES = (1e-2, 1e-3, 1e-4)
-SCENES = {  # pair, body whose force is shown, further changes
+SCENES: dict[str, tuple[str, str, Changes]] = {  # pair, body whose force is shown, further changes
     "billet_upsetting": ("billet on die", "die", {"Time stepping/End time": 0.5}),
     "hertz_cylinders": ("faces", "faces", {}),
     "press_fit": ("fit", "fit", {}),
 }
 
 
-def run(scene, pair, column, changes):
+def run(scene: str, pair: str, column: str, changes: Changes) -> Run:
     return Run({**SCENES[scene][2], **changes}, options.ranks, ROOT / f"prm/{scene}.prm", column)
 
 
-def force(result, column):
+def force(result: Run, column: str) -> float:
     """Largest component at the end."""
     return (
         max(abs(float(result.rows[-1][f"{column}.force_{i}"])) for i in "xyz")
@@ -35,7 +37,7 @@ for scene, (pair, column, _) in SCENES.items():
         raise SystemExit(f"{scene}: no pair '{pair}'")
     settings = {f"Contact pairs/{pair}/Penalty unit": "factor"}
 
-    def at(factor, tolerance, **more):
+    def at(factor: float, tolerance: float, **more: float) -> Run:
         return run(
             scene,
             pair,

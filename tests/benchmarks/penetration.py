@@ -2,10 +2,13 @@
 """What penetration alone takes of the forces by default, beside penalties of 10 E/h alone, which were the
 default before."""
 
+from __future__ import annotations
+
 import math
 import re
+from pathlib import Path
 
-from billet_runs import ROOT, arguments, number, percent, publish, table
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
 from billet_tools.scene import read_entries
 from curve_runs import CurveRun, impulses
 from curve_runs import error as curve_error
@@ -18,11 +21,11 @@ OF_PENALTIES = ("Normal penalty", "Tangential penalty", "Penalty unit", "Penetra
 IN_MOTION = {"Bodies/R/Material/Density": "1e-3"}  # of the slab
 
 
-def scene(name):
+def scene(name: str) -> Path:
     return ROOT / "prm" / f"{name}.prm"
 
 
-SCENES = [  # label, file, changes
+SCENES: list[tuple[str, Path, Changes]] = [  # label, file, changes
     ("hollow block", scene("hollow_block"), {}),
     ("passing spheres", scene("passing_spheres"), {}),
     ("turned blocks", scene("turned_blocks"), {}),
@@ -44,21 +47,22 @@ if options.quick:
     SCENES = [row for row in SCENES if row[1] in (SLAB, PLATES)]
 
 
-def impulse_error(run, exact):
-    if not run.finished or not exact.finished:
+def impulse_error(run: CurveRun, reference: CurveRun) -> float:
+    if not run.finished or not reference.finished:
         return math.nan
-    found, right = ({name: sums[-1] for name, sums in impulses(of).items()} for of in (run, exact))
+    found, right = ({name: sums[-1] for name, sums in impulses(of).items()} for of in (run, reference))
     return sum(math.dist(found[name], right[name]) for name in right) / sum(
         math.hypot(*right[name]) for name in right
     )
 
 
-rows, told, worst = [], [], {}
+rows = []
+worst: dict[str, list[tuple[float, str, bool]]] = {}
 for label, path, changes in SCENES:
     entries = read_entries(path)
-    kind = changes.get(SCHEME, entries.get(SCHEME, "quasi-static"))
+    kind = str(changes.get(SCHEME, entries.get(SCHEME, "quasi-static")))
     pairs = sorted({key.split("/")[1] for key in entries if key.startswith("Contact pairs/")})
-    bare = {
+    bare: dict[str, object] = {
         **changes,
         **{
             key: None
@@ -67,13 +71,15 @@ for label, path, changes in SCENES:
         },
     }
 
-    def each(**values):
+    def each(**values: object) -> dict[str, object]:
         return {
             f"Contact pairs/{pair}/{key.replace('_', ' ')}": value
             for pair in pairs
             for key, value in values.items()
         }
 
+    before: Changes
+    tight: Changes
     flat = 20 if path == SLAB else 1  # facet over thickness
     if kind == "quasi-static":
         error, before, tight = (
@@ -89,7 +95,8 @@ for label, path, changes in SCENES:
         )
         if kind == "explicit":
             tight = {**tight, "Explicit dynamics/Safety factor": "0.7"}
-    exact, run, old = (CurveRun(path, {**bare, **more}, options.ranks) for more in (tight, {}, before))
+    more: tuple[Changes, ...] = (tight, {}, before)
+    exact, run, old = (CurveRun(path, {**bare, **one}, options.ranks) for one in more)
     off, was = error(run, exact), error(old, exact)
     warnings = sorted(set(re.findall(r"warning\[([a-z-]+)\]", run.said + run.failure)))
     worst.setdefault(kind, []).append((off, label, "contact-too-soft" in warnings))

@@ -2,13 +2,17 @@
 """Press fit of two rings: contact pressure and stresses against Lamé, over mesh, with penalty alone and
 augmented."""
 
+from __future__ import annotations
+
 import math
 import tempfile
+from typing import Sequence
 
 import numpy
 
 from billet_runs import ROOT, arguments, number, percent, publish, table
 from explicit_runs import ExplicitRun
+from billet_tools.output import Array
 
 options = arguments("press-fit")
 PAIR = "Contact pairs/fit/"
@@ -24,7 +28,7 @@ PRESSURE = (
 )
 
 
-def exact(r, sign):
+def exact(r: Array, sign: float) -> Array:
     """Hoop (sign 1) or radial (sign -1) stress."""
     return numpy.where(
         r < B,
@@ -33,12 +37,12 @@ def exact(r, sign):
     )
 
 
-def layers(around):
+def layers(around: int) -> int:
     """Elements across a ring: half as many as around it; of the finest meshes fewer."""
     return max(2, around // (2 if around <= 144 else 8 if around < 250 else 12))
 
 
-def solve(inner, outer, tolerance):
+def solve(inner: int, outer: int, tolerance: float) -> tuple[float, float, float, float, float, int] | None:
     """Errors of force, pressures, hoop and radial stresses (root mean squares over the elements) and
     iterations, with so many elements around the quarters; None without a solution."""
     changes = {
@@ -63,7 +67,7 @@ def solve(inner, outer, tolerance):
     touching = fields["contact_area"] > 0
     pressures = fields["contact_pressure"][touching] / PRESSURE - 1
 
-    def deviation(found, sign):
+    def deviation(found: Array, sign: float) -> float:
         right = exact(radius, sign)
         return math.sqrt(((found - right) ** 2).mean() / (right**2).mean())
 
@@ -77,18 +81,19 @@ def solve(inner, outer, tolerance):
     )
 
 
-def rows(pairs, tolerance):
-    lines, last = [], None
+def rows(pairs: Sequence[tuple[int, int]], tolerance: float) -> list[list[object]]:
+    lines: list[list[object]] = []
+    last = None
     for inner, outer in pairs:
         found = solve(inner, outer, tolerance)
         if found is None:
-            lines.append([f"{inner} in {outer}"] + ["–"] * 8)
+            lines.append([f"{inner} in {outer}", *["–"] * 8])
             last = None
             continue
         force, pressure, hoop, radial, area, iterations = found
 
-        def order(now, before):
-            return number(math.log2(before / now), 2) if last else ""
+        def order(now: float, before: float | None) -> str:
+            return number(math.log2(before / now), 2) if before else ""
 
         lines.append(
             [

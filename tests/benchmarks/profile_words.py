@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the errors of profiles say, in words."""
 
+from __future__ import annotations
+
 import math
+from typing import Mapping
 
 
-def no_better(errors):
+def no_better(errors: Mapping[str, Mapping[str, float]]) -> str:
     """{scene: {profile: error}}: where balanced is hardly better than fast, and for how many of them accurate
     is."""
     known = {
@@ -25,7 +28,7 @@ def no_better(errors):
     )
 
 
-def without_errors(reasons):
+def without_errors(reasons: Mapping[str, str]) -> str:
     """{scene: why}: scenes whose reference failed, and what was said."""
     return (
         ""

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the profiles fast, balanced and accurate cost, and how far they are off, on every shipped scene."""
 
-import math
+from __future__ import annotations
 
-from billet_runs import ROOT, arguments, number, percent, publish, table  # finds billet_tools, too
+import math
+from pathlib import Path
+from typing import Any
+
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table  # finds billet_tools, too
 from billet_tools.scene import read_entries
 from billet_tools.text import first_sentence
 from curve_runs import CurveRun, error, run_all, write_csv
@@ -31,7 +35,7 @@ PROFILED = {
 }
 
 # Scenes that take long are cut: these are the ends that they get, and other changes.
-CUT = {
+CUT: dict[str, Changes] = {
     "wagoner_punch": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_0": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_015": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
@@ -65,11 +69,11 @@ CUT = {
 }
 
 
-def left_to_profiles(path):
+def left_to_profiles(path: Path) -> dict[str, object]:
     """{key: None} for all that the scene sets and a profile would."""
     entries = read_entries(path)
     scheme = entries.get("Time stepping/Scheme", "quasi-static")
-    found = {}
+    found: dict[str, object] = {}
     for key in entries:
         section, name = key.split("/")[0], key.split("/")[-1]
         if name in PROFILED.get(section, ()) and not (
@@ -85,10 +89,13 @@ def left_to_profiles(path):
     return found
 
 
-def without_time(changes, path):
+def without_time(changes: Changes, path: Path) -> dict[str, object]:
     """A run that has hardly begun, but has (shorter first steps fail on Wagoner's punch): what setting up
     costs."""
-    entries = {**read_entries(path), **{key: value for key, value in changes.items() if value is not None}}
+    entries = {
+        **read_entries(path),
+        **{key: str(value) for key, value in changes.items() if value is not None},
+    }
     end = float(entries.get("Time stepping/End time", 1))
     steps = (
         {}
@@ -116,9 +123,12 @@ TIGHT = (
 )
 
 
-def reference(path, changes, depth, residual, dynamic):
+def reference(
+    path: Path, changes: Changes, depth: float, residual: float, dynamic: float
+) -> dict[str, object]:
     """Tighter settings than any profile's, on the same mesh."""
-    entries = {key: value for key, value in {**read_entries(path), **changes}.items() if value is not None}
+    all_entries: dict[str, object] = {**read_entries(path), **changes}
+    entries = {key: str(value) for key, value in all_entries.items() if value is not None}
     end = float(entries.get("Time stepping/End time", 1))
     names = sorted({key.split("/")[1] for key in entries if key.startswith("Contact pairs/")})
     if entries.get("Time stepping/Scheme") == "explicit":
@@ -141,7 +151,7 @@ def reference(path, changes, depth, residual, dynamic):
     # nodes that come in cannot stop within a step
     if entries.get("Time stepping/Scheme") == "implicit dynamics":
         return {"Solver/Force tolerance": max(residual, 1e-9), "Implicit dynamics/Error tolerance": dynamic}
-    result = {
+    result: dict[str, object] = {
         "Solver/Force tolerance": residual,
         "Solver/Maximum augmentations": 60,
         **{f"Contact pairs/{name}/Penetration tolerance": depth for name in names},
@@ -152,15 +162,16 @@ def reference(path, changes, depth, residual, dynamic):
     return result
 
 
-rows, csv_rows, errors, failures, looser = [], [], {}, {}, {}
+rows: list[list[Any]] = []
+csv_rows: list[list[object]] = []
+errors: dict[str, dict[str, float]] = {}
+failures: dict[str, str] = {}
+looser: dict[str, float] = {}
 for path in sorted((ROOT / "prm").glob("*.prm")):
-    cut = {**left_to_profiles(path), **CUT.get(path.stem, {})}
-    exact, *runs = run_all(
-        path,
-        [{**cut, **reference(path, cut, *TIGHT[0])}] + [{**cut, "Profile": profile} for profile in PROFILES],
-        options.ranks,
-        at_once=2,
-    )
+    cut: dict[str, object] = {**left_to_profiles(path), **CUT.get(path.stem, {})}
+    variants: list[Changes] = [{**cut, **reference(path, cut, *TIGHT[0])}]
+    variants += [{**cut, **{"Profile": profile}} for profile in PROFILES]
+    exact, *others = run_all(path, variants, options.ranks, at_once=2)
     for tight in TIGHT[1:] if not exact.finished and not exact.is_explicit else ():
         exact = CurveRun(path, {**cut, **reference(path, cut, *tight)}, options.ranks)
         if exact.finished:
@@ -168,7 +179,7 @@ for path in sorted((ROOT / "prm").glob("*.prm")):
             break
     if not exact.finished:
         failures[path.stem] = first_sentence(exact.failure)
-    runs = dict(zip(PROFILES, runs))
+    runs = dict(zip(PROFILES, others))
     empty = run_all(path, [without_time(cut, path)] * 2, options.ranks, at_once=1)
     set_up = min(run.seconds for run in empty) if all(run.finished for run in empty) else 0.0
     for profile, run in runs.items():

@@ -2,6 +2,8 @@
 """Runs scenes by the hundred and counts those that are wrong in silence: off, with exit code 0 and no
 warning."""
 
+from __future__ import annotations
+
 import argparse
 import hashlib
 import re
@@ -9,9 +11,10 @@ import sys
 import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 from billet_runs import ROOT, publish, table  # finds billet_tools, too
-from silent_errors_runs import OUTCOMES, SECONDS, Runner
+from silent_errors_runs import OUTCOMES, SECONDS, Case, Runner
 from billet_tools.scene import scene_text
 from silent_errors_scenes import ABOUT, FAMILIES
 
@@ -54,11 +57,11 @@ if options.kept:
 options.quick = options.quick or bool(is_part)  # only a whole run is published
 
 
-def file_of(case):
+def file_of(case: Case) -> Path:
     return runner.folder / "wrong" / (re.sub(r"[^\w.=+-]+", "_", f"{case.family}_{case.name}")[:180] + ".prm")
 
 
-def judged(case):
+def judged(case: Case) -> tuple[Case, str, str, dict[str, float]]:
     begin = time.monotonic()
     outcome, why, errors = runner.outcome(case)
     file_of(case).unlink(missing_ok=True)

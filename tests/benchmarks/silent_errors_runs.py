@@ -2,18 +2,21 @@
 """Runs of the benchmark silent-errors: kept in a folder, so that it can be interrupted, and judged against
 references."""
 
+from __future__ import annotations
+
 import math
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Callable, Sequence
 
 import numpy
 
 from billet_runs import PROGRAM, Measured  # finds billet_tools, too
 from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
-from billet_tools.output import pictures_of, read_grid, read_history
+from billet_tools.output import Array, Fields, pictures_of, read_grid, read_history
 from billet_tools.program import ALONE
-from billet_tools.records import read_records, warnings_of
+from billet_tools.records import Record, read_records, warnings_of
 from billet_tools.scene import scene_text
 
 # Warnings about the mesh hold for a reference on the same mesh, too: they do not explain a difference from
@@ -30,6 +33,8 @@ OF_THE_MESH = {
     "tool-smaller-than-facets",
 }
 OUTCOMES = ("right", "warned", "stopped", "wrong", "no end", "crashed", "refused", "unclear")
+Sections = dict[str, Any]  # of a scene, {name: value or sections}
+Judge = Callable[..., float]
 SECONDS, REFERENCE_SECONDS = 240, 240  # of a processor
 UNKNOWN = 0.25  # error of a reference without another one
 
@@ -40,10 +45,11 @@ class Reference:
     wrong only if it is off by what is allowed and twice the difference of both. Without scenes it is a closed
     form, which the judge has."""
 
-    scene: dict | None
-    finer: dict | None = None
-    excused: frozenset = frozenset()  # warnings that explain no difference from it
-    judge: object = None  # (run, its reference) -> the relative error; of closed forms the reference is None
+    scene: Sections | None
+    finer: Sections | None = None
+    excused: frozenset[str] = frozenset()  # warnings that explain no difference from it
+    # (run, its reference) -> the relative error; of closed forms the reference is None
+    judge: Judge | None = None
     allowed: float = 0.03
     name: str = "small steps"
 
@@ -52,45 +58,45 @@ class Reference:
 class Case:
     family: str
     name: str  # its settings
-    scene: dict
-    references: tuple = field(default=())
+    scene: Sections
+    references: tuple[Reference, ...] = ()
 
 
 class Kept:
     """What a run left: `code` (None: out of time), `stderr`, `history` (columns), `bodies` (means of
     displacements and velocities at the end), `records`."""
 
-    def __init__(self, record):
+    def __init__(self, record: Record) -> None:
         self.code, self.stderr, self.seconds = record["code"], record["stderr"], record["seconds"]
         self.history = {name: numpy.array(column) for name, column in record["history"].items()}
         self.bodies, self.records = record["bodies"], record["records"]
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         return warnings_of(self.records)
 
     @property
-    def finished(self):
+    def finished(self) -> bool:
         return self.code in (0, 7)
 
-    def force(self, name):
+    def force(self, name: str) -> Array:
         return numpy.stack([self.history[f"{name}.force_{axis}"] for axis in "xyz"], axis=1)
 
 
 class Runner:
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
         (self.folder / "wrong").mkdir(parents=True, exist_ok=True)
         self.program = Path(PROGRAM).resolve()
         self.fingerprint = hash_of_file(self.program)
 
-    def _file(self, text):
+    def _file(self, text: str) -> Path:
         return self.folder / f"{hash_of(self.fingerprint, text)[:24]}.json"
 
-    def has(self, scene):
+    def has(self, scene: Sections) -> bool:
         return self._file(scene_text(scene)).exists()
 
-    def run(self, scene, seconds=SECONDS):
+    def run(self, scene: Sections, seconds: int = SECONDS) -> Kept:
         text = scene_text(scene)
         file = self._file(text)
         record = read_json(file)
@@ -100,7 +106,7 @@ class Runner:
                 write_json(file, record)
         return Kept(record)
 
-    def _execute(self, text, seconds):
+    def _execute(self, text: str, seconds: int) -> Record:
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
             (place / "scene.prm").write_text(text)
@@ -149,7 +155,7 @@ class Runner:
                 "bodies": means(read_grid(pictures[-1])) if pictures and not out_of_time else {},
             }
 
-    def outcome(self, case):
+    def outcome(self, case: Case) -> tuple[str, str, dict[str, float]]:
         """Of a case, why, and how far it is off: {reference: error}."""
         run = self.run(case.scene)
         if run.code is None:
@@ -168,7 +174,7 @@ class Runner:
                 worst, why = outcome, said
         return worst, why, errors
 
-    def _compare(self, run, reference):
+    def _compare(self, run: Kept, reference: Reference) -> tuple[str, str, float]:
         error, doubt = self._error(run, reference)
         if not math.isnan(error) and error <= reference.allowed:
             return "right", "", error
@@ -180,12 +186,14 @@ class Runner:
             return "unclear", said + f", references by {100 * doubt:.3g} %", error
         return "wrong", said + (f"; only: {', '.join(run.warnings)}" if run.warnings else ""), error
 
-    def _error(self, run, reference):
+    def _error(self, run: Kept, reference: Reference) -> tuple[float, float]:
         """And by how much references differ, where the run is off."""
+        judge = reference.judge
+        assert judge is not None, f"the reference {reference.name} has no judge"
         if reference.scene is None:
-            return reference.judge(run, None), 0.0
+            return judge(run, None), 0.0
         first = self.run(reference.scene, REFERENCE_SECONDS)
-        error = reference.judge(run, first) if first.finished else math.nan
+        error = judge(run, first) if first.finished else math.nan
         if error <= reference.allowed:
             return error, 0.0
         if reference.finer is None:
@@ -193,20 +201,18 @@ class Runner:
         second = self.run(reference.finer, REFERENCE_SECONDS)
         if not second.finished:
             return error, UNKNOWN
-        return reference.judge(run, second), (
-            reference.judge(first, second, True) if first.finished else UNKNOWN
-        )
+        return judge(run, second), (judge(first, second, True) if first.finished else UNKNOWN)
 
 
 OUTCOMES_BY_WEIGHT = ("right", "unclear", "warned", "wrong")
 
 
-def last(run):
-    times = run.history.get("time", [])
+def last(run: Kept) -> str:
+    times = run.history.get("time", numpy.zeros(0))
     return f"{times[-1]:.3g}" if len(times) else "0"
 
 
-def means(fields):
+def means(fields: Fields) -> dict[str, dict[str, list[float]]]:
     """Mean displacement and velocity of each body, in the order of their numbers; of elements of equal
     size."""
     found = {}
@@ -220,11 +226,11 @@ def means(fields):
     return found
 
 
-def force_curve(names, clock=lambda time: time):
+def force_curve(names: Sequence[str], clock: Callable[[Array], Array] = lambda time: time) -> Judge:
     """Largest difference of the forces at the ends of the run's steps, relative to the largest force of the
     reference. `clock`: the reference's time at a time of the run."""
 
-    def judge(run, reference, same_clock=False):
+    def judge(run: Kept, reference: Kept, same_clock: bool = False) -> float:
         if not len(run.history.get("time", [])):
             return math.nan
         times = run.history["time"] if same_clock else clock(run.history["time"])
@@ -240,11 +246,11 @@ def force_curve(names, clock=lambda time: time):
     return judge
 
 
-def force_at(names, times):
+def force_at(names: Sequence[str], times: Sequence[float]) -> Judge:
     """The same at ends of steps that all runs have: between them forces may change faster than references
     have steps."""
 
-    def judge(run, reference, same_clock=False):
+    def judge(run: Kept, reference: Kept, same_clock: bool = False) -> float:
         rows = [
             [int(numpy.argmin(abs(r.history["time"] - time))) for time in times] for r in (run, reference)
         ]
@@ -257,10 +263,10 @@ def force_at(names, times):
     return judge
 
 
-def impulse(body, start):
+def impulse(body: str, start: Sequence[float]) -> Judge:
     """Difference of the mean velocity of a body at the end, relative to its change in the reference."""
 
-    def judge(run, reference, same_clock=False):
+    def judge(run: Kept, reference: Kept, same_clock: bool = False) -> float:
         ends = [numpy.array(r.bodies[body]["velocity"]) for r in (run, reference)]
         return float(numpy.linalg.norm(ends[0] - ends[1]) / numpy.linalg.norm(ends[1] - numpy.array(start)))
 

@@ -1,11 +1,25 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes of the benchmark silent-errors, by families, each with its references."""
 
+from __future__ import annotations
+
 import math
+from typing import Any, Sequence
 
 import numpy
 
-from silent_errors_runs import OF_THE_MESH, Case, Reference, force_at, force_curve, impulse
+from silent_errors_runs import (
+    OF_THE_MESH,
+    Case,
+    Judge,
+    Kept,
+    Reference,
+    Sections,
+    force_at,
+    force_curve,
+    impulse,
+)
+from billet_tools.output import Array
 
 # Of references: as good as exact, in small steps.
 EXACT = {
@@ -16,7 +30,7 @@ EXACT = {
 }
 
 
-def box(counts, low, high, **more):
+def box(counts: Sequence[int], low: Sequence[float], high: Sequence[float], **more: Any) -> Sections:
     corners = " : ".join(", ".join(f"{x:.12g}" for x in corner) for corner in (low, high))
     return {
         "Primitive": "subdivided_hyper_rectangle",
@@ -25,11 +39,11 @@ def box(counts, low, high, **more):
     }
 
 
-def elastic(young, poisson=0.3, **more):
+def elastic(young: float, poisson: float = 0.3, **more: Any) -> dict[str, Any]:
     return {"Law": "elastic", "Young modulus": young, "Poisson ratio": poisson, **more}
 
 
-def stepping(end, initial=None, largest=None, **more):
+def stepping(end: float, initial: float | None = None, largest: float | None = None, **more: Any) -> Sections:
     return {
         "End time": f"{end:.12g}",
         "Initial step": initial and f"{initial:.12g}",
@@ -46,19 +60,19 @@ ONE_PICTURE = {"Folder": "results", "Step interval": 0, "Verbosity": "quiet"}
 
 
 def strip(
-    along,
-    through,
-    element,
-    law,
-    radius,
-    penalty=None,
-    tangent=None,
-    search=None,
-    initial=None,
-    largest=None,
-    travel=8.0,
-    solver=None,
-):
+    along: int,
+    through: int,
+    element: str,
+    law: str,
+    radius: float,
+    penalty: float | None = None,
+    tangent: str | None = None,
+    search: str | None = None,
+    initial: float | None = None,
+    largest: float | None = None,
+    travel: float = 8.0,
+    solver: Sections | None = None,
+) -> Sections:
     material = elastic(200000)
     if law == "plastic":
         material = {**material, "Law": "elastoplastic", "Yield stress": 400, "Hardening modulus": 2000}
@@ -105,7 +119,7 @@ def strip(
     }
 
 
-BENDING_NUMERICS = {
+BENDING_NUMERICS: dict[str, dict[str, Any]] = {
     "default": {},
     "no line search": {"search": "none"},
     "steps of 1": {"initial": 1, "largest": 1},
@@ -122,21 +136,25 @@ BENDING_NUMERICS = {
 }
 
 
-def bending():
+def bending() -> list[Case]:
     meshes = [(6, 1), (6, 2), (12, 1), (12, 2), (24, 4), (30, 2), (60, 1), (60, 2), (60, 4)]
     elements, radii = ("assumed strain", "one point", "mean dilatation"), (5, 1, 20, 50, 2, 10)
     cases = []
     for i, (along, through) in enumerate(meshes):
         for j, law in enumerate(("elastic", "plastic")):
             element, radius = elements[(i + j) % 3], radii[(2 * i + 3 * j + i // 3) % 6]
-            knobs = dict(along=along, through=through, element=element, law=law, radius=radius)
+            knobs: dict[str, Any] = dict(
+                along=along, through=through, element=element, law=law, radius=radius
+            )
             near = Reference(
                 strip(**knobs, penalty=300, initial=0.01, largest=0.02, solver=EXACT),
                 strip(**knobs, penalty=1000, initial=0.005, largest=0.01, solver=EXACT),
                 frozenset(OF_THE_MESH),
                 force_curve(["punch"]),
             )
-            fine = dict(along=120, through=4, element="one point", law=law, radius=radius, penalty=50)
+            fine: dict[str, Any] = dict(
+                along=120, through=4, element="one point", law=law, radius=radius, penalty=50
+            )
             far = Reference(
                 strip(**fine, initial=0.01, largest=0.02, solver=EXACT),
                 None,
@@ -161,19 +179,19 @@ def bending():
 
 
 def blocks(
-    lower,
-    upper,
-    gap,
-    slave,
-    friction,
-    press,
-    initial=None,
-    largest=None,
-    penalty=None,
-    end=1.0,
-    solver=None,
-    spread=0.5,
-):
+    lower: int,
+    upper: int,
+    gap: float,
+    slave: str,
+    friction: float,
+    press: float,
+    initial: float | None = None,
+    largest: float | None = None,
+    penalty: float | None = None,
+    end: float = 1.0,
+    solver: Sections | None = None,
+    spread: float = 0.5,
+) -> Sections:
     sides = {"lower": ("lower", 5), "upper": ("upper", 4)}
     first, second = sides[slave], sides["upper" if slave == "lower" else "lower"]
     return {
@@ -207,7 +225,7 @@ def blocks(
     }
 
 
-BLOCK_NUMERICS = {
+BLOCK_NUMERICS: dict[str, dict[str, Any]] = {
     "default": {},
     "steps of 1": {"initial": 1, "largest": 1},
     "steps of 0.1 to 1": {"initial": 0.1, "largest": 1},
@@ -220,7 +238,7 @@ BLOCK_NUMERICS = {
 }
 
 
-def pressed_blocks():
+def pressed_blocks() -> list[Case]:
     meshes, gaps, presses, frictions = (
         [(4, 3), (4, 2), (3, 4), (5, 5)],
         (0, 0.1, 1, 3, 10),
@@ -229,7 +247,7 @@ def pressed_blocks():
     )
     cases = []
     for i in range(26):
-        knobs = dict(
+        knobs: dict[str, Any] = dict(
             lower=meshes[i % 4][0],
             upper=meshes[i % 4][1],
             slave=("upper", "lower")[(i // 2) % 2],
@@ -238,7 +256,7 @@ def pressed_blocks():
         )
         gap = gaps[i % 5]
 
-        def clock(time, gap=gap, press=knobs["press"]):
+        def clock(time: Array, gap: float = gap, press: float = knobs["press"]) -> Array:
             return ((gap + press) * time - gap) / press
 
         said = ", ".join(f"{key} {value}" for key, value in knobs.items())
@@ -248,7 +266,7 @@ def pressed_blocks():
                 continue
             # The limit of high penalties depends on the mesh where a facet reaches over a rim: the penalty is
             # the run's own.
-            stiff = {**knobs, "gap": 0, "penalty": numerics.get("penalty"), "solver": EXACT}
+            stiff: dict[str, Any] = {**knobs, "gap": 0, "penalty": numerics.get("penalty"), "solver": EXACT}
             near = Reference(
                 blocks(**stiff, initial=0.01, largest=0.02),
                 blocks(**stiff, initial=0.005, largest=0.01),
@@ -270,7 +288,7 @@ TARGETS = {
     "held sheet of 0.05": ((6, 6, 1), (1.5, 1.5, 0.05), True),
 }
 FLIERS = {"cube of 0.5": ((2, 2, 2), (0.5, 0.5, 0.5)), "tile of 0.05": ((2, 2, 1), (0.5, 0.5, 0.05))}
-FLIGHT_NUMERICS = {
+FLIGHT_NUMERICS: dict[str, dict[str, Any]] = {
     "default": {},
     "steps up to the end": {"largest": 1.0},
     "first step of the whole flight": {"initial": 1.0, "largest": 1.0},
@@ -279,21 +297,21 @@ FLIGHT_NUMERICS = {
 
 
 def flight(
-    target,
-    flier,
-    speed,
-    oblique,
-    spin,
-    distance,
-    after,
-    slave,
-    faces,
-    tilt=0.0,
-    initial=None,
-    largest=None,
-    tolerance=None,
-    fixed=None,
-):
+    target: str,
+    flier: str,
+    speed: float,
+    oblique: float,
+    spin: float,
+    distance: float,
+    after: float,
+    slave: str,
+    faces: str,
+    tilt: float = 0.0,
+    initial: float | None = None,
+    largest: float | None = None,
+    tolerance: float | None = None,
+    fixed: float | None = None,
+) -> Sections:
     """The flier comes from above. `tilt`: its angle about y when it would touch the undeformed target;
     `spin`: in radians over a flight of its own size; `initial` and `largest` are parts of the run."""
     counts, size, is_held = TARGETS[target]
@@ -354,12 +372,12 @@ def flight(
     }
 
 
-def flights():
+def flights() -> list[Case]:
     cases = []
     for i in range(28):
         target, flier = list(TARGETS)[i % 4], list(FLIERS)[(i // 4) % 2]
         thickness = min(TARGETS[target][1][2], FLIERS[flier][1][2])
-        knobs = dict(
+        knobs: dict[str, Any] = dict(
             target=target,
             flier=flier,
             speed=(10, 1, 30)[i % 3],
@@ -394,7 +412,13 @@ def flights():
 # --- ironing: a rounded elastic die, pressed into a soft slab and drawn along it ------------------
 
 
-def ironing_scene(slave, largest, penalty, initial=None, solver=None):
+def ironing_scene(
+    slave: str,
+    largest: float | None,
+    penalty: float | None,
+    initial: float | None = None,
+    solver: Sections | None = None,
+) -> Sections:
     sides = {"die": ("die", "4"), "slab": ("slab", "5")}
     first, second = sides[slave], sides["slab" if slave == "die" else "die"]
     return {
@@ -437,7 +461,7 @@ def ironing_scene(slave, largest, penalty, initial=None, solver=None):
     }
 
 
-def ironing():
+def ironing() -> list[Case]:
     cases = []
     for slave in ("die", "slab"):
         for i in range(30):
@@ -466,7 +490,7 @@ def ironing():
 # --- penalties: slabs and blocks, pressed ---------------------------------------------------------
 
 
-def pressed(shape, second, scheme, penalty):
+def pressed(shape: str, second: Any, scheme: str, penalty: float | None) -> Sections:
     """On a plane, or on another of its kind, by a hundredth of its height; without a Poisson ratio the stress
     is uniform."""
     counts, size = {"slab": ((4, 4, 1), (4, 4, 0.05)), "block": ((3, 3, 3), (1, 1, 1))}[shape]
@@ -507,17 +531,17 @@ def pressed(shape, second, scheme, penalty):
     }
 
 
-def held_force(name, exact):
+def held_force(name: str, exact: float) -> Judge:
     """Mean force of the last tenth of the run."""
 
-    def judge(run, _, same_clock=False):
+    def judge(run: Kept, _: Kept | None, same_clock: bool = False) -> float:
         held = run.history["time"] > 0.9 * run.history["time"][-1]
         return abs(float(numpy.linalg.norm(run.force(name)[held].mean(axis=0))) / exact - 1)
 
     return judge
 
 
-def penalties():
+def penalties() -> list[Case]:
     cases = []
     for shape, area in (("slab", 16), ("block", 1)):
         for second in (False, True):
@@ -548,16 +572,16 @@ def penalties():
 
 
 def stack(
-    plates,
-    motion,
-    friction,
-    penalty=None,
-    initial=None,
-    largest=None,
-    tolerance=None,
-    profile=None,
-    solver=None,
-):
+    plates: int,
+    motion: str,
+    friction: float,
+    penalty: float | None = None,
+    initial: float | None = None,
+    largest: float | None = None,
+    tolerance: float | None = None,
+    profile: str | None = None,
+    solver: Sections | None = None,
+) -> Sections:
     shear = {
         "sheared": "0.1*{n}*slide ; 0 ; -0.01*{n}*press",
         "twisted": "-0.03*(y - 3)*{n}*slide ; 0.03*(x - 6)*{n}*slide ; -0.01*{n}*press",
@@ -565,17 +589,12 @@ def stack(
     counts = [(6, 3, 1), (8, 4, 1), (7, 3, 1), (6, 4, 1), (8, 3, 1)]
     bodies, pairs = {}, {}
     for i in range(plates):
+        head: dict[str, Any] = {"Boundary ids": 5, "Displacement": shear.format(n=plates)}
         bodies[f"p{i}"] = {
             "Mesh": box(counts[i], (0, 0, i), (12, 6, i + 1)),
             "Material": elastic(1000),
             "Supports": (
-                {"foot": {"Boundary ids": 4}}
-                if i == 0
-                else (
-                    {"head": {"Boundary ids": 5, "Displacement": shear.format(n=plates)}}
-                    if i == plates - 1
-                    else {}
-                )
+                {"foot": {"Boundary ids": 4}} if i == 0 else ({"head": head} if i == plates - 1 else {})
             ),
         }
         if i:
@@ -603,7 +622,7 @@ def stack(
     }
 
 
-STACK_NUMERICS = {
+STACK_NUMERICS: dict[str, dict[str, Any]] = {
     "default": {},
     "steps of 1": {"initial": 1, "largest": 1},
     "steps of 0.1": {"initial": 0.1, "largest": 0.1},
@@ -614,11 +633,11 @@ STACK_NUMERICS = {
 }
 
 
-def stacks():
+def stacks() -> list[Case]:
     cases = []
     for plates in (2, 3, 4, 5):
         for j, motion in enumerate(("sheared", "twisted")):
-            knobs = dict(plates=plates, motion=motion, friction=(0.1, 0.3)[(plates + j) % 2])
+            knobs: dict[str, Any] = dict(plates=plates, motion=motion, friction=(0.1, 0.3)[(plates + j) % 2])
             near = Reference(
                 stack(**knobs, penalty=100, initial=0.02, largest=0.1, solver=EXACT),
                 stack(**knobs, penalty=300, initial=0.02, largest=0.05, solver=EXACT),
@@ -637,7 +656,14 @@ def stacks():
 # --- tools that turn ------------------------------------------------------------------------------
 
 
-def turning(shape, turns, friction, initial=None, largest=None, solver=None):
+def turning(
+    shape: str,
+    turns: float,
+    friction: float,
+    initial: float | None = None,
+    largest: float | None = None,
+    solver: Sections | None = None,
+) -> Sections:
     surface, axis, press = {
         "plane on a ring": ({"Shape": "plane", "Point": "0, 0, 4", "Normal": "0, 0, -1"}, "0, 0, 1", 0.04),
         "ball on a block": ({"Shape": "sphere", "Centre": "0, 0, 14", "Radius": 10}, "0, 0, 1", 0.3),
@@ -648,7 +674,7 @@ def turning(shape, turns, friction, initial=None, largest=None, solver=None):
         ),
     }[shape]
     if shape == "plane on a ring":
-        mesh = {
+        mesh: Sections = {
             "Source": "extruded primitive",
             "Primitive": "hyper_shell",
             "Arguments": "0, 0 : 5 : 8 : 32 : false",
@@ -684,11 +710,11 @@ def turning(shape, turns, friction, initial=None, largest=None, solver=None):
     }
 
 
-def last_wrench(name):
+def last_wrench(name: str) -> Judge:
     """Force and moment at the end."""
 
-    def judge(run, reference, same_clock=False):
-        def end(of, kind):
+    def judge(run: Kept, reference: Kept, same_clock: bool = False) -> float:
+        def end(of: Kept, kind: str) -> Any:
             return numpy.array([of.history[f"{name}.{kind}_{axis}"][-1] for axis in "xyz"])
 
         return max(
@@ -702,7 +728,7 @@ def last_wrench(name):
     return judge
 
 
-def turning_tools():
+def turning_tools() -> list[Case]:
     cases = []
     for shape in ("plane on a ring", "ball on a block", "roll on a block"):
         for friction in (0.1, 0.4):
@@ -728,7 +754,9 @@ def turning_tools():
 # --- removal of tools -----------------------------------------------------------------------------
 
 
-def without_tool(scene, tool, at, end, release, largest):
+def without_tool(
+    scene: Sections, tool: str, at: Any, end: float, release: float | None, largest: float | None
+) -> Sections:
     """The scene, whose tool presses until `at` and is gone afterwards."""
     motion = scene["Tools"][tool]["Motion"]
     return {
@@ -741,7 +769,7 @@ def without_tool(scene, tool, at, end, release, largest):
     }
 
 
-def dented(law, friction):
+def dented(law: str, friction: float) -> Sections:
     """A block with a ball pressed into it."""
     material = (
         elastic(1000)
@@ -770,7 +798,7 @@ def dented(law, friction):
     }
 
 
-def bent(law, element, friction):
+def bent(law: str, element: str, friction: float) -> Sections:
     scene = strip(30, 2, element, law, 5)
     scene["Amplitudes"] = {"p": {"Times": "0, 1", "Values": "0, 1"}}
     scene["Tools"]["punch"]["Motion"]["Translation"] = "0 ; 0 ; -8*p"
@@ -779,7 +807,7 @@ def bent(law, element, friction):
     return scene
 
 
-def clamped(law, friction):
+def clamped(law: str, friction: float) -> Sections:
     """Two plates, pressed onto each other by a tool."""
     material = (
         elastic(1000)
@@ -816,11 +844,11 @@ def clamped(law, friction):
     }
 
 
-def springback(at):
+def springback(at: Any) -> Judge:
     """Plastic work that appears after the removal of a tool, or elastic energy beyond what there was,
     relative to both before it."""
 
-    def judge(run, _, same_clock=False):
+    def judge(run: Kept, _: Kept | None, same_clock: bool = False) -> float:
         time, plastic, stored = (run.history[name] for name in ("time", "plastic_work", "elastic_energy"))
         before = int(numpy.searchsorted(time, at * (1 + 1e-9))) - 1
         energy = plastic[before] + stored[before]
@@ -839,7 +867,7 @@ def springback(at):
     return judge
 
 
-def removals():
+def removals() -> list[Case]:
     scenes = {
         f"strip, {law}, {element}, friction {friction}": bent(law, element, friction)
         for law, element, friction in (
@@ -877,7 +905,7 @@ def removals():
 # --- explicit: balls, edges -----------------------------------------------------------------------
 
 
-def plate_and_ball(radius, x, y, speed, refined=1):
+def plate_and_ball(radius: float, x: float, y: float, speed: float, refined: int = 1) -> Sections:
     """A free plate of facets of 1 x 1. Time until the ball has gone through, had there been no plate."""
     n = 4 * refined
     gap = 0.01
@@ -902,7 +930,7 @@ def plate_and_ball(radius, x, y, speed, refined=1):
     }
 
 
-def plate_and_edge(second, y, z, angle, speed, refined=1):
+def plate_and_edge(second: Any, y: float, z: float, angle: float, speed: float, refined: int = 1) -> Sections:
     """A plate that flies with its edge ahead at a box, or at the edge of another plate."""
     solid = elastic(1000, Density=1e-3)
     slope = math.tan(math.radians(angle))
@@ -921,7 +949,7 @@ def plate_and_edge(second, y, z, angle, speed, refined=1):
             },
         ),
     }
-    scene = {
+    scene: dict[str, Any] = {
         "Bodies": {"A": flier},
         "Time stepping": {"Scheme": "explicit", "End time": f"{0.01 + 0.8 / speed:.6g}"},
         "Output": ONE_PICTURE,
@@ -952,10 +980,10 @@ def plate_and_edge(second, y, z, angle, speed, refined=1):
     return {**scene, "Contact pairs": {"c": pair}}
 
 
-def received(axis):
+def received(axis: str) -> Judge:
     """Momentum of all bodies at the end, along an axis."""
 
-    def judge(run, reference, same_clock=False):
+    def judge(run: Kept, reference: Kept, same_clock: bool = False) -> float:
         a, b = (
             r.history[f"momentum_{axis}"][-1] - r.history[f"momentum_{axis}"][0] for r in (run, reference)
         )
@@ -964,12 +992,12 @@ def received(axis):
     return judge
 
 
-def slowed(tool, speed):
+def slowed(tool: str, speed: float) -> Judge:
     """Velocity of a tool that fell with this speed, in the last tenth of the run, relative to its change in
     the reference."""
 
-    def judge(run, reference, same_clock=False):
-        def end(of):
+    def judge(run: Kept, reference: Kept, same_clock: bool = False) -> float:
+        def end(of: Kept) -> Any:
             late = of.history["time"] > 0.9 * of.history["time"][-1]
             time, way = of.history["time"][late], of.history[f"{tool}.travel_z"][late]
             return (way[-1] - way[0]) / (time[-1] - time[0])
@@ -979,7 +1007,7 @@ def slowed(tool, speed):
     return judge
 
 
-def explicit():
+def explicit() -> list[Case]:
     cases = []
     points = [(0, 0), (0.5, 0), (0.5, 0.5), (0.25, 0.25), (0.3, 0.7), (0.9, 0.5), (0.97, 0.02)]
     for i, radius in enumerate((0.1, 0.3, 0.6, 1, 2)):
@@ -1042,7 +1070,14 @@ def explicit():
 # --- account of friction --------------------------------------------------------------------------
 
 
-def slider(kind, floor, friction, method, scheme="implicit dynamics", largest=None):
+def slider(
+    kind: str,
+    floor: str,
+    friction: float,
+    method: str | None,
+    scheme: str = "implicit dynamics",
+    largest: float | None = None,
+) -> Sections:
     """A block of 1 x 1 x 0.5 and mass 5e-4 under gravity slides on a floor, or spins on it, or slides down a
     slope."""
     solid = elastic(10000, 0.3, Density=1e-3)
@@ -1080,19 +1115,19 @@ def slider(kind, floor, friction, method, scheme="implicit dynamics", largest=No
     }
 
 
-def dissipated(exact):
+def dissipated(exact: float) -> Judge:
     """Frictional dissipation at the end beside what friction must take."""
 
-    def judge(run, _, same_clock=False):
+    def judge(run: Kept, _: Kept | None, same_clock: bool = False) -> float:
         return abs(run.history["friction_dissipation"][-1] / exact - 1)
 
     return judge
 
 
-def balance(run, _, same_clock=False):
+def balance(run: Kept, _: Kept | None, same_clock: bool = False) -> float:
     """Frictional dissipation beside the energy that is gone."""
 
-    def gain(name):
+    def gain(name: str) -> float:
         return run.history[name][-1] - run.history[name][0] if name in run.history else 0.0
 
     lost = gain("external_work") - sum(
@@ -1101,18 +1136,18 @@ def balance(run, _, same_clock=False):
     return abs(gain("friction_dissipation") / lost - 1)
 
 
-def dissipation(run, reference, same_clock=False):
+def dissipation(run: Kept, reference: Kept, same_clock: bool = False) -> float:
     a, b = (r.history["friction_dissipation"][-1] for r in (run, reference))
     return abs(a / b - 1)
 
 
-def travelled(speed, slowing, end):
+def travelled(speed: float, slowing: float, end: float) -> float:
     """Way of what starts with this speed."""
     time = min(end, speed / slowing) if slowing > 0 else end
     return speed * time - 0.5 * slowing * time**2
 
 
-def friction_account():
+def friction_account() -> list[Case]:
     cases, mass, end = [], 5e-4, 0.1
     for floor in ("tool", "body"):
         for kind in ("sliding", "spinning", "slope"):
@@ -1160,7 +1195,7 @@ def friction_account():
     return cases
 
 
-def snap_fit(friction, largest):
+def snap_fit(friction: float, largest: float | None) -> Sections:
     return {
         "Amplitudes": {"s": {"Times": "0, 1, 2", "Values": "0, 1, 0"}},
         "Bodies": {
@@ -1201,7 +1236,7 @@ def snap_fit(friction, largest):
 # --- pins in lugs ---------------------------------------------------------------------------------
 
 
-def pin(facets, more, slave, correction, largest=None):
+def pin(facets: int, more: int, slave: str, correction: bool, largest: float | None = None) -> Sections:
     half = {"Positions": "x*cos(pi/180*y) ; x*sin(pi/180*y) ; z"}
     sides = {"pin": ("pin", 1), "lug": ("lug", 0)}
     first, second = sides[slave], sides["lug" if slave == "pin" else "pin"]
@@ -1236,7 +1271,7 @@ def pin(facets, more, slave, correction, largest=None):
     }
 
 
-def pins():
+def pins() -> list[Case]:
     cases = []
     for slave in ("pin", "lug"):
         fine = pin(192, 0, slave, False, 0.1)

@@ -2,9 +2,12 @@
 """The billet with all of its load in one step: what cuts make of it, and how far one step goes without, by
 tangent."""
 
+from __future__ import annotations
+
 from billet_runs import (
     TANGENT,
     TANGENTS,
+    Changes,
     Run,
     arguments,
     fixed_steps,
@@ -20,12 +23,12 @@ LEVELS = (1,) if options.quick else (1, 2)
 whole = {"Time stepping/Initial step": 1, "Time stepping/Maximum step": 1, "Output/Verbosity": "steps"}
 
 
-def has_changed_tangent(run):
+def has_changed_tangent(run: Run) -> bool:
     """Whether the exact tangent has taken over, as it does where steps cannot be cut any more."""
     return any(record["key"] == "exact-tangent" for record in run.records)
 
 
-def reach(changes, n):
+def reach(changes: Changes, n: int) -> list[str]:
     """Which of the steps of 1/n, 2/n, ... of the travel this tangent does alone, without a cut: the upsetting
     to which it does all of them, and the largest that it does. It may take 60 iterations."""
     done = []
@@ -51,7 +54,7 @@ for level in LEVELS:
     exact = Run({**mesh(level), **fixed_steps(200)}, options.ranks)
     rows = []
 
-    def off(run):
+    def off(run: Run) -> float:
         return abs(run.forces[-1] / exact.forces[-1] - 1)
 
     for n in (10, 20, 50):
@@ -73,7 +76,7 @@ for level in LEVELS:
             slope = off(run) * n  # the error is of first order in the step
     for tangent in (*TANGENTS, "numerical"):
         for search in ("none", "energy"):
-            changes = {**mesh(level), TANGENT: tangent, "Solver/Line search": search}
+            changes: dict[str, object] = {**mesh(level), TANGENT: tangent, "Solver/Line search": search}
             name = tangent + (", line search" if search == "energy" else "")
             if level == 1 or tangent in TANGENTS[:2]:
                 run = Run({**changes, **whole}, options.ranks)

@@ -2,10 +2,13 @@
 """Prints an STL file of a torus fillet about the z axis, as of a die: an open surface, whose normals point
 away from the tube's middle."""
 
+from __future__ import annotations
+
 import argparse
 import math
 import struct
 import sys
+from typing import Iterator
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument(
@@ -34,8 +37,10 @@ parser.add_argument("--along", type=int, default=8, help="facets along the tube'
 parser.add_argument("--inwards", action="store_true", help="let the normals point to the tube's middle")
 parser.add_argument("--ascii", action="store_true", help="ASCII instead of binary")
 
+Point = tuple[float, ...]  # x, y, z
 
-def point(options, i, j):
+
+def point(options: argparse.Namespace, i: int, j: int) -> Point:
     """Corner i around the axis, j along the arc."""
     turn = options.sector[1] - options.sector[0]
     if turn == 360.0:
@@ -52,7 +57,7 @@ def point(options, i, j):
     )
 
 
-def facets(options):
+def facets(options: argparse.Namespace) -> Iterator[tuple[Point, Point, Point]]:
     """Each quadrilateral as two triangles, counter-clockwise seen from outside of the tube."""
     for i in range(options.around):
         for j in range(options.along):
@@ -61,14 +66,14 @@ def facets(options):
                 yield corners[::-1] if options.inwards else corners
 
 
-def normal(a, b, c):
+def normal(a: Point, b: Point, c: Point) -> Point:
     u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
     n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
     length = math.sqrt(sum(x * x for x in n))
     return tuple(x / length for x in n) if length > 0 else n
 
 
-def main():
+def main() -> None:
     options = parser.parse_args()
     if not (options.ring > 0 and options.tube > 0 and options.around > 0 and options.along > 0):
         parser.error("radii and numbers of facets must be positive")

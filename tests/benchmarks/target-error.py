@@ -2,10 +2,13 @@
 """Whether runs with a 'Target error' are as accurate as they should be, and what they cost beside runs set by
 hand."""
 
+from __future__ import annotations
+
 import math
 import tempfile
+from typing import Iterator, Sequence
 
-from billet_runs import PROGRAM, ROOT, Measured, arguments, number, percent, publish, table
+from billet_runs import PROGRAM, ROOT, Changes, Measured, arguments, number, percent, publish, table
 from hand_set import beside_hand_set
 from curve_runs import CurveRun, error, run_all, write_csv
 
@@ -15,7 +18,7 @@ STEPS = (2, 3, 5, 10, 20, 40)
 REFERENCE_STEPS = 640
 
 
-def pairs(names, **values):
+def pairs(names: Sequence[str], **values: object) -> dict[str, object]:
     return {
         f"Contact pairs/{name}/{key.replace('_', ' ')}": value
         for name in names
@@ -28,7 +31,9 @@ class Implicit:
 
     unit = "iterations"
 
-    def __init__(self, name, pairs, end, changes, depth=1e-5):
+    def __init__(
+        self, name: str, pairs: Sequence[str], end: float, changes: Changes, depth: float = 1e-5
+    ) -> None:
         self.path, self.pairs, self.end, self.changes, self.depth = (
             ROOT / f"prm/{name}.prm",
             pairs,
@@ -37,13 +42,13 @@ class Implicit:
             depth,
         )
 
-    def steps(self, n):
+    def steps(self, n: int) -> dict[str, object]:
         return {
             "Time stepping/Initial step": repr(self.end / n),
             "Time stepping/Maximum step": repr(self.end / n),
         }
 
-    def reference(self):
+    def reference(self) -> dict[str, object]:
         return {
             **self.changes,
             **self.steps(REFERENCE_STEPS),
@@ -52,7 +57,7 @@ class Implicit:
             "Solver/Maximum augmentations": 60,
         }
 
-    def by_hand(self):
+    def by_hand(self) -> Iterator[tuple[str, dict[str, object]]]:
         """What a user might set: equal steps, penalties as they are or augmented, tolerances."""
         for n in STEPS:
             for depth, tolerance in ((None, 1e-2), (None, 1e-3), (1e-2, 1e-2), (1e-2, 1e-3), (1e-3, 1e-4)):
@@ -69,7 +74,7 @@ class Implicit:
                     "Solver/Energy tolerance": 1e-5 if tolerance > 1e-4 else 1e-10,
                 }
 
-    def target(self, target):
+    def target(self, target: float) -> dict[str, object]:
         return {
             **self.changes,
             "Target error": target,
@@ -82,10 +87,10 @@ class Implicit:
 class Explicit:
     unit = "element updates"
 
-    def __init__(self, name, pairs, changes):
+    def __init__(self, name: str, pairs: Sequence[str], changes: Changes) -> None:
         self.path, self.pairs, self.changes = ROOT / f"prm/{name}.prm", pairs, changes
 
-    def reference(self):
+    def reference(self) -> dict[str, object]:
         return {
             **self.changes,
             **pairs(self.pairs, Normal_penalty=300),
@@ -93,7 +98,7 @@ class Explicit:
             "Explicit dynamics/Contact resolution": 4,
         }
 
-    def by_hand(self):
+    def by_hand(self) -> Iterator[tuple[str, dict[str, object]]]:
         for penalty in (0.3, 1, 3, 10, 30):
             for safety in (0.9, 0.75):
                 for resolution in (1,) if safety > 0.8 else (2,):
@@ -107,11 +112,11 @@ class Explicit:
                         },
                     )
 
-    def target(self, target):
+    def target(self, target: float) -> dict[str, object]:
         return {**self.changes, "Target error": target, **pairs(self.pairs, Normal_penalty=None)}
 
 
-SCENES = {
+SCENES: dict[str, Implicit | Explicit] = {
     "billet upsetting": Implicit("billet_upsetting", ["billet on die"], 1.0, {}),
     "Hertz, two cylinders, 370 bricks": Implicit(
         "hertz_cylinders",
@@ -147,14 +152,14 @@ SCENES = {
 TIMED = 1 if options.quick else 3  # runs, one at a time
 
 
-def time_again(scene, changes, run):
+def time_again(scene: Implicit | Explicit, changes: Changes, run: CurveRun) -> None:
     """Its seconds become the least of TIMED runs alone."""
-    if not hasattr(run, "timed"):
+    if not run.timed:
         run.timed = True
         run.seconds = min([CurveRun(scene.path, changes, options.ranks).seconds for _ in range(TIMED)])
 
 
-def start_seconds():
+def start_seconds() -> float:
     """What a run costs before it has read its scene."""
     with tempfile.TemporaryDirectory() as folder:
         return min(Measured([PROGRAM, "--version"], folder).seconds for _ in range(TIMED))

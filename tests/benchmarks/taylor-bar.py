@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Taylor's bar on three meshes, elements and laws beside reference values."""
 
+from __future__ import annotations
+
 import tempfile
 from pathlib import Path
 
-from billet_runs import ROOT, arguments, number, percent, publish, table
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
 from explicit_runs import ExplicitRun, norm
 
 options = arguments("taylor-bar")
 MESH = "Bodies/bar/Mesh/"
 
 
-def run(refinements, changes=None):
+def run(refinements: int, changes: Changes | None = None) -> list[object]:
     with tempfile.TemporaryDirectory() as folder:
         r = ExplicitRun(
             ROOT / "prm/taylor_bar.prm",

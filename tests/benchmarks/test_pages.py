@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What benchmarks compute and say of what they ran."""
 
+from __future__ import annotations
+
 import math
 import unittest
+from typing import Iterable, Sequence
 
 from hand_set import beside_hand_set
 from profile_words import no_better, without_errors
-from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, force_curve
+from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, Sections, force_curve
 from billet_tools.scene import scene_text
 
 
 class Counting(unittest.TestCase):
-    def test_what_cannot_be_compared_is_not_counted(self):
+    def test_what_cannot_be_compared_is_not_counted(self) -> None:
         said = beside_hand_set([1.0, 1.5, 1.6, math.nan], [0.9, 2.0, 1.7, math.nan])
         self.assertIn(
             "2 of 3 take at most 1.5 times the work, 1 of 3 at most 1.5 times the CPU seconds", said
@@ -21,7 +24,7 @@ class Counting(unittest.TestCase):
 
 
 class Profiles(unittest.TestCase):
-    def test_no_better(self):
+    def test_no_better(self) -> None:
         errors = {
             "a": {"fast": 0.02, "balanced": 0.019, "accurate": 0.001},
             "b": {"fast": 0.02, "balanced": 0.002, "accurate": 0.001},
@@ -32,7 +35,7 @@ class Profiles(unittest.TestCase):
         self.assertIn("In 1 of these accurate, which augments, has at most half", no_better(errors))
         self.assertEqual(no_better({"b": errors["b"]}), "")
 
-    def test_reasons(self):
+    def test_reasons(self) -> None:
         self.assertEqual(without_errors({}), "")
         self.assertIn("a (given up)", without_errors({"a": "given up"}))
 
@@ -40,10 +43,10 @@ class Profiles(unittest.TestCase):
 class Told(Runner):
     """Runs by the text of their scenes: end forces at times 0.5 and 1, exit code, warnings."""
 
-    def __init__(self, runs):
+    def __init__(self, runs: Iterable[tuple[Sections, tuple[float, int | None, Sequence[str]]]]) -> None:
         self.runs = {scene_text(scene): what for scene, what in runs}
 
-    def run(self, scene, seconds=0):
+    def run(self, scene: Sections, seconds: int = 0) -> Kept:
         force, code, keys = self.runs[scene_text(scene)]
         history = {
             "time": [0.5, 1.0],
@@ -64,13 +67,20 @@ class Told(Runner):
 
 
 class SilentErrors(unittest.TestCase):
-    def outcome(self, force, code=0, keys=(), first=100.0, second=100.0):
+    def outcome(
+        self,
+        force: float,
+        code: int | None = 0,
+        keys: Sequence[str] = (),
+        first: float = 100.0,
+        second: float = 100.0,
+    ) -> str:
         scenes = [{"a": i} for i in range(3)]
         runner = Told(zip(scenes, [(force, code, keys), (first, 0, ()), (second, 0, ())]))
         reference = Reference(scenes[1], scenes[2], frozenset(OF_THE_MESH), force_curve(["c"]))
         return runner.outcome(Case("family", "name", scenes[0], (reference,)))[0]
 
-    def test_outcomes(self):
+    def test_outcomes(self) -> None:
         self.assertEqual(self.outcome(98), "right")
         self.assertEqual(self.outcome(90), "wrong")
         self.assertEqual(self.outcome(0), "wrong")
@@ -82,7 +92,7 @@ class SilentErrors(unittest.TestCase):
         self.assertEqual(self.outcome(90, code=None), "no end")
         self.assertEqual(self.outcome(90, code=-11), "crashed")
 
-    def test_clock(self):
+    def test_clock(self) -> None:
         """A run that touches at half of its time, beside a reference that touches at once."""
         run, reference = (Told([({}, what)]).run({}) for what in ((100.0, 0, ()), (100.0, 0, ())))
         self.assertAlmostEqual(force_curve(["c"])(run, reference), 0)

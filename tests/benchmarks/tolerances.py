@@ -2,25 +2,28 @@
 """What the default tolerances of Newton's method save, and how far they are off, beside those for comparisons
 to many digits, on the shipped scenes of statics and implicit dynamics."""
 
-import math
+from __future__ import annotations
 
-from billet_runs import ROOT, arguments, number, percent, publish, table  # finds billet_tools, too
+import math
+from pathlib import Path
+
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table  # finds billet_tools, too
 from billet_tools.scene import read_entries
 from curve_runs import CurveRun, error
 
 options = arguments("tolerances")
 
 # The defaults of every static scene up to the change to those of today, and what is as good as none.
-TIGHT = {"Solver/Force tolerance": 1e-6, "Solver/Energy tolerance": 1e-10}
-EXACT = {
+TIGHT: Changes = {"Solver/Force tolerance": 1e-6, "Solver/Energy tolerance": 1e-10}
+EXACT: Changes = {
     "Solver/Force tolerance": 1e-8,
     "Solver/Energy tolerance": 1e-12,
     "Solver/Displacement tolerance": 1e-6,
 }
-LOOSE = {key: None for key in EXACT}
+LOOSE: Changes = {key: None for key in EXACT}
 
 # Scenes that take minutes: what is left of them shows the same.
-CUT = {
+CUT: dict[str, Changes] = {
     "wagoner_punch": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_0": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
     "wagoner_punch_mu_015": {"Bodies/blank/Mesh/Refinements": 3, "Time stepping/End time": 0.25},
@@ -32,9 +35,9 @@ CUT = {
 }
 
 
-def same_steps(run, path, cut):
+def same_steps(run: CurveRun, path: Path, cut: Changes) -> dict[str, object]:
     """Steps that end where those of a run did."""
-    entries = {**read_entries(path), **cut}
+    entries = {**read_entries(path), **{key: str(value) for key, value in cut.items()}}
     end = float(entries.get("Time stepping/End time", 1))
     if entries.get("Time stepping/Step control") == "fixed":
         return {}
@@ -47,14 +50,14 @@ def same_steps(run, path, cut):
     }
 
 
-def last_change(run, other):
+def last_change(run: CurveRun, other: CurveRun) -> float:
     """Of the forces at the end, relative to them."""
     ends = [(run.curves[name][-1], other.curves[name][-1]) for name in run.curves]
     size = sum(math.hypot(*b) for _, b in ends)
     return sum(math.dist(a, b) for a, b in ends) / size if size > 0 else math.nan
 
 
-def shown(run):
+def shown(run: CurveRun) -> list[object]:
     return (
         [run.steps, run.work, number(run.seconds)]
         if run.finished

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 # By the name of the picture: the scene, and what is asked of it. Small enough for some minutes each on one
 # core.
-SWEEPS = {
+SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
     "billet_upsetting": (
         "billet_upsetting",
         "--mesh 2 --reference-mesh 0.5,1,2 --force die.force_z --outputs force --target 3% --repeat 1",

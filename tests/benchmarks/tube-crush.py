@@ -2,16 +2,21 @@
 """A square tube crushed along its axis: folds, force, energies, and a geometric check that its wall does not
 pass through itself."""
 
+from __future__ import annotations
+
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any, Callable, Iterable, Sequence
 
 import matplotlib
 import numpy
 from matplotlib.collections import PolyCollection
 from scipy.spatial import cKDTree
 
-from billet_runs import ROOT, arguments, number, percent, publish, table
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
 from explicit_runs import ExplicitRun
+from billet_tools.output import Array, Fields
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -26,7 +31,7 @@ FACES = numpy.array([[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0,
 class Tube:
     """Nodes and bricks of a picture, and the boundary's facets."""
 
-    def __init__(self, points, fields):
+    def __init__(self, points: Array, fields: Fields) -> None:
         start = points - fields["displacement"]
         _, first, index = numpy.unique(start.round(4), axis=0, return_index=True, return_inverse=True)
         self.start, self.now = start[first], points[first]
@@ -44,7 +49,7 @@ class Tube:
         self.section_strains = [self.strain[self.brick_of_facet[on]] for on in on_plane]
         self.facets = self.all_facets[~on_plane[0] & ~on_plane[1]]
 
-    def middle_line(self, axis):
+    def middle_line(self, axis: int) -> Array:
         """Outward displacement of the middle of the side with this normal, by the length along the wall from
         the foot."""
         across = 1 - axis
@@ -53,7 +58,7 @@ class Tube:
         return self.now[line, axis] - 25
 
 
-def lobes(line, least=2 * WALL):
+def lobes(line: Array, least: float = 2 * WALL) -> tuple[int, int]:
     """Turning points of a line that stand out by at least `least` on both sides: outward, inward."""
     count, extreme, direction = {1: 0, -1: 0}, line[0], 0
     for value in line[1:]:
@@ -68,7 +73,7 @@ def lobes(line, least=2 * WALL):
     return count[1], count[-1]
 
 
-def apart_by(p, q, r, s):
+def apart_by(p: Array, q: Array, r: Array, s: Array) -> Array:
     """Distances of the segments pq from the segments rs."""
     u, v, w = q - p, s - r, p - r
     uu, uv, vv, uw, vw = ((a * b).sum(axis=1) for a, b in ((u, u), (u, v), (v, v), (u, w), (v, w)))
@@ -81,7 +86,7 @@ def apart_by(p, q, r, s):
     return numpy.linalg.norm(w + first[:, None] * u - second[:, None] * v, axis=1)
 
 
-def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
+def crossings(tube: Tube, tolerances: Sequence[float] = (0.05 * WALL, 0.5 * WALL)) -> list[float]:
     """Of the edges of boundary facets that go through other facets: how many do, how many deeper than the
     tolerances, and how deep at most. As deep is what would part the two: the distance of the nearer end of
     the edge from the facet's plane, or of the edge from one of the facet's edges. Penalty contact lets them
@@ -123,7 +128,7 @@ def crossings(tube, tolerances=(0.05 * WALL, 0.5 * WALL)):
     return [len(depth)] + [int((depth > t).sum()) for t in tolerances] + [float(depth.max(initial=0))]
 
 
-def deepest_inside(tube):
+def deepest_inside(tube: Tube) -> tuple[int, float]:
     """Boundary nodes that lie inside a brick of another place, one that has no node in common with the bricks
     around them, and the largest distance of one from the nearest facet that does not have it."""
     x = tube.now
@@ -132,7 +137,7 @@ def deepest_inside(tube):
     corners = x[tube.bricks]
     tree = cKDTree(x[nodes])
     radius = numpy.linalg.norm(corners - corners.mean(axis=1)[:, None], axis=2).max(axis=1)
-    around = [set() for _ in x]  # nodes of the bricks around each node
+    around: list[set[int]] = [set() for _ in x]  # nodes of the bricks around each node
     for brick in tube.bricks:
         for node in brick:
             around[node].update(brick)
@@ -158,7 +163,7 @@ def deepest_inside(tube):
     return count, deepest
 
 
-def distance_from_triangle(point, triangles):
+def distance_from_triangle(point: Array, triangles: Array) -> Array:
     """Distances of a point from triangles [n, 3, 3]."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     normal = numpy.cross(b - a, c - a)
@@ -173,7 +178,7 @@ def distance_from_triangle(point, triangles):
     return numpy.where(above, abs(height), distance)
 
 
-def inside_brick(corners, x):
+def inside_brick(corners: Array, x: Array) -> Array | None:
     """Whether the trilinear map of the brick has x inside, by Newton's method: its parameters, or None."""
     xi = numpy.full(3, 0.5)
     signs = numpy.array([[a & 1, (a >> 1) & 1, (a >> 2) & 1] for a in range(8)])
@@ -195,7 +200,7 @@ def inside_brick(corners, x):
     return xi if (xi > 0).all() and (xi < 1).all() else None
 
 
-def draw(tubes, path):
+def draw(tubes: Sequence[tuple[float, Tube]], path: Path) -> None:
     """Sections through the middles of the sides, the inward folding one on the right."""
     figure, axes = pyplot.subplots(1, len(tubes), figsize=(3.1 * len(tubes), 6.2), sharey=True)
     for axis, (time, tube) in zip(axes, tubes):
@@ -218,13 +223,15 @@ def draw(tubes, path):
     figure.savefig(path, dpi=110, bbox_inches="tight")
 
 
-def run(changes, pictures):
+def run(
+    changes: Changes, pictures: Callable[[ExplicitRun], Iterable[int]]
+) -> tuple[ExplicitRun, list[tuple[float, Tube]]]:
     with tempfile.TemporaryDirectory() as folder:
         r = ExplicitRun(SCENE, changes, folder, options.ranks)
         return r, [(i * INTERVAL, Tube(*r.picture(i))) for i in pictures(r)]
 
 
-def geometry_rows(name, tubes):
+def geometry_rows(name: str, tubes: Sequence[tuple[float, Tube]]) -> list[list[Any]]:
     rows = []
     for time, tube in tubes:
         *counts, depth = crossings(tube)
@@ -243,17 +250,15 @@ def geometry_rows(name, tubes):
     return rows
 
 
-def every_picture(r):
+def every_picture(r: ExplicitRun) -> Iterable[int]:
     return range(1, len(list((r.folder / "results").glob("fields_*.pvtu"))))
 
 
-control = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Maximum energy drift": 1}
-nodes = {"Contact pairs/folds/Edge contact": "false"}
+control: Changes = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Maximum energy drift": 1}
+nodes: Changes = {"Contact pairs/folds/Edge contact": "false"}
 with ThreadPoolExecutor() as pool:
-    runs = [
-        pool.submit(run, changes, every_picture)
-        for changes in ([{}] if options.quick else [{}, nodes, control])
-    ]
+    variants: list[Changes] = [{}] if options.quick else [{}, nodes, control]
+    runs = [pool.submit(run, changes, every_picture) for changes in variants]
 r, tubes = runs[0].result()
 last = tubes[-1][1]
 drawn = [tubes[i] for i in numpy.linspace(0, len(tubes) - 1, 4).round().astype(int)]

@@ -2,6 +2,8 @@
 """The impact of two tubes in billet and in CalculiX's explicit dynamics, on the same mesh: cost per element
 and step."""
 
+from __future__ import annotations
+
 import os
 import re
 import statistics
@@ -13,15 +15,16 @@ from pathlib import Path
 from billet_runs import (
     PROGRAM,
     ROOT,
-    arguments,
+    Changes,
     Measured,
+    arguments,
     number,
     publish,
     read_scene,
     table,
     variant,
 )
-from ccx_decks import CCX_ENVIRONMENT, FACES, read_bricks
+from ccx_decks import CCX_ENVIRONMENT, FACES, Brick, Node, read_bricks
 
 options = arguments("tube-impact")
 REPEAT = 1 if options.quick else 3
@@ -35,7 +38,7 @@ SHORT, LONG = 50, 250  # ccx's steps: their difference is free of its start
 FLYING = re.sub(r"(?ms)^subsection Contact pairs$.*?^end$\n", "", SCENE)
 
 
-def run_billet(changes, folder, scene=SCENE):
+def run_billet(changes: Changes, folder: str, scene: str = SCENE) -> tuple[int, float]:
     text = variant(scene, {"Output/Folder": "results", "Output/Interval": 0, **changes})
     Path(folder, "scene.prm").write_text(text)
     done = subprocess.run([PROGRAM, "scene.prm"], cwd=folder, capture_output=True, text=True)
@@ -47,20 +50,20 @@ def run_billet(changes, folder, scene=SCENE):
     return int(found.group(1)), float(found.group(4))
 
 
-def read_mesh():
+def read_mesh() -> tuple[list[Node], list[Brick]]:
     with tempfile.TemporaryDirectory() as folder:
         run_billet({"Time stepping/End time": 1e-5}, folder)
         return read_bricks(Path(folder, "results/fields_00000.0.vtu").read_text(), 6)
 
 
-def write_deck(path, nodes, bricks, n_steps, contact):
+def write_deck(path: Path, nodes: list[Node], bricks: list[Brick], n_steps: int, contact: bool) -> None:
     """Tubes along x with their axes at y = ∓0.1005, flying towards each other along y."""
-    count = {}
+    count: dict[tuple[int, ...], int] = {}
     for brick in bricks:
         for face in FACES:
             key = tuple(sorted(brick[i] for i in face))
             count[key] = count.get(key, 0) + 1
-    outside = {-1: [], 1: []}
+    outside: dict[int, list[str]] = {-1: [], 1: []}
     for i, brick in enumerate(bricks):
         for side, face in enumerate(FACES):
             corners = [nodes[brick[c]] for c in face]
@@ -108,7 +111,7 @@ def write_deck(path, nodes, bricks, n_steps, contact):
     path.write_text("\n".join(lines) + "\n")
 
 
-def run_ccx(nodes, bricks, n_steps, contact):
+def run_ccx(nodes: list[Node], bricks: list[Brick], n_steps: int, contact: bool) -> float | None:
     """Its processor seconds; None if it gave up before the end."""
     with tempfile.TemporaryDirectory() as folder:
         write_deck(Path(folder, "deck.inp"), nodes, bricks, n_steps, contact)
@@ -127,9 +130,9 @@ def run_ccx(nodes, bricks, n_steps, contact):
     return seconds if is_done else None
 
 
-grid = read_mesh()
-n = len(grid[1])
-ways = {
+nodes, bricks = read_mesh()
+n = len(bricks)
+ways: dict[str, Changes] = {
     "billet, as the scene is": {},
     "billet, one point": {f"Bodies/{b}/Element": "one point" for b in BODIES},
     "billet, one point, hypoelastic": {
@@ -141,21 +144,29 @@ ways = {
         )
     },
 }
-END = {"Time stepping/End time": 0.3e-3, "Output/History interval": 0.1e-3, "Output/Format": "none"}
-FLIGHT = {**END, "Time stepping/End time": 0.12e-3}
-costs = {name: [] for name in [*ways, *(f"{name}, in flight" for name in ways), "ccx", "ccx, contact"]}
+END_TIME, FLIGHT_TIME = 0.3e-3, 0.12e-3
+END: dict[str, object] = {
+    "Time stepping/End time": END_TIME,
+    "Output/History interval": 0.1e-3,
+    "Output/Format": "none",
+}
+FLIGHT: dict[str, object] = {**END, "Time stepping/End time": FLIGHT_TIME}
+LEGS: list[tuple[str, Changes, str]] = [("", END, SCENE), (", in flight", FLIGHT, FLYING)]
+costs: dict[str, list[float]] = {
+    name: [] for name in [*ways, *(f"{name}, in flight" for name in ways), "ccx", "ccx, contact"]
+}
 steps, loads = {}, []
 for _ in range(REPEAT):
     loads.append(os.getloadavg()[0])
     for name, changes in ways.items():
-        for suffix, end, scene in (("", END, SCENE), (", in flight", FLIGHT, FLYING)):
+        for suffix, end, scene in LEGS:
             with tempfile.TemporaryDirectory() as folder:
                 steps[name + suffix], ns = run_billet({**changes, **end}, folder, scene)
             costs[name + suffix].append(ns)
     for name, contact in (("ccx", False), ("ccx, contact", True)):
         if costs["ccx, contact"] and contact:  # ten times dearer, once will do
             continue
-        short, long = (run_ccx(*grid, count, contact) for count in (SHORT, LONG))
+        short, long = (run_ccx(nodes, bricks, count, contact) for count in (SHORT, LONG))
         steps[name] = LONG - SHORT
         if short and long:
             costs[name].append(1e9 * (long - short) / (steps[name] * n))
@@ -175,18 +186,19 @@ for name, values in costs.items():
                 number(statistics.median(beside) / statistics.median(values), 3) if beside else "–",
             ]
         )
-version = re.search(r"Version (\S+)", subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout)
+said = subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout
+version = re.findall(r"Version (\S+)", said)[0]
 
 publish(
     "tube-impact",
     "The impact of two tubes, per element and step, beside CalculiX",
     options,
     (
-        f"`prm/tube_impact.prm`, {n} bricks; CalculiX {version.group(1)} (`*DYNAMIC, EXPLICIT`, C3D8R, the"
+        f"`prm/tube_impact.prm`, {n} bricks; CalculiX {version} (`*DYNAMIC, EXPLICIT`, C3D8R, the"
         f" same nodes, bricks, material and velocities, steps of {STEP:g} s). Processor time on one core"
         " without other threads: of billet's stepping loop for the first"
-        f" {END['Time stepping/End time'] * 1e3:g} ms, contact included, and for"
-        f" {FLIGHT['Time stepping/End time'] * 1e3:g} ms of flight, without the contact pair; of CalculiX the"
+        f" {END_TIME * 1e3:g} ms, contact included, and for"
+        f" {FLIGHT_TIME * 1e3:g} ms of flight, without the contact pair; of CalculiX the"
         f" difference of runs of {LONG} and {SHORT} steps, without contact and with it (surface to surface,"
         f" linear, 2.5e12 N/m³). Median and least of {REPEAT} runs (ccx with contact: one), programs by"
         f" turns; load average {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores. Wanted: at"

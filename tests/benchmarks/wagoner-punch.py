@@ -2,6 +2,8 @@
 """Wagoner's hemispherical punch: tangents, quadratic convergence, elements through the thickness, friction,
 strain."""
 
+from __future__ import annotations
+
 import re
 import tempfile
 from pathlib import Path
@@ -9,7 +11,7 @@ from pathlib import Path
 from matplotlib import pyplot
 import numpy
 
-from billet_runs import ROOT, TANGENT, Run, arguments, number, publish, table
+from billet_runs import ROOT, TANGENT, Changes, Run, arguments, number, publish, table
 from billet_tools.output import pictures_of, read_grid
 
 options = arguments("wagoner-punch")
@@ -23,7 +25,7 @@ PAPER = {"exact": "170 / 83", "consistent": "176 / 87", "continuum": "219 / 95"}
 SCENES = {0.3: "wagoner_punch", 0.15: "wagoner_punch_mu_015", 0.0: "wagoner_punch_mu_0"}
 
 
-def run(changes=None, friction=0.3, folder=None):
+def run(changes: Changes | None = None, friction: float = 0.3, folder: str | None = None) -> Run:
     return Run(
         {**base, "Output/Interval": 0, **(changes or {})},
         options.ranks,
@@ -33,13 +35,13 @@ def run(changes=None, friction=0.3, folder=None):
     )
 
 
-def outcome(r):
+def outcome(r: Run) -> str:
     if r.converged:
         return f"{r.iterations} / {r.steps}"
     return f"{TRAVEL * r.times[-1]:.2g} mm: {r.failure}"
 
 
-def tangents():
+def tangents() -> str:
     rows = []
     for tangent in ("exact", "numerical", "consistent", "continuum"):
         # A tangent that needs thousands of steps is no choice: it may give up.
@@ -61,7 +63,7 @@ def tangents():
     )
 
 
-def residuals():
+def residuals() -> str:
     """Of the first step of 1.5 % of the travel that ends past a third of it."""
     rows = []
     for tangent in ("exact", "consistent"):
@@ -97,7 +99,7 @@ class Shape:
     """The blank at the end of a run: `radii` where segments of the meridian y = 0 began, their logarithmic
     strains `meridional`; plastic strain of the elements, the radius of its peak."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str) -> None:
         fields = read_grid(pictures_of(Path(folder, "results"))[-1])
         now, start = fields["points"], fields["points"] - fields["displacement"]
         chains = []
@@ -120,17 +122,17 @@ class Shape:
         )
 
 
-def run_with_shape(changes, friction):
+def run_with_shape(changes: Changes, friction: float) -> tuple[Run, Shape]:
     with tempfile.TemporaryDirectory() as folder:
         r = run({"Output/Format": "vtu", "Output/Step interval": 0, **changes}, friction, folder)
         return r, Shape(folder)
 
 
-def forces_at(r):
+def forces_at(r: Run) -> list[str]:
     return [number(r.force(travel / TRAVEL), 4) for travel in (10, 20, 30, 40)]
 
 
-def row_of(label, r, shape):
+def row_of(label: object, r: Run, shape: Shape) -> list[object]:
     return (
         [label, f"{r.iterations} / {r.steps}", number(r.seconds)]
         + forces_at(r)
@@ -151,7 +153,7 @@ HEAD = [
 ]
 
 
-def thickness():
+def thickness() -> str:
     rows = []
     for layers in (1, 2) if options.quick else (1, 2, 4):
         r, shape = run_with_shape({MESH + "Layers": layers}, 0.3)
@@ -159,7 +161,7 @@ def thickness():
     return table(["elements"] + HEAD, rows)
 
 
-def friction():
+def friction() -> str:
     rows = []
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
     for mu in SCENES:
@@ -177,7 +179,7 @@ def friction():
     return table(["µ"] + HEAD, rows)
 
 
-def peaks():
+def peaks() -> str:
     """Where the blank strains most, over travel and friction, and how much its centre does."""
     rows = []
     for travel in (10, 20, 22.5, 23, 30, 35, 40):
