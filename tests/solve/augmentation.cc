@@ -119,6 +119,47 @@ void check_confined() {
         stiffening_beside_another(confined, 0.204) > 1. && stiffening_beside_another(confined, 0.196) == 1.);
 }
 
+/// Newton iterations of the first equilibria, by the residuals from which they start, at this tolerance of
+/// forces. Iterations reduce a residual by much more than augmentations do.
+std::vector<std::vector<double>> iterations(const double left, const double force_tolerance) {
+  auto parameters = read({6., left, 1e-6, 4});
+  parameters.bodies[0].supports[0].displacement.value[2] = "-0.01*t"; // so that one iteration is not enough
+  parameters.solver.force_tolerance = force_tolerance;
+  parameters.solver.energy_tolerance = parameters.solver.displacement_tolerance = 1e6; // forces alone count
+  std::vector<std::vector<double>> result;
+  for (const NewtonIteration &iteration : Pressed(parameters).report.iterations) {
+    if (result.empty() || iteration.force > 0.1 * result.back().back())
+      result.emplace_back();
+    result.back().push_back(iteration.force);
+  }
+  return result;
+}
+
+/// Returns the factor of the tolerance of forces after so many augmentations: the tolerance is sought at
+/// which a second iteration begins.
+double accuracy_after(const unsigned int n_augmentations, const double left) {
+  double low = 1e-7, high = 0.5, residual = 0.;
+  while (high > 1.01 * low) {
+    const double middle = std::sqrt(low * high);
+    const std::vector<double> of_equilibrium = iterations(left, middle).at(n_augmentations);
+    if (of_equilibrium.size() > 1) {
+      low = middle;
+      residual = of_equilibrium[1];
+    } else
+      high = middle;
+  }
+  return residual / low;
+}
+
+void check_accuracy() {
+  const auto is = [](const double factor, const double expected) { return near(factor, expected, 0.03); };
+  check("residuals stay as allowed where augmentations leave less than half of the gap",
+        is(accuracy_after(2, 0.48), 1.) && is(accuracy_after(4, 0.48), 1.));
+  check("they are a tenth of that where one leaves more", is(accuracy_after(2, 0.52), 0.1));
+  check("a hundredth after two", is(accuracy_after(3, 0.52), 0.01));
+  check("and no less after three", is(accuracy_after(4, 0.52), 0.01));
+}
+
 /// Steps end while augmentation still changes the force by this part.
 DiagnosticList finish(const double change) {
   SceneRun run(read({10., 0.5, {}}));
@@ -143,6 +184,7 @@ int main(int argc, char *argv[]) {
   check_pace();
   check_softness();
   check_confined();
+  check_accuracy();
   check("forces that still change by 0.5 % are told", finish(0.0051).size() == 1 && finish(0.0049).empty());
   return testing::exit_code();
 }

@@ -165,6 +165,16 @@ void check_steps() {
     for (unsigned int i = 0; i < 2; ++i)
       errors.miss(0.01, true);
     check("a second failed comparison halves the step", near(errors.longest_step(), 5e-3, rounding));
+    ForceCourse course(1.);
+    course.accept(0.01, 10.);
+    const bool is_due_at_once = errors.wants_measurement(course);
+    errors.accept(0.01, 1);
+    check("the next step is compared", !is_due_at_once && errors.wants_measurement(course));
+    for (unsigned int i = 2; i < 5; ++i)
+      errors.miss(0.01, true);
+    check("five in a row are not given up", !errors.has_given_up() && std::isfinite(errors.longest_step()));
+    errors.miss(0.01, true);
+    check("six are, and limit steps no longer", errors.has_given_up() && std::isinf(errors.longest_step()));
   }
 }
 
