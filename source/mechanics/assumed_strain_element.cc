@@ -347,7 +347,7 @@ void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &
                      const std::array<Rows<6>, n_tensors> &strain_rates,
                      const typename AssumedStrainElement<n_through>::Stresses &tau,
                      const typename AssumedStrainElement<n_through>::template ModuliOf<Moduli> &moduli,
-                     const double bulk, Rows<9> &mean, std::array<Rows<6>, n_tensors> &of_strains) {
+                     Rows<9> &mean, std::array<Rows<6>, n_tensors> &of_strains) {
   for (unsigned int q = 0; q < tau.size(); ++q) {
     const double weight = point_weight<n_through>(reference.volume, q);
     const auto &own_shares = shares<n_through>[q];
@@ -390,7 +390,7 @@ void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &
     }
     if constexpr (is_rate_form<Moduli>)
       for (unsigned int u = 0; u < width; ++u)
-        dp[u] = u < n_directions ? bulk * kinematics.frame.duals[u / 3][u % 3] : 0.;
+        dp[u] = u < n_directions ? moduli[q].volumetric * kinematics.frame.duals[u / 3][u % 3] : 0.;
 
     // sym{(δM − M Aᵀ) Y⁻¹}
     Rows<9> X;
@@ -491,7 +491,7 @@ void compute_element_tangent(
     const typename AssumedStrainElement<n_through>::Reference &reference,
     const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
     const typename AssumedStrainElement<n_through>::Stresses &tau,
-    const typename AssumedStrainElement<n_through>::template ModuliOf<Moduli> &moduli, const double bulk,
+    const typename AssumedStrainElement<n_through>::template ModuliOf<Moduli> &moduli,
     ElementMatrix &matrix) {
   constexpr bool is_layered = n_through > 2;
   constexpr unsigned int n_mean = is_symmetric ? direction_width : width;
@@ -504,7 +504,7 @@ void compute_element_tangent(
   const auto strain_rates = compute_strain_rates<n_through>(reference, kinematics, directions, hourglass);
   Rows<9> mean{};
   std::array<Rows<6>, n_tensors> of_strains{};
-  add_point_rates<n_mean, n_through, Moduli>(reference, kinematics, strain_rates, tau, moduli, bulk, mean,
+  add_point_rates<n_mean, n_through, Moduli>(reference, kinematics, strain_rates, tau, moduli, mean,
                                              of_strains);
 
   Rows<n_all> K{};
@@ -752,7 +752,7 @@ void AssumedStrainElement<n_through>::compute_symmetric_tangent(const Reference 
                                                                 const Stresses &tau,
                                                                 const ModuliOf<SpatialModuli> &moduli,
                                                                 ElementMatrix &matrix) {
-  compute_element_tangent<true, n_through, SpatialModuli>(reference, kinematics, tau, moduli, 0., matrix);
+  compute_element_tangent<true, n_through, SpatialModuli>(reference, kinematics, tau, moduli, matrix);
 }
 
 template <unsigned int n_through>
@@ -762,8 +762,7 @@ void AssumedStrainElement<n_through>::compute_unsymmetric_tangent(const Referenc
                                                                   const Stresses &tau,
                                                                   const ModuliOf<Moduli> &moduli,
                                                                   ElementMatrix &matrix) const {
-  compute_element_tangent<false, n_through, Moduli>(reference, kinematics, tau, moduli, elastic_.bulk,
-                                                    matrix);
+  compute_element_tangent<false, n_through, Moduli>(reference, kinematics, tau, moduli, matrix);
 }
 
 template <unsigned int n_through>

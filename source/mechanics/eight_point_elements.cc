@@ -43,7 +43,7 @@ void MeanDilatationElement::compute_rate_tangent(const Reference &reference, con
     add_point_tangent(kinematics.current_volumes[q] / kinematics.volume_ratio, g, s, rates, matrix.data(),
                       n_element_dofs);
   }
-  const double factor = bulk_ * reference_volume - volumetric;
+  const double factor = moduli[0].volumetric * reference_volume - volumetric;
   for (std::size_t r = 0; r < n_element_dofs; ++r)
     for (std::size_t c = 0; c < n_element_dofs; ++c)
       matrix[r * n_element_dofs + c] += factor * mean[r] * mean[c];

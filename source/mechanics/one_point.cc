@@ -84,18 +84,16 @@ void scatter(const ModalMatrix &modal, ElementMatrix &matrix) {
 }
 
 void add_mean_tangent(const double volume, const Gradients<n_linear_modes> &gradients,
-                      const SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli, double,
-                      ModalMatrix &matrix) {
+                      const SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli, ModalMatrix &matrix) {
   add_point_tangent(volume, gradients, tau, moduli, matrix.data(), n_modal_dofs);
 }
 
 void add_mean_tangent(const double volume, const Gradients<n_linear_modes> &gradients,
-                      const SymmetricTensor<2, 3> &tau, const GradientModuli &moduli, const double bulk,
-                      ModalMatrix &matrix) {
+                      const SymmetricTensor<2, 3> &tau, const GradientModuli &moduli, ModalMatrix &matrix) {
   auto rates = multiply_gradients(moduli, gradients);
   for (unsigned int k = 0; k < 3 * n_linear_modes; ++k)
     for (unsigned int i = 0; i < 3; ++i)
-      rates[i][k] += bulk * gradients[k / 3][k % 3];
+      rates[i][k] += moduli.volumetric * gradients[k / 3][k % 3];
   add_point_tangent(volume, gradients, tau, rates, matrix.data(), n_modal_dofs);
 }
 
@@ -238,7 +236,7 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
                                       const SymmetricTensor<2, 3> &tau, const Moduli &moduli,
                                       const Stabilisation &stabilisation, ElementMatrix &matrix) const {
   ModalMatrix modal{};
-  add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, bulk_, modal);
+  add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, modal);
 
   const SharedYield &yield = stabilisation.yield;
   const auto flow = multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share),

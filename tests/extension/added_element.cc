@@ -28,7 +28,7 @@ public:
   };
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
 
-  FullyIntegratedElement(const ElasticModuli &elastic, const ElementFormulation &) : bulk_(elastic.bulk) {}
+  FullyIntegratedElement(const ElasticModuli &, const ElementFormulation &) {}
 
   static bool initialize(const ElementVectors &positions, Reference &reference) {
     return compute_reference_element(positions, reference);
@@ -93,17 +93,15 @@ private:
                   ElementMatrix &matrix) {
     add_point_tangent(w, g, tau, moduli, matrix.data(), n_element_dofs);
   }
-  /// Moduli of dev τ; those of the pressure κ ln J are added.
+  /// The rows of the moduli are those of dev τ; the pressure's is added.
   void add(const double w, const Gradients<n_element_nodes> &g, const dealii::SymmetricTensor<2, 3> &tau,
            const GradientModuli &moduli, ElementMatrix &matrix) const {
     auto rates = multiply_gradients(moduli, g);
     for (unsigned int r = 0; r < 3; ++r)
       for (unsigned int k = 0; k < n_element_dofs; ++k)
-        rates[r][k] += bulk_ * g[k / 3][k % 3];
+        rates[r][k] += moduli.volumetric * g[k / 3][k % 3];
     add_point_tangent(w, g, tau, rates, matrix.data(), n_element_dofs);
   }
-
-  double bulk_;
 };
 
 constexpr ElementKind kind = {"fully integrated",

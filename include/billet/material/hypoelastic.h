@@ -45,7 +45,7 @@ public:
   explicit HypoelasticElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
   /// Updates as HenckyPlasticity::update() does, but with a given volume ratio J for the pressure κ ln J: in
-  /// an element with mean dilatation, J is not det F. `moduli` are those of dev τ alone.
+  /// an element with mean dilatation, J is not det F. The rows of `moduli` are those of dev τ alone.
   bool update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const PointStep & = {}) const {
     MidpointIncrement increment;
@@ -54,8 +54,10 @@ public:
     history.F = F;
     history.deviator = compute_trial_deviator(increment, elastic_.shear, history_n.deviator);
     tau = history.deviator + elastic_.bulk * std::log(J) * dealii::unit_symmetric_tensor<3>();
-    if (moduli != nullptr)
+    if (moduli != nullptr) {
       *moduli = compute_trial_moduli(increment, elastic_.shear, history_n.deviator);
+      moduli->volumetric = elastic_.bulk;
+    }
     return true;
   }
 

@@ -27,7 +27,10 @@ using SpatialModuli = std::array<std::array<double, 6>, 6>;
 /// Derivative of a stress with respect to the velocity gradient, δτ = A : L with L = δF F⁻¹, for laws without
 /// moduli in the sense of SpatialModuli. Rows are τ11, τ22, τ33, τ12, τ13, τ23; columns are L11, L12, L13,
 /// L21, ... L33 [stress].
-using GradientModuli = std::array<std::array<double, 9>, 6>;
+struct GradientModuli : std::array<std::array<double, 9>, 6> {
+  double volumetric =
+      0.; ///< derivative of the pressure tr τ/3 by ln J, which the rows do not contain [stress]
+};
 
 } // namespace billet
 

@@ -117,8 +117,8 @@ public:
 
   /// Overwrites `tau` with the Kirchhoff stress at the end of a step [stress], `state` with the state there
   /// and, unless it is null, `moduli` with the consistent tangent. `state_n` and `state` must not overlap.
-  /// Returns false if F is inadmissible (not finite, singular): the step must be cut. In rate form the moduli
-  /// are those of dev τ alone.
+  /// Returns false if F is inadmissible (not finite, singular): the step must be cut. In rate form the rows
+  /// of the moduli are those of dev τ alone.
   virtual bool update(const dealii::Tensor<2, 3> &F, double J, const PointStep &step, const double *state_n,
                       double *state, dealii::SymmetricTensor<2, 3> &tau, Moduli *moduli) const = 0;
 };

@@ -25,7 +25,7 @@ public:
   using Reference = ReferenceElement;
   using Kinematics = MeanDilatationKinematics;
 
-  MeanDilatationElement(const ElasticModuli &elastic, const ElementFormulation &) : bulk_(elastic.bulk) {}
+  MeanDilatationElement(const ElasticModuli &, const ElementFormulation &) {}
 
   static bool initialize(const ElementVectors &positions, Reference &reference) {
     return compute_reference_element(positions, reference);
@@ -95,14 +95,12 @@ private:
                              const PointStresses &tau);
 
   /// Computes the tangent of a law in rate form. With s = (J/J̄) dev τ, δs = (J/J̄) (A : L + dev τ (tr L −
-  /// div̄)), Π = Σ w κ ln J̄:
+  /// div̄)), Π = Σ w p, and κ = dp/d ln J̄:
   ///   K = Σ_q w {δs g_a − s Lᵀ g_a} + V κ δdiv̄ div̄
   ///       + Π {(1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄}.
   void compute_rate_tangent(const Reference &reference, const Kinematics &kinematics,
                             const PointStresses &tau, const PointModuli<GradientModuli> &moduli,
                             ElementMatrix &matrix) const;
-
-  double bulk_;
 };
 
 } // namespace billet

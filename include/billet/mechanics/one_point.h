@@ -55,7 +55,7 @@ public:
   };
 
   OnePointElement(const ElasticModuli &elastic, const ElementFormulation &)
-      : moduli_(elastic.bulk, elastic.shear), bulk_(elastic.bulk) {}
+      : moduli_(elastic.bulk, elastic.shear) {}
 
   static bool initialize(const ElementVectors &positions, Reference &reference);
   static bool compute(const Reference &reference, const ElementVectors &displacements,
@@ -94,7 +94,6 @@ public:
 
 private:
   hourglass::Moduli<double> moduli_;
-  double bulk_;
 };
 
 } // namespace billet
