@@ -126,6 +126,19 @@ int main(int argc, char **argv) {
     check("of that body only", stabilisation.acts() && stabilisation.acts_on(0));
   }
   {
+    // 1e-8 of E over L² per unit of volume and time, (Q3).
+    check("the strength of the forces",
+          std::abs(ContactStabilisation::damping(500., 3., 2., 6.) - 1e-8 * 500. * 2. * 6. / 9.), 1e-18);
+    const auto stays = [&](const double factor) {
+      ContactStabilisation stabilisation = three_nodes();
+      stabilisation.load({factor, 0., 0., 1., 0., 0., 0., 0., 0.});
+      stabilisation.start_step(1.);
+      stabilisation.commit(view(u_n), view(u_n), {true, true, false});
+      return stabilisation.acts_on(0);
+    };
+    check("they fade to 5e-4, then they are gone", stays(5.1e-3) && !stays(4.9e-3));
+  }
+  {
     ContactStabilisation stabilisation = three_nodes(), resumed = three_nodes();
     stabilisation.start_step(0.5);
     stabilisation.commit(view(u), view(u_n), {false, true, false});
