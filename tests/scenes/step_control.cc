@@ -34,9 +34,30 @@ void check_times(const std::string &name, StepControl control, const std::vector
   check(name, control.is_finished() && i == times.size() ? error.value() : 1., 1e-15);
 }
 
+/// The first automatic step, of 0.1, in a run of this length.
+double first_step(const double end_time) {
+  auto p = make_parameters(true);
+  p.end_time = end_time;
+  return StepControl(p, 0.).next_step();
+}
+
+/// What the constants of StepControl say.
+void check_rules() {
+  check("less than 1.5 steps before the end two equal ones are left", std::abs(first_step(0.149) - 0.0745),
+        1e-15);
+  check("else a full one and a rest", std::abs(first_step(0.151) - 0.1), 1e-15);
+  const auto is_one = [](const double end_time) { return first_step(end_time) == end_time; };
+  check("a part of 1e-8 of a step makes none", is_one(0.1 * (1. + 0.9e-8)) && !is_one(0.1 * (1. + 1.1e-8)));
+  // The error falls with the third power of the step: 8 times what is allowed, half of the step.
+  StepControl control(make_parameters(true), 0.);
+  control.accept(6, 8.);
+  check("steps are 0.8 times as long as their error allows", std::abs(control.next_step() - 0.04), 1e-15);
+}
+
 } // namespace
 
 int main() {
+  check_rules();
   {
     auto p = make_parameters(false);
     p.initial_step = 1. / 700.;

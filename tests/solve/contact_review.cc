@@ -51,6 +51,8 @@ int main() {
     single.add(1., 0.2, 0.8, 1.);
     check("a run of one step is judged, too", std::abs(single.part() - 0.2), 1e-12);
     check("beside much other energy it is no matter", softness(3., 7., 0.01) == 0.);
+    check("a hundredth of it counts",
+          softness(3., 7., 0.0102 / 0.3) > 0. && softness(3., 7., 0.0098 / 0.3) == 0.);
     PathSoftness path;
     path.add(0., 0., 1., 1.);
     path.add(1., 0., 1., 1.);

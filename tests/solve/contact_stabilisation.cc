@@ -2,8 +2,9 @@
 // Viscous forces on bodies that contact is yet to support, (Q3): derivatives of their potential, the closed
 // form of a body that moves steadily, works, fading, and what a checkpoint keeps.
 #include "billet/solve/contact_stabilisation.h"
+#include "billet/diagnostic_kinds.h"
 
-#include "../testing.h"
+#include "../scenes/scene_run.h"
 
 #include <numeric>
 
@@ -37,6 +38,37 @@ double potential(const ContactStabilisation &stabilisation, const Values &u, con
     for (std::size_t i = node.first; i < node.first + 3; ++i)
       sum += 0.5 * stabilisation.stiffness(node) * (u[i] - u_n[i]) * (u[i] - u_n[i]);
   return sum;
+}
+
+/// What is told of a block without supports that has moved, where all work is so many times that of the
+/// stabilising forces, and where forces are so many times these forces.
+void check_messages() {
+  auto parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/confined_element.prm");
+  parameters.bodies[0].supports.clear();
+  parameters.bodies[0].is_stabilised.value = true;
+  const Scene scene(parameters);
+  const Discretization discretization(scene, MPI_COMM_WORLD);
+  BodyStabilisation stabilisation(scene, discretization);
+  stabilisation.prepare(RigidBodies(scene, discretization));
+  stabilisation.start_step(1.);
+  StepState step(discretization);
+  step.trial.displacements = 1.;
+  stabilisation.commit(step, {true}, 0.);
+  RigidBodySupport::Result support;
+  support.is_free = {true};
+  const auto tells = [&](const DiagnosticKind &kind, const double work, const double forces) {
+    const ContactStabilisation &own = *stabilisation.get();
+    for (const Diagnostic &message :
+         stabilisation.finish(1., work * own.work_of_motion(0), forces * own.last_force(0), support))
+      if (&message.kind() == &kind)
+        return true;
+    return false;
+  };
+  check("forces that do a thousandth of all work are told",
+        tells(diagnostic::stabilisation_too_strong, 980., 1.) &&
+            !tells(diagnostic::stabilisation_too_strong, 1020., 1.));
+  check("and those that bear a thousandth at the end",
+        tells(diagnostic::stabilised_loads, 1., 980.) && !tells(diagnostic::stabilised_loads, 1., 1020.));
 }
 
 } // namespace
@@ -126,6 +158,19 @@ int main(int argc, char **argv) {
     check("of that body only", stabilisation.acts() && stabilisation.acts_on(0));
   }
   {
+    // 1e-8 of E over L² per unit of volume and time, (Q3).
+    check("the strength of the forces",
+          std::abs(ContactStabilisation::damping(500., 3., 2., 6.) - 1e-8 * 500. * 2. * 6. / 9.), 1e-18);
+    const auto stays = [&](const double factor) {
+      ContactStabilisation stabilisation = three_nodes();
+      stabilisation.load({factor, 0., 0., 1., 0., 0., 0., 0., 0.});
+      stabilisation.start_step(1.);
+      stabilisation.commit(view(u_n), view(u_n), {true, true, false});
+      return stabilisation.acts_on(0);
+    };
+    check("they fade to 5e-4, then they are gone", stays(5.1e-3) && !stays(4.9e-3));
+  }
+  {
     ContactStabilisation stabilisation = three_nodes(), resumed = three_nodes();
     stabilisation.start_step(0.5);
     stabilisation.commit(view(u), view(u_n), {false, true, false});
@@ -161,5 +206,6 @@ int main(int argc, char **argv) {
           std::abs(std::hypot(stabilisation.last_force(0), stabilisation.last_force(1)) - std::sqrt(square)),
           1e-12 * std::sqrt(square));
   }
+  check_messages();
   return billet::testing::exit_code();
 }

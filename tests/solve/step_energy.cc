@@ -13,7 +13,34 @@ using billet::StepWorks;
 using billet::testing::check;
 using Verdict = StepEnergy::Verdict;
 
+namespace {
+
+/// The verdict on a first step, each with works just beside a limit.
+bool is_rejected(const double imbalance, const double own, const double before) {
+  return StepEnergy().judge(1., 0.1, {imbalance, own, before}, 0.) == Verdict::rejected;
+}
+
+/// The verdict on a step from t_n, after one from 1 to 1.1 that was rejected.
+Verdict judge_next(const double t_n, const double length) {
+  StepEnergy energy;
+  energy.judge(1., 0.1, {1., 1., 1.}, 0.);
+  return energy.judge(t_n, length, {1., 1., 1.}, 0.);
+}
+
+void check_limits() {
+  check("0.15 of all work is much", is_rejected(1.52, 1., 9.) && !is_rejected(1.48, 1., 9.));
+  check("if it is 0.4 of the step's", is_rejected(4.1, 10., 2.) && !is_rejected(3.9, 10., 2.));
+  check("and a tenth of that was done before", is_rejected(1., 1., 0.102) && !is_rejected(1., 1., 0.098));
+  check("steps are cut to 1/32",
+        judge_next(1., 0.1 / 31.) == Verdict::rejected && judge_next(1., 0.1 / 33.) == Verdict::jump);
+  check("a part of 1e-6 of a step is none", judge_next(1.1 - 0.9e-7, 1e-3) == Verdict::rejected &&
+                                                judge_next(1.1 - 1.1e-7, 1e-3) == Verdict::jump);
+}
+
+} // namespace
+
 int main() {
+  check_limits();
   constexpr double k = 7., tolerance = 1e-14;
   // A spring that a wall meets after a way of 3 and presses by 0.5, and back: trapezoidal work plus what
   // StepWorks add is what it stores.

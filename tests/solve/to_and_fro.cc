@@ -32,6 +32,16 @@ int main() {
   check("it stands still", !go_round_with([](const int) { return 1e-3; }));
   check("it gets on slowly", !go_round_with([](const int i) { return std::pow(0.99, i); }));
   check("up and down, and on", !go_round_with([](const int i) { return (1. + i % 2) * std::pow(0.9, i); }));
+  check("five are no cycle", !go_round_with([](const int i) { return 1. + i % 5; }));
+  // One value by turns with another, each smaller than the next of its kind by a part.
+  const auto grows = [](const double part) {
+    return go_round_with([part](const int i) { return (1. + i % 2) * std::pow(1. - part, -(i / 2)); });
+  };
+  check("states that differ by 2 % are the same", grows(0.0198) && !grows(0.0202));
+  const auto differ = [](const double part) {
+    return go_round_with([part](const int i) { return 1. - part * (i % 2); });
+  };
+  check("those by turns differ by a fifth", differ(0.202) && !differ(0.198));
   check("without order", !go_round_with([](const int i) { return 1.5 + std::sin(i * i); }));
   return testing::exit_code();
 }
