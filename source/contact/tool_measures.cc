@@ -20,17 +20,15 @@ double max_curvature(const Tensor<2, 3> &turning) {
 
 Penetration ToolMeasures::penetration() const {
   Penetration deepest;
-  for (std::size_t i = 0; i < parts_.states.size(); ++i)
-    if (const ContactPoint &node = parts_.slaves.nodes[i]; parts_.is_pressed_fully(i))
-      deepest.add(std::abs(parts_.states[i].gap + node.multiplier_offset), node.size);
+  parts_.visit_penetrations(
+      [&](const ContactPoint &node, const double depth) { deepest.add(depth, node.size); });
   return deepest;
 }
 
 double ToolMeasures::excessive_penetration() const {
   double maximum = 0.;
-  for (std::size_t i = 0; i < parts_.states.size(); ++i)
-    if (const ContactPoint &node = parts_.slaves.nodes[i]; parts_.is_pressed_fully(i))
-      maximum = std::max(maximum, std::abs(parts_.states[i].gap + node.multiplier_offset) / node.reach);
+  parts_.visit_penetrations(
+      [&](const ContactPoint &node, const double depth) { maximum = std::max(maximum, depth / node.reach); });
   return maximum;
 }
 

@@ -66,9 +66,8 @@ double ToolPenalties::max_spring() const {
 
 double ToolPenalties::augmentation_gap() const {
   double worst = 0.;
-  for (std::size_t i = 0; i < parts_.states.size(); ++i)
-    if (const ContactPoint &node = parts_.slaves.nodes[i]; parts_.is_pressed_fully(i))
-      worst = std::max(worst, std::abs(parts_.states[i].gap + node.multiplier_offset) / node.size);
+  parts_.visit_penetrations(
+      [&](const ContactPoint &node, const double depth) { worst = std::max(worst, depth / node.size); });
   const std::vector<double> slips = elastic_slips();
   for (std::size_t i = 0; i < slips.size(); ++i)
     worst = std::max(worst, slips[i] / parts_.slaves.nodes[i].size);

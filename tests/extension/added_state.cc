@@ -15,8 +15,10 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::has;
 using billet::testing::max_difference;
 using billet::testing::read_field;
+using billet::testing::refusal;
 
 namespace {
 
@@ -151,16 +153,6 @@ void test_fields() {
     check_memory(element + ", explicit", moving, 1e-2);
   }
 }
-
-std::string refusal(const std::function<void()> &function) {
-  try {
-    function();
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "";
-}
-bool has(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
 
 void test_names() {
   auto scene = read_scene("assumed strain", false);

@@ -13,6 +13,8 @@
 
 using namespace billet;
 using billet::testing::check;
+using billet::testing::has;
+using billet::testing::refusal;
 
 namespace {
 
@@ -137,16 +139,6 @@ void test_followed(const std::string &element, const bool is_explicit) {
   check(element + (is_explicit ? ", explicit" : "") + ", pulled as it expands",
         std::abs(outcome.axial_stress) / stress, is_explicit ? 1e-3 : 1e-6);
 }
-
-std::string refusal(const std::function<void()> &function) {
-  try {
-    function();
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "";
-}
-bool has(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
 
 void test_refusals() {
   check("a law that depends on temperature asks for it",

@@ -6,6 +6,8 @@
 #include "../scenes/scene_run.h"
 
 #include <fstream>
+#include <functional>
+#include <string>
 
 /// A unit cube of eight bricks, pulled along z by its upper face; free sideways.
 namespace billet::testing {
@@ -80,6 +82,19 @@ inline CubeEnergies pull_explicitly(const std::string &element, const std::strin
   ExplicitRun run(read_pulled_cube(element, material, stretch, duration, true, 0));
   run.finish(duration, [] {});
   return {run.state().energies.elastic, run.state().energies.plastic, 0};
+}
+
+/// Returns the message of the InputError that a function throws; empty if it throws none.
+inline std::string refusal(const std::function<void()> &function) {
+  try {
+    function();
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "";
+}
+inline bool has(const std::string &text, const std::string &part) {
+  return text.find(part) != std::string::npos;
 }
 
 inline const char *const all_element_names[] = {"assumed strain", "mean dilatation", "one point"};

@@ -8,6 +8,7 @@
 #include "billet/contact/thin_tool_watch.h"
 #include "billet/contact/tool_friction.h"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -50,9 +51,13 @@ struct RigidContactParts {
     return {&states[facet.nodes[0]], &states[facet.nodes[1]], &states[facet.nodes[2]],
             &states[facet.nodes[3]]};
   }
-  /// Whether node i presses with its full penalty, and only its spring gives its penetration.
-  bool is_pressed_fully(const std::size_t i) const {
-    return states[i].pressure > 0. && states[i].share == 1. && !slaves.nodes[i].is_fixed;
+  /// Calls visit(node, depth) for the nodes that press with their full penalty, so that only their
+  /// springs give their depths [length].
+  template <class Visit> void visit_penetrations(const Visit &visit) const {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      if (const ContactPoint &node = slaves.nodes[i];
+          states[i].pressure > 0. && states[i].share == 1. && !node.is_fixed)
+        visit(node, std::abs(states[i].gap + node.multiplier_offset));
   }
 
   /// Removes the tool: from now on no node touches it.
