@@ -2,6 +2,9 @@
 #ifndef BILLET_STATE_H
 #define BILLET_STATE_H
 
+#include "billet/errors.h"
+
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -43,6 +46,14 @@ private:
   virtual void leave() = 0;
 };
 
+/// Returns a count from a number of a file. Throws InputError if it is not a whole number from 0 to `max`.
+inline std::uint64_t to_count(const double value, const std::uint64_t max = 0xffffffff) {
+  if (!(value >= 0. && value <= static_cast<double>(max)) || value != std::floor(value))
+    throw InputError("its count " + std::to_string(value) + " is no whole number from 0 to " +
+                     std::to_string(max));
+  return static_cast<std::uint64_t>(value);
+}
+
 /// Reads state. Throws InputError, on all ranks, if an entry is missing or has another size.
 class StateReader {
 public:
@@ -60,11 +71,24 @@ public:
   virtual std::vector<double> read_rows(const std::string &name, std::size_t width,
                                         const std::vector<std::uint64_t> &keys,
                                         std::vector<bool> *found = nullptr) const = 0;
+  /// Returns the number of rows of all ranks.
+  virtual std::size_t n_rows(const std::string &name) const = 0;
   /// Returns the number of ranks of the run that wrote the state.
   virtual unsigned int n_ranks() const = 0;
 
-  /// Returns a single number.
-  double number(const std::string &name) const { return read(name).at(0); }
+  /// Returns `size` numbers.
+  std::vector<double> read(const std::string &name, const std::size_t size) const {
+    std::vector<double> values = read(name);
+    if (values.size() != size)
+      throw InputError("its '" + name + "' has " + std::to_string(values.size()) + " numbers, expected are " +
+                       std::to_string(size));
+    return values;
+  }
+  double number(const std::string &name) const { return read(name, 1)[0]; }
+  /// Returns a count up to `max`.
+  std::uint64_t count(const std::string &name, const std::uint64_t max = 0xffffffff) const {
+    return to_count(number(name), max);
+  }
 
   template <class Read> void in(const std::string &name, const Read &read) {
     enter(name);
@@ -77,12 +101,18 @@ private:
   virtual void leave() = 0;
 };
 
-/// Reads the numbers of a row one after the other.
+/// Reads the numbers of a row, or of a list, one after the other. Throws InputError beyond its end.
 class RowReader {
 public:
-  explicit RowReader(const double *row) : next_(row) {}
+  RowReader(const double *row, const std::size_t width) : next_(row), end_(row + width) {}
+  explicit RowReader(const std::vector<double> &list) : RowReader(list.data(), list.size()) {}
 
-  double number() { return *next_++; }
+  bool is_at_end() const { return next_ == end_; }
+  double number() {
+    if (is_at_end())
+      throw InputError("it has a list that is too short");
+    return *next_++;
+  }
   bool flag() { return number() != 0.; }
   /// Reads a vector of any type with [] and three components.
   template <class Vector> void vector(Vector &v) {
@@ -91,7 +121,7 @@ public:
   }
 
 private:
-  const double *next_;
+  const double *next_, *end_;
 };
 
 /// Appends numbers to a list.
@@ -125,8 +155,10 @@ inline void write_list(StateWriter &writer, const std::string &name, const unsig
 /// Returns the list of one rank of the run that wrote the state; each rank may read another one.
 inline std::vector<double> read_list(const StateReader &reader, const std::string &name,
                                      const unsigned int rank) {
-  std::vector<std::uint64_t> keys(
-      static_cast<std::size_t>(reader.read_rows(name + " size", 1, {rank}).at(0)));
+  const double size = reader.read_rows(name + " size", 1, {rank})[0];
+  const bool is_sound = size >= 0. && size <= static_cast<double>(reader.n_rows(name));
+  // read_rows() refuses a list with one row too many on all ranks.
+  std::vector<std::uint64_t> keys(is_sound ? static_cast<std::size_t>(size) : reader.n_rows(name) + 1);
   std::iota(keys.begin(), keys.end(), std::uint64_t{rank} << 40U);
   return reader.read_rows(name, 1, keys);
 }

@@ -130,7 +130,7 @@ void BodyContact::load(const StateReader &reader, const NodeKeys & /*keys*/) {
   const std::vector<double> rows = reader.read_rows("positions", 3, surfaces_.keys);
   positions_n_.resize(surfaces_.keys.size());
   for (std::size_t i = 0; i < surfaces_.keys.size(); ++i)
-    RowReader(&rows[3 * i]).vector(positions_n_[i]);
+    RowReader(&rows[3 * i], 3).vector(positions_n_[i]);
 }
 
 void BodyContact::begin(const ContactStep & /*step*/, const NodalVectors &displacements) {

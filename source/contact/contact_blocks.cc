@@ -248,14 +248,22 @@ bool ContactBlocks::load(const StateReader &reader, const std::vector<std::uint6
     return false;
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator_);
   const std::vector<double> numbers = read_list(reader, "coupled dofs", rank);
+  const std::vector<double> facets = read_list(reader, "coupled facets", rank);
+  DofIndex last = 0; // coupled dofs are those of the surface nodes of all ranks
+  for (const auto &part : parts_)
+    for (const NodeDofs &dofs : part)
+      if (dofs != no_part())
+        last = std::max(last, *std::max_element(dofs.begin(), dofs.end()));
+  last = dealii::Utilities::MPI::max(last, communicator_);
   couplings_.clear();
-  for (std::size_t i = 0; i < numbers.size();) {
-    const auto n = static_cast<std::size_t>(numbers[i++]);
-    couplings_.emplace_back();
-    for (const std::size_t end = i + n; i < end; ++i)
-      couplings_.back().push_back(static_cast<DofIndex>(numbers[i]));
-  }
-  contact_.couplings().set(read_list(reader, "coupled facets", rank));
+  fail_together(communicator_, [&] {
+    for (RowReader row(numbers); !row.is_at_end();) {
+      couplings_.emplace_back(to_count(row.number(), numbers.size()));
+      for (DofIndex &dof : couplings_.back())
+        dof = static_cast<DofIndex>(to_count(row.number(), last));
+    }
+    contact_.couplings().set(facets);
+  });
   return true;
 }
 

@@ -247,12 +247,12 @@ std::vector<double> EdgeContact::offsets() const {
 }
 
 void EdgeContact::add_offsets(const std::vector<double> &numbers) {
-  RowReader row(numbers.data());
-  for (std::size_t i = 0; i < numbers.size(); i += 7) {
+  RowReader row(numbers);
+  while (!row.is_at_end()) {
     PairId pair{};
     for (auto &[key, side] : pair) {
       key = read_key(row);
-      side = static_cast<std::uint64_t>(row.number());
+      side = to_count(row.number());
     }
     offsets_n_[pair] = row.number();
   }

@@ -161,7 +161,7 @@ void FacetContact::save(StateWriter &writer) const {
 
 void FacetContact::load(const StateReader &reader) {
   const std::vector<std::uint64_t> keys = slave_keys();
-  const std::vector<double> start = reader.read("start");
+  const std::vector<double> start = reader.read("start", 4);
   const bool is_augmented = start.at(1) != 0., has_penetrations = start.at(2) != 0.;
   parts_.start.load(reader, keys, start.at(0) != 0.);
   if (parts_.edges)
@@ -169,7 +169,7 @@ void FacetContact::load(const StateReader &reader) {
   GapOffsets &offsets = parts_.offsets;
   offsets.penetrations.set_allowed_part(start.at(3), start.at(3));
   if (reader.has("stiffening")) {
-    const std::vector<double> factors = reader.read("stiffening");
+    const std::vector<double> factors = reader.read("stiffening", 2);
     penalties_.scale(factors.at(0) / penalties_.stiffening(),
                      factors.at(1) / penalties_.tangential_stiffening());
   }

@@ -75,9 +75,9 @@ std::vector<double> FacetCouplings::numbers() const {
 
 void FacetCouplings::set(const std::vector<double> &numbers) {
   coupled_.assign(parts_.slaves.size(), {});
-  RowReader row(numbers.data());
+  RowReader row(numbers);
   for (auto &keys : coupled_) {
-    keys.resize(static_cast<std::size_t>(row.number()));
+    keys.resize(to_count(row.number(), numbers.size()));
     for (std::uint64_t &key : keys)
       key = read_key(row);
   }

@@ -117,7 +117,7 @@ void SlaveFriction::load(const StateReader &reader, const std::vector<std::uint6
   std::vector<bool> is_known; // slaves may be new if the pair had one pass before
   const std::vector<double> rows = reader.read_rows("friction", friction_width, keys, &is_known);
   for (std::size_t s = 0; s < history_n_.size(); ++s) {
-    RowReader row(&rows[friction_width * s]);
+    RowReader row(&rows[friction_width * s], friction_width);
     SlaveHistory &history = history_n_[s];
     history.is_active = row.flag();
     row.vector(history.frame.q);

@@ -62,7 +62,7 @@ void SlaveStart::load(const StateReader &reader, const std::vector<std::uint64_t
   std::vector<bool> is_known;
   const std::vector<double> touches = reader.read_rows("touched", touch_width, keys, &is_known);
   for (std::size_t s = 0; s < touched_.size(); ++s) {
-    RowReader row(&touches[touch_width * s]);
+    RowReader row(&touches[touch_width * s], touch_width);
     TouchedFacet &touched = touched_[s];
     touched = TouchedFacet();
     if (row.flag())
@@ -77,7 +77,7 @@ void SlaveStart::load(const StateReader &reader, const std::vector<std::uint64_t
     return;
   const std::vector<double> pressed = reader.read_rows("pressed", pressed_width, keys, &is_known);
   for (std::size_t s = 0; s < pressed_.size(); ++s) {
-    RowReader row(&pressed[pressed_width * s]);
+    RowReader row(&pressed[pressed_width * s], pressed_width);
     pressed_[s].pressure = row.number();
     pressed_[s].penetration = row.number();
     pressed_[s].area = row.number();

@@ -106,7 +106,7 @@ void load_tool_contact(const StateReader &reader, const NodeKeys &keys, RigidCon
   if (parts.thin_tool)
     parts.thin_tool->forget();
   if (reader.has("stiffening")) {
-    const std::vector<double> factors = reader.read("stiffening");
+    const std::vector<double> factors = reader.read("stiffening", 2);
     penalties.scale(factors.at(0) / penalties.stiffening(),
                     factors.at(1) / penalties.tangential_stiffening());
   }

@@ -7,8 +7,10 @@
 #include <deal.II/base/config.h>
 
 #ifdef DEAL_II_WITH_OPENCASCADE
+#include "billet/geometry/cad_file.h"
 #include "billet/geometry/frame.h"
 #include "billet/geometry/trimmed_surface.h"
+#include "billet/trial.h"
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -42,6 +44,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #endif
 
 namespace billet {
@@ -299,10 +304,17 @@ double edge_accuracy(const TopoDS_Shape &shape) {
   return accuracy;
 }
 
-SurfacePatches make(const TypeInput &input) {
+/// Reads the file, which defines a number of faces.
+SurfacePatches convert_file(const TypeInput &input, const std::size_t n_defined) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
-  TopoDS_Shape shape = choose_faces(input, read_shape(input));
+  const TopoDS_Shape all = read_shape(input);
+  if (const auto n_read = static_cast<std::size_t>(faces_of(all).Extent()); n_read < n_defined)
+    input.reject("File",
+                 "a file of which OpenCASCADE reads all " + std::to_string(n_defined) + " faces; it reads " +
+                     std::to_string(n_read) +
+                     ". The others may be damaged. Write it again, or in the other format, STEP or IGES");
+  TopoDS_Shape shape = choose_faces(input, all);
   SurfacePatches patches;
   try {
     gp_Trsf placement;
@@ -325,6 +337,44 @@ SurfacePatches make(const TypeInput &input) {
                  std::string("a file with sound faces; OpenCASCADE says: ") + error.GetMessageString());
   }
   return patches;
+}
+
+/// OpenCASCADE trusts a file: some damaged ones end the program or are never read to their end. What it needs
+/// grows with the file.
+TrialLimits limits_for(const std::string &file) {
+  std::error_code error;
+  const std::uintmax_t n_bytes = std::filesystem::file_size(file, error);
+  const auto n_megabytes =
+      error ? 0U : static_cast<unsigned int>(std::min(n_bytes >> 20U, std::uintmax_t{10000}));
+  return {8 + 20 * n_megabytes, 2000 + std::size_t{500} * n_megabytes};
+}
+
+/// Refuses a file that is cut short or damaged as its text shows, and returns how many faces it defines.
+std::size_t check_file(const TypeInput &input) {
+  std::ostringstream text;
+  text << std::ifstream(input.file("File"), std::ios::binary).rdbuf();
+  const CadFileReport report = is_iges(input) ? check_iges_file(text.str()) : check_step_file(text.str());
+  if (!report.fault.empty())
+    input.reject("File", std::string("a sound ") + (is_iges(input) ? "IGES" : "STEP") + " file; " +
+                             report.fault + ". Write it again");
+  return report.n_faces;
+}
+
+SurfacePatches make(const TypeInput &input) {
+  const std::size_t n_defined = check_file(input);
+  const TrialLimits limits = limits_for(input.file("File"));
+  const TrialEnd end = try_in_copy(limits, [&] { convert_file(input, n_defined); });
+  const std::string advice = " This one may be damaged. Write it again, or with fewer faces";
+  if (end == TrialEnd::crashed)
+    input.reject("File", "a sound file. OpenCASCADE crashes on this one: it is damaged, or cut short. Write "
+                         "it again, or in the other format, STEP or IGES");
+  if (end == TrialEnd::out_of_time)
+    input.reject("File",
+                 "a file that OpenCASCADE reads within " + std::to_string(limits.seconds) + " s." + advice);
+  if (end == TrialEnd::out_of_memory)
+    input.reject("File",
+                 "a file that OpenCASCADE reads with " + std::to_string(limits.megabytes) + " MB." + advice);
+  return convert_file(input, n_defined);
 }
 
 #else

@@ -23,6 +23,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <regex>
 #include <sstream>
 
 namespace billet {
@@ -332,7 +333,7 @@ CheckpointReader::CheckpointReader(MPI_Comm communicator, const std::string &fil
       throw InputError(origin + ": '" + file_name +
                        "' cannot be opened on every rank; allowed is a file that all ranks can read");
   });
-  n_ranks_ = static_cast<unsigned int>(number("ranks"));
+  load("", [&] { n_ranks_ = static_cast<unsigned int>(count("ranks")); });
 }
 
 CheckpointReader::~CheckpointReader() {
@@ -347,6 +348,10 @@ void CheckpointReader::load(const std::string &group, const std::function<void()
   } catch (const InputError &error) {
     group_ = outside;
     throw InputError(origin_ + ": '" + file_name_ + "' does not match this scene: " + error.what());
+  } catch (const std::out_of_range &) {
+    group_ = outside;
+    throw InputError(origin_ + ": '" + file_name_ +
+                     "' does not match this scene: it has a list that is too short");
   }
 }
 
@@ -363,6 +368,20 @@ bool CheckpointReader::has(const std::string &name) const {
 
 namespace {
 
+/// Returns the numbers of rows and columns of an array. An array that says to have more than the file holds
+/// is refused: it would take the memory of the machine.
+std::array<hsize_t, 2> extent_of(const hid_t set, const std::string &name) {
+  const Handle space(H5Dget_space(set), H5Sclose), type(H5Dget_type(set), H5Tclose);
+  std::array<hsize_t, 2> size{};
+  if (H5Sget_simple_extent_ndims(space.id()) != 2 ||
+      H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) != 2)
+    throw InputError("its '" + name + "' is no table");
+  const hsize_t n_bytes = H5Dget_storage_size(set), width = H5Tget_size(type.id());
+  if (width == 0 || (size[0] > 0 && size[1] > n_bytes / width / size[0]))
+    throw InputError("its '" + name + "' is incomplete");
+  return size;
+}
+
 /// Returns all values of an array.
 template <class T>
 std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t type,
@@ -370,8 +389,7 @@ std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t t
   const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.is_open())
     throw InputError("it has no '" + name + "'");
-  const Handle space(H5Dget_space(set.id()), H5Sclose);
-  H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+  size = extent_of(set.id(), name);
   std::vector<T> values(size[0] * size[1]);
   if (!values.empty() && H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw InputError("its '" + name + "' cannot be read");
@@ -391,6 +409,11 @@ std::string CheckpointReader::read_text(const std::string &name) const {
   return {letters.begin(), letters.end()};
 }
 
+std::size_t CheckpointReader::n_rows(const std::string &name) const {
+  const Handle set(H5Dopen2(file_, (group_ + name + "/keys").c_str(), H5P_DEFAULT), H5Dclose);
+  return set.is_open() ? extent_of(set.id(), name)[0] : 0;
+}
+
 std::vector<double> CheckpointReader::read_rows(const std::string &name, const std::size_t width,
                                                 const std::vector<std::uint64_t> &keys,
                                                 std::vector<bool> *found) const {
@@ -401,8 +424,13 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
     std::array<hsize_t, 2> size{};
     const auto all_keys = read_all<std::uint64_t>(file_, path + "/keys", H5T_NATIVE_UINT64, size);
     const Handle set(H5Dopen2(file_, (path + "/rows").c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.is_open())
+      throw InputError("it has no '" + path + "'");
     const Handle space(H5Dget_space(set.id()), H5Sclose);
-    H5Sget_simple_extent_dims(space.id(), size.data(), nullptr);
+    size = extent_of(set.id(), path);
+    if (size[0] != all_keys.size())
+      throw InputError("its '" + path + "' has " + std::to_string(size[0]) + " rows for " +
+                       std::to_string(all_keys.size()) + " nodes or elements");
     if (size[1] != width)
       throw InputError("its '" + path + "' has " + std::to_string(size[1]) +
                        " numbers in a row, expected are " + std::to_string(width));
@@ -507,10 +535,16 @@ void Checkpoints::load(const StateReader &reader, const double time, const bool 
     n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
   if (!is_same_folder)
     return;
-  n_written_ = static_cast<unsigned int>(reader.number("checkpoints written"));
+  n_written_ = static_cast<unsigned int>(reader.count("checkpoints written"));
+  // These files will be removed: a name that is none of this class's own could be any file of the user.
+  const std::regex own_name("checkpoint_[0-9]{5,10}\\.h5");
   std::istringstream names(reader.read_text("checkpoints"));
-  for (std::string name; std::getline(names, name);)
+  for (std::string name; std::getline(names, name);) {
+    if (!std::regex_match(name, own_name))
+      throw InputError("it names '" + name +
+                       "' as a checkpoint before it; allowed are names such as checkpoint_00001.h5");
     files_.push_back(parameters_.folder.value + "/" + name);
+  }
 }
 
 // --- signals -----------------------------------------------------------------------------------------------

@@ -69,7 +69,7 @@ void ExplicitRun::load(Resumption &resumption) {
     // If the interval has changed, the next row is due at once.
     if (reader.number("interval") == history_times_.interval())
       history_times_.begin_after(reader.number("last"));
-    balanced_step_ = static_cast<unsigned int>(reader.number("balanced step"));
+    balanced_step_ = static_cast<unsigned int>(reader.count("balanced step"));
     review_.load(reader);
     if (errors_ && reader.has("errors")) {
       errors_->load(reader);

@@ -39,7 +39,7 @@ void Snapshots::save(StateWriter &writer) const {
 }
 
 void Snapshots::load(const StateReader &reader) {
-  const std::vector<double> state = reader.read("pictures");
+  const std::vector<double> state = reader.read("pictures", 2);
   last_ = state.at(1);
   if (output_.interval > 0.)
     n_intervals_ = count_intervals(last_);

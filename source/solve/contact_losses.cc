@@ -70,6 +70,7 @@ std::vector<double> ContactLosses::save() const {
 }
 
 void ContactLosses::load(const std::vector<double> &numbers) {
+  static_cast<void>(numbers.at(energies_.size())); // refuses a list that is too short
   std::copy_n(numbers.begin(), energies_.size(), energies_.begin());
   reported_ = numbers.at(energies_.size());
 }

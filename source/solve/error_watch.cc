@@ -260,7 +260,7 @@ void ErrorWatch::load(StateReader &reader) {
   if (!reader.has("comparison")) // an earlier run without error control
     return;
   allow_penetration();
-  n_iterations_ = static_cast<unsigned int>(reader.read("iterations of measurements").at(0));
+  n_iterations_ = static_cast<unsigned int>(reader.count("iterations of measurements"));
   const std::vector<double> comparison = reader.read("comparison");
   probe_length_ = is_whole ? comparison.at(0) : 0.;
   probe_end_ = comparison.at(1);

@@ -199,7 +199,7 @@ std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
                                                const std::vector<std::uint64_t> &keys) {
   std::vector<ThicknessAxis> axes;
   for (const double code : reader.read_rows("thickness axes", 1, keys))
-    axes.push_back(ThicknessAxis::from_code(static_cast<unsigned int>(code)));
+    axes.push_back(ThicknessAxis::from_code(static_cast<unsigned int>(to_count(code, 5))));
   return axes;
 }
 
@@ -363,7 +363,7 @@ std::vector<double> to_numbers(const Placement &placement) {
 
 Placement to_placement(const std::vector<double> &numbers) {
   Placement placement;
-  RowReader row(numbers.data());
+  RowReader row(numbers);
   for (unsigned int i = 0; i < 3; ++i) {
     dealii::Tensor<1, 3> line;
     row.vector(line);
@@ -389,7 +389,7 @@ std::vector<double> to_numbers(const ContactLoad &load) {
 
 ContactLoad to_contact_load(const std::vector<double> &numbers) {
   ContactLoad load;
-  RowReader row(numbers.data());
+  RowReader row(numbers);
   row.vector(load.force);
   row.vector(load.moment);
   load.area = row.number();
@@ -406,7 +406,7 @@ std::vector<double> to_numbers(const EnergyLedger &energies) {
 
 EnergyLedger to_energies(const std::vector<double> &numbers) {
   EnergyLedger energies;
-  RowReader row(numbers.data());
+  RowReader row(numbers);
   for (double *energy :
        {&energies.initial, &energies.kinetic, &energies.elastic, &energies.plastic, &energies.contact,
         &energies.friction, &energies.viscous, &energies.hourglass, &energies.numerical, &energies.external})

@@ -84,7 +84,7 @@ void RunReview::load(StateReader &reader) {
       inertia_.load(reader);
       contacts_.load(reader);
       missing_pairs_.load(reader);
-      const std::vector<double> maximum = reader.read("energies");
+      const std::vector<double> maximum = reader.read("energies", 3);
       max_kinetic_ = maximum.at(0);
       max_internal_ = maximum.at(1);
       max_energy_ = maximum.at(2);

@@ -43,6 +43,7 @@ public:
   bool has(const std::string &name) const override {
     return state_.values.count(name) + state_.rows.count(name) > 0;
   }
+  using StateReader::read;
   std::vector<double> read(const std::string &name) const override { return state_.values.at(name); }
   std::string read_text(const std::string &) const override { return ""; }
   std::vector<double> read_rows(const std::string &name, const std::size_t width,
@@ -62,6 +63,7 @@ public:
     }
     return result;
   }
+  std::size_t n_rows(const std::string &name) const override { return state_.rows.at(name).size(); }
   unsigned int n_ranks() const override { return 1; }
 
 private:

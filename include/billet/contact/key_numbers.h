@@ -16,8 +16,8 @@ inline void write_key(RowWriter &row, const std::uint64_t key) {
 
 /// Reads a key that write_key() has written.
 inline std::uint64_t read_key(RowReader &row) {
-  const auto high = static_cast<std::uint64_t>(row.number());
-  return (high << 32U) | static_cast<std::uint64_t>(row.number());
+  const std::uint64_t high = to_count(row.number());
+  return (high << 32U) | to_count(row.number());
 }
 
 } // namespace billet

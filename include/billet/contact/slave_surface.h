@@ -136,7 +136,7 @@ struct SlaveSurface {
           reader.read_rows(prefix + name, width, keys, prefix.empty() ? nullptr : &is_known);
       for (std::size_t i = begin; i < end; ++i)
         if (is_known[i - begin]) {
-          RowReader row(&rows[width * (i - begin)]);
+          RowReader row(&rows[width * (i - begin)], width);
           set(i, row);
         }
     }

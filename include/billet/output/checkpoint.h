@@ -66,11 +66,13 @@ public:
   ~CheckpointReader() override;
 
   bool has(const std::string &name) const override;
+  using StateReader::read;
   std::vector<double> read(const std::string &name) const override;
   std::string read_text(const std::string &name) const override;
   std::vector<double> read_rows(const std::string &name, std::size_t width,
                                 const std::vector<std::uint64_t> &keys,
                                 std::vector<bool> *found) const override;
+  std::size_t n_rows(const std::string &name) const override;
   unsigned int n_ranks() const override { return n_ranks_; }
 
   const std::string &file_name() const { return file_name_; }

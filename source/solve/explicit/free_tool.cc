@@ -74,10 +74,10 @@ void FreeTool::save(StateWriter &writer) const {
 }
 
 void FreeTool::load(const StateReader &reader, const bool is_exact) {
-  const std::vector<double> flags = reader.read("flags");
+  const std::vector<double> flags = reader.read("flags", 2);
   has_stopped_ = flags.at(0) != 0.;
   is_removed_ = flags.at(1) != 0.;
-  offset_ = offset_before_ = reader.read("offset").at(0);
+  offset_ = offset_before_ = reader.read("offset", 2).at(0);
   before_ = now_ = to_placement(reader.read("placement"));
   if (is_removed_)
     rate_ = rate_before_ = 0.;
@@ -86,7 +86,7 @@ void FreeTool::load(const StateReader &reader, const bool is_exact) {
   if (!is_exact)
     return;
   now_ = to_placement(reader.read("placement now"));
-  const std::vector<double> free = reader.read("free");
+  const std::vector<double> free = reader.read("free", 5);
   offset_ = free.at(0);
   offset_before_ = free.at(1);
   rate_ = free.at(2);

@@ -214,10 +214,10 @@ void DrivenTools::save(const std::size_t tool, const Placement &at, StateWriter 
 }
 
 void DrivenTools::load(const std::size_t tool, StateReader &reader, const Placement &at) {
-  const std::vector<double> offset = reader.read("offset");
+  const std::vector<double> offset = reader.read("offset", 2);
   offsets_n_[tool] = offset.at(0);
   last_increments_[tool] = offset.at(1);
-  if (reader.read("flags").at(0) != 0.)
+  if (reader.read("flags", 2).at(0) != 0.)
     stop(tool, at);
 }
 

@@ -121,16 +121,16 @@ void HeavyTools::load(const std::size_t tool, const StateReader &reader, const b
   HeavyTool &heavy = tools_[tool];
   if (heavy.inertia == 0.)
     return;
-  if (reader.read("flags").at(1) != 0.) { // removed
+  if (reader.read("flags", 2).at(1) != 0.) { // removed
     heavy = HeavyTool();
     return;
   }
   if (reader.has("rate"))
     heavy.rate = reader.number("rate");
   if (is_exact) {
-    heavy.acceleration = reader.read("acceleration").at(0);
-    heavy.exerted = reader.read("acceleration").at(1);
-    heavy.load = reader.read("acceleration").at(2);
+    heavy.acceleration = reader.read("acceleration", 3).at(0);
+    heavy.exerted = reader.read("acceleration", 3).at(1);
+    heavy.load = reader.read("acceleration", 3).at(2);
   }
 }
 

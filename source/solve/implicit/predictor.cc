@@ -181,8 +181,9 @@ void Predictor::load(StateReader &reader, const OwnedNodes &nodes, const bool is
   if (!is_exact || !reader.has("probe"))
     return;
   reader.in("probe", [&] {
-    probe_ = std::make_unique<ProbedState>(
-        ProbedState{reader.number("time"), problem_.step().start.displacements, reader.read("offsets")});
+    probe_ =
+        std::make_unique<ProbedState>(ProbedState{reader.number("time"), problem_.step().start.displacements,
+                                                  reader.read("offsets", problem_.tools().offsets().size())});
     load_nodal(reader, "displacements", nodes, probe_->displacements);
   });
 }

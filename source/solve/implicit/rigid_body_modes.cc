@@ -254,11 +254,11 @@ void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
   if (!is_exact)
     return;
   if (reader.has("forces on bodies")) {
-    forces_n_ = reader.read("forces on bodies");
-    max_forces_ = reader.read("largest forces on bodies");
+    forces_n_ = reader.read("forces on bodies", forces_n_.size());
+    max_forces_ = reader.read("largest forces on bodies", forces_n_.size());
   }
   if (!bodies_.are_held() && reader.has("free modes"))
-    support_.n_free = static_cast<std::size_t>(reader.number("free modes"));
+    support_.n_free = reader.count("free modes");
 }
 
 } // namespace billet

@@ -73,7 +73,7 @@ void ToolRemoval::save(const std::size_t tool, StateWriter &writer, const OwnedN
 }
 
 void ToolRemoval::load(const std::size_t tool, StateReader &reader, const OwnedNodes &nodes) {
-  if (reader.read("flags").at(1) == 0.)
+  if (reader.read("flags", 2).at(1) == 0.)
     return;
   const std::vector<double> forces = load_sums(reader, "fading", nodes.keys);
   forces_[tool] = std::make_unique<Vector>(discretization_.make_owned_vector());
@@ -116,8 +116,8 @@ void ReleasedForces::load(StateReader &reader, const OwnedNodes &nodes,
     return;
   forces_ = std::make_unique<Vector>(discretization.make_owned_vector());
   load_nodal(reader, "imbalance", nodes, *forces_);
-  begin_ = reader.read("release").at(0);
-  end_ = reader.read("release").at(1);
+  begin_ = reader.read("release", 2).at(0);
+  end_ = reader.read("release", 2).at(1);
 }
 
 } // namespace billet

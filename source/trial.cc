@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/trial.h"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <exception>
+#include <fcntl.h>
+#include <fstream>
+#include <new>
+#include <unistd.h>
+
+namespace billet {
+
+namespace {
+
+constexpr int code_of_return = 0, code_of_memory = 9;
+
+/// Returns the size of this process's address space [bytes].
+rlim_t size_of_process() {
+  std::ifstream statm("/proc/self/statm");
+  rlim_t n_pages = 0;
+  statm >> n_pages;
+  return n_pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit(const int resource, const rlim_t value) {
+  rlimit limits{};
+  getrlimit(static_cast<__rlimit_resource_t>(resource), &limits);
+  limits.rlim_cur = limits.rlim_max == RLIM_INFINITY ? value : std::min(value, limits.rlim_max);
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &limits);
+}
+
+[[noreturn]] void run_in_copy(const TrialLimits &limits, const std::function<void()> &action) {
+  // A crash is the default action here, whatever handlers MPI or a debugger's library may have set.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU})
+    std::signal(signal, SIG_DFL);
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, limits.seconds);
+  limit(RLIMIT_AS, size_of_process() + (static_cast<rlim_t>(limits.megabytes) << 20U));
+  try {
+    action();
+  } catch (const std::bad_alloc &) {
+    _exit(code_of_memory);
+  } catch (...) {
+    _exit(code_of_return);
+  }
+  _exit(code_of_return);
+}
+
+} // namespace
+
+TrialEnd try_in_copy(const TrialLimits &limits, const std::function<void()> &action) {
+  const pid_t copy = fork();
+  if (copy == 0)
+    run_in_copy(limits, action);
+  if (copy < 0)
+    return TrialEnd::returned;
+  int status = 0;
+  while (waitpid(copy, &status, 0) < 0 && errno == EINTR)
+    continue;
+  if (WIFSIGNALED(status))
+    return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? TrialEnd::out_of_time
+                                                                      : TrialEnd::crashed;
+  return WEXITSTATUS(status) == code_of_memory ? TrialEnd::out_of_memory : TrialEnd::returned;
+}
+
+} // namespace billet

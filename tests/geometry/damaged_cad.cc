@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// CAD files with damage: each is read or refused with a reason, and none ends the program or is read for
+// ever. With an argument, the number of files of each kind, it prints how many are read.
+#include "../testing.h"
+#include "make_surface.h"
+
+#include "billet/errors.h"
+#include "billet/geometry/cad_file.h"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+using namespace billet;
+using namespace billet::testing;
+
+namespace {
+
+/// A plate with a hole and a rounded edge; a half of it as splines.
+TopoDS_Shape plate(const bool as_splines) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(4., 3., 1.).Shape();
+  BRepFilletAPI_MakeFillet rounded(box);
+  rounded.Add(0.3, TopoDS::Edge(TopExp_Explorer(box, TopAbs_EDGE).Current()));
+  const TopoDS_Shape shape =
+      BRepAlgoAPI_Cut(
+          rounded.Shape(),
+          BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(2., 1.5, -1.), gp_Dir(0., 0., 1.)), 0.7, 3.).Shape())
+          .Shape();
+  return as_splines ? BRepBuilderAPI_NurbsConvert(shape).Shape() : shape;
+}
+
+std::string text_of(const std::string &file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class Damage {
+public:
+  std::string apply(std::string text) {
+    const unsigned int n = 1 + below(3);
+    for (unsigned int i = 0; i < n; ++i)
+      apply_once(text);
+    return text;
+  }
+
+private:
+  unsigned int below(const std::size_t n) {
+    return std::min<unsigned int>(static_cast<unsigned int>(random_(0., static_cast<double>(n))),
+                                  static_cast<unsigned int>(n) - 1);
+  }
+  /// Place of a digit, after the head of the file, which holds names and times.
+  std::size_t digit(const std::string &text) {
+    const std::size_t place = text.find_first_of("0123456789", text.size() / 5 + below(4 * text.size() / 5));
+    return place == std::string::npos ? text.find_first_of("0123456789") : place;
+  }
+  void apply_once(std::string &text) {
+    if (text.size() < 100)
+      return;
+    const std::size_t at = below(text.size());
+    switch (below(7)) {
+    case 0: // a line is missing
+      text.erase(text.rfind('\n', at) + 1, text.find('\n', at) - text.rfind('\n', at));
+      break;
+    case 1: // cut short
+      text.resize(at);
+      break;
+    case 2: // another digit: another entity, count or coordinate
+      text[digit(text)] = static_cast<char>('0' + below(10));
+      break;
+    case 3: // a large number
+      text.insert(digit(text), "99999999");
+      break;
+    case 4: // a byte of another file
+      text[at] = static_cast<char>(below(256));
+      break;
+    case 5: // a part twice
+      text.insert(at, text.substr(below(text.size()), 200));
+      break;
+    case 6: { // another reference
+      const std::size_t from = text.find('#', below(text.size())), to = text.find('#', below(text.size()));
+      if (from == std::string::npos || to == std::string::npos)
+        break;
+      const std::size_t end = text.find_first_not_of("0123456789", to + 1);
+      const std::string reference = text.substr(to, end - to);
+      text.replace(from, text.find_first_not_of("0123456789", from + 1) - from, reference);
+      break;
+    }
+    }
+  }
+
+  Random random_;
+};
+
+/// Reads a number of damaged files.
+void check_all(const std::string &suffix, const std::string &original, const unsigned int n_files,
+               const bool prints) {
+  const std::string file = "damaged." + suffix;
+  Damage damage;
+  std::map<std::string, unsigned int> outcomes;
+  unsigned int n_sound = 0;
+  for (unsigned int i = 0; i < n_files; ++i) {
+    std::ofstream(file) << damage.apply(original);
+    try {
+      const auto surface = make_surface("CAD", "set File = " + file);
+      const auto projection = surface->project(dealii::Tensor<1, 3>({1., 1., 2.}));
+      n_sound += !projection.exists || std::isfinite(projection.gap) ? 1 : 0;
+      ++outcomes["read"];
+    } catch (const InputError &error) {
+      const std::string message = error.what();
+      ++n_sound;
+      ++outcomes[message.find("crashes") != std::string::npos  ? "crashes"
+                 : message.find("within") != std::string::npos ? "takes too long"
+                                                               : "refused"];
+    }
+  }
+  check(suffix + ": each file is read or refused", n_sound == n_files);
+  if (prints)
+    for (const auto &[outcome, n] : outcomes)
+      std::cout << suffix << ": " << n << " " << outcome << std::endl;
+  check(suffix + ": some are read", outcomes["read"] > 0);
+  check(suffix + ": some are refused", outcomes["refused"] > 0);
+}
+
+/// Texts that contradict themselves, and texts that only look so.
+void check_texts() {
+  const std::string head = "ISO-10303-21; DATA; ", end = " ENDSEC; END-ISO-10303-21;";
+  const auto fault = [&](const std::string &data) { return check_step_file(head + data + end).fault; };
+  check("sound", fault("#1=A('#7 it''s',$); /* #8 */ #2 = B(#1,1.E-05);").empty());
+  check("an entity is missing", fault("#2=B(#1);") == "it names #1, which it does not define");
+  check("an entity is there twice", fault("#1=A(); #1 =B();") == "it defines #1 twice");
+  check("cut short", !check_step_file(head + "#1=A();").fault.empty());
+  check("faces are counted", check_step_file("#1=ADVANCED_FACE(); #2=ADVANCED_FACE ()").n_faces == 2);
+
+  const auto line = [](const std::string &text, const std::string &section) {
+    return text + std::string(72 - text.size(), ' ') + section + "\n";
+  };
+  const std::string lines = line("", "S      1") + line("", "G      1") + line("     144", "D      1") +
+                            line("     144", "D      2") + line("144;", "P      1");
+  check("sound IGES",
+        check_iges_file(lines + line("S      1G      1D      2P      1", "T      1")).fault.empty());
+  check("a line is missing",
+        check_iges_file(lines + line("S      1G      1D      2P      2", "T      1")).fault ==
+            "its section P has 1 lines, but its last line tells another number");
+  check("faces of IGES are counted", check_iges_file(lines).n_faces == 1);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+  const unsigned int n_files = argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 60;
+  check_texts();
+  STEPControl_Writer step;
+  step.Transfer(plate(false), STEPControl_AsIs);
+  step.Write("plate.step");
+  STEPControl_Writer splines;
+  splines.Transfer(plate(true), STEPControl_AsIs);
+  splines.Write("splines.stp");
+  IGESControl_Controller::Init();
+  IGESControl_Writer iges("MM", 0);
+  iges.AddShape(plate(false));
+  iges.ComputeModel();
+  iges.Write("plate.iges");
+  check_all("step", text_of("plate.step"), n_files, argc > 1);
+  check_all("stp", text_of("splines.stp"), n_files, argc > 1);
+  check_all("iges", text_of("plate.iges"), n_files, argc > 1);
+  return exit_code();
+}
