@@ -339,8 +339,7 @@ SurfacePatches convert_file(const TypeInput &input, const std::size_t n_defined)
   return patches;
 }
 
-/// OpenCASCADE trusts a file: some damaged ones end the program or are never read to their end. What it needs
-/// grows with the file.
+/// Returns what OpenCASCADE may need for a file.
 TrialLimits limits_for(const std::string &file) {
   std::error_code error;
   const std::uintmax_t n_bytes = std::filesystem::file_size(file, error);
@@ -363,6 +362,7 @@ std::size_t check_file(const TypeInput &input) {
 SurfacePatches make(const TypeInput &input) {
   const std::size_t n_defined = check_file(input);
   const TrialLimits limits = limits_for(input.file("File"));
+  // OpenCASCADE trusts a file: some damaged ones end the program, or it never ends reading them.
   const TrialEnd end = try_in_copy(limits, [&] { convert_file(input, n_defined); });
   const std::string advice = " This one may be damaged. Write it again, or with fewer faces";
   if (end == TrialEnd::crashed)

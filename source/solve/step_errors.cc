@@ -25,10 +25,9 @@ struct Factors {
   static constexpr double growth_of_errors = 1.4;
   /// Sum of 1, 1/2, 1/4, ...: of errors that fade by half in each pair of steps.
   static constexpr double sum_of_halves = 2.;
-  /// Minimum part of the span that is left for errors to grow in.
-  static constexpr double min_left = 1e-3;
-  /// Limits of the error rate, as factors of an even rate. Forces may change until the end, so the allowance
-  /// is neither saved at any cost nor spent at once. Errors late in the run add little to the integral.
+  /// Limits of the error rate, as factors of an even rate; the minimum also grows with (span / left)², since
+  /// errors late in the run add little to the integral. Forces may change until the end, so the allowance is
+  /// neither saved at any cost nor spent at once.
   static constexpr double min_rate = 0.2, max_rate = 6.;
   /// Minimum and maximum factor of a change of the step.
   static constexpr double min_stretch = 0.5, max_stretch = 4.;
@@ -90,13 +89,13 @@ bool StepErrors::wants_measurement(const ForceCourse &course, const double h) co
 double StepErrors::allowed_rate(const ForceCourse &course) const {
   // If the errors of forces grew from e at a rate r until the end, with forces as they are,
   //   ∫ e dt = I + e t' + ½ r t'²,   ∫ Σ|F| dt = W + S t',   t' what is left of the time.
-  const double span = course.span(),
-               left = std::max(course.end_time() - course.time(), Factors::min_left * span),
-               scale = course.scale();
+  const double span = course.span(), left = course.end_time() - course.time(), scale = course.scale();
+  const double even = 2. * rules_.tolerance * scale / span;
+  if (!(Factors::min_rate * span * span < Factors::max_rate * left * left)) // the minimum is the maximum
+    return Factors::max_rate * even;
   const double rate = 2. *
                       (rules_.tolerance * (course.work() + scale * left) - integral_ - last_error_ * left) /
                       (left * left);
-  const double even = 2. * rules_.tolerance * scale / span;
   return std::min(Factors::max_rate * even,
                   std::max(Factors::min_rate * even * span * span / (left * left), rate));
 }

@@ -7,7 +7,7 @@
 
 namespace billet {
 
-/// What the text of a CAD file says of itself, apart from its geometry.
+/// Findings from the text of a CAD file, without its geometry.
 struct CadFileReport {
   std::string fault;       ///< what shows that it is cut short or damaged; empty if nothing does
   std::size_t n_faces = 0; ///< faces bounded by curves that it defines
