@@ -101,7 +101,8 @@ void check_measurement() {
 
 /// Penalties so many octaves above 10 E/h: numbers of iterations, one for each penalty.
 void check_continuation() {
-  const auto n_penalties = [](const int octaves) {
+  using Start = PenaltyContinuation::Start;
+  const auto n_penalties = [](const int octaves, const Start start = Start::enough) {
     SceneRun run(read_bar("-1e-4*t", std::ldexp(10., octaves)));
     ImplicitProblem &problem = run.problem.equation();
     EquilibriumSolver solver(problem);
@@ -112,11 +113,16 @@ void check_continuation() {
     Vector x = problem.step().start.displacements;
     problem.supports().at_time(1.).distribute(x);
     std::vector<double> offsets = problem.tools().offsets();
-    const NewtonReport report = continuation.iterate(offsets, x);
+    const NewtonReport report = continuation.iterate(start, offsets, x);
     return report.converged ? report.iterations.size() : 0;
   };
   check("penalties rise by three octaves at a time",
         n_penalties(3) == n_penalties(2) && n_penalties(4) == n_penalties(3) + 1);
+  const auto n_from_low = [&](const int octaves) { return n_penalties(octaves, Start::low); };
+  const unsigned int of_first = 6; // iterations with the lowest penalty, and five penalties above it
+  check("low penalties are 13 octaves below 10 E/h", n_from_low(0) == of_first + 5 &&
+                                                         n_from_low(2) == n_from_low(0) &&
+                                                         n_from_low(3) == n_from_low(0) + 1);
 }
 
 /// Energies of a run before, as a checkpoint keeps them.

@@ -86,13 +86,17 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
   if (!report.converged && (!report.is_explained || rules_->may_mend_explained()) &&
       augmentation_.soften_contacts(messages))
     report.append_anew(attempt(t, previous_step));
-  if (!report.converged && !report.is_explained && !report.iterations.empty() &&
-      continuation_.is_possible()) {
-    report.append_anew(attempt(t, previous_step, StepAttempt::Way::by_lower_penalties));
-    if (report.converged)
-      messages.push_back(continuation_.describe());
+  const auto continue_from = [&](const PenaltyContinuation::Start start, const StepAttempt::Way way) {
+    if (report.converged || report.is_explained || report.iterations.empty() ||
+        !continuation_.is_possible(start))
+      return;
+    report.append_anew(attempt(t, previous_step, way));
     may_accept_stalled = may_accept_stalled || report.is_stalled;
-  }
+    if (report.converged && start == PenaltyContinuation::Start::enough)
+      messages.push_back(continuation_.describe());
+  };
+  continue_from(PenaltyContinuation::Start::enough, StepAttempt::Way::by_enough_penalties);
+  continue_from(PenaltyContinuation::Start::low, StepAttempt::Way::by_low_penalties);
   if (!report.converged && !report.is_explained && may_accept_stalled && !solver_.accepts_stalled()) {
     solver_.accept_stalled(true);
     report.append_anew(attempt(t, previous_step));

@@ -8,14 +8,15 @@
 
 namespace billet {
 
-std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above_enough() const {
+std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above(const Start start) const {
   const ContactSet &contacts = problem_.contacts();
   const std::vector<double> normal = contacts.stiffening_left(),
                             tangential = contacts.collect_min([](const auto &contact) {
                               return contact.penalties().tangential_stiffening_left();
                             });
-  const auto octaves = [](const double left) {
-    return left < 1. ? static_cast<int>(std::lround(-std::log2(left))) : 0;
+  const int lower = start == Start::low ? Limits::low : 0;
+  const auto octaves = [lower](const double left) {
+    return left < std::ldexp(1., lower) ? static_cast<int>(std::lround(-std::log2(left))) + lower : 0;
   };
   std::vector<Octaves> result(normal.size());
   for (std::size_t i = 0; i < result.size(); ++i)
@@ -23,10 +24,10 @@ std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above_eno
   return result;
 }
 
-bool PenaltyContinuation::is_possible() const {
+bool PenaltyContinuation::is_possible(const Start start) const {
   if (problem_.scheme().has_inertia())
     return false;
-  const std::vector<Octaves> above = octaves_above_enough();
+  const std::vector<Octaves> above = octaves_above(start);
   return std::any_of(above.begin(), above.end(),
                      [](const Octaves &o) { return std::max(o.normal, o.tangential) > 0; });
 }
@@ -43,8 +44,9 @@ void PenaltyContinuation::soften(const std::vector<Octaves> &above, const int so
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
 }
 
-NewtonReport PenaltyContinuation::iterate(std::vector<double> &offsets, Vector &displacements) {
-  const std::vector<Octaves> above = octaves_above_enough();
+NewtonReport PenaltyContinuation::iterate(const Start start, std::vector<double> &offsets,
+                                          Vector &displacements) {
+  const std::vector<Octaves> above = octaves_above(start);
   int maximum = 0;
   for (const Octaves &o : above)
     maximum = std::max(maximum, std::max(o.normal, o.tangential));

@@ -57,8 +57,11 @@ NewtonReport StepAttempt::make(const double t, const double previous_step, const
   Unknowns x{p_.problem.step().trial.displacements, p_.problem.tools().offsets()};
   p_.problem.contacts().restart();
   const bool is_direct = way == Way::direct;
-  report = is_direct ? p_.solver.iterate(x.offsets, x.displacements)
-                     : p_.continuation.iterate(x.offsets, x.displacements);
+  report = is_direct
+               ? p_.solver.iterate(x.offsets, x.displacements)
+               : p_.continuation.iterate(way == Way::by_low_penalties ? PenaltyContinuation::Start::low
+                                                                      : PenaltyContinuation::Start::enough,
+                                         x.offsets, x.displacements);
   if (linear_step.force > 0.)
     report.iterations.insert(report.iterations.begin(), linear_step); // its cost is that of an iteration
   if (is_direct)

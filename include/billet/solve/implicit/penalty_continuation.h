@@ -8,18 +8,26 @@
 
 namespace billet {
 
-/// Recovery of a static step in which Newton's method fails with high penalties: continuation from lower
-/// ones. In dynamics, inertia and shorter steps have the same effect.
+/// Recovery of a static step in which Newton's method fails: continuation from lower penalties. In dynamics,
+/// inertia and shorter steps have the same effect. Penalties above 10 E/h may be too high for any body. Those
+/// of E/h are too high for a thin sheet, which bends much more easily than it compresses: nodes along it
+/// touch and open in turn.
 class PenaltyContinuation {
 public:
   PenaltyContinuation(ImplicitProblem &problem, EquilibriumSolver &solver)
       : problem_(problem), solver_(solver) {}
 
-  /// Whether penalties are above 10 E/h, so that lower ones may lead to them. Collective.
-  bool is_possible() const;
-  /// Iterates like EquilibriumSolver::iterate(), with penalties of 10 E/h first, which then rise to their
-  /// values.
-  NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
+  /// Penalties of the start.
+  enum class Start {
+    enough, ///< 10 E/h
+    low     ///< E/h / 820, at which bricks with a fifth of the length in thickness bend as easily
+  };
+
+  /// Whether penalties are above those of the start, so that lower ones may lead to them. Collective.
+  bool is_possible(Start start = Start::enough) const;
+  /// Iterates like EquilibriumSolver::iterate(), with the penalties of the start first, which then rise to
+  /// their values.
+  NewtonReport iterate(Start start, std::vector<double> &offsets, Vector &displacements);
   /// Returns a warning that a step needed continuation. Collective.
   Diagnostic describe() const;
 
@@ -28,13 +36,14 @@ private:
   struct Limits {
     static constexpr int first_stride = 3;
     static constexpr unsigned int max_retreats = 4; ///< to strides of one octave
+    static constexpr int low = 13;                  ///< octaves from 10 E/h to low penalties
   };
-  /// Number of octaves by which the penalties of a contact exceed 10 E/h.
+  /// Number of octaves by which the penalties of a contact exceed those of the start.
   struct Octaves {
     int normal = 0, tangential = 0;
   };
   /// Returns the octaves of each contact. Collective.
-  std::vector<Octaves> octaves_above_enough() const;
+  std::vector<Octaves> octaves_above(Start start) const;
   /// Changes penalties from `softer` octaves below their values to `octaves` below them.
   void soften(const std::vector<Octaves> &above, int softer, int octaves);
 

@@ -28,8 +28,9 @@ public:
   };
   explicit StepAttempt(const Parts &parts) : p_(parts) {}
 
-  /// Path of Newton's method to the end of the step: direct, or by continuation from lower penalties.
-  enum class Way { direct, by_lower_penalties };
+  /// Path of Newton's method to the end of the step: direct, or by continuation from the lower penalties
+  /// of PenaltyContinuation::Start.
+  enum class Way { direct, by_enough_penalties, by_low_penalties };
   /// Tries the step to `t`. `previous_step`: see ImplicitSolution::step(). Collective.
   NewtonReport make(double t, double previous_step, Way way = Way::direct);
   /// Returns the tools that have reached their stop force in a converged step.
