@@ -86,8 +86,7 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
   if (!report.converged && (!report.is_explained || rules_->may_mend_explained()) &&
       augmentation_.soften_contacts(messages))
     report.append_anew(attempt(t, previous_step));
-  if (!report.converged && !report.is_explained && !report.iterations.empty() &&
-      continuation_.is_possible()) {
+  if (!report.converged && !report.is_explained && !report.iterations.empty() && may_continue_penalties()) {
     report.append_anew(attempt(t, previous_step, StepAttempt::Way::by_lower_penalties));
     if (report.converged)
       messages.push_back(continuation_.describe());
@@ -99,12 +98,16 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
   }
 }
 
+bool ImplicitSolution::may_continue_penalties() const {
+  return rules_->may_continue_penalties() && continuation_.is_possible();
+}
+
 NewtonReport ImplicitSolution::step(const double t, const double previous_step) {
   rules_->check_next_step();
   DiagnosticList messages;
   problem_.scheme().choose_contact_damping(problem_.step().start);
   // Iterations that stall with high penalties may converge by continuation from lower ones.
-  solver_.accept_stalled(!continuation_.is_possible());
+  solver_.accept_stalled(!may_continue_penalties());
   NewtonReport report = attempt(t, previous_step);
   repeat(t, previous_step, report);
   recover(t, previous_step, report, messages);

@@ -24,8 +24,6 @@ std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above_eno
 }
 
 bool PenaltyContinuation::is_possible() const {
-  if (problem_.scheme().has_inertia())
-    return false;
   const std::vector<Octaves> above = octaves_above_enough();
   return std::any_of(above.begin(), above.end(),
                      [](const Octaves &o) { return std::max(o.normal, o.tangential) > 0; });

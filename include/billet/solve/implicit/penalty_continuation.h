@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Recovery of a static step in which Newton's method fails with high penalties: continuation from lower
-/// ones. In dynamics, inertia and shorter steps have the same effect.
+/// Recovery of a step in which Newton's method fails with high penalties: continuation from lower ones.
+/// StepRules::may_continue_penalties() says whether a scheme uses it.
 class PenaltyContinuation {
 public:
   PenaltyContinuation(ImplicitProblem &problem, EquilibriumSolver &solver)

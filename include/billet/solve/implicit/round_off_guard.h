@@ -12,7 +12,8 @@ namespace billet {
 /// Judges the effect of round-off on the forces: of displacements, and of positions if penalties are high.
 class RoundOffGuard {
 public:
-  explicit RoundOffGuard(const ImplicitProblem &problem) : problem_(problem) {}
+  explicit RoundOffGuard(const ImplicitProblem &problem)
+      : problem_(problem), is_balanced_by_inertia_(problem.scheme().has_inertia()) {}
 
   /// Whether a converged step has to fail because round-off of contact is too large a part of the forces. It
   /// fails after several such steps in succession, or at the end of the run.
@@ -44,6 +45,7 @@ private:
   };
 
   const ImplicitProblem &problem_;
+  const bool is_balanced_by_inertia_; ///< inertia balances a residual of round-off
   RoundOffWatch watch_;
   unsigned int n_lost_ = 0; ///< number of the last accepted steps that round-off limited
 };
