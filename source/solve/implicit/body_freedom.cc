@@ -128,10 +128,9 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   driven += maximum[0];
   driven_so_far += maximum[1];
   const auto fail = [&](const std::string &what) {
-    report.converged = false;
-    report.is_explained = true;
-    report.failure = what + ". Quasi-static solutions do not move this far. Check supports, units and "
-                            "penalties; use 'Scheme = implicit dynamics' for free motion, or smaller steps";
+    report.fail({what + ". Quasi-static solutions do not move this far",
+                 "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free motion, or "
+                 "smaller steps"});
     return true;
   };
   std::ostringstream text;

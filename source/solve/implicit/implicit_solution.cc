@@ -129,13 +129,20 @@ void ImplicitSolution::explain_failure(NewtonReport &report) {
   report.is_lost_in_round_off =
       report.is_lost_in_round_off || (!report.is_explained && round_off_.may_explain(report));
   if (report.is_lost_in_round_off) {
-    report.failure = round_off_.describe(report.force);
+    const Explanation why = round_off_.describe(report.force);
+    report.failure = why.what;
+    report.advice = why.advice;
     return;
   }
-  if (!report.is_explained)
-    report.failure +=
-        diagnosis_.describe_contacts() + rules_->describe_sliding() + diagnosis_.describe_residual();
-  report.failure += rules_->describe_loss(report.failure);
+  Explanation why{report.failure, report.advice};
+  if (!report.is_explained) {
+    why += diagnosis_.describe_contacts();
+    why += rules_->describe_sliding();
+    why += diagnosis_.describe_residual();
+  }
+  why += rules_->describe_loss(why.what);
+  report.failure = why.what;
+  report.advice = why.advice;
 }
 
 void ImplicitSolution::review(NewtonReport &report) {

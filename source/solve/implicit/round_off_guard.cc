@@ -21,15 +21,15 @@ void RoundOffGuard::commit(const double t, const NewtonReport &report) {
   watch_.add(t, problem_.contact_round_off_force(), problem_.force_scale());
 }
 
-std::string RoundOffGuard::describe(const double part) const {
+Explanation RoundOffGuard::describe(const double part) const {
   std::ostringstream text;
   text.precision(2);
   text << "round-off limits the residual to " << part << " of the forces; allowed is "
        << NewtonLimits::max_stalled_residual << ". The penalty of contact pair "
        << problem_.contacts().stiffest_pairs()
-       << " is too high for such small displacements and sixteen digits. Try a lower penalty, with a "
-          "'Penetration tolerance' if penetration is then too large, or bodies nearer to the origin";
-  return text.str();
+       << " is too high for such small displacements and sixteen digits";
+  return {text.str(), "Try a lower penalty, with a 'Penetration tolerance' if penetration is then too large, "
+                      "or bodies nearer to the origin"};
 }
 
 bool RoundOffGuard::may_explain(const NewtonReport &report) const {

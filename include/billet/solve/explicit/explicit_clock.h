@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_EXPLICIT_EXPLICIT_CLOCK_H
 
 #include "billet/errors.h"
+#include "billet/explanation.h"
 #include "billet/state.h"
 
 #include <string>
@@ -40,8 +41,8 @@ public:
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns a failure at this time. `why`: its reason.
-  SolutionFailure failure(const std::string &why) const;
+  /// Returns a failure at this time.
+  SolutionFailure failure(const Explanation &why) const;
 
 private:
   std::string file_name_;

@@ -5,8 +5,6 @@
 #include "billet/solve/implicit/implicit_problem.h"
 #include "billet/solve/round_off_watch.h"
 
-#include <string>
-
 namespace billet {
 
 /// Judges the effect of round-off on the forces: of displacements, and of positions if penalties are high.
@@ -20,8 +18,8 @@ public:
   bool rejects(double t, NewtonReport &report) const;
   /// Whether round-off of contacts may explain the residual of a failed step. Collective.
   bool may_explain(const NewtonReport &report) const;
-  /// Returns the failure message of a step in which round-off is this part of the forces. Collective.
-  std::string describe(double part) const;
+  /// Explains the failure of a step in which round-off is this part of the forces. Collective.
+  Explanation describe(double part) const;
   /// Accepts the step to t.
   void commit(double t, const NewtonReport &report);
 

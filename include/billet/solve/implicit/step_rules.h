@@ -44,9 +44,9 @@ public:
   virtual bool may_continue_penalties() const = 0;
   /// Raises penalties if a step requires it. Collective.
   virtual DiagnosticList raise_penalties() { return {}; }
-  /// Return texts on the state before a step that failed for this reason, if it may explain the failure.
-  virtual std::string describe_sliding() const { return ""; }
-  virtual std::string describe_loss(const std::string &) const { return ""; }
+  /// Return clauses on the state before a step that failed for this reason, if it may explain the failure.
+  virtual Explanation describe_sliding() const { return {}; }
+  virtual Explanation describe_loss(const std::string & /*failure*/) const { return {}; }
 
   /// Accepts the step before the start of the next one changes, ...
   virtual void commit(double t) { balance().commit(t); }
@@ -96,8 +96,8 @@ public:
   bool may_mend_explained() const override { return true; }
   bool may_continue_penalties() const override { return true; }
   DiagnosticList raise_penalties() override;
-  std::string describe_sliding() const override { return modes_.describe_sliding(); }
-  std::string describe_loss(const std::string &failure) const override {
+  Explanation describe_sliding() const override { return modes_.describe_sliding(); }
+  Explanation describe_loss(const std::string &failure) const override {
     return modes_.describe_loss(failure);
   }
   void commit(double t) override;
