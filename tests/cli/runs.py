@@ -741,7 +741,8 @@ def _() -> None:
     says(
         r"the step from .* failed .*: nodes of contact pair 'foot' go through tool 'ball', which is 0\.002"
         r" thick:"
-        r" .* \(time [\d.e-]+\)\. Try a smaller 'Maximum step', a larger 'Normal penalty', or facets as small as the tool\."
+        r" .* \(time [\d.e-]+\)\. Try a smaller 'Maximum step', a larger 'Normal penalty', or facets as"
+        r" small as the tool\."
         r" Results until",
         ran.complained,
     )
