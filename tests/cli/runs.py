@@ -1045,12 +1045,12 @@ for ranks in (1, 2):
     def _() -> None:
         ran = billet(f"{LET_GO} & Output: Step interval = 0", ranks=ranks, code=3)
         message = (
-            "error[solution-failed]: scene.prm: at time 0.5, without tool 'bed', tool 'die', which are"
-            " removed then, body 'block' has no support: neither supports, nor symmetry planes, nor"
+            "error[solution-failed]: scene.prm: without tool 'bed', tool 'die', which are"
+            " removed at this time, body 'block' has no support: neither supports, nor symmetry planes, nor"
             " tools in contact constrain its rigid-body mode with translation (0, 0, 1) and"
-            " rotation (0, 0, 0)."
+            " rotation (0, 0, 0) (time 0.5)."
             " Add a support or a symmetry plane, or keep a tool. Results until"
-            f" time 0.5 are in '{ran.folder}'.\n"
+            f" then are in '{ran.folder}'.\n"
         )
         # Both directions are free.
         equal("the message", ran.complained.replace("(0, 0, -1)", "(0, 0, 1)", 1), message)
@@ -1069,7 +1069,7 @@ def _() -> None:
     )
     # The bed pushes, but does not pull.
     says(
-        r"without tool 'die', which is removed then, body 'block' has no support: .* translation \(0, 0, 1\)",
+        r"without tool 'die', which is removed at this time, body 'block' has no support: .* translation \(0, 0, 1\)",
         ran.complained,
     )
 
