@@ -1069,7 +1069,8 @@ def _() -> None:
     )
     # The bed pushes, but does not pull.
     says(
-        r"without tool 'die', which is removed at this time, body 'block' has no support: .* translation \(0, 0, 1\)",
+        r"without tool 'die', which is removed at this time, body 'block' has no support: .*"
+        r" translation \(0, 0, 1\)",
         ran.complained,
     )
 

@@ -3,7 +3,6 @@
 #define BILLET_CONTACT_CONTACT_CHECKS_H
 
 #include "billet/diagnostics.h"
-#include "billet/explanation.h"
 
 #include <string>
 

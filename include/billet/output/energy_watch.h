@@ -3,7 +3,6 @@
 #define BILLET_OUTPUT_ENERGY_WATCH_H
 
 #include "billet/diagnostics.h"
-#include "billet/explanation.h"
 #include "billet/solve/solution.h"
 
 #include <functional>

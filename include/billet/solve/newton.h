@@ -5,7 +5,6 @@
 #include "billet/algebra/newton.h"
 #include "billet/contact/status_changes.h"
 #include "billet/diagnostics.h"
-#include "billet/explanation.h"
 #include "billet/parameters/control.h"
 
 #include <algorithm>

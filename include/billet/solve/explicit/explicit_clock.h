@@ -3,7 +3,6 @@
 #define BILLET_SOLVE_EXPLICIT_EXPLICIT_CLOCK_H
 
 #include "billet/errors.h"
-#include "billet/explanation.h"
 #include "billet/state.h"
 
 #include <string>

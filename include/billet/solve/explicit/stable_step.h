@@ -4,7 +4,6 @@
 
 #include "billet/contact/contacts.h"
 #include "billet/diagnostics.h"
-#include "billet/explanation.h"
 
 #include <mpi.h>
 
