@@ -160,7 +160,7 @@ subsection Bodies
     subsection Supports
       subsection root
         set Boundary ids = 0
-        set Components = x ; y ; z
+        set Components = x, y, z
       end
       subsection tip
         set Boundary ids = 1
