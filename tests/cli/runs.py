@@ -537,7 +537,7 @@ def _() -> None:
     says(
         "tool 'die' is in full sliding: friction is at its limit, and cannot bear a"
         " moment"
-        r" of [\d.]+;.* \(time [\d.e-]+\)\. Try a smaller load",
+        r" of [\d.]+.* \(time [\d.e-]+\)\. Try a smaller load",
         billet("Motion: Moment = 10*t^2", code=3).complained,
     )
 
