@@ -20,6 +20,11 @@ InputError::InputError(const std::string &message) : InputError(diagnostic::bad_
 SolutionFailure::SolutionFailure(const std::string &message)
     : SolutionFailure(diagnostic::solution_failed, message) {}
 
+SolutionFailure file_lost(const std::string &name) {
+  return SolutionFailure(Diagnostic(diagnostic::solution_failed, name + " cannot be written")
+                             .advice("Check whether the disk is full"));
+}
+
 void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   Failure failure = Failure::none;
   std::string content; // all of the diagnostic; for other exceptions, the text

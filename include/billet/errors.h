@@ -55,6 +55,9 @@ private:
   Diagnostic diagnostic_;
 };
 
+/// Returns the failure of a run that cannot write a file of its results.
+SolutionFailure file_lost(const std::string &name);
+
 /// Calls `action` on every rank. If it throws on any of them, every rank throws: InputError or
 /// SolutionFailure with the same diagnostic if that was thrown, otherwise std::runtime_error. `action` itself
 /// must not communicate.

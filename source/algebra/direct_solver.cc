@@ -206,9 +206,14 @@ private:
 
 std::unique_ptr<LinearSolver> make_direct_solver(const DirectMethod method, const Matrix &matrix,
                                                  MPI_Comm communicator) {
-  if (method == DirectMethod::klu)
+  switch (method) {
+  case DirectMethod::mumps_symmetric:
+  case DirectMethod::mumps:
+    return std::make_unique<MumpsSolver>(requires_symmetry(method), matrix, communicator);
+  case DirectMethod::klu:
     return std::make_unique<AmesosSolver>("Amesos_Klu", matrix);
-  return std::make_unique<MumpsSolver>(method == DirectMethod::mumps_symmetric, matrix, communicator);
+  }
+  return nullptr;
 }
 
 } // namespace billet

@@ -51,6 +51,17 @@ double norm(const Epetra_MultiVector &v) {
   return result;
 }
 
+/// Returns the value of AztecOO's option AZ_solver.
+int aztec_solver(const IterativeMethod method) {
+  switch (method) {
+  case IterativeMethod::conjugate_gradients:
+    return AZ_cg;
+  case IterativeMethod::gmres:
+    return AZ_gmres;
+  }
+  return AZ_gmres;
+}
+
 } // namespace
 
 /// Contact dofs: the factorised block A_ΓΓ, and the stiffness of contacts in it.
@@ -310,8 +321,7 @@ bool IterativeSolver::factorize() {
   if (!keeps_pace)
     multigrid_.reset();
   contact_ = std::move(started_);
-  if (contact_ != nullptr &&
-      !contact_->factorize(settings_.method == IterativeMethod::conjugate_gradients, communicator_)) {
+  if (contact_ != nullptr && !contact_->factorize(requires_symmetry(settings_.method), communicator_)) {
     multigrid_.reset();
     failure_ = "the stiffness of the contact dofs cannot be factorised: " + contact_->failure();
     return false;
@@ -377,8 +387,7 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
     solver.SetAztecOption(AZ_diagnostics, AZ_none);
     solver.SetPrecOperator(multigrid_.get());
     solver.SetAztecOption(AZ_conv, AZ_rhs);
-    solver.SetAztecOption(AZ_solver,
-                          settings_.method == IterativeMethod::conjugate_gradients ? AZ_cg : AZ_gmres);
+    solver.SetAztecOption(AZ_solver, aztec_solver(settings_.method));
     solver.SetAztecOption(AZ_kspace, static_cast<int>(std::min(left, 100u)));
     solver.Iterate(static_cast<int>(left), 0.9 * relative_tolerance);
     iterations_ += static_cast<unsigned int>(solver.NumIters());
@@ -403,8 +412,7 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
 }
 
 std::string IterativeSolver::name() const {
-  return std::string(settings_.method == IterativeMethod::conjugate_gradients ? "CG" : "GMRES") +
-         " with multigrid";
+  return std::string(name_of(settings_.method)) + " with multigrid";
 }
 
 unsigned int IterativeSolver::take_iterations() {

@@ -10,7 +10,7 @@
 
 namespace billet {
 
-std::string BodyChecks::describe_restless() const {
+Explanation BodyChecks::describe_restless() const {
   std::array<double, 5> mine{}; // number of changes, position, number of nodes
   for (const auto &node : contact_.measures().find_restless()) {
     mine[4] += 1.;
@@ -26,15 +26,15 @@ std::string BodyChecks::describe_restless() const {
       worst = of_rank;
   }
   if (n_nodes == 0.)
-    return "";
+    return {};
   std::ostringstream text;
   text << "; contact pair '" << pair_.name << "': " << n_nodes
        << (n_nodes == 1. ? " node keeps" : " nodes keep") << " changing facet or status, most often, "
-       << worst[0] << " times, the one at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << "): try "
-       << (contact_.method() == FacetMethod::overlap
-               ? "a softer penalty, with a 'Penetration tolerance' where that is too soft"
-               : "smaller steps, a softer penalty, 'Facets = overlap' or a larger 'Smoothing'");
-  return text.str();
+       << worst[0] << " times, the one at (" << worst[1] << ", " << worst[2] << ", " << worst[3] << ")";
+  return {text.str(), contact_.method() == FacetMethod::overlap
+                          ? "Try a lower penalty, with a 'Penetration tolerance' if penetration is then too "
+                            "large"
+                          : "Try smaller steps, a lower penalty, 'Facets = overlap' or a larger 'Smoothing'"};
 }
 
 std::string BodyChecks::describe_obstacle() const {

@@ -27,15 +27,15 @@ bool ToolChecks::lets_nodes_through() const {
   return false;
 }
 
-std::string ToolChecks::describe_passage() const {
+Explanation ToolChecks::describe_passage() const {
   std::ostringstream text;
   text.precision(3);
   text << "nodes of contact pair '" << parts_.pair.name << "' go through tool '" << parts_.tool.name()
        << "', which is " << parts_.thin_tool->thickness()
-       << " thick: they travel further in a step, or its penalty lets them in as deep. Try "
-       << (parts_.is_explicit ? "a smaller 'Safety factor'" : "a smaller 'Maximum step'")
-       << ", a larger 'Normal penalty', or facets as small as the tool";
-  return text.str();
+       << " thick: they travel further in a step, or its penalty lets them in as deep";
+  return {text.str(), std::string("Try a smaller ") +
+                          (parts_.is_explicit ? "'Safety factor'" : "'Maximum step'") +
+                          ", a larger 'Normal penalty', or facets as small as the tool"};
 }
 
 std::string ToolChecks::describe_obstacle() const {

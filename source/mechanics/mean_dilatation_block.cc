@@ -14,7 +14,9 @@ constexpr ElementKind kind = {"mean dilatation",
                               false,
                               false,
                               LaneElement::mean_dilatation,
-                              &compare_points<MeanDilatationElement>};
+                              &compare_points<MeanDilatationElement>,
+                              /*may_lock_in_bending=*/true,
+                              /*may_be_soft=*/true};
 
 } // namespace
 

@@ -152,7 +152,7 @@ bool CheckpointWriter::reserve(const std::size_t n_bytes) {
 
 bool CheckpointWriter::check(const bool success, const std::string &what) {
   if (!success && failure_.empty())
-    failure_ = name_ + ".tmp " + what + ". Check whether the disk is full";
+    failure_ = name_ + ".tmp " + what;
   return failure_.empty();
 }
 

@@ -6,7 +6,6 @@
 #include "billet/material/hardening.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -31,27 +30,27 @@ std::string choose_exact_elasticity() {
 std::string EnergyWatch::advise(const Cause cause) {
   switch (cause) {
   case Cause::low_penalties:
-    return "penalties are too low: they create energy on areas that change while penetration is large. "
+    return "Penalties are too low: they create energy on areas that change while penetration is large. "
            "Increase 'Normal penalty'";
   case Cause::sticking_overlaps:
-    return "the areas of overlapping facets change while friction sticks. Choose 'Facets = bilinear' for "
+    return "The areas of overlapping facets change while friction sticks. Choose 'Facets = bilinear' for "
            "these "
            "contact pairs";
   case Cause::contact_edges:
-    return "contact creates energy, as where an edge of the second body slides along facets of the first. "
+    return "Contact creates energy, as where an edge of the second body slides along facets of the first. "
            "Swap 'Body' and 'Second body' of that contact pair, or use smaller facets there";
   case Cause::unstable_law:
-    return "the law of an elastic body loses its ellipticity. Reduce the strains, or choose the 'Elasticity' "
+    return "The law of an elastic body loses its ellipticity. Reduce the strains, or choose the 'Elasticity' "
            "that the warning names";
   case Cause::inexact_dissipation:
-    return "a yielding body has large elastic strains, and its law has the dissipation only to first order "
+    return "A yielding body has large elastic strains, and its law has the dissipation only to first order "
            "in "
            "them. " +
            choose_exact_elasticity() + "increase 'Maximum energy drift'";
   case Cause::steps:
     break;
   }
-  return "the steps do not resolve how contacts open and close. Reduce 'Error tolerance', 'Maximum step', "
+  return "The steps do not resolve how contacts open and close. Reduce 'Error tolerance', 'Maximum step', "
          "the "
          "penalty or 'Spectral radius'";
 }
@@ -71,16 +70,15 @@ DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energie
     what.precision(3);
     what << "the energies are off balance by " << 100. * drift / maximum_ << " % of the maximum so far";
     if (balance_ == Balance::is_kept) {
-      what << "; allowed are " << 100. * allowed_drift_ << " % ('Maximum energy drift'): " << advise(*cause_);
-      imbalance_ = what.str();
+      what << "; allowed are " << 100. * allowed_drift_ << " % ('Maximum energy drift')";
+      imbalance_ = {what.str(), advise(*cause_)};
     } else {
-      std::string text = what.str(), advice = advise(*cause_);
+      std::string text = what.str();
       text.front() = 'T';
-      advice.front() = static_cast<char>(std::toupper(advice.front()));
       messages.push_back(Diagnostic(diagnostic::energy_imbalance, text)
                              .time(time)
                              .measure("part of the largest energy", drift / maximum_)
-                             .advice(advice));
+                             .advice(advise(*cause_)));
     }
   }
   return messages;

@@ -131,7 +131,7 @@ void ErrorReport::write(const std::string &folder) const {
   for (const auto &[what, value] : costs)
     file << what << "," << value << "\n";
   if (!file.flush())
-    throw SolutionFailure(name + " cannot be written. Check whether the disk is full");
+    throw file_lost(name);
 }
 
 } // namespace billet

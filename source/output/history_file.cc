@@ -92,7 +92,7 @@ void HistoryFile::write(const HistorySample &sample) {
     }
   stream_ << std::endl;
   if (!stream_)
-    throw SolutionFailure(name_ + " cannot be written. Check whether the disk is full");
+    throw file_lost(name_);
 }
 
 } // namespace billet

@@ -75,11 +75,11 @@ const std::string &name_of(const TimeStepping::Scheme scheme) { return name_in(s
 const NamedValues<std::optional<LinearMethod>> &linear_methods() {
   static const NamedValues<std::optional<LinearMethod>> methods = {
       {"automatic", std::nullopt},
-      {"MUMPS symmetric", DirectMethod::mumps_symmetric},
-      {"MUMPS", DirectMethod::mumps},
-      {"KLU", DirectMethod::klu},
-      {"CG", IterativeMethod::conjugate_gradients},
-      {"GMRES", IterativeMethod::gmres}};
+      {name_of(DirectMethod::mumps_symmetric), DirectMethod::mumps_symmetric},
+      {name_of(DirectMethod::mumps), DirectMethod::mumps},
+      {name_of(DirectMethod::klu), DirectMethod::klu},
+      {name_of(IterativeMethod::conjugate_gradients), IterativeMethod::conjugate_gradients},
+      {name_of(IterativeMethod::gmres), IterativeMethod::gmres}};
   return methods;
 }
 

@@ -105,9 +105,7 @@ template <class Part> void ExplicitRun::attempt(RunOutput &output, const Part &p
     if (std::isfinite(problem_.relative_drift()))
       output.report(stability_.check(problem_.time(), problem_.state().displacements));
     throw SolutionFailure(
-        Diagnostic(failure.diagnostic().kind(),
-                   explain_failed_step(parameters_, failure.what(), stability_.has_unstable_bodies()))
-            .value("steps", problem_.n_steps()));
+        explain_failed_step(scene_, problem_, failure.diagnostic(), stability_.has_unstable_bodies()));
   }
 }
 
@@ -203,9 +201,7 @@ void ExplicitRun::check_drift(RunOutput &output) {
   problem_.update_state();
   output.snapshots().write(problem_);
   const std::string advice = is_finite ? advise_on_law(output) : "";
-  throw SolutionFailure(Diagnostic(is_finite ? diagnostic::energy_drift : diagnostic::solution_failed,
-                                   explain_drift(scene_, problem_, advice))
-                            .value("steps", problem_.n_steps()));
+  throw SolutionFailure(explain_drift(scene_, problem_, advice));
 }
 
 void ExplicitRun::control_errors() {

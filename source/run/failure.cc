@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/failure.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/output/energy_watch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 namespace billet {
 
@@ -18,7 +20,7 @@ struct Limits {
   static constexpr double large_strain = 0.02;
 };
 
-/// Returns a hint if the ratio of bulk to shear modulus leaves Newton's method few significant digits.
+/// Returns a sentence if the ratio of bulk to shear modulus leaves Newton's method few significant digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
   const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [](const auto &b) {
     return b.material.law->elastic().poisson_ratio() > Limits::incompressible;
@@ -26,15 +28,60 @@ std::string describe_incompressibility(const parameters::Scene &parameters) {
   if (body == parameters.bodies.end())
     return "";
   std::ostringstream text;
-  text << ". Body '" << body->name
+  text << "Body '" << body->name
        << "' is nearly incompressible ('Poisson ratio' = " << body->material.law->elastic().poisson_ratio()
        << "). A ratio of 0.4999 has a bulk modulus of 5000 times the shear modulus, and is easier to solve";
   return text.str();
 }
 
-/// Returns a statement of where the results so far are stored.
+/// Returns a sentence on where the results so far are stored.
 std::string describe_saved_results(const parameters::Scene &parameters) {
-  return "Results until then are in '" + parameters.output.folder.value + "'.";
+  return "Results until then are in '" + parameters.output.folder.value + "'";
+}
+
+/// Returns the sentences that are not empty as one advice.
+std::string join_sentences(const std::vector<std::string> &sentences) {
+  std::string advice;
+  for (const std::string &sentence : sentences)
+    append_sentences(advice, sentence);
+  return advice;
+}
+
+std::string describe_unstable_law(const bool is_unstable) {
+  return is_unstable ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "";
+}
+
+/// Returns advice on contact if Newton's method cycles between its states.
+std::string advise_on_cycling(const parameters::Scene &parameters, const NewtonReport &newton) {
+  if (!newton.is_cycling || parameters.pairs.empty())
+    return "";
+  return "Likely cause: contact chatter (open/closed or stick/slip), as in snap-through or with strong "
+         "friction. Try half or twice the normal or tangential penalty, or a 'Penetration tolerance'";
+}
+
+/// Returns advice on the parameters that limit the steps and the iterations.
+std::string advise_on_steps(const parameters::Scene &parameters, const bool is_cycling) {
+  if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
+    return "Steps are fixed. Try a smaller 'Initial step' or 'Step control = automatic'";
+  std::ostringstream text;
+  text << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.min_step << ". "
+       << (parameters.is_dynamic() ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
+       << (is_cycling                 ? ""
+           : parameters.pairs.empty() ? "Try a larger 'Maximum iterations'. "
+                                      : "Try a lower penalty or a larger 'Maximum iterations'. ")
+       << "Check the last field output for an unstable or distorted mesh";
+  return text.str();
+}
+
+/// Returns advice on energies that fail to balance in an explicit run.
+std::string advise_on_drift(const Scene &scene, const ExplicitDynamics &problem) {
+  if (problem.has_low_penalties())
+    return "Penalties are too low, and nodes with large penetration create energy. Increase 'Normal penalty'";
+  if (scene.capabilities().friction && !scene.body_pairs().empty())
+    return "Contact chatter with friction creates energy. Try a larger 'Normal penalty', such as 1000 E/h, "
+           "else a smaller 'Safety factor' or more bulk viscosity";
+  return "Steps may be too long, or a penalty too high. Try a smaller 'Safety factor', a lower penalty or "
+         "more bulk viscosity";
 }
 
 } // namespace
@@ -65,7 +112,7 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
          (!has_tool
               ? std::string()
               : std::string("move the tool by its '") + (turns ? "Rotation" : "Translation") + "', or ") +
-         "let the material harden. ";
+         "let the material harden";
 }
 
 bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
@@ -83,71 +130,71 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
   return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > Limits::large_strain;
 }
 
-std::string explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
-                                const double from, const double to, const bool is_unstable) {
-  std::ostringstream message;
-  message << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
-          << report.step << " accepted steps and " << report.total_cuts << " cuts: " << report.newton.failure;
-  std::ostringstream computed;
-  computed << ". Results until time " << from << " are in '" << parameters.output.folder.value << "'.";
-  if (report.newton.is_lost_in_round_off || report.newton.is_explained)
-    return message.str() + computed.str();
-  message << (report.newton.criteria.empty() ? "" : "; ") << report.newton.criteria << ". "
-          << describe_limit_load(parameters);
-  const bool is_cycling = report.newton.is_cycling && !parameters.pairs.empty();
-  if (is_cycling)
-    message << "Likely cause: contact chatter (open/closed or stick/slip), as in snap-through or with strong "
-               "friction. Try half or twice the normal or tangential penalty, or a 'Penetration tolerance'. ";
-  if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
-    message << "Steps are fixed. Try a smaller 'Initial step' or 'Step control = automatic'";
-  else
-    message << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.min_step << ". "
-            << (parameters.is_dynamic() ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
-            << (report.newton.is_cycling   ? ""
-                : parameters.pairs.empty() ? "Try a larger 'Maximum iterations'. "
-                                           : "Try a lower penalty or a larger 'Maximum iterations'. ")
-            << "Check the last field output for an unstable or distorted mesh";
-  return message.str() + describe_incompressibility(parameters) +
-         (is_unstable ? ". In addition, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "") +
-         computed.str();
+Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
+                               const double from, const double to, const bool is_unstable) {
+  const NewtonReport &newton = report.newton;
+  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained; // which is not the iterations
+  std::ostringstream what, results;
+  what << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
+       << report.step << " accepted steps and " << report.total_cuts << " cuts: " << newton.failure
+       << (has_cause || newton.criteria.empty() ? "" : "; ") << (has_cause ? "" : newton.criteria);
+  results << "Results until time " << from << " are in '" << parameters.output.folder.value << "'";
+  Diagnostic diagnostic(diagnostic::solution_failed, what.str());
+  diagnostic.time(from)
+      .value("steps", report.step)
+      .value("Newton iterations", report.total_iterations)
+      .advice(has_cause ? join_sentences({newton.advice, results.str()})
+                        : join_sentences({newton.advice, describe_limit_load(parameters),
+                                          advise_on_cycling(parameters, newton),
+                                          advise_on_steps(parameters, newton.is_cycling),
+                                          describe_incompressibility(parameters),
+                                          describe_unstable_law(is_unstable), results.str()}));
+  return diagnostic;
 }
 
-std::string explain_imbalance(const parameters::Scene &parameters, const StepReport &report,
-                              const double time, const std::string &imbalance) {
-  std::ostringstream message;
-  message << parameters.file_name << ": at time " << time << " after " << report.step << " steps "
-          << imbalance << ". " << describe_limit_load(parameters) << describe_saved_results(parameters);
-  return message.str();
+Diagnostic explain_imbalance(const parameters::Scene &parameters, const StepReport &report, const double time,
+                             const Explanation &imbalance) {
+  Diagnostic diagnostic(diagnostic::energy_drift, parameters.file_name + ": after " +
+                                                      std::to_string(report.step) + " steps " +
+                                                      imbalance.what);
+  diagnostic.time(time)
+      .value("steps", report.step)
+      .value("Newton iterations", report.total_iterations)
+      .advice(join_sentences(
+          {imbalance.advice, describe_limit_load(parameters), describe_saved_results(parameters)}));
+  return diagnostic;
 }
 
-std::string explain_drift(const Scene &scene, const ExplicitDynamics &problem, const std::string &advice) {
+Diagnostic explain_drift(const Scene &scene, const ExplicitDynamics &problem, const std::string &advice) {
   const parameters::Scene &parameters = scene.parameters();
-  std::ostringstream message;
-  message << parameters.file_name << ": at time " << problem.time() << " after " << problem.n_steps()
-          << " steps the energies ";
-  if (std::isfinite(problem.relative_drift()))
-    message << "are off balance by " << 100. * problem.relative_drift()
-            << " % of the maximum energy so far; allowed are "
-            << 100. * parameters.explicit_dynamics.max_drift << " % ('Maximum energy drift'): "
-            << (!advice.empty()               ? advice
-                : problem.has_low_penalties() ? "penalties are too low, and nodes with large penetration "
-                                                "create energy. Increase 'Normal penalty'"
-                : scene.capabilities().friction && !scene.body_pairs().empty()
-                    ? "contact chatter with friction creates energy. Try a larger 'Normal penalty', such as "
-                      "1000 E/h, else a smaller 'Safety factor' or more bulk viscosity"
-                    : "steps may be too long, or a penalty too high. Try a smaller 'Safety factor', a lower "
-                      "penalty or more bulk viscosity");
+  const bool is_finite = std::isfinite(problem.relative_drift());
+  std::ostringstream what;
+  what << parameters.file_name << ": after " << problem.n_steps() << " steps the energies are ";
+  if (is_finite)
+    what << "off balance by " << 100. * problem.relative_drift()
+         << " % of the maximum energy so far; allowed are " << 100. * parameters.explicit_dynamics.max_drift
+         << " % ('Maximum energy drift')";
   else
-    message << "are not finite. Check the units of velocities, loads and penalties";
-  message << ". " << describe_limit_load(parameters) << describe_saved_results(parameters);
-  return message.str();
+    what << "not finite";
+  Diagnostic diagnostic(is_finite ? diagnostic::energy_drift : diagnostic::solution_failed, what.str());
+  diagnostic.time(problem.time())
+      .value("steps", problem.n_steps())
+      .advice(join_sentences({!is_finite        ? "Check the units of velocities, loads and penalties"
+                              : !advice.empty() ? advice
+                                                : advise_on_drift(scene, problem),
+                              describe_limit_load(parameters), describe_saved_results(parameters)}));
+  return diagnostic;
 }
 
-std::string explain_failed_step(const parameters::Scene &parameters, const std::string &reason,
-                                const bool is_unstable) {
-  return reason + ". " +
-         (is_unstable ? "In addition, " + EnergyWatch::advise(EnergyWatch::Cause::unstable_law) + ". " : "") +
-         describe_limit_load(parameters) + describe_saved_results(parameters);
+Diagnostic explain_failed_step(const Scene &scene, const ExplicitDynamics &problem, const Diagnostic &reason,
+                               const bool is_unstable) {
+  const parameters::Scene &parameters = scene.parameters();
+  Diagnostic diagnostic = reason;
+  diagnostic.time(reason.time().value_or(problem.time()))
+      .value("steps", problem.n_steps())
+      .advice(join_sentences({reason.advice(), describe_unstable_law(is_unstable),
+                              describe_limit_load(parameters), describe_saved_results(parameters)}));
+  return diagnostic;
 }
 
 } // namespace billet

@@ -132,10 +132,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
     return;
   output.snapshots().write(problem_);
   throw SolutionFailure(
-      Diagnostic(diagnostic::solution_failed,
-                 explain_failed_step(parameters_, report_, from, to, stability_.has_unstable_bodies()))
-          .value("steps", report_.step)
-          .value("Newton iterations", report_.total_iterations));
+      explain_failed_step(parameters_, report_, from, to, stability_.has_unstable_bodies()));
 }
 
 void ImplicitRun::after_step(RunOutput &output) {
@@ -180,11 +177,7 @@ void ImplicitRun::check_energies(RunOutput &output) {
   if (energies_.imbalance().empty())
     return;
   output.snapshots().write(problem_);
-  throw SolutionFailure(
-      Diagnostic(diagnostic::energy_drift,
-                 explain_imbalance(parameters_, report_, control_.time(), energies_.imbalance()))
-          .value("steps", control_.n_steps())
-          .value("Newton iterations", report_.total_iterations));
+  throw SolutionFailure(explain_imbalance(parameters_, report_, control_.time(), energies_.imbalance()));
 }
 
 void ImplicitRun::end(RunOutput &output) {

@@ -25,9 +25,15 @@ void Run::save(StateWriter &writer) const {
 }
 
 std::unique_ptr<Run> make_run(const Scene &scene, const MPI_Comm communicator, Resumption *resumption) {
-  if (scene.parameters().is_explicit())
+  using Scheme = parameters::TimeStepping::Scheme;
+  switch (scene.parameters().time_stepping.scheme) {
+  case Scheme::explicit_dynamics:
     return std::make_unique<ExplicitRun>(scene, communicator, resumption);
-  return std::make_unique<ImplicitRun>(scene, communicator, resumption);
+  case Scheme::quasi_static:
+  case Scheme::implicit_dynamics:
+    return std::make_unique<ImplicitRun>(scene, communicator, resumption);
+  }
+  return nullptr;
 }
 
 namespace {

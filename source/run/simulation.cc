@@ -25,8 +25,7 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
   }
   fail_together(communicator, [&] {
     if (!diagnostics.write_summary(static_cast<int>(code)))
-      throw SolutionFailure("'" + diagnostics.file_name() +
-                            "' cannot be written. Check whether the disk is full");
+      throw file_lost("'" + diagnostics.file_name() + "'");
   });
   write_capabilities(parameters.output.folder.value, communicator);
   return code;

@@ -368,7 +368,7 @@ DiagnosticList check_bricks(const Scene &scene) {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
-    if (body.formulation.element != ElementFormulation::Element::mean_dilatation)
+    if (!body.formulation.element.may_lock_in_bending())
       continue;
     const parameters::Body &input = scene.parameters().bodies[b];
     Triangulation<3> outline, mesh;

@@ -19,23 +19,38 @@ namespace billet {
 
 namespace {
 
-std::string describe(const LinearMethod method) {
-  if (const auto *direct = std::get_if<DirectMethod>(&method))
-    switch (*direct) {
-    case DirectMethod::mumps_symmetric:
-      return "MUMPS, which factorises half";
-    case DirectMethod::mumps:
-      return "MUMPS";
-    case DirectMethod::klu:
-      return "KLU";
-    }
-  return std::string(method == LinearMethod(IterativeMethod::gmres) ? "GMRES" : "CG") + " with multigrid";
+std::string describe(const DirectMethod method) {
+  switch (method) {
+  case DirectMethod::mumps_symmetric:
+    return "MUMPS, which factorises half";
+  case DirectMethod::mumps:
+  case DirectMethod::klu:
+    break;
+  }
+  return name_of(method);
+}
+std::string describe(const IterativeMethod method) {
+  return std::string(name_of(method)) + " with multigrid";
+}
+
+/// Returns the scheme of time integration in the summary of a scene.
+const char *describe_scheme(const parameters::TimeStepping::Scheme scheme) {
+  using Scheme = parameters::TimeStepping::Scheme;
+  switch (scheme) {
+  case Scheme::quasi_static:
+    return "quasi-static, implicit";
+  case Scheme::explicit_dynamics:
+    return "dynamic, explicit";
+  case Scheme::implicit_dynamics:
+    return "dynamic, implicit";
+  }
+  return "";
 }
 
 /// `method`: none if the choice is automatic.
 std::string describe_solver(const std::optional<LinearMethod> &method, const bool unsymmetric) {
   if (method)
-    return describe(*method);
+    return std::visit([](const auto chosen) { return describe(chosen); }, *method);
   return describe(unsymmetric ? DirectMethod::mumps : DirectMethod::mumps_symmetric) + ", above " +
          std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
          describe(unsymmetric ? IterativeMethod::gmres : IterativeMethod::conjugate_gradients);
@@ -569,10 +584,7 @@ void Scene::describe(std::ostream &stream) const {
     stream << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "
                                                                                 : ", fixed steps of ")
            << stepping.initial_step << "\n";
-  stream << "Elements       " << n_elements << " in all, "
-         << (parameters_.is_explicit()  ? "dynamic, explicit\n"
-             : parameters_.is_dynamic() ? "dynamic, implicit\n"
-                                        : "quasi-static, implicit\n");
+  stream << "Elements       " << n_elements << " in all, " << describe_scheme(stepping.scheme) << "\n";
   for (const CapabilityUse &use : capability_uses())
     stream << use.name << std::string(15 - use.name.size(), ' ')
            << (use.is_used ? "yes" : "no (neither allocated nor run)") << (use.how.empty() ? "" : ": ")

@@ -17,12 +17,21 @@ constexpr double much = 0.05; // of the largest energy
 struct Description {
   const char *name, *advice;
 };
-constexpr std::array<Description, 3> descriptions{
-    {{"damped impacts within a step",
-      "If bodies should rebound, reduce 'Error tolerance', 'Maximum step' or 'Normal penalty'"},
-     {"tangential penalties in damped steps", "Reduce 'Maximum step' or 'Tangential penalty'"},
-     {"nodes that open or close within a step, and changing contact areas",
-      "Reduce 'Maximum step' or 'Normal penalty'"}}};
+Description describe(const ContactLosses::Cause cause) {
+  switch (cause) {
+  case ContactLosses::impacts:
+    return {"damped impacts within a step",
+            "If bodies should rebound, reduce 'Error tolerance', 'Maximum step' or 'Normal penalty'"};
+  case ContactLosses::friction:
+    return {"tangential penalties in damped steps", "Reduce 'Maximum step' or 'Tangential penalty'"};
+  case ContactLosses::crossings:
+    return {"nodes that open or close within a step, and changing contact areas",
+            "Reduce 'Maximum step' or 'Normal penalty'"};
+  case ContactLosses::n_causes:
+    break;
+  }
+  return {"", ""};
+}
 
 } // namespace
 
@@ -45,24 +54,26 @@ DiagnosticList ContactLosses::watch(const double max_energy, const double time) 
   if (part <= std::max(much, 2. * reported_))
     return {};
   reported_ = part;
-  std::array<std::size_t, 3> order{0, 1, 2};
+  std::array<Cause, n_causes> order{};
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = static_cast<Cause>(i);
   std::sort(order.begin(), order.end(),
-            [this](const std::size_t a, const std::size_t b) { return energies_[a] > energies_[b]; });
+            [this](const Cause a, const Cause b) { return energies_[a] > energies_[b]; });
   std::ostringstream what;
   what.precision(2);
   what << "Contact removes " << 100. * part << " % of the maximum energy so far";
   constexpr double small = 0.05; // of the total; not reported
-  for (const std::size_t cause : order)
+  for (const Cause cause : order)
     if (cause == order[0] || energies_[cause] > small * total())
       what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / max_energy << " % by "
-           << descriptions[cause].name;
+           << describe(cause).name;
   return {Diagnostic(diagnostic::contact_dissipates, what.str())
               .time(time)
               .measure("part of the largest energy", part)
               .value("by impacts", energies_[impacts] / max_energy)
               .value("by friction springs", energies_[friction] / max_energy)
               .value("by crossings", energies_[crossings] / max_energy)
-              .advice(descriptions[order[0]].advice)};
+              .advice(describe(order[0]).advice)};
 }
 
 std::vector<double> ContactLosses::save() const {

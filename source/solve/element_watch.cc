@@ -11,8 +11,6 @@ namespace billet {
 
 namespace {
 
-using Brick = BrickElement;
-
 bool is_of_taper(const ElementEnergies &energies) {
   constexpr double much = 0.5;
   return energies.tapered > much * (energies.used + energies.tapered - energies.accurate);
@@ -20,7 +18,7 @@ bool is_of_taper(const ElementEnergies &energies) {
 
 /// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
-  return is_of_taper(energies) || formulation.element != Brick::mean_dilatation
+  return is_of_taper(energies) || !formulation.element.may_lock_in_bending()
              ? "Use bricks whose opposite edges are parallel, also in plan, or bricks shorter relative to "
                "their thickness"
              : "Use 'Element = assumed strain'";
@@ -93,7 +91,7 @@ double ElementWatch::factor_of(const std::size_t body) const {
 
 bool ElementWatch::is_doubtful(const std::size_t body) const {
   // Accurate elements are never called soft.
-  const bool may_be_soft = scene_.bodies()[body].formulation.element == Brick::mean_dilatation;
+  const bool may_be_soft = scene_.bodies()[body].formulation.element.may_be_soft();
   const double factor = factor_of(body);
   return counts(body) && (factor > doubtful_factor || (may_be_soft && factor * doubtful_factor < 1.));
 }
@@ -140,12 +138,11 @@ DiagnosticList ElementWatch::judge_bending() const {
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const ElementEnergies &energies = energies_[b];
-    const Brick element = scene_.bodies()[b].formulation.element;
-    const bool is_hourglass = element == Brick::one_point &&
-                              energies.hourglass > of_hourglass_modes * energies.used &&
+    // An element without such modes, or whose comparison does not compute the dissipation, adds zeros.
+    const bool is_hourglass = energies.hourglass > of_hourglass_modes * energies.used &&
                               energies.plastic > of_yielding * energies.used;
     const bool is_between_points =
-        element == Brick::assumed_strain && energies.plastic_within > of_flow_within * energies.used &&
+        energies.plastic_within > of_flow_within * energies.used &&
         std::abs(energies.plastic - energies.plastic_within) > of_dissipation * energies.plastic_within;
     if (!counts(b) || !(is_hourglass || is_between_points))
       continue;
@@ -166,7 +163,7 @@ DiagnosticList ElementWatch::judge_bending() const {
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", share);
     message.advice(is_hourglass ? "Use four or more bricks through the thickness, and shorter ones where the "
                                   "bend is sharpest"
-                   : scene_.parameters().is_explicit()
+                   : scene_.parameters().is_explicit() || !scene_.bodies()[b].formulation.element.has_layers()
                        ? "Use two or more bricks through the thickness"
                        : "Use two or more bricks through the thickness, or 'Points through thickness = 5'");
     diagnostics.push_back(message);

@@ -10,6 +10,7 @@ explicit, with an edit (edits.py); 'same' ones must come out as block.prm does, 
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
@@ -437,6 +438,9 @@ def _() -> None:
         r'\A\{"key":"solution-failed","severity":"error","message":"scene.prm: the step from',
         lines[-2],
     )
+    record = json.loads(lines[-2])
+    require(record["time"] >= 0 and "Try " not in record["message"], f"says {record}")
+    says("^Try a smaller load, .* Results until time", record["advice"])
     says('"exit code":3,"errors":1', lines[-1])
 
 
@@ -533,7 +537,7 @@ def _() -> None:
     says(
         "tool 'die' is in full sliding: friction is at its limit, and cannot bear a"
         " moment"
-        r" of [\d.]+\. Try a smaller load",
+        r" of [\d.]+.* \(time [\d.e-]+\)\. Try a smaller load",
         billet("Motion: Moment = 10*t^2", code=3).complained,
     )
 
@@ -737,7 +741,8 @@ def _() -> None:
     says(
         r"the step from .* failed .*: nodes of contact pair 'foot' go through tool 'ball', which is 0\.002"
         r" thick:"
-        r" .* Try a smaller 'Maximum step', a larger 'Normal penalty', or facets as small as the tool\."
+        r" .* \(time [\d.e-]+\)\. Try a smaller 'Maximum step', a larger 'Normal penalty', or facets as"
+        r" small as the tool\."
         r" Results until",
         ran.complained,
     )
@@ -847,39 +852,41 @@ BROKEN = [
     Broken(
         "an element that is blown inside out",
         "push: Pressure = if(t > 1e-4, 1e6, 0)",
-        r"0\.0001\d* after \d+ steps element \d+ of body 'block', with its initial centre at"
-        r" \(0[\d. ]+\), is inverted at \([-\d.e ]+\)",
+        r"after \d+ steps element \d+ of body 'block', with its initial centre at"
+        r" \(0[\d. ]+\), is inverted at \([-\d.e ]+\) \(time 0\.0001\d*\)\. Try ",
     ),
     Broken(
         "a load without bounds",
         "gravity: Acceleration = 0 ; 0 ; if(t > 1e-4, 1e308, 0)",
-        r"0\.0001\d* after \d+ steps element \d+ of body 'block', with its initial centre at"
-        r" \(0[\d. ]+\), is not finite in its coordinates\. ",
+        r"after \d+ steps element \d+ of body 'block', with its initial centre at"
+        r" \(0[\d. ]+\), is not finite in its coordinates \(time 0\.0001\d*\)\. Check ",
         overflows=True,
     ),
     Broken(
         "a support that is not a number",
         "bottom: Displacement = 0 ; 0 ; 1e-9*sqrt(abs(t - 1.19e-4) - 4e-6)",
-        r"0\.0001",
+        r"at time 0\.0001",
     ),
     Broken(
         "a motion without bounds",
         "block: Initial velocity = 0 ; 0 ; 1e200",
-        "0 after 0 steps the energies are not finite. ",
+        r"after 0 steps the energies are not finite \(time 0\)\. Check ",
         n_pictures=1,
         overflows=True,
     ),
-    Broken("a pressure that is not a number", "push: Pressure = if(t > 1e-4, log(-t), 0)", r"0\.0001"),
+    Broken(
+        "a pressure that is not a number", "push: Pressure = if(t > 1e-4, log(-t), 0)", r"at time 0\.0001"
+    ),
     Broken(
         "energies that do not balance",
         "Explicit dynamics: Maximum energy drift = 1e-9",
-        r"[-\d.e]+ after \d+ steps the energies are off balance by [-\d.e]+ % .* allowed are 1e-07 %"
-        r" \('Maximum energy drift'\): .* Try ",
+        r"after \d+ steps the energies are off balance by [-\d.e]+ % .* allowed are 1e-07 %"
+        r" \('Maximum energy drift'\) \(time [\d.e-]+\)\. .* Try ",
     ),
     Broken(
         "a step too short for the clock",
         "block / Material: Density = 1e-50",
-        r"0 after 0 steps the stable step, [\d.e-]+, is below the resolution of the time\."
+        r"after 0 steps the stable step, [\d.e-]+, is below the resolution of the time \(time 0\)\."
         " .*'Mass scaling step' increases it",
         n_pictures=1,
         overflows=True,
@@ -897,10 +904,12 @@ for broken in BROKEN:
             ran = billet(broken.edits, base=IMPACT, ranks=ranks, code=3)
             times = ran.pictured()
             says(
-                rf"(?s)\Aerror\[(?:solution-failed|energy-drift)\]: scene\.prm.* at time {broken.message}"
+                rf"(?s)\Aerror\[(?:solution-failed|energy-drift)\]: scene\.prm.* {broken.message}"
                 r".*Results until then are in 'r\d+'\.\n\Z",
                 ran.complained,
             )
+            record = json.loads(ran.text("diagnostics.jsonl").splitlines()[-2])
+            require("time" in record and "Results until" in record["advice"], f"says {record}")
             require(len(times.split(" ")) == broken.n_pictures, f"pictures at {times}")
             ran.require_history()
 
@@ -1036,12 +1045,12 @@ for ranks in (1, 2):
     def _() -> None:
         ran = billet(f"{LET_GO} & Output: Step interval = 0", ranks=ranks, code=3)
         message = (
-            "error[solution-failed]: scene.prm: at time 0.5, without tool 'bed', tool 'die', which are"
-            " removed then, body 'block' has no support: neither supports, nor symmetry planes, nor"
+            "error[solution-failed]: scene.prm: without tool 'bed', tool 'die', which are"
+            " removed at this time, body 'block' has no support: neither supports, nor symmetry planes, nor"
             " tools in contact constrain its rigid-body mode with translation (0, 0, 1) and"
-            " rotation (0, 0, 0)."
+            " rotation (0, 0, 0) (time 0.5)."
             " Add a support or a symmetry plane, or keep a tool. Results until"
-            f" time 0.5 are in '{ran.folder}'.\n"
+            f" then are in '{ran.folder}'.\n"
         )
         # Both directions are free.
         equal("the message", ran.complained.replace("(0, 0, -1)", "(0, 0, 1)", 1), message)
@@ -1060,7 +1069,8 @@ def _() -> None:
     )
     # The bed pushes, but does not pull.
     says(
-        r"without tool 'die', which is removed then, body 'block' has no support: .* translation \(0, 0, 1\)",
+        r"without tool 'die', which is removed at this time, body 'block' has no support: .*"
+        r" translation \(0, 0, 1\)",
         ran.complained,
     )
 

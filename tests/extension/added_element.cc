@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // An element that the library does not know, the fully integrated brick, registered here and named by a
 // scene: uniaxial tension against mean dilatation, which is the same where the strain is uniform, in statics
-// and explicitly.
+// and explicitly; advice where it locks in bending.
 
 #include "pulled_cube.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
+#include "billet/scene/plausibility.h"
+#include "billet/solve/element_watch.h"
 
 using namespace billet;
 using billet::testing::check;
@@ -109,7 +112,8 @@ constexpr ElementKind kind = {"fully integrated",
                               false,
                               false,
                               {},
-                              &compare_points<FullyIntegratedElement>};
+                              &compare_points<FullyIntegratedElement>,
+                              /*may_lock_in_bending=*/true};
 const BrickElement fully_integrated(kind);
 
 const std::string plastic = "set Young modulus = 200e3\nset Poisson ratio = 0.3\nset Yield stress = 300\n"
@@ -138,12 +142,61 @@ void check_bending() {
             std::abs(energies.factor() / exact - 1.) < 1e-3);
 }
 
+/// A cantilever with one brick through its thickness.
+void check_advice() {
+  std::ofstream("cantilever.prm") << R"(
+subsection Bodies
+  subsection strip
+    set Element = fully integrated
+    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 4, 1, 1 : 0, 0, 0 : 20, 3, 1 : true
+    end
+    subsection Material
+      set Law = elastic
+      set Young modulus = 1000
+      set Poisson ratio = 0.3
+    end
+    subsection Supports
+      subsection root
+        set Boundary ids = 0
+        set Components = x, y, z
+      end
+      subsection tip
+        set Boundary ids = 1
+        set Components = z
+        set Displacement = 0 ; 0 ; 0.1*t
+      end
+    end
+  end
+end
+subsection Time stepping
+  set Step control = fixed
+  set Initial step = 1
+end
+subsection Output
+  set Format = none
+end
+)";
+  testing::SceneRun run(parameters::Scene::read("cantilever.prm"));
+  run.finish();
+  const DiagnosticList before = check_bricks(run.scene);
+  check("the check warns that its long bricks may lock in bending",
+        find(before, diagnostic::bricks_may_lock) != nullptr);
+  const DiagnosticList after = ElementWatch(run.scene, run.discretization).watch(run.problem.state(), true);
+  const Diagnostic *message = find(after, diagnostic::element_too_stiff);
+  check("the run warns that they are too stiff", message != nullptr);
+  check("and recommends assumed strains",
+        message != nullptr && message->advice() == "Use 'Element = assumed strain'");
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   element_types().add(make_element_type(fully_integrated, "eight points, for comparisons"));
   check_bending();
+  check_advice();
   for (const std::string law : {"Hencky", "neo-Hookean", "hypoelastic"}) {
     const auto found = testing::pull("fully integrated", plastic + law, 1.2, 1., 20),
                wanted = testing::pull("mean dilatation", plastic + law, 1.2, 1., 20);

@@ -82,8 +82,9 @@ int main() {
     check("less than the scene allows does not end the run",
           watch.check(0.3, flight(0.8, 0.4)).empty() && watch.imbalance().empty());
     check("more does", watch.check(0.4, flight(1., 0.4)).empty() &&
-                           contains(watch.imbalance(), "by 40 % of the maximum so far; allowed are 30 % "
-                                                       "('Maximum energy drift'): the steps do not resolve"));
+                           contains(watch.imbalance().what, "by 40 % of the maximum so far; allowed are 30 % "
+                                                            "('Maximum energy drift')") &&
+                           contains(watch.imbalance().advice, "The steps do not resolve"));
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_reported);

@@ -65,6 +65,12 @@ int main(int argc, char *argv[]) {
                                    [&](const auto &error) {
                                      return is_same(error.diagnostic(), full) && error.what() == full.what();
                                    }));
+  check("a lost file has advice apart from its name",
+        all_throw<SolutionFailure>([&] { throw file_lost("history.csv"); },
+                                   [](const auto &error) {
+                                     return error.what() == std::string("history.csv cannot be written") &&
+                                            error.diagnostic().advice() == "Check whether the disk is full";
+                                   }));
   check("an input error, too",
         all_throw<InputError>([&] { throw InputError(full); },
                               [&](const auto &error) { return is_same(error.diagnostic(), full); }));

@@ -44,7 +44,7 @@ public:
       }
       if (!control.reject())
         throw SolutionFailure("step from " + std::to_string(from) + " to " + std::to_string(to) +
-                              " failed: " + report.failure);
+                              " failed: " + report.failure + ". " + report.advice);
     }
   }
 

@@ -17,11 +17,14 @@ enum class IterativeMethod { conjugate_gradients, gmres };
 /// Method of a linear solver.
 using LinearMethod = std::variant<DirectMethod, IterativeMethod>;
 
+/// Returns the name in scene files and messages.
+const char *name_of(DirectMethod method);
+const char *name_of(IterativeMethod method);
+
 /// Whether the method solves with symmetric matrices only.
-inline bool requires_symmetry(const LinearMethod method) {
-  return method == LinearMethod(DirectMethod::mumps_symmetric) ||
-         method == LinearMethod(IterativeMethod::conjugate_gradients);
-}
+bool requires_symmetry(DirectMethod method);
+bool requires_symmetry(IterativeMethod method);
+bool requires_symmetry(const LinearMethod &method);
 
 } // namespace billet
 

@@ -24,11 +24,11 @@ public:
   virtual bool may_let_nodes_through() const { return false; }
   /// Whether a node of this rank has done so, after update() and before commit(). Not collective.
   virtual bool lets_nodes_through() const { return false; }
-  /// Names the failure of a step in which nodes have gone through.
-  virtual std::string describe_passage() const { return ""; }
+  /// Explains the failure of a step in which nodes have gone through.
+  virtual Explanation describe_passage() const { return {}; }
 
   /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there are none.
-  virtual std::string describe_restless() const { return ""; }
+  virtual Explanation describe_restless() const { return {}; }
   /// Returns a clause about the obstacle that ContactInterface::find_free_part() found.
   virtual std::string describe_obstacle() const = 0;
 

@@ -21,7 +21,7 @@ public:
   bool may_let_nodes_through() const override { return parts_.thin_tool.has_value(); }
   /// Valid after update() and before commit(); false in the first step after load().
   bool lets_nodes_through() const override;
-  std::string describe_passage() const override;
+  Explanation describe_passage() const override;
   std::string describe_obstacle() const override;
   /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at `position`.
   bool has_node_on_edge(const dealii::Tensor<1, 3> &position) const;

@@ -30,6 +30,11 @@ struct ElementKind {
   /// Adds the energies of a brick for ElementComparison; compare_points() does so for an element with eight
   /// points. Returns false if the brick is inverted. Null: the element counts as accurate.
   bool (*compare)(const ElementComparison &, const ComparedBrick &, ElementEnergies &) = nullptr;
+  /// Whether rectangular bricks are too stiff in bending too, not only tapered ones: messages then recommend
+  /// 'assumed strain'.
+  bool may_lock_in_bending = false;
+  /// Whether it has modes with too little energy that nothing stabilises: messages then warn of them.
+  bool may_be_soft = false;
 };
 
 /// Handle of an ElementKind, which lives as long as the program.
@@ -42,6 +47,8 @@ public:
   const char *name() const { return kind_->name; }
   bool is_stabilised() const { return kind_->is_stabilised; }
   bool has_layers() const { return kind_->has_layers; }
+  bool may_lock_in_bending() const { return kind_->may_lock_in_bending; }
+  bool may_be_soft() const { return kind_->may_be_soft; }
   const std::optional<LaneElement> &lanes() const { return kind_->lanes; }
   std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &law,
                                            const ElementFormulation &formulation) const;

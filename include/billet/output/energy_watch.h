@@ -29,7 +29,7 @@ public:
     unstable_law,
     inexact_dissipation
   };
-  /// Returns a description of the cause and its remedy.
+  /// Returns a description of the cause and its remedy, as sentences without the last full stop.
   static std::string advise(Cause cause);
 
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
@@ -40,14 +40,14 @@ public:
   DiagnosticList check(
       double time, const EnergyLedger &energies,
       const std::function<Cause()> &find_cause = [] { return Cause::steps; });
-  /// Returns why the run has to end after the last check(); empty if it may continue.
-  const std::string &imbalance() const { return imbalance_; }
+  /// Explains why the run has to end after the last check(); empty if it may continue.
+  const Explanation &imbalance() const { return imbalance_; }
 
 private:
   Balance balance_;
   double allowed_drift_;
   double maximum_ = 0.;
-  std::string imbalance_;
+  Explanation imbalance_;
   std::optional<Cause> cause_; ///< cause of the first imbalance
 };
 

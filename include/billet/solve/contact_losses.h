@@ -16,6 +16,7 @@ public:
     impacts,   ///< steps damped by (I4): springs that close, open or change their length within a step
     friction,  ///< the tangential springs in such steps, (E4) with θ = 0
     crossings, ///< undamped steps: nodes that enter or leave within a step, areas and facets that change
+    n_causes
   };
 
   void add(const Cause cause, const double energy) { energies_[cause] += energy; }
@@ -33,7 +34,7 @@ public:
   void load(const std::vector<double> &numbers);
 
 private:
-  std::array<double, 3> energies_{};
+  std::array<double, n_causes> energies_{};
   double reported_ = 0.; ///< part of the largest energy
 };
 

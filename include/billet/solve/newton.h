@@ -54,6 +54,7 @@ struct NewtonReport {
   double force = 0.;            ///< |R| / force scale at the end
   ConvergenceMeasures measures; ///< at the end
   std::string failure;          ///< why it did not converge
+  std::string advice;           ///< against this failure; empty if there is none
   std::string criteria;         ///< measures in words, if the last iteration did not converge
   /// The residual no longer falls, but is small enough for the step to be accepted with a warning.
   bool is_stalled = false;
@@ -63,17 +64,25 @@ struct NewtonReport {
   /// tolerance.
   bool is_lost_in_round_off = false;
   bool is_cycling = false;   ///< it did not converge: is_cycling()
-  bool is_explained = false; ///< `failure` contains advice, and the iterations are not the cause
+  bool is_explained = false; ///< the iterations are not the cause of `failure`, so others do not help
   unsigned int linear_iterations = 0;
   DiagnosticList diagnostics; ///< messages for the user
   /// Maximum number of iterations of the solutions that were appended. It controls the step length: each of
   /// many augmentations may be easy.
   std::size_t hardest = 0;
 
+  /// Makes this the report of a failure that the iterations do not cause.
+  void fail(const Explanation &why) {
+    converged = false;
+    is_explained = true;
+    failure = why.what;
+    advice = why.advice;
+  }
   /// Appends the report of a later solution, whose results count; its iterations are added.
   void append(const NewtonReport &next) {
     converged = next.converged;
     failure = next.failure;
+    advice = next.advice;
     makes_energy = next.makes_energy;
     penetrates = next.penetrates;
     is_lost_in_round_off = next.is_lost_in_round_off;

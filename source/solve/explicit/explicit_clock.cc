@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_clock.h"
 
+#include "billet/diagnostic_kinds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -49,10 +51,9 @@ void ExplicitClock::plan(const double event, const double allowed) {
   n_planned_ = fits ? static_cast<unsigned int>(n) - 1 : 0;
   if (!(time_ + step_ > time_) || !(n < Limits::too_many)) {
     std::ostringstream why;
-    why << "the stable step, " << longest
-        << ", is below the resolution of the time. Check for nearly flat elements, low densities and high "
-           "penalties; 'Mass scaling step' increases it";
-    throw failure(why.str());
+    why << "the stable step, " << longest << ", is below the resolution of the time";
+    throw failure({why.str(), "Check for nearly flat elements, low densities and high penalties; 'Mass "
+                              "scaling step' increases it"});
   }
 }
 
@@ -86,10 +87,11 @@ void ExplicitClock::load(const StateReader &reader) {
   time_before_ = clock.at(6);
 }
 
-SolutionFailure ExplicitClock::failure(const std::string &why) const {
-  std::ostringstream message;
-  message << file_name_ << ": at time " << time_ << " after " << n_steps_ << " steps " << why;
-  return SolutionFailure(message.str());
+SolutionFailure ExplicitClock::failure(const Explanation &why) const {
+  return SolutionFailure(Diagnostic(diagnostic::solution_failed,
+                                    file_name_ + ": after " + std::to_string(n_steps_) + " steps " + why.what)
+                             .time(time_)
+                             .advice(why.advice));
 }
 
 } // namespace billet

@@ -33,7 +33,7 @@ void ExplicitDynamics::compute_forces() {
       if (failure)
         std::rethrow_exception(failure);
     });
-  if (const std::string collapse = stable_step_.describe_collapse(); !collapse.empty())
+  if (const Explanation collapse = stable_step_.describe_collapse(); !collapse.empty())
     throw parts_.clock.failure(collapse);
   crossing_limit_.update(stable_step_.value(), ledger_.max_energy_when_due());
 }

@@ -89,12 +89,13 @@ SolutionFailure ExplicitElements::describe_inverted(const std::size_t body, cons
       << " of body '" << scene_.bodies()[body].name << "', with its initial centre at (" << at_start
       << "), is ";
   if (std::isfinite(centre.norm()))
-    why << "inverted at (" << centre
-        << "). Try a smaller 'Safety factor', more bulk viscosity, a lower penalty or a less distorted mesh "
-           "there";
+    why << "inverted at (" << centre << ")";
   else
-    why << "not finite in its coordinates. Check the units of velocities, loads and penalties";
-  return clock.failure(why.str());
+    why << "not finite in its coordinates";
+  return clock.failure({why.str(), std::isfinite(centre.norm())
+                                       ? "Try a smaller 'Safety factor', more bulk viscosity, a lower "
+                                         "penalty or a less distorted mesh there"
+                                       : "Check the units of velocities, loads and penalties"});
 }
 
 void ExplicitElements::set_temperatures(const double t) {

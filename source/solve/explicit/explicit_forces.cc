@@ -59,10 +59,10 @@ void ExplicitForces::find_touched_nodes(const Scene &scene) {
   }
 }
 
-std::string ExplicitForces::add_contact_forces(const ExplicitClock &clock, const ExplicitMotion &motion,
+Explanation ExplicitForces::add_contact_forces(const ExplicitClock &clock, const ExplicitMotion &motion,
                                                Contacts &contacts, ExplicitTools &tools,
                                                ExplicitWorks &works) {
-  std::string passage;
+  Explanation passage;
   tools.clear_loads();
   const std::vector<Placement> before = tools.placements_before(), now = tools.placements_now();
   // Allowed overlaps do not fade in explicit scenes: they use the times of the start.
@@ -99,7 +99,7 @@ ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, cons
     failure = std::current_exception();
   }
   // Contact communicates between ranks, also if one has failed.
-  if (const std::string passage = add_contact_forces(clock, motion, contacts, tools, works);
+  if (const Explanation passage = add_contact_forces(clock, motion, contacts, tools, works);
       !failure && !passage.empty())
     failure = std::make_exception_ptr(clock.failure(passage));
   if (failure)

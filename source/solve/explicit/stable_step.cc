@@ -63,10 +63,10 @@ std::string StableStep::describe_flat_elements() const {
   return text.str();
 }
 
-std::string StableStep::describe_collapse() const {
+Explanation StableStep::describe_collapse() const {
   if (!(of_elements_ < Limits::collapsed * of_elements_first_))
-    return "";
-  return describe_flat_elements() + ", so the run cannot finish in reasonable time. " + flat_element_advice;
+    return {};
+  return {describe_flat_elements() + ", so the run cannot finish in reasonable time", flat_element_advice};
 }
 
 DiagnosticList StableStep::check_elements(const double t) const {

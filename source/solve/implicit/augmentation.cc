@@ -201,12 +201,12 @@ void Augmentation::give_up(const Series &series, const unsigned int n, const dou
             << series.pace.to_go() << " more";
   else if (n < maximum)
     message << ", and no longer falls";
-  message << ". Try a larger penalty or 'Penetration tolerance', "
-          << (problem_.scheme().has_inertia()
-                  ? "or no tolerance: in dynamics it requires penetrating nodes to stop within a step"
-                  : "or a larger 'Maximum augmentations'");
   report.converged = false;
   report.failure = message.str();
+  report.advice = std::string("Try a larger penalty or 'Penetration tolerance', ") +
+                  (problem_.scheme().has_inertia()
+                       ? "or no tolerance: in dynamics it requires penetrating nodes to stop within a step"
+                       : "or a larger 'Maximum augmentations'");
 }
 
 void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {

@@ -87,15 +87,14 @@ std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t
   if (!motion)
     return "";
   std::ostringstream message;
-  message << problem.scene().parameters().file_name << ": at time " << problem.state().time << ", without ";
+  message << problem.scene().parameters().file_name << ": without ";
   for (const auto &name : removed)
     message << "tool '" << name << "', ";
-  message << "which " << (removed.size() == 1 ? "is" : "are") << " removed then, body '"
+  message << "which " << (removed.size() == 1 ? "is" : "are") << " removed at this time, body '"
           << problem.scene().bodies()[body].name
           << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
              "rigid-body mode with "
-          << print(*motion) << ". Add a support or a symmetry plane, or keep a tool. Results until time "
-          << problem.state().time << " are in '" << problem.scene().parameters().output.folder.value << "'.";
+          << print(*motion);
   return message.str();
 }
 
@@ -128,10 +127,9 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   driven += maximum[0];
   driven_so_far += maximum[1];
   const auto fail = [&](const std::string &what) {
-    report.converged = false;
-    report.is_explained = true;
-    report.failure = what + ". Quasi-static solutions do not move this far. Check supports, units and "
-                            "penalties; use 'Scheme = implicit dynamics' for free motion, or smaller steps";
+    report.fail({what + ". Quasi-static solutions do not move this far",
+                 "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free motion, or "
+                 "smaller steps"});
     return true;
   };
   std::ostringstream text;

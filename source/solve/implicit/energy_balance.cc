@@ -120,11 +120,8 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
     return false;
   }
   text << ", more than the allowed " << 100. * StepEnergy::max_part
-       << " %. The solution jumps to another branch, or bodies pass through each other. Reduce 'Maximum "
-          "step' or the penalty, or use a finer mesh where they touch";
-  report.converged = false;
-  report.is_explained = true;
-  report.failure = text.str();
+       << " %. The solution jumps to another branch, or bodies pass through each other";
+  report.fail({text.str(), "Reduce 'Maximum step' or the penalty, or use a finer mesh where they touch"});
   return true;
 }
 
@@ -176,23 +173,22 @@ bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
   time_error_ = motion_.step_error(problem_.step().trial.displacements);
   std::ostringstream message;
   message.precision(3);
-  message << "the time integration error of the step is " << time_error_
-          << " times the 'Error tolerance'. Try a smaller 'Minimum step' or a larger 'Error tolerance'";
+  message << "the time integration error of the step is " << time_error_ << " times the 'Error tolerance'";
+  std::string advice = "Try a smaller 'Minimum step' or a larger 'Error tolerance'";
   trial_imbalance_ = element_imbalance().unexplained;
   if (paths_.may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);
     if (error > std::max(1., time_error_)) {
       message.str("");
       message << "the work of the internal forces in the step differs from their energy by " << error
-              << " times the allowed error. Try a smaller 'Minimum step'";
+              << " times the allowed error";
+      advice = "Try a smaller 'Minimum step'";
     }
     time_error_ = std::max(time_error_, error);
   }
   if (time_error_ <= 1.)
     return false;
-  report.converged = false;
-  report.is_explained = true;
-  report.failure = message.str();
+  report.fail({message.str(), advice});
   return true;
 }
 

@@ -88,7 +88,7 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
     report.append_anew(attempt(t, previous_step));
   const auto continue_from = [&](const PenaltyContinuation::Start start, const StepAttempt::Way way) {
     if (report.converged || report.is_explained || report.iterations.empty() ||
-        !continuation_.is_possible(start))
+        !may_continue_penalties(start))
       return;
     report.append_anew(attempt(t, previous_step, way));
     may_accept_stalled = may_accept_stalled || report.is_stalled;
@@ -103,12 +103,16 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
   }
 }
 
+bool ImplicitSolution::may_continue_penalties(const PenaltyContinuation::Start start) const {
+  return rules_->may_continue_penalties() && continuation_.is_possible(start);
+}
+
 NewtonReport ImplicitSolution::step(const double t, const double previous_step) {
   rules_->check_next_step();
   DiagnosticList messages;
   problem_.scheme().choose_contact_damping(problem_.step().start);
   // Iterations that stall with high penalties may converge by continuation from lower ones.
-  solver_.accept_stalled(!continuation_.is_possible());
+  solver_.accept_stalled(!may_continue_penalties(PenaltyContinuation::Start::enough));
   NewtonReport report = attempt(t, previous_step);
   repeat(t, previous_step, report);
   recover(t, previous_step, report, messages);
@@ -130,13 +134,20 @@ void ImplicitSolution::explain_failure(NewtonReport &report) {
   report.is_lost_in_round_off =
       report.is_lost_in_round_off || (!report.is_explained && round_off_.may_explain(report));
   if (report.is_lost_in_round_off) {
-    report.failure = round_off_.describe(report.force);
+    const Explanation why = round_off_.describe(report.force);
+    report.failure = why.what;
+    report.advice = why.advice;
     return;
   }
-  if (!report.is_explained)
-    report.failure +=
-        diagnosis_.describe_contacts() + rules_->describe_sliding() + diagnosis_.describe_residual();
-  report.failure += rules_->describe_loss(report.failure);
+  Explanation why{report.failure, report.advice};
+  if (!report.is_explained) {
+    why += diagnosis_.describe_contacts();
+    why += rules_->describe_sliding();
+    why += diagnosis_.describe_residual();
+  }
+  why += rules_->describe_loss(why.what);
+  report.failure = why.what;
+  report.advice = why.advice;
 }
 
 void ImplicitSolution::review(NewtonReport &report) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/initial_motion.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/solve/implicit/implicit_motion.h"
 
@@ -50,10 +51,11 @@ void InitialMotion::accelerate() {
   }
   if (!tangent.solver().factorize() || !tangent.solve(rhs, tolerance, accelerations)) {
     std::ostringstream message;
-    message << problem_.parameters().file_name << ": at time " << problem_.state().time
-            << " the mass matrix cannot be solved for the accelerations: " << tangent.solver().failure()
-            << ". Check the units of the densities";
-    throw SolutionFailure(message.str());
+    message << problem_.parameters().file_name
+            << ": the mass matrix cannot be solved for the accelerations: " << tangent.solver().failure();
+    throw SolutionFailure(Diagnostic(diagnostic::solution_failed, message.str())
+                              .time(problem_.state().time)
+                              .advice("Check the units of the densities"));
   }
   motion_.set_accelerations(accelerations);
   const auto &tools = problem_.scene().tools();

@@ -12,10 +12,8 @@ namespace {
 
 constexpr const char *goes_unseen = " reverses, or turns fully, within the step";
 
-bool fail(NewtonReport &report, const std::string &failure) {
-  report.converged = false;
-  report.is_explained = true;
-  report.failure = failure;
+bool fail(NewtonReport &report, const Explanation &why) {
+  report.fail(why);
   return true;
 }
 
@@ -38,8 +36,8 @@ bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
 bool PathGuard::goes_through(const bool is_thorough, NewtonReport &report) {
   if (problem_.find_free_part(is_thorough) == 1.)
     return false;
-  return fail(report, problem_.obstacle() + ", or penetrate more than contact can track. Try a smaller "
-                                            "'Minimum step', a larger 'Normal penalty' or smaller facets");
+  return fail(report, {problem_.obstacle() + ", or penetrate more than contact can track",
+                       "Try a smaller 'Minimum step', a larger 'Normal penalty' or smaller facets"});
 }
 
 bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
@@ -57,12 +55,11 @@ bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
     std::ostringstream text;
     text.precision(3);
     text << "tool '" << problem_.scene().tools()[tool].name() << "' turns by " << angle * 180. / M_PI
-         << " degrees in the step, but friction allows at most " << Limits::max_turn * 180. / M_PI
-         << ". Try a smaller "
-         << (problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed
-                 ? "'Initial step'"
-                 : "'Minimum step'");
-    return fail(report, text.str());
+         << " degrees in the step, but friction allows at most " << Limits::max_turn * 180. / M_PI;
+    const bool is_fixed =
+        problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed;
+    return fail(report, {text.str(),
+                         std::string("Try a smaller ") + (is_fixed ? "'Initial step'" : "'Minimum step'")});
   }
   return false;
 }
@@ -71,7 +68,7 @@ bool PathGuard::skips_motion(const double t, NewtonReport &report) const {
   if (!may_be_cut(t))
     return false;
   const std::string unseen = motions_.find_unseen(problem_.state().time, t);
-  return !unseen.empty() && fail(report, unseen + goes_unseen);
+  return !unseen.empty() && fail(report, {unseen + goes_unseen, ""});
 }
 
 DiagnosticList PathGuard::check_motion(const double t) const {
@@ -94,7 +91,7 @@ bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
   text.precision(3);
   text << "nodes approach by " << maximum << " facet sizes in the step of first contact; allowed are "
        << Limits::max_closing;
-  return fail(report, text.str());
+  return fail(report, {text.str(), ""});
 }
 
 } // namespace billet

@@ -149,15 +149,14 @@ void RigidBodyModes::hold_unloaded_bodies() {
   }
 }
 
-std::string RigidBodyModes::describe_sliding() const {
+Explanation RigidBodyModes::describe_sliding() const {
   if (bodies_.frames.empty() || !support_.sliding)
-    return "";
+    return {};
   std::ostringstream text;
   text << "; at the end of the last step body '" << problem_.scene().bodies()[support_.sliding->body].name
        << "' is in full sliding, or close to it, along its rigid-body mode with "
-       << print(support_.sliding->motion)
-       << ". Friction is at its limit. Add a support, more pressure or more friction";
-  return text.str();
+       << print(support_.sliding->motion) << ", with friction at its limit";
+  return {text.str(), "Add a support, more pressure or more friction"};
 }
 
 bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
@@ -165,16 +164,17 @@ bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, Ne
   std::ostringstream text;
   text << "body '" << problem_.scene().bodies()[mode.body].name << "' has no support at time " << t
        << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
-       << " opens, or slides at the limit of friction. Add a support or a symmetry plane, keep a contact "
-          "longer, or increase friction; use 'Scheme = implicit dynamics' for free motion";
+       << " opens, or slides at the limit of friction";
+  const Explanation why{text.str(), "Add a support or a symmetry plane, keep a contact longer, or increase "
+                                    "friction; use 'Scheme = implicit dynamics' for free motion"};
   const parameters::Scene &parameters = problem_.parameters();
   if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.max_step)
-    throw SolutionFailure(parameters.file_name + ": " + text.str() + ". Results until then are in '" +
-                          parameters.output.folder.value + "'");
-  loss_ = {t, text.str()};
-  report.converged = false;
-  report.failure = text.str();
-  report.is_explained = true;
+    throw SolutionFailure(
+        Diagnostic(diagnostic::solution_failed, parameters.file_name + ": " + why.what)
+            .time(t)
+            .advice(why.advice + ". Results until then are in '" + parameters.output.folder.value + "'"));
+  loss_ = {t, why};
+  report.fail(why);
   return true;
 }
 
@@ -228,10 +228,10 @@ void RigidBodyModes::begin() {
     support_ = find_support();
 }
 
-std::string RigidBodyModes::describe_loss(const std::string &failure) const {
-  return problem_.state().time < loss_.time && failure != loss_.text
-             ? "; a longer step failed since " + loss_.text
-             : "";
+Explanation RigidBodyModes::describe_loss(const std::string &failure) const {
+  if (!(problem_.state().time < loss_.time) || failure == loss_.why.what)
+    return {};
+  return {"; a longer step failed since " + loss_.why.what, loss_.why.advice};
 }
 
 DiagnosticList RigidBodyModes::finish(const double max_energy) const {

@@ -21,19 +21,19 @@ void RoundOffGuard::commit(const double t, const NewtonReport &report) {
   watch_.add(t, problem_.contact_round_off_force(), problem_.force_scale());
 }
 
-std::string RoundOffGuard::describe(const double part) const {
+Explanation RoundOffGuard::describe(const double part) const {
   std::ostringstream text;
   text.precision(2);
   text << "round-off limits the residual to " << part << " of the forces; allowed is "
        << NewtonLimits::max_stalled_residual << ". The penalty of contact pair "
        << problem_.contacts().stiffest_pairs()
-       << " is too high for such small displacements and sixteen digits. Try a lower penalty, with a "
-          "'Penetration tolerance' if penetration is then too large, or bodies nearer to the origin";
-  return text.str();
+       << " is too high for such small displacements and sixteen digits";
+  return {text.str(), "Try a lower penalty, with a 'Penetration tolerance' if penetration is then too large, "
+                      "or bodies nearer to the origin"};
 }
 
 bool RoundOffGuard::may_explain(const NewtonReport &report) const {
-  if (problem_.scheme().has_inertia() || report.iterations.empty() ||
+  if (is_balanced_by_inertia_ || report.iterations.empty() ||
       !(report.force > 0.)) // there may be no residual
     return false;
   const double springs = problem_.scales().spring_round_off, forces = problem_.force_scale();
@@ -44,8 +44,8 @@ bool RoundOffGuard::may_explain(const NewtonReport &report) const {
 DiagnosticList RoundOffGuard::check(const double part, const double accuracy) const {
   const double tolerance = problem_.parameters().solver.force_tolerance * std::max(1., accuracy);
   // Bodies without loads, or in free flight, have no forces except round-off.
-  const bool is_loaded = !problem_.scheme().has_inertia() &&
-                         problem_.force_scale() > Limits::unloaded * problem_.scales().round_off;
+  const bool is_loaded =
+      !is_balanced_by_inertia_ && problem_.force_scale() > Limits::unloaded * problem_.scales().round_off;
   // Round-off of contact is reported at the end; see finish().
   const bool is_of_contact = problem_.contact_round_off_force() > tolerance * problem_.force_scale();
   if (!is_loaded || is_of_contact || part <= std::max(tolerance, notable_round_off))
@@ -62,7 +62,7 @@ DiagnosticList RoundOffGuard::check(const double part, const double accuracy) co
 }
 
 DiagnosticList RoundOffGuard::finish() const {
-  return watch_.finish(problem_.parameters().solver.force_tolerance, problem_.scheme().has_inertia());
+  return watch_.finish(problem_.parameters().solver.force_tolerance, is_balanced_by_inertia_);
 }
 
 } // namespace billet

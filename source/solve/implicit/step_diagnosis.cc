@@ -30,32 +30,35 @@ void StepDiagnosis::commit() {
   }
 }
 
-std::string StepDiagnosis::describe_slipping_tools() const {
-  std::ostringstream text;
+Explanation StepDiagnosis::describe_slipping_tools() const {
+  Explanation all;
   for (const std::size_t tool : slipping_tools_) {
     const Tool &which = problem_.scene().tools()[tool];
     const bool turns = which.control() == Tool::Control::moment;
+    std::ostringstream text;
     text << "; at the end of the last step tool '" << which.name()
          << "' is in full sliding: friction is at its limit, and cannot bear a "
-         << (turns ? "moment" : "force") << " of " << which.load(problem_.step().time)
-         << ". Try a smaller load, more pressure or friction, or move the tool by its "
-         << (turns ? "'Rotation angle'" : "'Translation'");
+         << (turns ? "moment" : "force") << " of " << which.load(problem_.step().time);
+    all +=
+        {text.str(), std::string("Try a smaller load, more pressure or friction, or move the tool by its ") +
+                         (turns ? "'Rotation angle'" : "'Translation'")};
   }
-  return text.str();
+  return all;
 }
 
-std::string StepDiagnosis::describe_contacts() const {
-  std::string text;
+Explanation StepDiagnosis::describe_contacts() const {
+  Explanation all;
   for (const auto &contact : problem_.contacts())
-    text += contact.checks().describe_restless();
-  return text + describe_slipping_tools();
+    all += contact.checks().describe_restless();
+  all += describe_slipping_tools();
+  return all;
 }
 
-std::string StepDiagnosis::describe_residual() {
+Explanation StepDiagnosis::describe_residual() {
   const Vector x = problem_.trial_unknowns();
   Vector residual(x);
   if (!problem_.compute_residual(x, residual))
-    return "";
+    return {};
   const MPI_Comm communicator = problem_.communicator();
   const dealii::IndexSet &owned = problem_.discretization().owned_dofs();
   // The largest nodal residual, its position, and its body.
@@ -78,20 +81,21 @@ std::string StepDiagnosis::describe_residual() {
     if (of_rank[0] > worst[0])
       worst = of_rank;
   if (!(worst[0] > 0.))
-    return "";
+    return {};
   std::ostringstream text;
   text << "; the largest residual is in body '"
        << problem_.scene().bodies()[static_cast<std::size_t>(worst[4])].name << "' at (" << worst[1] << ", "
        << worst[2] << ", " << worst[3] << ")";
+  std::string advice;
   const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
   for (const auto &contact : problem_.contacts().of_tools())
     if (!problem_.on_all_ranks(!contact.checks().has_node_on_edge(position))) {
       text << ", which lies on the edge of tool '" << problem_.scene().tools()[contact.tool()].name()
-           << "', where contact chatters (open/closed). Try a tool that is larger or smaller by a part of a "
-              "facet, or a fillet at its edge";
+           << "', where contact chatters (open/closed)";
+      advice = "Try a tool that is larger or smaller by a part of a facet, or a fillet at its edge";
       break;
     }
-  return text.str();
+  return {text.str(), advice};
 }
 
 Diagnostic StepDiagnosis::describe_stall(const NewtonReport &report) const {

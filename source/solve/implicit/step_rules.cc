@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/step_rules.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/solve/implicit/body_freedom.h"
 #include "billet/solve/implicit/implicit_motion.h"
@@ -33,7 +34,11 @@ void StaticRules::check_start() { check_free_modes(problem_); }
 
 void StaticRules::check_next_step() const {
   if (!free_body_.empty())
-    throw SolutionFailure(free_body_);
+    throw SolutionFailure(Diagnostic(diagnostic::solution_failed, free_body_)
+                              .time(problem_.state().time)
+                              .advice("Add a support or a symmetry plane, or keep a tool. Results until then "
+                                      "are in '" +
+                                      problem_.parameters().output.folder.value + "'"));
 }
 
 bool StaticRules::rejects(const double t, NewtonReport &report) {

@@ -40,8 +40,8 @@ public:
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns a failure at this time. `why`: its reason.
-  SolutionFailure failure(const std::string &why) const;
+  /// Returns a failure at this time.
+  SolutionFailure failure(const Explanation &why) const;
 
 private:
   std::string file_name_;

@@ -43,7 +43,7 @@ public:
 private:
   void find_touched_nodes(const Scene &scene);
   /// Returns why nodes of this rank have passed through a tool; empty if none has. Collective.
-  std::string add_contact_forces(const ExplicitClock &clock, const ExplicitMotion &motion, Contacts &contacts,
+  Explanation add_contact_forces(const ExplicitClock &clock, const ExplicitMotion &motion, Contacts &contacts,
                                  ExplicitTools &tools, ExplicitWorks &works);
 
   const LocalNodes &nodes_;

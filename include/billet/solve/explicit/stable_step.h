@@ -40,7 +40,7 @@ public:
   /// Whether contact makes steps much shorter than the elements require.
   bool is_set_by_contact() const;
   /// Returns why the run cannot continue if an element is so flat that the run would hardly end; else empty.
-  std::string describe_collapse() const;
+  Explanation describe_collapse() const;
   /// Returns a message if an element is flat at time t.
   DiagnosticList check_elements(double t) const;
   /// Returns messages about causes of much shorter steps: contact at time t or flat elements. Collective.

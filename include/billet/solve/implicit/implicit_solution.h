@@ -114,6 +114,8 @@ private:
   void repeat(double t, double previous_step, NewtonReport &report);
   /// Repeats a failed step with lower penalties, and accepts a stalled solution if necessary.
   void recover(double t, double previous_step, NewtonReport &report, DiagnosticList &messages);
+  /// Whether continuation from lower penalties may recover a failed step. Collective.
+  bool may_continue_penalties(PenaltyContinuation::Start start) const;
   void explain_failure(NewtonReport &report);
   /// Adds the messages after an accepted step.
   void review(NewtonReport &report);

@@ -8,10 +8,10 @@
 
 namespace billet {
 
-/// Recovery of a static step in which Newton's method fails: continuation from lower penalties. In dynamics,
-/// inertia and shorter steps have the same effect. Penalties above 10 E/h may be too high for any body. Those
-/// of E/h are too high for a thin sheet, which bends much more easily than it compresses: nodes along it
-/// touch and open in turn.
+/// Recovery of a step in which Newton's method fails: continuation from lower penalties.
+/// StepRules::may_continue_penalties() says whether a scheme uses it. Penalties above 10 E/h may be too high
+/// for any body. Those of E/h are too high for a thin sheet, which bends much more easily than it compresses:
+/// nodes along it touch and open in turn.
 class PenaltyContinuation {
 public:
   PenaltyContinuation(ImplicitProblem &problem, EquilibriumSolver &solver)

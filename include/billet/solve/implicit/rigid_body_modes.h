@@ -27,10 +27,10 @@ public:
 
   /// Returns a text about the body that slid on all its contacts at the end of the last step, for a failed
   /// step.
-  std::string describe_sliding() const;
+  Explanation describe_sliding() const;
   /// Returns a text about the loss of a body for which a longer step failed; empty if there was none, or
   /// `failure` is this loss.
-  std::string describe_loss(const std::string &failure) const;
+  Explanation describe_loss(const std::string &failure) const;
   /// Returns messages about stabilised bodies at the end of the run. Collective.
   DiagnosticList finish(double max_energy) const;
 
@@ -47,7 +47,7 @@ private:
   };
   struct Loss {
     double time = -1.;
-    std::string text;
+    Explanation why;
   };
   /// Fails the step that loses this mode.
   bool lose(const RigidBodySupport::Mode &mode, double t, NewtonReport &report);

@@ -5,22 +5,21 @@
 #include "billet/solve/implicit/implicit_problem.h"
 #include "billet/solve/round_off_watch.h"
 
-#include <string>
-
 namespace billet {
 
 /// Judges the effect of round-off on the forces: of displacements, and of positions if penalties are high.
 class RoundOffGuard {
 public:
-  explicit RoundOffGuard(const ImplicitProblem &problem) : problem_(problem) {}
+  explicit RoundOffGuard(const ImplicitProblem &problem)
+      : problem_(problem), is_balanced_by_inertia_(problem.scheme().has_inertia()) {}
 
   /// Whether a converged step has to fail because round-off of contact is too large a part of the forces. It
   /// fails after several such steps in succession, or at the end of the run.
   bool rejects(double t, NewtonReport &report) const;
   /// Whether round-off of contacts may explain the residual of a failed step. Collective.
   bool may_explain(const NewtonReport &report) const;
-  /// Returns the failure message of a step in which round-off is this part of the forces. Collective.
-  std::string describe(double part) const;
+  /// Explains the failure of a step in which round-off is this part of the forces. Collective.
+  Explanation describe(double part) const;
   /// Accepts the step to t.
   void commit(double t, const NewtonReport &report);
 
@@ -44,6 +43,7 @@ private:
   };
 
   const ImplicitProblem &problem_;
+  const bool is_balanced_by_inertia_; ///< inertia balances a residual of round-off
   RoundOffWatch watch_;
   unsigned int n_lost_ = 0; ///< number of the last accepted steps that round-off limited
 };

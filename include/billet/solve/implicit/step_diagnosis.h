@@ -18,9 +18,9 @@ public:
   /// Collective.
   void commit();
   /// Returns reasons of a failed step: nodes that cycle, tools in full sliding. Collective.
-  std::string describe_contacts() const;
+  Explanation describe_contacts() const;
   /// Returns the location of the largest residual of a failed step. Collective.
-  std::string describe_residual();
+  Explanation describe_residual();
   /// Returns the warning about a step that was accepted although its iterations stalled.
   Diagnostic describe_stall(const NewtonReport &report) const;
 
@@ -29,7 +29,7 @@ private:
     /// Slipping part of the contact, and part of the load that pressure bears.
     static constexpr double nearly_all = 0.9, by_pressure = 0.5;
   };
-  std::string describe_slipping_tools() const;
+  Explanation describe_slipping_tools() const;
 
   ImplicitProblem &problem_;
   std::vector<std::size_t> slipping_tools_; ///< at the end of the last accepted step

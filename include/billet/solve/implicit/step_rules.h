@@ -39,11 +39,14 @@ public:
   /// Whether lower penalties may help a step that failed for a known reason. In dynamics, converged steps
   /// that are too long need shorter ones.
   virtual bool may_mend_explained() const = 0;
+  /// Whether a failed step may be approached by continuation from lower penalties. In dynamics, inertia and
+  /// shorter steps have the same effect.
+  virtual bool may_continue_penalties() const = 0;
   /// Raises penalties if a step requires it. Collective.
   virtual DiagnosticList raise_penalties() { return {}; }
-  /// Return texts on the state before a step that failed for this reason, if it may explain the failure.
-  virtual std::string describe_sliding() const { return ""; }
-  virtual std::string describe_loss(const std::string &) const { return ""; }
+  /// Return clauses on the state before a step that failed for this reason, if it may explain the failure.
+  virtual Explanation describe_sliding() const { return {}; }
+  virtual Explanation describe_loss(const std::string & /*failure*/) const { return {}; }
 
   /// Accepts the step before the start of the next one changes, ...
   virtual void commit(double t) { balance().commit(t); }
@@ -91,9 +94,10 @@ public:
   bool has_next_step() const override { return free_body_.empty(); }
   bool rejects(double t, NewtonReport &report) override;
   bool may_mend_explained() const override { return true; }
+  bool may_continue_penalties() const override { return true; }
   DiagnosticList raise_penalties() override;
-  std::string describe_sliding() const override { return modes_.describe_sliding(); }
-  std::string describe_loss(const std::string &failure) const override {
+  Explanation describe_sliding() const override { return modes_.describe_sliding(); }
+  Explanation describe_loss(const std::string &failure) const override {
     return modes_.describe_loss(failure);
   }
   void commit(double t) override;
@@ -124,6 +128,7 @@ public:
   void start(const Solution &solution) override;
   bool rejects(double t, NewtonReport &report) override;
   bool may_mend_explained() const override { return false; }
+  bool may_continue_penalties() const override { return false; }
   void close_step(double t) override;
   DiagnosticList after_step(const Solution &solution) override { return penalties_.control(solution); }
   void save(StateWriter &writer) const override;
