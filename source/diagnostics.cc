@@ -66,10 +66,21 @@ std::vector<const DiagnosticKind *> all_diagnostic_kinds() {
   return kinds;
 }
 
+namespace {
+
+/// Returns the kind with this key, or null.
+const DiagnosticKind *find_kind(const std::string &key) {
+  const auto &kinds = registry();
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const DiagnosticKind *kind) { return kind->key == key; });
+  return found == kinds.end() ? nullptr : *found;
+}
+
+} // namespace
+
 const DiagnosticKind &diagnostic_kind(const std::string &key) {
-  for (const DiagnosticKind *kind : registry())
-    if (kind->key == key)
-      return *kind;
+  if (const DiagnosticKind *kind = find_kind(key))
+    return *kind;
   throw std::out_of_range("no kind of message has the key '" + key + "'");
 }
 
@@ -335,45 +346,32 @@ bool Diagnostics::write_summary(const int exit_code) {
   return !file_.is_open() || file_.flush();
 }
 
+// CBOR, as for other ranks: the file of a checkpoint holds any bytes.
 std::string Diagnostics::save() const {
   Json state = Json::array();
   for (const auto &entry : entries_) {
-    Json object = to_json(entry.first);
+    Json object;
+    object["key"] = entry.first.kind().key;
+    object["message"] = entry.first.serialize();
     object["n"] = entry.n;
-    if (entry.first.measure())
-      object["measure"] = number(*entry.first.measure());
     if (entry.worst)
-      object["worst"] = number(*entry.worst);
+      object["worst"] = *entry.worst;
     if (entry.worst_time)
-      object["worst time"] = number(*entry.worst_time);
+      object["worst time"] = *entry.worst_time;
     state.push_back(object);
   }
-  return dump(state);
+  const auto bytes = Json::to_cbor(state);
+  return {bytes.begin(), bytes.end()};
 }
 
 void Diagnostics::load(const std::string &state) {
   const auto optional = [](const Json &object, const char *name) {
-    return object.contains(name) && object[name].is_number()
-               ? std::optional<double>(object[name].get<double>())
-               : std::nullopt;
+    return object.contains(name) ? std::optional<double>(object[name].get<double>()) : std::nullopt;
   };
-  for (const Json &object : Json::parse(state)) {
-    Diagnostic diagnostic(diagnostic_kind(object.at("key").get<std::string>()),
-                          object.at("message").get<std::string>());
-    for (const char *part : part_names)
-      if (object.contains(part))
-        diagnostic.part(part, object[part].get<std::string>());
-    if (const auto time = optional(object, "time"))
-      diagnostic.time(*time);
-    if (const auto measure = optional(object, "measure")) {
-      std::string name = "value";
-      if (object.contains("values"))
-        for (const auto &[value_name, value] : object["values"].items())
-          if (value.is_number() && value.get<double>() == *measure)
-            name = value_name;
-      diagnostic.measure(name, *measure);
-    }
-    diagnostic.advice(object.at("advice").get<std::string>());
+  for (const Json &object : Json::from_cbor(state.begin(), state.end())) {
+    if (find_kind(object.at("key").get<std::string>()) == nullptr)
+      continue;
+    const Diagnostic diagnostic = Diagnostic::deserialize(object.at("message").get<std::string>());
     if (index_.emplace(diagnostic.identity(), entries_.size()).second)
       entries_.push_back({diagnostic, object.at("n").get<std::size_t>(), optional(object, "worst"),
                           optional(object, "worst time")});

@@ -176,7 +176,8 @@ public:
   bool write_summary(int exit_code);
   const std::string &file_name() const { return file_name_; }
 
-  /// Saves and restores all reports so far, for checkpoints.
+  /// Saves and restores all reports so far, for checkpoints. load() skips kinds that the program does not
+  /// know.
   std::string save() const;
   void load(const std::string &state);
 

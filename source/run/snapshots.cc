@@ -35,11 +35,11 @@ void Snapshots::write(const Solution &solution) {
 }
 
 void Snapshots::save(StateWriter &writer) const {
-  writer.write("pictures", {static_cast<double>(n_intervals_), last_});
+  writer.write("snapshots", {static_cast<double>(n_intervals_), last_});
 }
 
 void Snapshots::load(const StateReader &reader) {
-  const std::vector<double> state = reader.read("pictures", 2);
+  const std::vector<double> state = reader.read("snapshots", 2);
   last_ = state.at(1);
   if (output_.interval > 0.)
     n_intervals_ = count_intervals(last_);

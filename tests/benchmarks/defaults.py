@@ -14,7 +14,7 @@ from typing import Mapping
 # finds billet_tools, too
 from billet_runs import PROGRAM, ROOT, arguments, number, percent, program_hash, publish, read_scene, table
 from billet_tools.scene import read_entries
-from billet_tools.trade.knobs import make_mesh
+from billet_tools.trade.parameters import make_mesh
 from billet_tools.text import first_sentence
 from billet_tools.scene import Scene
 from curve_runs import CurveRun, error, impulses, with_curves, write_csv

@@ -168,7 +168,7 @@ for name in options.names or SWEEPS:
     flags = [
         part for i, piece in enumerate(text.split("|")) for part in ([piece] if i % 2 else piece.split())
     ]
-    command = [sys.executable, "tools/billet-trade", f"prm/{scene}.prm", *flags, "--knobs", *knobs]
+    command = [sys.executable, "tools/billet-trade", f"prm/{scene}.prm", *flags, "--parameters", *knobs]
     for product in products:
         command += ["--product", *product]
     command += (

@@ -145,14 +145,14 @@ void test_refusals() {
         has(refusal([] { read_scene("one point", "", 1., false); }), "depends on it"));
   check("a law that does not refuses it",
         has(refusal([] { read_scene("one point", "20", 1., false, "Hencky"); }), "does not depend on it"));
-  bool is_told = false;
+  bool is_named = false;
   try {
     testing::SceneRun run(read_scene("one point", "1/(t - 0.5)", 1., false));
     run.finish();
   } catch (const SolutionFailure &failure) {
-    is_told = has(failure.what(), "Temperature");
+    is_named = has(failure.what(), "Temperature");
   }
-  check("a temperature that is not finite is told", is_told);
+  check("a message names a temperature that is not finite", is_named);
 }
 
 /// Stops in the middle and goes on; all numbers are those of one run.

@@ -40,6 +40,31 @@ void print_to(Diagnostics &diagnostics, std::vector<std::string> &printed) {
   diagnostics.set_print([&printed](Severity, const std::string &text) { printed.push_back(text); });
 }
 
+/// Saved messages keep all that they say; those of a kind that the program does not know are left out.
+void check_saved() {
+  Diagnostics diagnostics(true);
+  Diagnostic whole = penetration("top", 0.1, 0.2);
+  whole.at(dealii::Tensor<1, 3>({1., 2., 3.}))
+      .value("none", std::numeric_limits<double>::quiet_NaN())
+      .advice("Do this.");
+  diagnostics.report(whole);
+  diagnostics.report(penetration("top", 0.3, 0.4));
+  diagnostics.report(Diagnostic(billet::diagnostic::solver_memory, "A \xff that is no UTF-8"));
+  const std::string state = diagnostics.save();
+  Diagnostics resumed(true);
+  resumed.load(state);
+  check("a saved message keeps its position, values and advice", resumed.save() == state);
+
+  std::string unknown = state;
+  const std::string key = "solver-memory", other = "another-thing"; // of the same length
+  for (std::size_t at = 0; (at = unknown.find(key, at)) != std::string::npos;)
+    unknown.replace(at, key.size(), other);
+  Diagnostics without(true);
+  without.load(unknown);
+  check("a saved message of an unknown kind is skipped",
+        unknown != state && without.count(Severity::note) == 0 && without.count(Severity::warning) == 1);
+}
+
 void check_kinds() {
   std::set<std::string> keys;
   bool are_words = true, have_meanings = true;
@@ -135,5 +160,6 @@ int main() {
   check_kinds();
   check_text();
   check_counts();
+  check_saved();
   return billet::testing::exit_code();
 }

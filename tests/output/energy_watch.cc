@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Energies that fail to balance, and hourglass energy, are told once each, and not where they do not matter.
+// Warnings of energies that fail to balance, and of hourglass energy, are printed once each, and only where
+// they matter.
 #include "billet/output/energy_watch.h"
 #include "../testing.h"
 
@@ -37,7 +38,7 @@ int main() {
     check("what balances is no matter", watch.check(0.1, flight(0.6, 0.4)).empty());
     check("nor is what is missing by 4 %", watch.check(0.2, flight(0.56, 0.4)).empty());
     const billet::DiagnosticList text = watch.check(0.3, flight(0.8, 0.4));
-    check("energy that is made is told", contains(text, "time 0.3") && contains(text, "20 %"));
+    check("a warning is printed if energy is made", contains(text, "time 0.3") && contains(text, "20 %"));
     check("with what to do", contains(text, "Reduce 'Error tolerance'"));
     check("with how bad it is", std::abs(*text.front().measure() - 0.2) < 1e-12);
     check("and the run goes on", watch.imbalance().empty());
@@ -92,7 +93,7 @@ int main() {
   }
   {
     EnergyWatch watch(EnergyWatch::Balance::is_left);
-    check("where the run ends by itself, nothing is told", watch.check(1., flight(2., 0.)).empty());
+    check("no warning is printed if the run ends anyway", watch.check(1., flight(2., 0.)).empty());
   }
   return billet::testing::exit_code();
 }

@@ -77,7 +77,7 @@ int main(int argc, char *argv[]) {
   bar.bodies[0].mesh.arguments = "1, 1, 1 : 0.002, 0, 0 : 0.202, 0.2, 0.2 : true";
   const Run block = run(bar, 1e4);
   check("a brick: no energy is made", block.made, 0.01);
-  check("  what contact takes is told", block.is_reported);
+  check("  a warning is printed if contact takes energy", block.is_reported);
   check("  and that impacts do it", block.names_impacts);
   return testing::exit_code();
 }

@@ -46,7 +46,7 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
       tried.problem.measure_penetration();
     n_from_probe += static_cast<unsigned int>(tried.advance().iterations.size());
     const auto measured = tried.problem.take_measurement();
-    check(name + ": what penetrations make is measured where that is asked for, and told once",
+    check(name + ": the effect of penetrations is measured on request, and returned once",
           measured.has_value() == (n < 3) && !tried.problem.take_measurement());
     if (measured) {
       n_from_probe -= measured->n_iterations;

@@ -61,7 +61,8 @@ struct Pressed {
     return run->problem.equation().contacts()[contact].penalties().stiffening();
   }
 };
-double stiffening(const Spring &spring) { return Pressed(spring).stiffening(); }
+double stiffening(const parameters::Scene &parameters) { return Pressed(parameters).stiffening(); }
+double stiffening(const Spring &spring) { return stiffening(read(spring)); }
 
 /// Of pairs with a tolerance.
 void check_pace() {
@@ -117,6 +118,37 @@ void check_confined() {
   const Spring confined{501., 0.985, {}};
   check("a body counts as confined if 100 times what is allowed is missing",
         stiffening_beside_another(confined, 0.204) > 1. && stiffening_beside_another(confined, 0.196) == 1.);
+}
+
+/// Returns the factor by which the penalty rises if the element lies on a held one in place of the tool. From
+/// the second augmentation on, the secant quadruples multiplier offsets, so that 1 - 4 (1 - n) of the gap is
+/// left, n = K/(K + k).
+double stiffening_between_bodies(const Spring &spring) {
+  auto parameters = read(spring);
+  parameters::Body held = parameters.bodies[0];
+  held.name = "held";
+  held.mesh.arguments = "1, 1, 1 : 0, 0, -1 : 1, 1, 0 : true";
+  held.supports[0].boundary_ids.value = {4, 5};
+  held.supports[0].components = {true, true, true};
+  held.supports[0].displacement.value = {"0", "0", "0"};
+  parameters.bodies.push_back(held);
+  parameters.tools.clear();
+  auto &pair = parameters.pairs[0];
+  pair.tool.value.clear();
+  pair.second_body.value = held.name;
+  pair.second_boundary_ids.value = {5};
+  pair.facets.value = FacetMethod::planed;
+  pair.passes = parameters::ContactPair::Passes::one;
+  pair.penalty_of = parameters::ContactPair::PenaltyOf::stiffer;
+  return stiffening(parameters);
+}
+
+/// The second augmentation adds nearly four times the spring force of either body, and springs keep 0.908 or
+/// 0.892 of it at the third one. The first one adds less than 0.98 of it.
+void check_secant() {
+  check("an extrapolated augmentation shows a confined body if springs keep nine tenths of their force",
+        stiffening_between_bodies({501., 0.977, {}}) > 1. &&
+            stiffening_between_bodies({501., 0.973, {}}) == 1.);
 }
 
 /// Newton iterations of the first equilibria, by the residuals from which they start, at this tolerance of
@@ -184,7 +216,9 @@ int main(int argc, char *argv[]) {
   check_pace();
   check_softness();
   check_confined();
+  check_secant();
   check_accuracy();
-  check("forces that still change by 0.5 % are told", finish(0.0051).size() == 1 && finish(0.0049).empty());
+  check("a warning is printed if forces still change by 0.5 %",
+        finish(0.0051).size() == 1 && finish(0.0049).empty());
   return testing::exit_code();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The condition of a matrix is found whatever right-hand sides it is solved with, and told once.
+// The condition of a matrix is found whatever right-hand sides it is solved with; its warning is printed
+// once.
 #include "../testing.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/solve/tangent_solver.h"
@@ -11,8 +12,8 @@ using billet::testing::check;
 
 namespace {
 
-/// How often it is told of a row of masses, each on a spring of 1, one that is `soft`, and joined to its
-/// neighbours by springs of a tenth; with a load that the soft one does not feel.
+/// Returns the number of warnings about a row of masses, each on a spring of 1, one that is `soft`, joined to
+/// its neighbours by springs of a tenth; with a load that the soft one does not feel.
 unsigned int times_reported(const double soft, const bool symmetric) {
   constexpr int n = 40, alone = 17;
   const dealii::IndexSet rows = dealii::complete_index_set(n);
@@ -46,9 +47,9 @@ unsigned int times_reported(const double soft, const bool symmetric) {
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (const bool symmetric : {true, false}) {
-    check("a condition of 1e10 is not told", times_reported(1e-10, symmetric) == 0);
-    check("one of 1e13 is, once", times_reported(1e-13, symmetric) == 1);
-    check("nor is one of 10 with a stiff one", times_reported(10., symmetric) == 0);
+    check("no warning is printed at a condition of 1e10", times_reported(1e-10, symmetric) == 0);
+    check("one is printed, once, at 1e13", times_reported(1e-13, symmetric) == 1);
+    check("and none at 10 with a stiff spring", times_reported(10., symmetric) == 0);
   }
   return testing::exit_code();
 }

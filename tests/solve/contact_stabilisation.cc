@@ -40,8 +40,8 @@ double potential(const ContactStabilisation &stabilisation, const Values &u, con
   return sum;
 }
 
-/// What is told of a block without supports that has moved, where all work is so many times that of the
-/// stabilising forces, and where forces are so many times these forces.
+/// Checks the messages about a block without supports that has moved, where all work is so many times that of
+/// the stabilising forces, and where forces are so many times these forces.
 void check_messages() {
   auto parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/confined_element.prm");
   parameters.bodies[0].supports.clear();
@@ -64,7 +64,7 @@ void check_messages() {
         return true;
     return false;
   };
-  check("forces that do a thousandth of all work are told",
+  check("a warning is printed if forces do a thousandth of all work",
         tells(diagnostic::stabilisation_too_strong, 980., 1.) &&
             !tells(diagnostic::stabilisation_too_strong, 1020., 1.));
   check("and those that bear a thousandth at the end",

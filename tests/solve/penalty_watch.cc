@@ -31,7 +31,7 @@ int main() {
     check("a hundredth of a facet after a motion of one is no matter", inspect(watch, 0.01, 2.).empty());
     check("a tenth is, nearly", inspect(watch, 0.099, 2.).empty() && !watch.has_low_penalties());
     const std::string text = inspect(watch, 0.11, 4.);
-    check("more is told",
+    check("a warning is printed above a tenth",
           contains(
               text,
               "Nodes penetrate by 0.11 facet sizes (pair 'pair', time 0.5). Increase 'Normal penalty', or"));
@@ -40,7 +40,7 @@ int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::slow);
     const std::string text = inspect(watch, 1e-3, 4e-3);
-    check("half of the motion is told, however small",
+    check("and at half of the motion, however small",
           contains(text, "sizes, 50 % of the maximum displacement"));
   }
   {
@@ -50,7 +50,7 @@ int main() {
       return text_of(at.check("pair", 0.5, {1e-3, 2e-3}, 1., part_of_work));
     };
     check("a tenth of the work is no matter", inspect_at(watch, 0.1).empty() && !watch.has_low_penalties());
-    check("half of it is told",
+    check("a warning is printed at half of it",
           contains(inspect_at(watch, 0.5), "the penalty stores 50 % of the work done so far"));
     check("in a blow it is not", inspect_at(sudden, 0.5).empty() && !sudden.has_low_penalties());
   }
@@ -62,10 +62,11 @@ int main() {
   {
     PenaltyWatch watch(PenaltyWatch::Motion::sudden);
     check("a first touch is no matter", inspect(watch, 1e-2, 2e-2).empty());
-    check("one that is deeper is not told, but noticed",
+    check("a deeper one gives no warning, but is noticed",
           !watch.has_low_penalties() && inspect(watch, 0.05, 0.1).empty() && watch.has_low_penalties());
     check("a deep node is no matter for a moment", inspect(watch, 0.2, 0.4).empty());
-    check("what stays deep is told", contains(inspect(watch, 0.2, 0.4), "100 % of the maximum displacement"));
+    check("a warning is printed if it stays deep",
+          contains(inspect(watch, 0.2, 0.4), "100 % of the maximum displacement"));
     check("and what takes energy at once", !watch.check("other", 0.5, {0.2, 0.4}, 4., 0.02).empty());
   }
   {

@@ -73,7 +73,7 @@ int main(int argc, char **argv) {
     touch(support, -z, Friction::slips, x);
     touch(support, z, Friction::slips, -x);
     const auto found = support.find();
-    check("between two that slide apart: bounded by the slip, and told",
+    check("between two that slide apart: bounded by the slip, which is reported",
           found.n_free == 0 && found.sliding && std::abs(found.sliding->motion.translation * x) > 0.99);
     touch(support, z, Friction::slips, x);
     check("the same all one way but for one: bounded, too", support.find().n_free == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Round-off of contact is told where it takes a part of the maximum forces of a run, not of a light first
-// step.
+// A message reports round-off of contact where it takes a part of the maximum forces of a run, not of a light
+// first step.
 #include "billet/solve/round_off_watch.h"
 #include "billet/diagnostic_kinds.h"
 
@@ -37,8 +37,9 @@ int main() {
   RoundOffWatch later;
   later.load(watch.save());
   later.add(0.4, 0.01, 1.);
-  check("told with its time", contains(later.finish(tolerance, false), round_off_limits_forces, "accepted") &&
-                                  later.finish(tolerance, false).front().time().value() == 0.4);
+  check("the message has its time",
+        contains(later.finish(tolerance, false), round_off_limits_forces, "accepted") &&
+            later.finish(tolerance, false).front().time().value() == 0.4);
   later.add(0.5, 0.5, 1.);
   check("more is a doubt in statics",
         contains(later.finish(tolerance, false), round_off_limits_forces, "to this part only"));

@@ -70,7 +70,7 @@ void check_what_is_given_up() {
     limit.commit({springs, springs});
   };
   step(1e-5, 1.);
-  check("what settles is not told", limit.unsettled()[0] == 0.);
+  check("what settles is not reported", limit.unsettled()[0] == 0.);
   step(0.02, 2.);
   check("what is given up is, over the largest force", std::abs(limit.unsettled()[0] - 0.01), 1e-15);
   step(1e-5, 4.);

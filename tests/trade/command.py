@@ -19,7 +19,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from modules import HERE, ROOT, TRADE
-from billet_tools.trade import knobs
+from billet_tools.trade import parameters
 from billet_tools.trade.command import run
 from billet_tools.trade.plan import pilot, read_presets
 from billet_tools.scene import Scene, read_scene
@@ -48,7 +48,7 @@ subsection Time stepping
 end
 """
 WHOLE = [
-    "--knobs",
+    "--parameters",
     "mesh=0.5,1,2,4",
     "largest step=0.1,0.5,1",
     "penalty=0.1,1,10",
@@ -253,13 +253,15 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(beyond.returncode, 3)
         self.assertIn("the reference itself is known to", beyond.stdout)
         # And one that nothing tried comes up to, but might.
-        missed = self.trade("--knobs", "predictor", "--target", "3%", "--repeat", "1", "--folder", "sweep")
+        missed = self.trade(
+            "--parameters", "predictor", "--target", "3%", "--repeat", "1", "--folder", "sweep"
+        )
         self.assertEqual(missed.returncode, 3)
         self.assertIn("Nothing tried is within 3 %", missed.stdout)
 
     def test_weights_and_given_mesh(self) -> None:
         done = self.trade(
-            "--knobs",
+            "--parameters",
             "penalty=10",
             "largest step=0.5",
             "--reference-mesh",
@@ -289,8 +291,8 @@ class TestCommand(unittest.TestCase):
 
     def test_forces_judge_whatever_counts(self) -> None:
         """Runs that were kept when forces counted tell of locking when the shape alone does."""
-        knobs = (
-            "--knobs",
+        parameters = (
+            "--parameters",
             "element=mean dilatation",
             "predictor",
             "--repeat",
@@ -302,9 +304,9 @@ class TestCommand(unittest.TestCase):
             "--target",
             "20%",
         )
-        self.assertEqual(self.trade(*knobs).returncode, 0)
+        self.assertEqual(self.trade(*parameters).returncode, 0)
         whole = self.runs()
-        done = self.trade(*knobs, "--outputs", "shape", "--output", "locks/shape")
+        done = self.trade(*parameters, "--outputs", "shape", "--output", "locks/shape")
         self.assertEqual((done.returncode, self.runs()), (0, whole), done.stderr)
         for name in ("trade", "shape"):
             (mean,) = [row for row in self.rows(f"locks/{name}") if row["value"] == "mean dilatation"]
@@ -314,16 +316,18 @@ class TestCommand(unittest.TestCase):
         self.assertNotIn("| force |", (self.folder / "locks/shape.md").read_text())
         self.assertIn(
             "the history has no column 'die.force_x'",
-            self.trade(*knobs, "--outputs", "shape", "--force", "die.force_x").stderr,
+            self.trade(*parameters, "--outputs", "shape", "--force", "die.force_x").stderr,
         )
         # A tool that nothing touches has no force that could judge.
-        done = self.trade(*knobs, "--outputs", "shape", "--set", "Tools/die/Shape=far", "--folder", "far")
+        done = self.trade(
+            *parameters, "--outputs", "shape", "--set", "Tools/die/Shape=far", "--folder", "far"
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("locked", done.stdout)
 
     def test_combination(self) -> None:
         done = self.trade(
-            "--knobs",
+            "--parameters",
             "mesh=0.5",
             "largest step=2",
             "--combine",
@@ -335,7 +339,7 @@ class TestCommand(unittest.TestCase):
             "combined",
             "--cost",
             "work",
-            "--knob",
+            "--parameter",
             "pace: Time stepping/Maximum step=0.2,0.5",
         )
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -346,23 +350,25 @@ class TestCommand(unittest.TestCase):
 
     def test_bad_input(self) -> None:
         cases = [
-            (["--knobs", "speed"], "there is no knob 'speed'; there are mesh, steps, largest step"),
+            (["--parameters", "speed"], "there is no parameter 'speed'; there are mesh, steps, largest step"),
             (
-                ["--knobs", "facets"],
-                "the scene cannot use the knob 'facets': overlap: no bodies touch each other",
+                ["--parameters", "facets"],
+                "the scene cannot use the parameter 'facets': overlap: no bodies touch each other",
             ),
             (
-                ["--knobs", "tangent=wrong"],
+                ["--parameters", "tangent=wrong"],
                 (
-                    "the scene cannot use the knob 'tangent': wrong: 'Contact tangent' is 'wrong';"
+                    "the scene cannot use the parameter 'tangent': wrong: 'Contact tangent' is 'wrong';"
                     " allowed is one of"
                 ),
             ),
             (
-                ["--knob", "Solver/Speed=1,2"],
-                "cannot use the knob 'speed': 1: 'Speed': there is no such parameter",
+                ["--parameter", "Solver/Speed=1,2"],
+                "cannot use the parameter 'speed': 1: 'Speed': there is no such parameter",
             ),
-            (["--knob", "nonsense"], "--knob is 'nonsense'"),
+            (["--parameter", "nonsense"], "--parameter is 'nonsense'"),
+            (["--knobs", "speed"], "there is no parameter 'speed'"),  # old names
+            (["--knob", "nonsense"], "--parameter is 'nonsense'"),
             (
                 ["--set", "Solver/Speed=1"],
                 "billet refuses the scene as it would be measured: 'Speed': there is no such parameter",
@@ -371,19 +377,22 @@ class TestCommand(unittest.TestCase):
             (["--until", "2"], "--until is 2; allowed is a part of the end time"),
             (["--mesh", "3"], "--mesh: the mesh of 'bar' changes by factors of 2 only"),
             (["--outputs", "colour"], "--outputs is 'colour'; allowed are force, strain, shape, rebound"),
-            (["--outputs", "strain", "--knobs", "predictor"], "the strain profile wants a --line"),
-            (["--outputs", "rebound", "--knobs", "predictor"], "nothing rebounds in a static scene"),
+            (["--outputs", "strain", "--parameters", "predictor"], "the strain profile wants a --line"),
+            (["--outputs", "rebound", "--parameters", "predictor"], "nothing rebounds in a static scene"),
             (
-                ["--force", "die.force_x", "--knobs", "predictor"],
+                ["--force", "die.force_x", "--parameters", "predictor"],
                 "the history has no column 'die.force_x'; it has die.force_z",
             ),
             (["--target", "much"], "--target is 'much'; allowed is an error > 0"),
             (["--target", "0"], "--target is '0'; allowed is an error > 0"),
             (["--mesh", "abc"], "--mesh is 'abc'; allowed is a number > 0"),
-            (["--knobs", "penalty=abc"], "the knob 'penalty': the value is 'abc'; allowed is a number > 0"),
+            (
+                ["--parameters", "penalty=abc"],
+                "the parameter 'penalty': the value is 'abc'; allowed is a number > 0",
+            ),
             (
                 ["--product", "mesh=1", "steps=0"],
-                "the knob 'steps': the value is '0'; allowed is a number > 0",
+                "the parameter 'steps': the value is '0'; allowed is a number > 0",
             ),
             (["--outputs", "force=0"], "--outputs: force is '0'; allowed is a weight > 0"),
             (["--reference-mesh", "1,x"], "--reference-mesh is 'x'; allowed is factors > 0"),
@@ -396,8 +405,8 @@ class TestCommand(unittest.TestCase):
                 "--reference-mesh is '1,2,3'; allowed are at least two factors in one ratio",
             ),
             (
-                ["--reference-mesh", "given", "--knobs", "mesh"],
-                "--reference-mesh given: the mesh cannot be a knob then",
+                ["--reference-mesh", "given", "--parameters", "mesh"],
+                "--reference-mesh given: the mesh cannot be a parameter then",
             ),
             (
                 ["--product", "mesh=1", "tangent=wrong"],
@@ -408,8 +417,8 @@ class TestCommand(unittest.TestCase):
             ),
             (["--reference-steps", "0"], "--reference-steps is 0; allowed are whole numbers from 1 on"),
             (
-                ["--knobs", "profile=fast"],
-                "the scene cannot use the knob 'profile': fast: this billet has no such parameter",
+                ["--parameters", "profile=fast"],
+                "the scene cannot use the parameter 'profile': fast: this billet has no such parameter",
             ),
             (["--repeat", "0"], "--repeat is 0; allowed are whole numbers from 1 on"),
             (["--program", "/nowhere/billet"], "the program '/nowhere/billet' (--program) was not found"),
@@ -436,7 +445,9 @@ class TestCommand(unittest.TestCase):
                     else 0
                 )
                 self.assertLessEqual(
-                    after - before, "--force" in arguments or arguments[:1] == ["--knobs"], arguments
+                    after - before,
+                    "--force" in arguments or arguments[:1] in (["--parameters"], ["--knobs"]),
+                    arguments,
                 )
         self.assertEqual(
             self.said(scene="nowhere.prm"), (2, "billet-trade: nowhere.prm: there is no such scene file\n")
@@ -476,7 +487,7 @@ class TestCommand(unittest.TestCase):
         done = self.trade(
             "--set",
             "Solver/Line search=none",
-            "--knobs",
+            "--parameters",
             "predictor",
             "--repeat",
             "1",
@@ -494,7 +505,7 @@ class TestCommand(unittest.TestCase):
     def test_errors_that_cancel(self) -> None:
         """Long steps take away what a coarse mesh adds: it must not be chosen."""
         done = self.trade(
-            "--knobs",
+            "--parameters",
             "mesh=0.5",
             "steps=40",
             "--set",
@@ -546,14 +557,16 @@ class TestCommand(unittest.TestCase):
             [os.environ["BILLET"], "--print-parameters"], capture_output=True, text=True
         ).stdout
         scene = Scene(read_scene(self.folder / "fast.prm"), defaults, presets)
-        self.assertEqual(knobs.KNOBS["penalty"].turned(scene, "3")[penalty], "3")
-        self.assertEqual(knobs.KNOBS["penalty"].turned(scene.changed({"Profile": None}), "3")[penalty], "30")
+        self.assertEqual(parameters.PARAMETERS["penalty"].turned(scene, "3")[penalty], "3")
+        self.assertEqual(
+            parameters.PARAMETERS["penalty"].turned(scene.changed({"Profile": None}), "3")[penalty], "30"
+        )
 
     def test_reference_that_fails(self) -> None:
         done = self.trade(
             "--set",
             "Solver/Contact tangent=continuum",
-            "--knobs",
+            "--parameters",
             "predictor",
             "--repeat",
             "1",
@@ -566,7 +579,7 @@ class TestCommand(unittest.TestCase):
     def test_billet(self) -> None:
         """The program itself, on eight bricks."""
         done = self.trade(
-            "--knobs",
+            "--parameters",
             "penalty=1,10",
             "tangent=exact",
             "steps=4",

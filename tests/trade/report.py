@@ -206,7 +206,7 @@ class Judging(unittest.TestCase):
         self.assertIn("--reference-mesh 1,2,4", said)
         self.assertNotIn("as it is written", said)
         self.assertIn("No choice within 5 %", said)
-        self.assertNotIn("What each knob buys", s.page("", "", [], ""))
+        self.assertNotIn("What each parameter buys", s.page("", "", [], ""))
         # Nor does one that nothing is known of.
         self.assertTrue(sweep([point("", "as written")], Reference(math.nan)).is_blind)
 
@@ -366,7 +366,10 @@ class Pictures(unittest.TestCase):
     def test_legend_is_whole(self) -> None:
         points = Cancellation().points() + [
             point(
-                "a knob of one's own with a very long name that wants lines", v, {"Solver/X": v}, force=1.003
+                "a parameter of one's own with a very long name that wants lines",
+                v,
+                {"Solver/X": v},
+                force=1.003,
             )
             for v in "123"
         ]

@@ -58,7 +58,7 @@ struct GapOffset {
 /// facet with an offset; otherwise it would be ejected.
 ///
 /// The order is that of Bittencourt & Creus (1998): the last facet, then those around it, then the candidates
-/// for nodes that still touch nothing. Of several facets at one stage, the one with the smallest penetration
+/// for nodes that still touch nothing. Among several facets at one stage, the one with the least penetration
 /// counts at a convex edge, or for the two sides of a wall. There the middle of one facet lies behind the
 /// other's plane. Otherwise, at a concave edge, the node must leave both facets, and the one with the larger
 /// penetration counts. Unlike in the paper, this rule may also replace the last facet at concave edges.

@@ -2,7 +2,7 @@
 #ifndef BILLET_MECHANICS_MEAN_DILATATION_H
 #define BILLET_MECHANICS_MEAN_DILATATION_H
 
-#include "billet/material/hencky.h"
+#include "billet/material/moduli.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 #ifndef BILLET_MECHANICS_POINT_TANGENT_H
 #define BILLET_MECHANICS_POINT_TANGENT_H
 
-#include "billet/material/hypoelastic.h"
+#include "billet/material/moduli.h"
 #include "billet/mechanics/mean_dilatation.h"
 
 namespace billet {

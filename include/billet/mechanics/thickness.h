@@ -14,7 +14,6 @@ namespace billet {
 
 /// Numbers of integration points through a thickness that a scene may ask for.
 inline constexpr std::array<unsigned int, 4> all_points_through = {2, 3, 5, 7};
-constexpr unsigned int max_points_through = 7;
 
 /// Gauss points on [−1, 1] in increasing order, and their weights, which sum to 1.
 struct GaussRule {

@@ -55,8 +55,10 @@ struct Augmentation::Limits {
   /// augmentation adds `nearly_all` of the spring force.
   static constexpr double nearly_all = 0.98, much = 100., more_of_tools = 100., more_of_confined = 1e4;
   /// If bodies hardly yield, springs keep the part `kept` of their force, and as much is added to the contact
-  /// force. If springs hold less than `min_held` of the force, this is not significant: friction may be
-  /// augmented instead.
+  /// force. Without extrapolation, `nearly_all` implies `kept`. An augmentation that MultiplierOffsets
+  /// extrapolates by the secant adds up to four times as much: `kept` excludes those of bodies that yield. If
+  /// springs hold less than `min_held` of the force, this is not significant: friction may be augmented
+  /// instead.
   static constexpr double min_held = 0.05, kept = 0.9;
   /// Change of the force, as part of the largest, up to which a pair is settled.
   static constexpr double settled = 5e-3;

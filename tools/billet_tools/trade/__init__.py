@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""billet-trade: what accuracy costs in a scene of billet, knob by knob. doc/manual.md tells how to use it.
+"""billet-trade: what accuracy costs in a scene of billet, by parameter. doc/manual.md shows its use.
 
 command    the command line
 plan       what is run: the scene in pilot form, and the points of the sweep
-knobs      what can be turned, and what the reference turns
+parameters what can be changed, and what the reference changes
 reference  the converged reference, and its runs
 run        running, and keeping what came out
 results    what a run gave, as it is kept

@@ -11,7 +11,7 @@ from typing import Sequence
 from .. import UserError
 from ..program import Program, Stopped, find_program
 from ..scene import Scene, read_scene
-from . import knobs
+from . import parameters
 from .options import Options, parse
 from .plan import Candidates, pilot, read_presets
 from .run import Runner
@@ -78,6 +78,6 @@ def run(arguments: Sequence[str], beside: str) -> int:
     except UserError as error:
         print(f"billet-trade: {error}", file=sys.stderr)
         return error.code
-    except knobs.CannotTurn as why:
+    except parameters.CannotTurn as why:
         print(f"billet-trade: {why}", file=sys.stderr)
         return 2

@@ -7,15 +7,15 @@ import argparse
 from typing import Sequence
 
 from .. import UserError
-from . import knobs
+from . import parameters
 from .outputs import Profile
 from .reference import GIVEN
 
 Options = argparse.Namespace
 
-HELP = """What accuracy costs in a scene of billet: turns one knob after the other, measures each run against
-a converged reference that it makes itself, and writes a table, a CSV file and a picture of error over cost.
-What has been run is kept; after Ctrl-C the same command goes on."""
+HELP = """What accuracy costs in a scene of billet: changes one parameter after the other, measures each run
+against a converged reference that it makes itself, and writes a table, a CSV file and a picture of error over
+cost. What has been run is kept; after Ctrl-C the same command continues."""
 
 
 def parse(arguments: Sequence[str]) -> Options:
@@ -25,38 +25,42 @@ def parse(arguments: Sequence[str]) -> Options:
     add = parser.add_argument
     add("scene", help="a scene file of billet")
     add(
-        "--list", action="store_true", help="say which knobs the scene can use and with which values, and end"
+        "--list",
+        action="store_true",
+        help="say which parameters the scene can use and with which values, and end",
     )
-    group = parser.add_argument_group("what is turned")
+    group = parser.add_argument_group("what is changed")
     add = group.add_argument
     add(
-        "--knobs",
+        "--parameters",
         nargs="+",
-        metavar="KNOB[=V,V]",
+        metavar="PARAMETER[=V,V]",
         help="these only, with these values: mesh=0.5,1 tangent penalty=1,10 (all that the scene can use)",
     )
+    add("--knobs", dest="parameters", nargs="+", help=argparse.SUPPRESS)  # old name
     add(
-        "--knob",
+        "--parameter",
         action="append",
         default=[],
         metavar="[NAME: ]PATH=V,V",
         help=(
-            "a knob of your own: a parameter by its path, 'Solver/Line search=energy,none'; "
+            "a parameter of the scene by its path, 'Solver/Line search=energy,none'; "
             "several at once joined by ' & '; values with commas separated by '|'"
         ),
     )
+    add("--knob", dest="parameter", action="append", default=[], help=argparse.SUPPRESS)  # old name
     add(
         "--product",
         action="append",
         nargs="+",
         default=[],
-        metavar="KNOB[=V,V]",
-        help="all combinations of the values of these knobs, too; may be given more than once",
+        metavar="PARAMETER[=V,V]",
+        help="all combinations of the values of these parameters, too; may be given more than once",
     )
     add(
         "--combine",
         action="store_true",
-        help="with --target: join to the chosen point, knob by knob, what is cheaper still",
+        help="with --target: join to the chosen point, parameter by parameter, what is cheaper still",
     )
     group = parser.add_argument_group("the scene in pilot form")
     add = group.add_argument
@@ -179,9 +183,9 @@ def parse(arguments: Sequence[str]) -> Options:
     if options.combine and not options.target:
         raise UserError("--combine wants a --target to stay within")
     if options.reference_mesh == GIVEN and any(
-        k.partition("=")[0] == "mesh" for k in (options.knobs or []) + sum(options.product, [])
+        k.partition("=")[0] == "mesh" for k in (options.parameters or []) + sum(options.product, [])
     ):
-        raise UserError("--reference-mesh given: the mesh cannot be a knob then")
+        raise UserError("--reference-mesh given: the mesh cannot be a parameter then")
     options.target = read_error(options.target)
     if "strain" in read_outputs(options.outputs) and not options.line:
         raise UserError("--outputs: the strain profile wants a --line 'x, y, z to x, y, z'")
@@ -196,7 +200,7 @@ def read_error(text: str | None) -> float | None:
     if text is None:
         return None
     cleaned = text.replace("percent", "%").strip()
-    value = knobs.number(cleaned.rstrip("% "), "an error > 0, such as 1% or 0.01", "--target") * (
+    value = parameters.number(cleaned.rstrip("% "), "an error > 0, such as 1% or 0.01", "--target") * (
         0.01 if "%" in cleaned else 1.0
     )
     if value >= 1:
@@ -224,5 +228,5 @@ def read_outputs(text: str) -> dict[str, float]:
                 f"--outputs is '{name}'; allowed are force, strain, shape, rebound, each with =WEIGHT if"
                 " need be"
             )
-        weights[name] = knobs.number(weight, "a weight > 0", f"--outputs: {name}") if equals else 1.0
+        weights[name] = parameters.number(weight, "a weight > 0", f"--outputs: {name}") if equals else 1.0
     return weights

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Error over cost, log-log: one curve a knob, what failed in a band of its own, the Pareto front, the
+"""Error over cost, log-log: one curve a parameter, what failed in a band of its own, the Pareto front, the
 choice."""
 
 from __future__ import annotations

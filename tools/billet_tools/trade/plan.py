@@ -11,14 +11,14 @@ from typing import Any, Mapping, Sequence
 
 from .. import UserError
 from ..scene import Changes, Scene
-from . import knobs, results
-from .knobs import Knob
+from . import parameters, results
+from .parameters import Parameter
 from .options import Options, read_settings
 from .reference import GIVEN
 from .report import Point
 from .run import Runner
 
-Value = tuple[str, Changes]  # an argument of a knob, and what it changes
+Value = tuple[str, Changes]  # an argument of a parameter, and what it changes
 
 
 def pilot(scene: Scene, options: Options) -> Scene:
@@ -26,11 +26,13 @@ def pilot(scene: Scene, options: Options) -> Scene:
     scene = scene.changed(read_settings("--set", options.set))
     if options.mesh:
         try:
-            scene = scene.changed(knobs.scaled_meshes(scene, knobs.number(options.mesh, option="--mesh")))
-        except knobs.CannotTurn as why:
+            scene = scene.changed(
+                parameters.scaled_meshes(scene, parameters.number(options.mesh, option="--mesh"))
+            )
+        except parameters.CannotTurn as why:
             raise UserError(f"--mesh: {why}") from None
     if options.until:
-        end = knobs.shown(options.until * scene.end_time)
+        end = parameters.shown(options.until * scene.end_time)
         stops = [s.strip() for s in scene.get("Time stepping/Stops").split(",") if s.strip()]
         left = (
             {"Time stepping/Stops": ", ".join(s for s in stops if float(s) <= float(end)) or None}
@@ -54,112 +56,118 @@ def is_number(text: str) -> bool:
 
 
 class Candidates:
-    """The knobs that were asked for, or all, and what the scene can use of them."""
+    """The parameters that were asked for, or all, and what the scene can use of them."""
 
     def __init__(self, scene: Scene, runner: Runner, options: Options) -> None:
         self.scene, self.runner = scene, runner
-        self.own = {k.name: k for k in map(knobs.own_knob, options.knob)}
-        self.known = {**knobs.KNOBS, **self.own}
-        if options.knobs:
-            chosen = [knobs.asked_knob(text, self.known) for text in options.knobs]
-            self.knobs = chosen + [k for k in self.own.values() if k.name not in {c.name for c in chosen}]
-        elif options.knob or options.product:
-            self.knobs = list(self.own.values())
-        else:
-            self.knobs = [
-                k for k in knobs.KNOBS.values() if k.name != "mesh" or options.reference_mesh != GIVEN
+        self.own = {k.name: k for k in map(parameters.own_parameter, options.parameter)}
+        self.known = {**parameters.PARAMETERS, **self.own}
+        if options.parameters:
+            chosen = [parameters.asked_parameter(text, self.known) for text in options.parameters]
+            self.parameters = chosen + [
+                k for k in self.own.values() if k.name not in {c.name for c in chosen}
             ]
-        self.is_asked = bool(options.knobs or options.knob)
+        elif options.parameter or options.product:
+            self.parameters = list(self.own.values())
+        else:
+            self.parameters = [
+                k
+                for k in parameters.PARAMETERS.values()
+                if k.name != "mesh" or options.reference_mesh != GIVEN
+            ]
+        self.is_asked = bool(options.parameters or options.parameter)
         self.products = [
-            [knobs.asked_knob(text, self.known) for text in product] for product in options.product
+            [parameters.asked_parameter(text, self.known) for text in product] for product in options.product
         ]
-        self.left_out: dict[str, dict[str, str]] = {}  # {knob: {argument: why}}
+        self.left_out: dict[str, dict[str, str]] = {}  # {parameter: {argument: why}}
         self.taken: set[tuple[str, tuple[str, ...]]] = set()
 
-    def changes(self, knob: Knob, argument: str) -> Changes:
+    def changes(self, parameter: Parameter, argument: str) -> Changes:
         """Of one value; raises CannotTurn with the reason."""
-        changes = knob.turned(self.scene, argument)
+        changes = parameter.turned(self.scene, argument)
         # Where one number is taken the others are; what is out of range the run itself tells.
-        kind = (knob.name, tuple(changes)) if is_number(argument) else None
+        kind = (parameter.name, tuple(changes)) if is_number(argument) else None
         if kind is None or kind not in self.taken:
             _, against, _ = self.runner.check(self.scene.changed(changes))
             if against:
-                raise knobs.CannotTurn(against)
+                raise parameters.CannotTurn(against)
             if kind is not None:
                 self.taken.add(kind)
         return changes
 
-    def values(self, knob: Knob) -> list[Value]:
+    def values(self, parameter: Parameter) -> list[Value]:
         """[(argument, changes)] that the scene can use."""
         found = []
-        for argument in knob.arguments:
+        for argument in parameter.arguments:
             try:
-                found.append((argument, self.changes(knob, argument)))
-            except knobs.CannotTurn as why:
-                self.left_out.setdefault(knob.name, {})[argument] = str(why)
+                found.append((argument, self.changes(parameter, argument)))
+            except parameters.CannotTurn as why:
+                self.left_out.setdefault(parameter.name, {})[argument] = str(why)
         return found
 
     def _ask(self) -> None:
         """The program about all that values() will want to know, several at a time: what it says is kept."""
         scenes, kinds = [self.scene], set()
-        for knob in self.knobs:
-            for argument in knob.arguments:
+        for parameter in self.parameters:
+            for argument in parameter.arguments:
                 try:
-                    changes = knob.turned(self.scene, argument)
-                except knobs.CannotTurn:
+                    changes = parameter.turned(self.scene, argument)
+                except parameters.CannotTurn:
                     continue
-                kind = (knob.name, tuple(changes)) if is_number(argument) else None
+                kind = (parameter.name, tuple(changes)) if is_number(argument) else None
                 if kind is None or kind not in kinds:
                     kinds.add(kind)
                     scenes.append(self.scene.changed(changes))
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             list(pool.map(self.runner.check, scenes))
 
-    def possible(self) -> list[tuple[Knob, list[Value]]]:
-        """[(knob, values)] of knobs with something to turn: values that differ from the scene, and not from
-        each other."""
+    def possible(self) -> list[tuple[Parameter, list[Value]]]:
+        """[(parameter, values)] of parameters with something to change: values that differ from the scene,
+        and not from each other."""
         self._ask()
         found = []
-        for knob in self.knobs:
-            values = self.values(knob)
+        for parameter in self.parameters:
+            values = self.values(parameter)
             texts = {self.runner.key(self.scene.changed(changes).text) for _, changes in values}
             if values and texts != {self.runner.key(self.scene.text)}:
-                found.append((knob, values))
+                found.append((parameter, values))
             elif values:
-                self.left_out.setdefault(knob.name, {})[
+                self.left_out.setdefault(parameter.name, {})[
                     values[0][0]
                 ] = "it is the only one, and the scene has it"
-            if self.is_asked and not (found and found[-1][0] is knob):
+            if self.is_asked and not (found and found[-1][0] is parameter):
                 raise UserError(
-                    f"the scene cannot use the knob '{knob.name}': "
-                    + "; ".join(f"{a}: {w}" for a, w in self.left_out.get(knob.name, {}).items())
+                    f"the scene cannot use the parameter '{parameter.name}': "
+                    + "; ".join(f"{a}: {w}" for a, w in self.left_out.get(parameter.name, {}).items())
                 )
         return found
 
     def points(self) -> list[Point]:
         points = [
-            Point(knob.name, argument, changes, self.scene.changed(changes))
-            for knob, values in self.possible()
+            Point(parameter.name, argument, changes, self.scene.changed(changes))
+            for parameter, values in self.possible()
             for argument, changes in values
         ]
         for product in self.products:
             points += self._combinations(product)
         return points
 
-    def _combinations(self, product: Sequence[Knob]) -> list[Point]:
-        """All that the program takes; a later knob sees what the earlier ones did: a factor of a factor."""
+    def _combinations(self, product: Sequence[Parameter]) -> list[Point]:
+        """All that the program takes; later parameters see changes of earlier ones: a factor of a factor."""
         points, against = [], []
-        for arguments in itertools.product(*(knob.arguments for knob in product)):
+        for arguments in itertools.product(*(parameter.arguments for parameter in product)):
             changed = self.scene
             changes: dict[str, object] = {}
-            label = ", ".join(f"{knob.name} {argument}" for knob, argument in zip(product, arguments))
+            label = ", ".join(
+                f"{parameter.name} {argument}" for parameter, argument in zip(product, arguments)
+            )
             try:
-                for knob, argument in zip(product, arguments):
-                    more = knob.turned(changed, argument)
+                for parameter, argument in zip(product, arguments):
+                    more = parameter.turned(changed, argument)
                     changes.update(more)
                     changed = changed.changed(more)
                 _, why, _ = self.runner.check(changed)
-            except knobs.CannotTurn as reason:
+            except parameters.CannotTurn as reason:
                 why = str(reason)
             if why:
                 against.append(f"{label}: {why}")
@@ -179,8 +187,10 @@ class Candidates:
 
     def describe(self) -> str:
         said = []
-        for knob, values in self.possible():
-            said.append(f"{knob.name}: {knob.meaning}\n    " + ", ".join(argument for argument, _ in values))
+        for parameter, values in self.possible():
+            said.append(
+                f"{parameter.name}: {parameter.meaning}\n    " + ", ".join(argument for argument, _ in values)
+            )
         said.append("\nNot in this scene:")
         for name, whys in self.left_out.items():
             reasons: dict[str, list[str]] = {}

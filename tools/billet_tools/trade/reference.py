@@ -16,7 +16,7 @@ from typing import Callable, Mapping, NamedTuple, Sequence
 from .. import UserError
 from ..output import Array
 from ..scene import Changes, Scene
-from . import knobs, measure
+from . import parameters, measure
 from .outputs import Output
 from .results import Result
 
@@ -49,7 +49,8 @@ def mesh_factors(scene: Scene, wanted: str | None, count: Callable[[Changes], in
     affordable, or else those of 0.5, 1, 2 that the mesh allows."""
     if wanted:
         factors = sorted(
-            knobs.number(f, "factors > 0, such as 0.5,1,2", "--reference-mesh") for f in wanted.split(",")
+            parameters.number(f, "factors > 0, such as 0.5,1,2", "--reference-mesh")
+            for f in wanted.split(",")
         )
         ratios = [b / a for a, b in zip(factors, factors[1:])]
         if 1.0 not in factors or not ratios or max(ratios) > 1.001 * min(ratios) or min(ratios) <= 1:
@@ -59,16 +60,16 @@ def mesh_factors(scene: Scene, wanted: str | None, count: Callable[[Changes], in
             )
         return factors
     try:
-        if count(knobs.scaled_meshes(scene, 4.0)) <= AFFORDABLE[scene.is_explicit]:
+        if count(parameters.scaled_meshes(scene, 4.0)) <= AFFORDABLE[scene.is_explicit]:
             return [1.0, 2.0, 4.0]
-    except knobs.CannotTurn:
+    except parameters.CannotTurn:
         pass
     factors = []
     for factor in (0.5, 1.0, 2.0):
         try:
-            knobs.scaled_meshes(scene, factor)
+            parameters.scaled_meshes(scene, factor)
             factors.append(factor)
-        except knobs.CannotTurn:
+        except parameters.CannotTurn:
             pass
     return factors
 
@@ -85,20 +86,20 @@ class Plan:
         settings: Changes | None = None,
     ) -> None:
         """`count(scene)`: its elements."""
-        base = scene.changed({**knobs.reference_settings(scene), **(settings or {})})
+        base = scene.changed({**parameters.reference_settings(scene), **(settings or {})})
         levels: list[tuple[str, Changes]]
         if scene.is_explicit:
             safety = base.number("Explicit dynamics/Safety factor")
             levels = [
                 (
-                    f"safety factor {knobs.shown(safety / d)}",
-                    {"Explicit dynamics/Safety factor": knobs.shown(safety / d)},
+                    f"safety factor {parameters.shown(safety / d)}",
+                    {"Explicit dynamics/Safety factor": parameters.shown(safety / d)},
                 )
                 for d in (1, 2, 4)
             ]
         else:
-            n = steps or min(100, max(20, knobs.longest_steps(scene)))
-            levels = [(f"{m} steps", knobs.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
+            n = steps or min(100, max(20, parameters.longest_steps(scene)))
+            levels = [(f"{m} steps", parameters.equal_steps(scene, m)) for m in (n, 2 * n, 4 * n)]
         tolerances = (
             {}
             if scene.is_explicit
@@ -114,7 +115,9 @@ class Plan:
             }
         )
         augmented: dict[str, object] = {
-            pair + "Penetration tolerance": knobs.shown(0.25 * t) for pair, t in tolerances.items() if t > 0
+            pair + "Penetration tolerance": parameters.shown(0.25 * t)
+            for pair, t in tolerances.items()
+            if t > 0
         }
         if augmented:
             augmented["Solver/Maximum augmentations"] = 100
@@ -132,10 +135,10 @@ class Plan:
         try:
             factors = mesh_factors(scene, wanted, count)
             levels = [
-                (f"mesh {f:g}", self.centre.changed({} if f == 1 else knobs.scaled_meshes(scene, f)))
+                (f"mesh {f:g}", self.centre.changed({} if f == 1 else parameters.scaled_meshes(scene, f)))
                 for f in factors
             ]
-        except knobs.CannotTurn as why:
+        except parameters.CannotTurn as why:
             raise UserError(f"--reference-mesh: {why}") from None
         if len(factors) < 2:
             raise UserError(
@@ -158,7 +161,7 @@ class Plan:
                     self.centre.changed(
                         {
                             pair
-                            + "Penetration tolerance": knobs.shown(
+                            + "Penetration tolerance": parameters.shown(
                                 4 * self.centre.number(pair + "Penetration tolerance") / d
                             )
                             for pair in augmented
@@ -174,7 +177,7 @@ class Plan:
             levels = [
                 (
                     f"penalty × {f}",
-                    self.centre.changed(knobs.scaled_penalties(self.centre, f) if f > 1 else {}),
+                    self.centre.changed(parameters.scaled_penalties(self.centre, f) if f > 1 else {}),
                 )
                 for f in (1, 4, 16)
             ]

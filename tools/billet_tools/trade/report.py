@@ -17,7 +17,7 @@ from .outputs import Force, Output
 from .reference import Reference
 from .results import Result
 
-# A knob, the point with the least error, and the cheapest that keeps it.
+# A parameter, the point with the least error, and the cheapest that keeps it.
 Purchase = tuple[str, Optional["Point"], Optional["Point"]]
 Forces = Optional[tuple[Force, Reference]]  # a force, and the reference that knows it
 
@@ -244,7 +244,7 @@ class Sweep:
         return max(point.error, self.cancelled.get(id(point), (0.0, ""))[0])
 
     def curves(self) -> dict[str, list[Point]]:
-        """{knob: points}, each point once."""
+        """{parameter: points}, each point once."""
         found: dict[str, list[Point]] = {}
         for point in self.points:
             if not point.is_base:
@@ -277,23 +277,23 @@ class Sweep:
         )
 
     def purchases(self) -> list[Purchase]:
-        """By knob: the point with the least error, and the cheapest whose error is no more than that of the
-        scene as it is written (or than the target, where that is larger)."""
+        """By parameter: the point with the least error, and the cheapest whose error is no more than that of
+        the scene as it is written (or than the target, where that is larger)."""
         rows: list[Purchase] = []
         base = self.base
         if not base.is_good:
             return rows
         bound = max(self._floored(base) * 1.02, self._allowed())
-        for knob, points in self.curves().items():
+        for parameter, points in self.curves().items():
             good = [p for p in points if p.is_good]
             if not good:
-                rows.append((knob, None, None))
+                rows.append((parameter, None, None))
                 continue
             best = min(good, key=lambda p: (self._floored(p), self.cost_of(p)))
             keeping = [p for p in good if self._floored(p) <= bound]
             rows.append(
                 (
-                    knob,
+                    parameter,
                     best if self._floored(best) < 0.95 * self._floored(base) else None,
                     self._cheapest(keeping) if keeping else None,
                 )
@@ -368,7 +368,7 @@ class Sweep:
                     said.append(f"Most accuracy for its price by {self.say(value)}{self.hint(value)}.")
             else:
                 said.append(
-                    "No knob alone makes the error measurably smaller"
+                    "No parameter alone makes the error measurably smaller"
                     + (": it is below the reference's uncertainty already." if self.ranked(base) < u else ".")
                 )
             if cheaper:
@@ -377,12 +377,12 @@ class Sweep:
                 )
             else:
                 said.append(
-                    "No knob alone makes it cheaper by more than"
+                    "No parameter alone makes it cheaper by more than"
                     f" {percent(max(0.05, self.noise))} {self._keeping()}."
                 )
             idle = [
-                knob
-                for knob, points in self.curves().items()
+                parameter
+                for parameter, points in self.curves().items()
                 if sum(p.is_good for p in points) > 1
                 and all(
                     abs(error - base.errors[name]) <= max(1e-3 * self.reference.uncertainty[name], 1e-6)
@@ -492,7 +492,7 @@ class Sweep:
 
     def head(self) -> list[str]:
         return [
-            "knob",
+            "parameter",
             "value",
             "elements",
             "steps",
@@ -535,7 +535,7 @@ class Sweep:
     def bought_table(self) -> str:
         base = self.base
         rows = []
-        for knob, best, keep in self.purchases():
+        for parameter, best, keep in self.purchases():
 
             def cell(p: Point | None) -> str:
                 if p is None:
@@ -543,9 +543,10 @@ class Sweep:
                 ratio = self.cost_of(p) / self.cost_of(base)
                 return f"{p.value}: {error_text(self.ranked(p), self.uncertainty)} at {number(ratio, 2)}"
 
-            rows.append([knob, cell(best), cell(keep)])
+            rows.append([parameter, cell(best), cell(keep)])
         return table(
-            ["knob", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"], rows
+            ["parameter", "least error, at times the cost", f"cheapest {self._keeping()}, at times the cost"],
+            rows,
         )
 
     def page(self, title: str, command: str, remarks: Sequence[str], picture: str) -> str:
@@ -574,7 +575,7 @@ class Sweep:
         ]
         parts += (
             [
-                "## What each knob buys",
+                "## What each parameter buys",
                 "The others as they are written; an error below the reference's uncertainty counts as that.",
                 self.bought_table(),
             ]
@@ -613,7 +614,7 @@ class Sweep:
             out.writerow(
                 [
                     "kind",
-                    "knob",
+                    "knob",  # the old name of a parameter, which programs that read the file know
                     "value",
                     "status",
                     "reason",
@@ -640,7 +641,7 @@ class Sweep:
 
             def line(
                 kind: str,
-                knob: str,
+                parameter: str,
                 value: str,
                 status: str,
                 reason: str,
@@ -656,7 +657,7 @@ class Sweep:
                 out.writerow(
                     [
                         kind,
-                        knob,
+                        parameter,
                         value,
                         status,
                         first_sentence(reason),

@@ -20,7 +20,7 @@ from .. import UserError
 from ..kept import hash_of, hash_of_file, read_json, write_json
 from ..program import Program, Stopped, execute
 from ..scene import Scene, entries, variant
-from . import knobs, results
+from . import parameters, results
 from .results import Result
 
 
@@ -221,7 +221,7 @@ class Work:
         elements = self.runner.elements(scene)
         steps = float(self.progress.base[1])
         if not scene.is_explicit:
-            steps *= knobs.longest_steps(scene) / knobs.longest_steps(self.scene)
+            steps *= parameters.longest_steps(scene) / parameters.longest_steps(self.scene)
         return self.progress.expected(elements, steps, repeats)
 
     def run(self, tasks: Iterable[Task], jobs: int) -> dict[str, Result]:

@@ -80,26 +80,26 @@ def judging_forces(
 
 
 def combine(sweep: Sweep, target: float, candidates: Candidates, run: Callable[[Point], None]) -> list[Point]:
-    """Joins to the chosen point what makes it cheaper within the target, knob by knob, most promising first;
-    returns the points that were tried."""
+    """Joins to the chosen point what makes it cheaper within the target, parameter by parameter, most
+    promising first; returns the points that were tried."""
     chosen = sweep.chosen or (sweep.base if sweep.base.is_good else None)
     tried: list[Point] = []
     if chosen is None or sweep.is_blind:
         return tried
     cheaper = {}
-    for knob, points in sweep.curves().items():
+    for parameter, points in sweep.curves().items():
         good = [
             p
             for p in points
             if p.is_good
             and sweep.is_cheaper(p)
             and sweep.ranked(p) <= max(target, 1.5 * max(sweep.ranked(sweep.base), sweep.uncertainty))
-            and knob != chosen.curve
+            and parameter != chosen.curve
         ]
         if good:
-            cheaper[knob] = min(good, key=sweep.cost_of)
+            cheaper[parameter] = min(good, key=sweep.cost_of)
     best = chosen
-    for knob, point in sorted(cheaper.items(), key=lambda item: sweep.cost_of(item[1])):
+    for parameter, point in sorted(cheaper.items(), key=lambda item: sweep.cost_of(item[1])):
         if set(point.changes) & set(best.changes):
             continue
         changes = {**best.changes, **point.changes}

@@ -346,8 +346,6 @@ struct Strain {
 
 /// Hencky's law: dev τ = G dev ln b_e, which does not depend on a factor of b_e.
 struct Hencky {
-  static constexpr unsigned int n_tensor = 6;
-
   /// Computes the response for `x` = 3 b_e/tr b_e − 1. Returns the lanes that yield; β is in `watch`.
   /// `plastic` points at α.
   template <bool is_plastic>
@@ -449,8 +447,6 @@ struct Hencky {
 
 /// Simo's neo-Hookean law: dev τ = G dev b̄_e, det b̄_e = 1.
 struct NeoHookean {
-  static constexpr unsigned int n_tensor = 6;
-
   /// Computes the response for `dev_tau` = G dev b̄_e of the trial state; the caller applies the factor β.
   /// Returns the lanes that yield; `own` becomes 3/2 dev τ : dev τ of the trial state.
   template <bool is_plastic>
@@ -582,8 +578,6 @@ struct NeoHookean {
 /// Rate form: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, ΔL = ∂Δu/∂x at mid-step, and R = (1 − W/2)⁻¹ (1 + W/2), W
 /// = skew ΔL (Hughes & Winget 1980).
 struct Hypoelastic {
-  static constexpr unsigned int n_tensor = 5;
-
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions,
                                    const Map &middle, const Real delta[3][3], const Real hourglass,

@@ -123,7 +123,7 @@ private:
   void commit_works(double t);
   void commit_loads(double t);
 
-  // Of save() and load(), in implicit_solution_state.cc:
+  // Parts of save() and load(), in implicit_solution_state.cc:
   void load_own(StateReader &reader, const OwnedNodes &nodes, bool is_exact);
   /// Computes all forces at the present state: those of supports and tools, and the imbalance.
   void balance(RestartReport &report);

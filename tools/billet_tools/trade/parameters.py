@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What can be turned in a scene. A knob makes of an argument, a factor or a word, the changes that a scene
-wants; one that the scene cannot use has none to make. Whether the program takes a change it says itself
-(`billet --check`)."""
+"""Parameters of the study: what can be changed in a scene. A parameter turns an argument, a factor or a word,
+into changes of the scene; one that the scene cannot use refuses. `billet --check` says whether the program
+accepts a change."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ Maker = Callable[[Scene, str], Changes]  # of an argument as text; raises Cannot
 
 
 class CannotTurn(Exception):
-    """Why a knob, or one of its values, is none in this scene."""
+    """Why a parameter, or one of its values, is none in this scene."""
 
 
 @dataclass
-class Knob:
-    """What is turned, and over which values."""
+class Parameter:
+    """What is changed, and over which values."""
 
     name: str
     meaning: str
@@ -30,19 +30,19 @@ class Knob:
     make: Maker
 
     def turned(self, scene: Scene, argument: str) -> Changes:
-        """make(), whose complaints about the argument name the knob."""
+        """make(), whose complaints about the argument name the parameter."""
         try:
             return self.make(scene, argument)
         except UserError as error:
-            raise UserError(f"the knob '{self.name}': {error}") from None
+            raise UserError(f"the parameter '{self.name}': {error}") from None
 
 
-KNOBS: dict[str, Knob] = {}
+PARAMETERS: dict[str, Parameter] = {}
 
 
-def knob(name: str, meaning: str, *arguments: object) -> Callable[[Maker], Maker]:
+def parameter(name: str, meaning: str, *arguments: object) -> Callable[[Maker], Maker]:
     def keep(make: Maker) -> Maker:
-        KNOBS[name] = Knob(name, meaning, [str(a) for a in arguments], make)
+        PARAMETERS[name] = Parameter(name, meaning, [str(a) for a in arguments], make)
         return make
 
     return keep
@@ -136,7 +136,7 @@ def scaled_meshes(scene: Scene, factor: float) -> Changes:
     return changes
 
 
-@knob("mesh", "elements along each edge, factor of the scene's", 0.5, 1, 2)
+@parameter("mesh", "elements along each edge, factor of the scene's", 0.5, 1, 2)
 def make_mesh(scene: Scene, argument: str) -> Changes:
     return scaled_meshes(scene, number(argument))
 
@@ -176,13 +176,13 @@ def equal_steps(scene: Scene, n: float) -> Changes:
     return changes
 
 
-@knob("steps", "so many equal steps", 10, 20, 40, 80)
+@parameter("steps", "so many equal steps", 10, 20, 40, 80)
 def make_steps(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return equal_steps(scene, number(argument))
 
 
-@knob("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
+@parameter("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
 def make_max_step(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
@@ -199,7 +199,7 @@ def make_max_step(scene: Scene, argument: str) -> Changes:
     }
 
 
-@knob("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+@parameter("error tolerance", "of a step, by which its length is chosen", 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 def make_error_tolerance(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     if scene.scheme == "implicit dynamics":
@@ -208,33 +208,35 @@ def make_error_tolerance(scene: Scene, argument: str) -> Changes:
     return {"Time stepping/Error tolerance": argument}
 
 
-@knob("spectral radius", "what a step leaves of the highest frequencies", 0, 0.5, 0.8, 1)
+@parameter("spectral radius", "what a step leaves of the highest frequencies", 0, 0.5, 0.8, 1)
 def make_spectral_radius(scene: Scene, argument: str) -> Changes:
     need(scene.scheme == "implicit dynamics", "of implicit dynamics")
     need(scene.get("Implicit dynamics/Method") == "generalised-alpha", "of the generalised-alpha method")
     return {"Implicit dynamics/Spectral radius": argument}
 
 
-@knob("mass", "matrix of implicit dynamics", "consistent", "lumped")
+@parameter("mass", "matrix of implicit dynamics", "consistent", "lumped")
 def make_mass(scene: Scene, argument: str) -> Changes:
     need(scene.scheme == "implicit dynamics", "of implicit dynamics")
     return {"Implicit dynamics/Mass": argument}
 
 
-@knob("safety factor", "part of the stable step", 0.95, 0.75, 0.5, 0.25)
+@parameter("safety factor", "part of the stable step", 0.95, 0.75, 0.5, 0.25)
 def make_safety(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {"Explicit dynamics/Safety factor": argument}
 
 
-@knob("contact resolution", "how much finer than stability asks for steps resolve contact penalties", 1, 2, 4)
+@parameter(
+    "contact resolution", "how much finer than stability asks for steps resolve contact penalties", 1, 2, 4
+)
 def make_resolution(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     need(scene.names("Contact pairs"), "there is no contact")
     return {"Explicit dynamics/Contact resolution": argument}
 
 
-@knob("mass scaling", "steps so many times longer by mass that is added", 1.5, 2, 4, 8)
+@parameter("mass scaling", "steps so many times longer by mass that is added", 1.5, 2, 4, 8)
 def make_mass_scaling(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     # Its own first step is known once the scene has run.
@@ -242,7 +244,7 @@ def make_mass_scaling(scene: Scene, argument: str) -> Changes:
     return {"Explicit dynamics/Mass scaling step": shown(number(argument) * step)}
 
 
-@knob("bulk viscosity", "linear and quadratic, factor of the scene's", 0.25, 0.5, 1, 2)
+@parameter("bulk viscosity", "linear and quadratic, factor of the scene's", 0.25, 0.5, 1, 2)
 def make_viscosity(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {
@@ -253,7 +255,7 @@ def make_viscosity(scene: Scene, argument: str) -> Changes:
     }
 
 
-@knob(
+@parameter(
     "instructions",
     "instruction set of the element kernels: changes the cost, not the result",
     "scalar",
@@ -266,7 +268,7 @@ def make_instructions(scene: Scene, argument: str) -> Changes:
     return {"Explicit dynamics/Instruction set": argument}
 
 
-@knob(
+@parameter(
     "number type",
     "what elements compute with: float halves the width of numbers, to seven digits",
     "double",
@@ -305,12 +307,12 @@ def scaled_penalties(scene: Scene, factor: float) -> Changes:
     return changes
 
 
-@knob("penalty", "factor of the scene's, normal and tangential", 0.1, 0.3, 1, 3, 10)
+@parameter("penalty", "factor of the scene's, normal and tangential", 0.1, 0.3, 1, 3, 10)
 def make_penalty(scene: Scene, argument: str) -> Changes:
     return scaled_penalties(scene, number(argument))
 
 
-@knob(
+@parameter(
     "augmentation",
     "until nodes are no farther from their faces than this, in facet sizes; 0: penalties alone",
     0,
@@ -324,7 +326,7 @@ def make_augmentation(scene: Scene, argument: str) -> Changes:
     return {pair + "Penetration tolerance": argument for pair in pairs(scene)}
 
 
-@knob(
+@parameter(
     "tangent",
     "contact tangent",
     "exact",
@@ -340,12 +342,12 @@ def make_tangent(scene: Scene, argument: str) -> Changes:
     return {"Solver/Contact tangent": argument}
 
 
-@knob("facets", "what nodes of bodies touch", "overlap", "planed", "bilinear", "mean gap")
+@parameter("facets", "what nodes of bodies touch", "overlap", "planed", "bilinear", "mean gap")
 def make_facets(scene: Scene, argument: str) -> Changes:
     return {pair + "Facets": argument for pair in pairs(scene, True)}
 
 
-@knob("passes", "of nodes against facets: of one side, or of both", "one", "two")
+@parameter("passes", "of nodes against facets: of one side, or of both", "one", "two")
 def make_passes(scene: Scene, argument: str) -> Changes:
     changes = {}
     for pair in pairs(scene, True):
@@ -355,7 +357,7 @@ def make_passes(scene: Scene, argument: str) -> Changes:
     return changes
 
 
-@knob("smoothing", "of nodes against facets, part of a facet", 0.05, 0.1, 0.25, 0.5)
+@parameter("smoothing", "of nodes against facets, part of a facet", 0.05, 0.1, 0.25, 0.5)
 def make_smoothing(scene: Scene, argument: str) -> Changes:
     changes = {}
     for pair in pairs(scene, True):
@@ -365,7 +367,7 @@ def make_smoothing(scene: Scene, argument: str) -> Changes:
     return changes
 
 
-@knob("search margin", "in facet sizes: changes the cost, not the result", 0.1, 0.25, 0.5, 1, 2)
+@parameter("search margin", "in facet sizes: changes the cost, not the result", 0.1, 0.25, 0.5, 1, 2)
 def make_margin(scene: Scene, argument: str) -> Changes:
     return {pair + "Search margin": argument for pair in pairs(scene, True)}
 
@@ -381,25 +383,25 @@ def newton_tolerance(tolerance: float) -> Changes:
     }
 
 
-@knob("tolerance", "of Newton's method", 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
+@parameter("tolerance", "of Newton's method", 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)
 def make_tolerance(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return newton_tolerance(number(argument))
 
 
-@knob("predictor", "where iterations start", "extrapolation", "tangent")
+@parameter("predictor", "where iterations start", "extrapolation", "tangent")
 def make_predictor(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Predictor": argument}
 
 
-@knob("line search", "of Newton's method", "energy", "none")
+@parameter("line search", "of Newton's method", "energy", "none")
 def make_line_search(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Line search": argument}
 
 
-@knob("solver", "linear solver", "MUMPS", "MUMPS symmetric", "CG", "GMRES")
+@parameter("solver", "linear solver", "MUMPS", "MUMPS symmetric", "CG", "GMRES")
 def make_solver(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Linear solver": argument}
@@ -411,7 +413,7 @@ def iterative(scene: Scene) -> Changes:
     return {} if solver in ("CG", "GMRES") else {"Solver/Linear solver": "GMRES"}
 
 
-@knob(
+@parameter(
     "linear tolerance", "of an iterative solver (GMRES, unless the scene names one)", 1e-2, 1e-4, 1e-6, 1e-10
 )
 def make_linear_tolerance(scene: Scene, argument: str) -> Changes:
@@ -419,7 +421,7 @@ def make_linear_tolerance(scene: Scene, argument: str) -> Changes:
     return {**iterative(scene), "Solver/Linear tolerance": argument}
 
 
-@knob("forcing", "how exactly an iterative solver solves", "Eisenstat-Walker", "fixed")
+@parameter("forcing", "how exactly an iterative solver solves", "Eisenstat-Walker", "fixed")
 def make_forcing(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {**iterative(scene), "Solver/Forcing term": argument}
@@ -428,12 +430,12 @@ def make_forcing(scene: Scene, argument: str) -> Changes:
 # --- bodies ---------------------------------------------------------------------------------------
 
 
-@knob("element", "of all bodies", "assumed strain", "one point", "mean dilatation")
+@parameter("element", "of all bodies", "assumed strain", "one point", "mean dilatation")
 def make_element(scene: Scene, argument: str) -> Changes:
     return {f"Bodies/{body}/Element": argument for body in scene.names("Bodies")}
 
 
-@knob("kinematics", "of all bodies' laws", "Hencky", "neo-Hookean", "hypoelastic")
+@parameter("kinematics", "of all bodies' laws", "Hencky", "neo-Hookean", "hypoelastic")
 def make_kinematics(scene: Scene, argument: str) -> Changes:
     return {f"Bodies/{body}/Material/Elasticity": argument for body in scene.names("Bodies")}
 
@@ -445,7 +447,7 @@ def has_unsymmetric_tangent(scene: Scene, body: str) -> bool:
     )
 
 
-@knob("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
+@parameter("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
 def make_material_tangent(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
@@ -459,13 +461,13 @@ def make_material_tangent(scene: Scene, argument: str) -> Changes:
 # --- all at once ----------------------------------------------------------------------------------
 
 
-@knob("profile", "one word for all knobs", "fast", "balanced", "accurate")
+@parameter("profile", "one word for many parameters", "fast", "balanced", "accurate")
 def make_profile(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Profile"), "this billet has no such parameter")
     return {"Profile": argument, "Target error": None}
 
 
-@knob("target error", "by which the program turns the knobs itself", 0.1, 0.03, 0.01, 0.003)
+@parameter("target error", "by which the program chooses parameters itself", 0.1, 0.03, 0.01, 0.003)
 def make_target_error(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Target error"), "this billet has no such parameter")
     return {"Target error": argument, "Profile": None}
@@ -474,9 +476,9 @@ def make_target_error(scene: Scene, argument: str) -> Changes:
 # --- what users name ------------------------------------------------------------------------------
 
 
-def own_knob(text: str) -> Knob:
-    """A knob from '[NAME: ]path/to/parameter=v1,v2 [& other/path=w1,w2]', values separated by '|' where they
-    hold commas."""
+def own_parameter(text: str) -> Parameter:
+    """A parameter from '[NAME: ]path/to/parameter=v1,v2 [& other/path=w1,w2]', values separated by '|' where
+    they hold commas."""
     name, marked, rest = text.partition(": ")
     if not marked or "=" in name or "/" in name:
         name, rest = "", text
@@ -486,34 +488,34 @@ def own_knob(text: str) -> Knob:
         path = "/".join(" ".join(p.split()) for p in path.split("/"))
         if not equals or not path:
             raise UserError(
-                f"--knob is '{text}'; allowed is 'path/to/parameter=value,value' or "
+                f"--parameter is '{text}'; allowed is 'path/to/parameter=value,value' or "
                 "'name: path/to/parameter=value,value & other/path=value,value'"
             )
         columns[path] = [v.strip() for v in values.split("|" if "|" in values else ",")]
     first = next(iter(columns.values()))
     if any(len(values) != len(first) for values in columns.values()):
-        raise UserError(f"--knob: '{text}' names different numbers of values")
+        raise UserError(f"--parameter: '{text}' names different numbers of values")
 
     def make(_: Scene, argument: str) -> Changes:
         place = first.index(argument)
         return {path: values[place] for path, values in columns.items()}
 
-    return Knob(name or next(iter(columns)).split("/")[-1].lower(), ", ".join(columns), first, make)
+    return Parameter(name or next(iter(columns)).split("/")[-1].lower(), ", ".join(columns), first, make)
 
 
-def asked_knob(text: str, known: Mapping[str, Knob]) -> Knob:
-    """A knob from 'name' or 'name=argument,argument'."""
+def asked_parameter(text: str, known: Mapping[str, Parameter]) -> Parameter:
+    """A parameter from 'name' or 'name=argument,argument'."""
     name, equals, arguments = text.partition("=")
     name = name.strip()
     if name not in known:
         raise UserError(
-            f"there is no knob '{name}'; there are {', '.join(known)}. "
-            "--list says which ones the scene can use; --knob 'path/to/parameter=value,value' makes another"
+            f"there is no parameter '{name}'; there are {', '.join(known)}. "
+            "--list says which ones the scene can use; --parameter 'path/to/parameter=value,value' adds one"
         )
     found = known[name]
     if not equals:
         return found
-    return Knob(
+    return Parameter(
         name,
         found.meaning,
         [a.strip() for a in arguments.split("|" if "|" in arguments else ",") if a.strip()],

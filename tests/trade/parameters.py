@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Knobs: what they change, and in which scenes they can."""
+"""Parameters: what they change, and in which scenes they can."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import unittest
 
 from modules import ROOT
 from billet_tools import UserError
-from billet_tools.trade import knobs
+from billet_tools.trade import parameters
 from billet_tools.trade.reference import GIVEN, Plan, mesh_factors
 from billet_tools.scene import Changes, Scene, read_scene
 
@@ -66,53 +66,53 @@ class TestMesh(unittest.TestCase):
     def test_extruded(self) -> None:
         scene = shipped("billet_upsetting")
         self.assertEqual(
-            knobs.make_mesh(scene, "2"),
+            parameters.make_mesh(scene, "2"),
             {"Bodies/billet/Mesh/Layers": 10, "Bodies/billet/Mesh/Refinements": 2},
         )
         self.assertEqual(
-            knobs.make_mesh(scene, "0.5"),
+            parameters.make_mesh(scene, "0.5"),
             {"Bodies/billet/Mesh/Layers": 2, "Bodies/billet/Mesh/Refinements": 0},
         )
         for factor in ("0.25", "1.5"):
-            with self.assertRaises(knobs.CannotTurn):
-                knobs.make_mesh(scene, factor)
+            with self.assertRaises(parameters.CannotTurn):
+                parameters.make_mesh(scene, factor)
         with self.assertRaises(UserError):
-            knobs.make_mesh(scene, "-1")
+            parameters.make_mesh(scene, "-1")
 
     def test_counts(self) -> None:
         # one element along y between two planes stays one
-        changes = knobs.make_mesh(shipped("ironing"), "1.5")
+        changes = parameters.make_mesh(shipped("ironing"), "1.5")
         self.assertEqual(changes["Bodies/slab/Mesh/Arguments"], "54, 1, 9 : 0, 0, 0 : 18, 0.5, 3 : true")
         self.assertEqual(changes["Bodies/die/Mesh/Arguments"], "15, 1, 6 : -2, 0, 0 : 2, 0.5, 1.5 : true")
-        tube = knobs.make_mesh(shipped("tube_impact"), "2")
+        tube = parameters.make_mesh(shipped("tube_impact"), "2")
         self.assertEqual(tube["Bodies/left/Mesh/Arguments"], "0, 0 : 0.09 : 0.1 : 4 : 0 : 60 : true")
         self.assertEqual(tube["Bodies/right/Mesh/Layers"], 30)
         thick = body(
             "set Primitive = subdivided_hyper_rectangle\nset Arguments = 4, 1, 2 : 0, 0, 0 : 1, 1, 1", "y = 0"
         )
         self.assertEqual(
-            knobs.make_mesh(thick, "2"), {"Bodies/b/Mesh/Arguments": "8, 2, 4 : 0, 0, 0 : 1, 1, 1"}
+            parameters.make_mesh(thick, "2"), {"Bodies/b/Mesh/Arguments": "8, 2, 4 : 0, 0, 0 : 1, 1, 1"}
         )
 
     def test_files(self) -> None:
         self.assertEqual(
-            knobs.make_mesh(body("set Source = file\nset File = a.msh"), "4"),
+            parameters.make_mesh(body("set Source = file\nset File = a.msh"), "4"),
             {"Bodies/b/Mesh/Refinements": 2},
         )
 
 
-class TestKnobs(unittest.TestCase):
+class TestParameters(unittest.TestCase):
     def test_equal_steps(self) -> None:
-        changes = knobs.make_steps(shipped("ironing"), "35")
+        changes = parameters.make_steps(shipped("ironing"), "35")
         self.assertEqual(changes["Time stepping/Initial step"], "0.1")
         self.assertEqual(changes["Time stepping/Maximum step"], "0.1")
-        with self.assertRaises(knobs.CannotTurn):
-            knobs.make_steps(shipped("taylor_bar"), "10")
+        with self.assertRaises(parameters.CannotTurn):
+            parameters.make_steps(shipped("taylor_bar"), "10")
 
     def test_penalties(self) -> None:
         scene = shipped("wagoner_punch").changed({"Contact pairs/blank on die/Tangential penalty": 4})
         self.assertEqual(
-            knobs.make_penalty(scene, "10"),
+            parameters.make_penalty(scene, "10"),
             {
                 "Contact pairs/blank on punch/Normal penalty": "1e+06",
                 "Contact pairs/blank on die/Normal penalty": "1e+06",
@@ -121,7 +121,7 @@ class TestKnobs(unittest.TestCase):
         )
         # of the default
         self.assertEqual(
-            knobs.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"}
+            parameters.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"}
         )
 
     def test_only_what_a_scene_can_use(self) -> None:
@@ -132,40 +132,43 @@ class TestKnobs(unittest.TestCase):
             "wagoner_punch_mu_0": ["search margin"],
         }
         for name, those in cannot.items():
-            for knob in those:
-                with self.assertRaises(knobs.CannotTurn, msg=f"{name}: {knob}"):
-                    knobs.KNOBS[knob].make(shipped(name), knobs.KNOBS[knob].arguments[0])
-        with self.assertRaises(knobs.CannotTurn):
-            knobs.make_tangent(shipped("hertz_cylinders"), "symmetrised mean")
-        self.assertTrue(knobs.make_tangent(shipped("billet_upsetting"), "symmetrised mean"))
+            for parameter in those:
+                with self.assertRaises(parameters.CannotTurn, msg=f"{name}: {parameter}"):
+                    parameters.PARAMETERS[parameter].make(
+                        shipped(name), parameters.PARAMETERS[parameter].arguments[0]
+                    )
+        with self.assertRaises(parameters.CannotTurn):
+            parameters.make_tangent(shipped("hertz_cylinders"), "symmetrised mean")
+        self.assertTrue(parameters.make_tangent(shipped("billet_upsetting"), "symmetrised mean"))
 
     def test_tolerances_keep_their_ratio(self) -> None:
         self.assertEqual(
-            knobs.newton_tolerance(1e-6),
+            parameters.newton_tolerance(1e-6),
             {"Solver/Force tolerance": "1e-06", "Solver/Energy tolerance": "1e-10"},
         )
 
-    def test_own_knob(self) -> None:
-        knob = knobs.own_knob(
+    def test_own_parameter(self) -> None:
+        parameter = parameters.own_parameter(
             "pace: Time stepping/Growth factor=1.2, 2 & Time stepping/Growth  iterations=3,6"
         )
-        self.assertEqual((knob.name, knob.arguments), ("pace", ["1.2", "2"]))
+        self.assertEqual((parameter.name, parameter.arguments), ("pace", ["1.2", "2"]))
         self.assertEqual(
-            knob.make(Scene(""), "2"),
+            parameter.make(Scene(""), "2"),
             {"Time stepping/Growth factor": "2", "Time stepping/Growth iterations": "6"},
         )
         self.assertEqual(
-            knobs.own_knob("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments, ["1, 2 : 3", "2, 4 : 3"]
+            parameters.own_parameter("Bodies/b/Mesh/Arguments=1, 2 : 3|2, 4 : 3").arguments,
+            ["1, 2 : 3", "2, 4 : 3"],
         )
         for wrong in ("nothing", "a=1,2 & b=1"):
             with self.assertRaises(UserError):
-                knobs.own_knob(wrong)
+                parameters.own_parameter(wrong)
 
-    def test_unknown_knob(self) -> None:
-        with self.assertRaisesRegex(UserError, "no knob 'speed'; there are mesh, steps,"):
-            knobs.asked_knob("speed=1", knobs.KNOBS)
+    def test_unknown_parameter(self) -> None:
+        with self.assertRaisesRegex(UserError, "no parameter 'speed'; there are mesh, steps,"):
+            parameters.asked_parameter("speed=1", parameters.PARAMETERS)
         self.assertEqual(
-            knobs.asked_knob("tangent=exact, symmetrised mean", knobs.KNOBS).arguments,
+            parameters.asked_parameter("tangent=exact, symmetrised mean", parameters.PARAMETERS).arguments,
             ["exact", "symmetrised mean"],
         )
 
