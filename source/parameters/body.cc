@@ -4,7 +4,9 @@
 #include "billet/errors.h"
 #include "billet/material/hardening.h"
 #include "billet/material/rate_factor.h"
+#include "billet/nearest_name.h"
 #include "billet/parameters/named_values.h"
+#include "billet/parameters/primitives.h"
 #include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -40,10 +42,12 @@ void Mesh::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Primitive", "hyper_rectangle", Patterns::Anything(),
       "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
-      "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
-  prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1 : true", Patterns::Anything(),
-                    "Arguments of that function, separated by ':' (points and lists inside by ','). All "
-                    "arguments without a default are necessary.");
+      "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell. 'billet --list "
+      "primitives' has all, with their arguments and boundary ids.");
+  prm.declare_entry("Arguments", "", Patterns::Anything(),
+                    "Arguments of that function, separated by ':' (points and lists inside by ','), in its "
+                    "order or as 'name = value'. Arguments that are missing at the end or empty have their "
+                    "defaults.");
   prm.declare_entry("Refinements", "0", Patterns::Integer(0),
                     "Number of uniform refinements of the primitive (of the section if it is extruded) or of "
                     "the mesh file.");
@@ -77,10 +81,36 @@ void Mesh::declare(ParameterHandler &prm) {
       "last true condition applies; faces without a true one keep their id.");
 }
 
+namespace {
+
+/// Returns all arguments of the primitive. Refuses unknown primitives and wrong arguments.
+std::string read_arguments(const Reader &reader, const unsigned int dimension) {
+  const std::string name = reader.text("Primitive");
+  const Primitive *primitive = find_primitive(name, dimension);
+  if (primitive == nullptr) {
+    const std::string source = dimension == 2 ? "'Source = extruded primitive'" : "'Source = primitive'";
+    if (find_primitive(name, 5 - dimension) != nullptr)
+      reader.reject("Primitive", "a " + std::to_string(dimension) + "-dimensional primitive with " + source);
+    std::string all;
+    const auto names = primitive_names(dimension);
+    for (const auto &known : names)
+      all += (all.empty() ? "" : ", ") + known;
+    reader.reject("Primitive", "one of: " + all + did_you_mean(name, names));
+  }
+  std::string all;
+  try {
+    all = complete_arguments(*primitive, reader.text("Arguments"));
+  } catch (const std::invalid_argument &error) {
+    reader.reject("Arguments", "'" + name + "' with " + error.what());
+  }
+  return all;
+}
+
+} // namespace
+
 void Mesh::parse(Reader &reader) {
   source = chosen(mesh_sources, reader.text("Source"));
   primitive = reader.located("Primitive", reader.text("Primitive"));
-  arguments = reader.text("Arguments");
   refinements = reader.count("Refinements", 0, 10);
   section_area = reader.located("Section area", reader.not_negative("Section area"));
   height = reader.positive("Height");
@@ -119,6 +149,8 @@ void Mesh::parse(Reader &reader) {
     file_name.value = reader.file("File");
   } else if (reader.is_set("File"))
     reader.reject("File", "no value: the mesh does not come from a file");
+  else
+    arguments = read_arguments(reader, is_extruded ? 2 : 3);
 }
 
 void Material::declare(ParameterHandler &prm) {
