@@ -27,8 +27,9 @@ const NamedValues<Mesh::Source> mesh_sources = {{"primitive", Mesh::Source::prim
                                                 {"extruded primitive", Mesh::Source::extruded},
                                                 {"file", Mesh::Source::file}};
 
-/// Whether the law has plasticity.
-const NamedValues<bool> laws = {{"elastic", false}, {"elastoplastic", true}};
+/// Whether the law has plasticity; nothing: if a parameter of plasticity is given.
+const NamedValues<std::optional<bool>> laws = {
+    {"automatic", std::nullopt}, {"elastic", false}, {"elastoplastic", true}};
 
 /// Whether viscous forces stabilise the body until it is in contact.
 const NamedValues<bool> stabilisations = {{"none", false}, {"until contact", true}};
@@ -154,9 +155,10 @@ void Mesh::parse(Reader &reader) {
 }
 
 void Material::declare(ParameterHandler &prm) {
-  prm.declare_entry("Law", "elastoplastic", Patterns::Selection(selection(laws)),
+  prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws)),
                     "elastic: no plasticity; elastoplastic: J2 plasticity (yield in Kirchhoff stress, exact "
-                    "return map).");
+                    "return map); automatic: elastoplastic if a parameter of hardening or rate factors is "
+                    "set, such as 'Yield stress', and elastic otherwise.");
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
@@ -171,10 +173,18 @@ void Material::declare(ParameterHandler &prm) {
                     "of the scene is that of the process.");
 }
 
+bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set) {
+  return find_value(laws, law)
+      .value_or(std::nullopt)
+      .value_or(is_set("Hardening") || is_set("Rate factor") ||
+                join_parameters(hardening_types()).is_any_set(is_set) ||
+                join_parameters(rate_factor_types()).is_any_set(is_set));
+}
+
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
-  if (!chosen(laws, reader.text("Law"))) {
+  if (!has_plasticity(reader.text("Law"), [&](const std::string &key) { return reader.is_set(key); })) {
     // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
       if (reader.is_set(key))
