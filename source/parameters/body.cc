@@ -12,6 +12,8 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <deal.II/physics/transformations.h>
+
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
@@ -30,6 +32,8 @@ const NamedValues<Mesh::Source> mesh_sources = {{"primitive", Mesh::Source::prim
 /// Whether the law has plasticity; nothing: if a parameter of plasticity is given.
 const NamedValues<std::optional<bool>> laws = {
     {"automatic", std::nullopt}, {"elastic", false}, {"elastoplastic", true}};
+
+const std::string plane_strain = "plane strain"; // a value of 'Section'
 
 /// Whether viscous forces stabilise the body until it is in contact.
 const NamedValues<bool> stabilisations = {{"none", false}, {"until contact", true}};
@@ -55,8 +59,14 @@ void Mesh::declare(ParameterHandler &prm) {
   prm.declare_entry("Section area", "0", Patterns::Double(),
                     "Extruded primitives: area of the section after scaling about its origin, so that a "
                     "polygon has the volume of a circle. 0: no scaling. [length^2]");
+  prm.declare_entry(
+      "Section", "solid", Patterns::Selection("solid|plane strain"),
+      "plane strain: one layer of the two-dimensional primitive, whose bottom z = 0 and top are "
+      "symmetry planes (before rotation and translation). 'Source' then is extruded primitive. "
+      "Forces, moments and energies are those of the width 'Height', so per unit of width "
+      "with its default, 1. solid: no such planes.");
   prm.declare_entry("Height", "1", Patterns::Double(),
-                    "Extruded primitives: extent along z, from z = 0. [length]");
+                    "Extruded primitives: extent along z, from z = 0; the width in plane strain. [length]");
   prm.declare_entry("Layers", "1", Patterns::Integer(0),
                     "Extruded primitives: number of layers of elements along z.");
   prm.declare_entry(
@@ -111,6 +121,13 @@ std::string read_arguments(const Reader &reader, const unsigned int dimension) {
 
 void Mesh::parse(Reader &reader) {
   source = chosen(mesh_sources, reader.text("Source"));
+  if (reader.text("Section") == plane_strain) {
+    if (reader.is_set("Source") && source != Source::extruded)
+      reader.reject("Source", "extruded primitive, since 'Section = plane strain'");
+    if (reader.is_set("Layers") && reader.text("Layers") != "1")
+      reader.reject("Layers", "1, since 'Section = plane strain' makes one layer");
+    source = Source::extruded;
+  }
   primitive = reader.located("Primitive", reader.text("Primitive"));
   refinements = reader.count("Refinements", 0, 10);
   section_area = reader.located("Section area", reader.not_negative("Section area"));
@@ -328,6 +345,20 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
   return plane;
 }
 
+/// Returns the planes of both sides of a layer in plane strain, which moves with the mesh.
+std::array<SymmetryPlane, 2> sides_of_layer(const Mesh &mesh) {
+  const dealii::Tensor<1, 3> along({0., 0., 1.});
+  const dealii::Tensor<1, 3> normal =
+      mesh.rotation_angle == 0. // keeps the planes exact
+          ? along
+          : dealii::Tensor<1, 3>(dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+                                     mesh.rotation_axis, mesh.rotation_angle) *
+                                 along);
+  const double low = normal * mesh.translation;
+  return {SymmetryPlane{normal, low, "bottom of the section"},
+          SymmetryPlane{normal, low + mesh.scale * mesh.height, "top of the section"}};
+}
+
 /// Returns the elements with layers: "'Element = a' or 'Element = b'".
 std::string name_layered_elements() {
   std::string names;
@@ -382,6 +413,11 @@ void Body::parse(Reader &reader) {
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));
+  reader.in("Mesh", [&] {
+    if (reader.text("Section") == plane_strain)
+      for (const SymmetryPlane &plane : sides_of_layer(mesh))
+        symmetry_planes.value.push_back(plane);
+  });
 }
 
 } // namespace billet::parameters

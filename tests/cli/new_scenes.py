@@ -87,8 +87,23 @@ def _() -> None:
         * (b**2 - radius**2)
         / (2 * radius**3 * (b**2 - a**2))
     )
-    # On a quarter of a ring of height 1, force_x is p R; chords of 24 elements and strains of 1e-3 are 1.1 % off.
+    # On a quarter of a ring of width 1, force_x is p R; chords of 24 elements and strains of 1e-3 make 1.1 %.
     near("force", abs(float(rows[-1][column])), pressure * radius, 0.015)
+
+
+@check("the planes of plane strain move with the mesh")
+def _() -> None:
+    text = read_text(SHIPPED / "templates/press-fit.prm")
+    moved = "set Rotation axis = 1, 0, 0\nset Rotation angle = 90\nset Translation = 1, 2, 3\nset Refinements"
+    text = text.replace("set Refinements", moved).replace("planes = x = 0 ; y = 0", "planes = x = 1 ; z = 3")
+    write_text("moved.prm", text.replace("results/press-fit", "moved"))
+    equal("exit code", run(program, "moved.prm").code, 0)
+    forces = []
+    for folder in ("results/press-fit", "moved"):
+        rows = [line.split(",") for line in read_text(f"{folder}/history.csv").splitlines()]
+        column = next(i for i, name in enumerate(rows[0]) if name.endswith(".force_x"))
+        forces.append(float(rows[-1][column]))
+    near("force", forces[1], forces[0], 1e-6)
 
 
 @check("unknown kinds")
