@@ -8,7 +8,7 @@ namespace billet::parameters {
 std::string number_remedy(const std::string &text) {
   static const std::regex thousands(R"([-+]?\d{1,3}([,' _]\d{3})+(\.\d*)?)"),
       decimal_comma(R"(([-+]?\d*),(\d+([eE][-+]?\d+)?))"),
-      with_unit(R"(([-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)\s*([A-Za-z%].*))");
+      with_unit(R"(([-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)\s*((?![eE][-+]?\d)[A-Za-z%].*))");
   std::smatch match;
   if (std::regex_match(text, thousands)) {
     std::string plain = std::regex_replace(text, std::regex("[,' _]"), "");
