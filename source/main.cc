@@ -3,7 +3,9 @@
 #include "billet/errors.h"
 #include "billet/parameters/scene_update.h"
 #include "billet/run/check.h"
+#include "billet/run/new_scene.h"
 #include "billet/run/simulation.h"
+#include "billet/run/type_lists.h"
 #include "billet/version.h"
 
 #include <deal.II/base/mpi.h>
@@ -22,12 +24,14 @@ const char help[] =
        billet --restart FILE SCENE.prm  resume from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
        billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or print it
+       billet --new KIND [FILE]         write a scene to begin with to KIND.prm or FILE: forging, drawing, ...
+       billet --list [LIST [NAME...]]   what scenes can name: primitives, materials, surfaces, loads, ...
        billet --print-parameters        every parameter with default, range, unit and meaning
        billet --print-diagnostics       every message by its key, with meaning and remedy
        billet --version | --help
 
 With --json, --check prints one JSON object per scene and line, --print-parameters a JSON Schema of
-scenes, --print-diagnostics a JSON array.
+scenes, --list and --print-diagnostics a JSON array.
 
 Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
 in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint;
@@ -35,7 +39,17 @@ in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1
 exceeds the 'Target error'.
 )";
 
-enum class Task { run, check, update_scene, print_parameters, print_diagnostics, version, help };
+enum class Task {
+  run,
+  check,
+  update_scene,
+  new_scene,
+  list,
+  print_parameters,
+  print_diagnostics,
+  version,
+  help
+};
 
 struct CommandLine {
   Task task = Task::help;
@@ -47,6 +61,20 @@ struct CommandLine {
 [[noreturn]] void refuse(const std::string &argument) {
   throw billet::InputError("command line: '" + argument +
                            "' is not allowed here; allowed is the following.\n" + help);
+}
+
+/// Refuses arguments of '--new' other than the kind of scene and the name of a file.
+void check_new(const CommandLine &command) {
+  if (command.json)
+    refuse("--json");
+  if (command.scenes.empty()) {
+    std::string kinds;
+    for (const billet::SceneTemplate &kind : billet::scene_templates())
+      kinds += (kinds.empty() ? "" : ", ") + kind.name;
+    throw billet::InputError("command line: '--new' names no kind of scene; allowed is one of: " + kinds);
+  }
+  if (command.scenes.size() > 2)
+    refuse(command.scenes[2]);
 }
 
 CommandLine read_command_line(const std::vector<std::string> &arguments) {
@@ -65,6 +93,10 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
       command.task = Task::print_diagnostics;
     else if (argument == "--check")
       command.task = Task::check;
+    else if (argument == "--list")
+      command.task = Task::list;
+    else if (argument == "--new")
+      command.task = Task::new_scene;
     else if (argument == "--update-scene")
       command.task = Task::update_scene;
     else if (argument == "--restart") {
@@ -77,8 +109,13 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     else
       command.scenes.push_back(argument);
   }
-  if (command.task == Task::print_parameters || command.task == Task::print_diagnostics)
+  if (command.task == Task::print_parameters || command.task == Task::print_diagnostics ||
+      command.task == Task::list)
     return command;
+  if (command.task == Task::new_scene) {
+    check_new(command);
+    return command;
+  }
   if (command.scenes.empty())
     throw billet::InputError(
         std::string("command line: it names no scene file; allowed is the following.\n") + help);
@@ -135,6 +172,13 @@ void update_scene(const std::vector<std::string> &files) {
     report << files.front() << ": all names are current\n";
 }
 
+/// Writes a scene of the kind of the first name, to a file of the second. Says what to do with it.
+void new_scene(const std::vector<std::string> &names) {
+  const std::string file = billet::write_new_scene(names.front(), names.size() > 1 ? names[1] : "");
+  std::cout << "Wrote " << file << ". Check it:  billet --check " << file << "\nRun it:  billet " << file
+            << "\n";
+}
+
 void print_diagnostic_kinds(std::ostream &stream) {
   stream
       << "# Messages\n\n"
@@ -157,6 +201,18 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
     if (is_first)
       std::cout << "billet " << billet::version << " (" << billet::git_revision << "), deal.II "
                 << billet::dealii_version << "\n";
+    break;
+  case Task::list:
+    billet::fail_together(MPI_COMM_WORLD, [&] {
+      if (is_first)
+        billet::print_types(std::cout, command.scenes, command.json);
+    });
+    break;
+  case Task::new_scene:
+    billet::fail_together(MPI_COMM_WORLD, [&] {
+      if (is_first)
+        new_scene(command.scenes);
+    });
     break;
   case Task::print_parameters:
     if (is_first && command.json)

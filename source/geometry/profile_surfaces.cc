@@ -3,6 +3,8 @@
 #include "billet/geometry/sector.h"
 #include "billet/geometry/swept_profile.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -56,10 +58,16 @@ ProfileCorner read_corner(const TypeInput &input, const std::string &text) {
   return corner;
 }
 
-std::vector<Profile::Segment> read_segments(const TypeInput &input) {
+std::vector<ProfileCorner> read_corners(const TypeInput &input) {
   std::vector<ProfileCorner> corners;
   for (const auto &part : input.parts("Corners"))
     corners.push_back(read_corner(input, part));
+  return corners;
+}
+
+/// Returns the segments between corners of the user.
+std::vector<Profile::Segment> connect_corners(const TypeInput &input,
+                                              const std::vector<ProfileCorner> &corners) {
   if (corners.size() < 2)
     input.reject("Corners", "at least two corners");
   if (corners.front().has_via)
@@ -73,6 +81,10 @@ std::vector<Profile::Segment> read_segments(const TypeInput &input) {
     input.reject("Corners", std::string("a profile that can be drawn; ") + error.what());
   }
   return segments;
+}
+
+std::vector<Profile::Segment> read_segments(const TypeInput &input) {
+  return connect_corners(input, read_corners(input));
 }
 
 Profile::Outside read_outside(const TypeInput &input) {
@@ -127,6 +139,106 @@ SurfaceType extruded_profile_type() {
             return single_patch<ExtrudedProfile>(profile, Axes(input.vector("Origin"), axis, direction),
                                                  -half, half);
           }};
+}
+
+namespace {
+
+/// Rounded rectangle along which a profile is swept.
+struct SweepPath {
+  Axes axes;
+  std::array<double, 2> half; ///< half lengths along x and y
+  double radius;              ///< of the corners, > 0
+};
+
+SweepPath read_path(const TypeInput &input) {
+  const auto axis = input.direction("Axis"), direction = input.direction("Direction");
+  if (dealii::cross_product_3d(axis, direction).norm() < 1e-6)
+    input.reject("Direction", "a direction across the axis");
+  const auto lengths = input.numbers("Path lengths");
+  if (lengths.size() != 2 || !(lengths[0] > 0.) || !(lengths[1] > 0.))
+    input.reject("Path lengths", "two numbers > 0, separated by a comma");
+  const double radius = input.positive("Corner radius");
+  if (2. * radius > std::min(lengths[0], lengths[1]) * (1. + 1e-12))
+    input.reject("Corner radius", "at most half of both 'Path lengths'");
+  return {Axes(input.vector("Origin"), axis, direction), {0.5 * lengths[0], 0.5 * lengths[1]}, radius};
+}
+
+/// Adds the four sides, the four corners, and the flat face inside at `height` if it is asked for.
+SurfacePatches sweep(const SweepPath &path, const Profile &along_sides, const Profile &around_corners,
+                     const bool has_face, const double height, const bool is_up) {
+  SurfacePatches patches;
+  const Axes &axes = path.axes;
+  for (unsigned int side = 0; side < 4; ++side) {
+    const double angle = 0.5 * M_PI * side;
+    const dealii::Tensor<1, 3> outwards = std::round(std::cos(angle)) * axes.x +
+                                          std::round(std::sin(angle)) * axes.y,
+                               forwards = dealii::cross_product_3d(axes.z, outwards);
+    const double reach = path.half[side % 2], half = path.half[1 - side % 2] - path.radius;
+    if (half > 1e-12 * reach)
+      patches.push_back(std::make_unique<ExtrudedProfile>(
+          along_sides, Axes(axes.origin + reach * outwards, -forwards, outwards), -half, half));
+    patches.push_back(std::make_unique<RevolvedProfile>(
+        around_corners,
+        Axes(axes.origin + (reach - path.radius) * outwards + half * forwards, axes.z, outwards), 0.,
+        0.5 * M_PI));
+  }
+  const std::array<double, 2> inside = {path.half[0] - path.radius, path.half[1] - path.radius};
+  if (has_face && std::min(inside[0], inside[1]) > 1e-12 * path.half[0]) {
+    const Profile line({Profile::Segment::line(Point({-inside[0], height}), Point({inside[0], height}))},
+                       is_up ? Profile::Outside::left : Profile::Outside::right);
+    patches.push_back(
+        std::make_unique<ExtrudedProfile>(line, Axes(axes.origin, -axes.y, axes.x), -inside[1], inside[1]));
+  }
+  return patches;
+}
+
+SurfacePatches make_swept(const TypeInput &input) {
+  const SweepPath path = read_path(input);
+  std::vector<ProfileCorner> corners = read_corners(input);
+  const bool has_face = input.text("Inside") == "flat";
+  if (has_face && !corners.empty()) {
+    if (!(corners.front().position[0] > -path.radius * (1. - 1e-9)))
+      input.reject("Corners", "a first corner at x > -'Corner radius', since 'Inside = flat' begins there");
+    ProfileCorner start;
+    start.position = Point({-path.radius, corners.front().position[1]});
+    corners.insert(corners.begin(), start);
+  }
+  const auto segments = connect_corners(input, corners);
+  const Profile::Outside outside = read_outside(input);
+  const Profile along_sides(segments, outside);
+  if (along_sides.support(Point({-1., 0.})) > path.radius * (1. + 1e-9))
+    input.reject("Corners", "a profile with x >= -'Corner radius' everywhere, so that corners do not fold");
+  for (ProfileCorner &corner : corners) {
+    corner.position[0] = std::max(0., corner.position[0] + path.radius);
+    corner.via[0] += path.radius;
+  }
+  return sweep(path, along_sides, Profile(connect_corners(input, corners), outside), has_face,
+               corners.front().position[1], outside == Profile::Outside::left);
+}
+
+} // namespace
+
+SurfaceType swept_profile_type() {
+  return {
+      "swept profile",
+      "Lines and arcs in a plane, swept along a rectangle with rounded corners: a punch, a die or a binder "
+      "frame for a drawn box.",
+      {{"Corners", "", Kind::text,
+        corners_meaning + "x >= -'Corner radius' is the distance outwards from the path, y the position "
+                          "along the axis. [length]"},
+       outside_parameter,
+       {"Path lengths", "2, 2", Kind::text,
+        "Lengths of the rectangle along 'Direction' and across it. [length]"},
+       {"Corner radius", "0.5", Kind::number,
+        "> 0, at most half of both lengths. Radius of the path's corners. [length]"},
+       {"Inside", "open", Kind::choice,
+        "open|flat: flat closes the inside of the path by a flat face at the height of the first corner, "
+        "which may have a fillet then; open leaves a hole."},
+       {"Origin", "0, 0, 0", Kind::text, "Centre of the rectangle, at y = 0. [length]"},
+       {"Axis", "0, 0, 1", Kind::text, "Direction across the rectangle."},
+       {"Direction", "1, 0, 0", Kind::text,
+        "Direction of the first length. Its component along the axis does not count."}},
+      &make_swept};
 }
 
 } // namespace billet

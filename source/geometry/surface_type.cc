@@ -12,16 +12,26 @@ SurfaceType cone_type();
 SurfaceType torus_type();
 SurfaceType revolved_profile_type();
 SurfaceType extruded_profile_type();
+SurfaceType swept_profile_type();
 SurfaceType coons_patch_type();
 SurfaceType coons_patches_type();
 SurfaceType stl_type();
 SurfaceType cad_type();
 
 TypeTable<SurfacePatches> &surface_types() {
-  static TypeTable<SurfacePatches> types{plane_type(),       rectangle_type(),        disc_type(),
-                                         sphere_type(),      cylinder_type(),         cone_type(),
-                                         torus_type(),       revolved_profile_type(), extruded_profile_type(),
-                                         coons_patch_type(), coons_patches_type(),    stl_type(),
+  static TypeTable<SurfacePatches> types{plane_type(),
+                                         rectangle_type(),
+                                         disc_type(),
+                                         sphere_type(),
+                                         cylinder_type(),
+                                         cone_type(),
+                                         torus_type(),
+                                         revolved_profile_type(),
+                                         extruded_profile_type(),
+                                         swept_profile_type(),
+                                         coons_patch_type(),
+                                         coons_patches_type(),
+                                         stl_type(),
                                          cad_type()};
   return types;
 }

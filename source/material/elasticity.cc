@@ -77,6 +77,9 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
                      {"Poisson ratio", "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."}};
   type.make = [make](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
     const double young = input.positive("Young modulus"), poisson = input.number("Poisson ratio");
+    if (poisson == 0.5)
+      input.reject("Poisson ratio", "a number > -1 and < 0.5: the bulk modulus of an incompressible material "
+                                    "is infinite. Use 0.499, which elements take without locking");
     if (!(poisson > -1. && poisson < 0.5))
       input.reject("Poisson ratio", "a number > -1 and < 0.5");
     return std::make_shared<const IsotropicElasticity>(young, poisson, make);

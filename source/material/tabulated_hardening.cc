@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/csv_columns.h"
 #include "billet/material/hardening.h"
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
+#include <sstream>
 #include <stdexcept>
 
 namespace billet {
@@ -38,40 +41,75 @@ double TabulatedHardening::slope_of(const std::size_t i) const {
   return i + 1 < strains_.size() ? (stresses_[i + 1] - stresses_[i]) / (strains_[i + 1] - strains_[i]) : 0.;
 }
 
+namespace {
+
+using Points = std::vector<std::array<double, 2>>;
+
+Points read_points(const TypeInput &input) {
+  if (!input.text("Table file").empty()) {
+    if (input.is_set("Table"))
+      input.reject("Table", "no value: the points come from 'Table file'");
+    return read_columns(input, "Table file", "Table columns");
+  }
+  if (input.is_set("Table columns"))
+    input.reject("Table columns", "no value: there is no 'Table file'");
+  Points points;
+  for (const auto &part : input.parts("Table", ',')) {
+    const auto pair = dealii::Utilities::split_string_list(part, ':');
+    try {
+      if (pair.size() != 2)
+        throw std::invalid_argument("pair");
+      points.push_back({parse_number(pair[0]), parse_number(pair[1])});
+    } catch (const std::invalid_argument &) {
+      input.reject("Table", "'strain : stress' pairs, separated by commas");
+    }
+  }
+  return points;
+}
+
+std::string print(const double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+std::shared_ptr<const HardeningLaw> make_table(const TypeInput &input) {
+  const std::string key = input.text("Table file").empty() ? "Table" : "Table file";
+  std::vector<double> strains, stresses;
+  for (const auto &[strain, stress] : read_points(input)) {
+    if (strains.empty() && strain != 0.)
+      input.reject(key, "a curve that starts at plastic strain 0");
+    if (!(stress > 0.))
+      input.reject(key, "yield stresses > 0");
+    if (!strains.empty() && !(strain > strains.back()))
+      input.reject(key, "a monotonic curve: plastic strain " + print(strain) +
+                            " does not increase on the one before");
+    if (!strains.empty() && !(stress >= stresses.back()))
+      input.reject(
+          key, no_softening("a monotonic curve: stress " + print(stress) + " falls below the one before"));
+    strains.push_back(strain);
+    stresses.push_back(stress);
+  }
+  if (strains.empty())
+    input.reject(key, "at least one 'strain : stress' pair");
+  return make_hardening(TabulatedHardening(std::move(strains), std::move(stresses)));
+}
+
+} // namespace
+
 HardeningType tabulated_hardening_type() {
-  return {"table",
-          "linear interpolation between points",
-          {{"Table", "", TypeParameter::Kind::text,
-            "Points 'strain : stress', separated by commas. Plastic strains increase strictly from 0; yield "
-            "stresses > 0 do not decrease. The stress is constant beyond the last point. [- : stress]"}},
-          [](const TypeInput &input) {
-            std::vector<double> strains, stresses;
-            for (const auto &part : input.parts("Table", ',')) {
-              const auto pair = dealii::Utilities::split_string_list(part, ':');
-              try {
-                if (pair.size() != 2)
-                  throw std::invalid_argument("pair");
-                strains.push_back(parse_number(pair[0]));
-                stresses.push_back(parse_number(pair[1]));
-              } catch (const std::invalid_argument &) {
-                input.reject("Table", "'strain : stress' pairs, separated by commas");
-              }
-              const std::size_t n = strains.size();
-              if (n == 1 && strains[0] != 0.)
-                input.reject("Table", "a curve that starts at plastic strain 0");
-              if (!(stresses.back() > 0.))
-                input.reject("Table", "yield stresses > 0");
-              if (n > 1 && !(strains[n - 1] > strains[n - 2]))
-                input.reject("Table", "a monotonic curve: plastic strain " + pair[0] +
-                                          " does not increase on the one before");
-              if (n > 1 && !(stresses[n - 1] >= stresses[n - 2]))
-                input.reject("Table", no_softening("a monotonic curve: stress " + pair[1] +
-                                                   " falls below the one before"));
-            }
-            if (strains.empty())
-              input.reject("Table", "at least one 'strain : stress' pair");
-            return make_hardening(TabulatedHardening(std::move(strains), std::move(stresses)));
-          }};
+  return {
+      "table",
+      "linear interpolation between points",
+      {{"Table", "", TypeParameter::Kind::text,
+        "Points 'strain : stress', separated by commas. Plastic strains increase strictly from 0; yield "
+        "stresses > 0 do not decrease. The stress is constant beyond the last point. [- : stress]"},
+       {"Table file", "", TypeParameter::Kind::text,
+        "CSV file of these points, relative to the scene file, instead of 'Table'. Lines before the first "
+        "number and comments after '#' are skipped."},
+       {"Table columns", "1, 2", TypeParameter::Kind::text,
+        "Columns of that file with plastic strain and yield stress, from 1."}},
+      &make_table};
 }
 
 } // namespace billet

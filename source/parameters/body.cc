@@ -4,11 +4,15 @@
 #include "billet/errors.h"
 #include "billet/material/hardening.h"
 #include "billet/material/rate_factor.h"
+#include "billet/nearest_name.h"
 #include "billet/parameters/named_values.h"
+#include "billet/parameters/primitives.h"
 #include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
+
+#include <deal.II/physics/transformations.h>
 
 #include <algorithm>
 #include <fstream>
@@ -25,8 +29,11 @@ const NamedValues<Mesh::Source> mesh_sources = {{"primitive", Mesh::Source::prim
                                                 {"extruded primitive", Mesh::Source::extruded},
                                                 {"file", Mesh::Source::file}};
 
-/// Whether the law has plasticity.
-const NamedValues<bool> laws = {{"elastic", false}, {"elastoplastic", true}};
+/// Whether the law has plasticity; nothing: if a parameter of plasticity is given.
+const NamedValues<std::optional<bool>> laws = {
+    {"automatic", std::nullopt}, {"elastic", false}, {"elastoplastic", true}};
+
+const std::string plane_strain = "plane strain"; // a value of 'Section'
 
 /// Whether viscous forces stabilise the body until it is in contact.
 const NamedValues<bool> stabilisations = {{"none", false}, {"until contact", true}};
@@ -40,18 +47,26 @@ void Mesh::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Primitive", "hyper_rectangle", Patterns::Anything(),
       "Name of the GridGenerator function, such as hyper_rectangle, subdivided_hyper_rectangle, cylinder; "
-      "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell.");
-  prm.declare_entry("Arguments", "0, 0, 0 : 1, 1, 1 : true", Patterns::Anything(),
-                    "Arguments of that function, separated by ':' (points and lists inside by ','). All "
-                    "arguments without a default are necessary.");
+      "for an extruded body a two-dimensional one, such as quarter_hyper_ball, hyper_shell. 'billet --list "
+      "primitives' has all, with their arguments and boundary ids.");
+  prm.declare_entry("Arguments", "", Patterns::Anything(),
+                    "Arguments of that function, separated by ':' (points and lists inside by ','), in its "
+                    "order or as 'name = value'. Arguments that are missing at the end or empty have their "
+                    "defaults.");
   prm.declare_entry("Refinements", "0", Patterns::Integer(0),
                     "Number of uniform refinements of the primitive (of the section if it is extruded) or of "
                     "the mesh file.");
   prm.declare_entry("Section area", "0", Patterns::Double(),
                     "Extruded primitives: area of the section after scaling about its origin, so that a "
                     "polygon has the volume of a circle. 0: no scaling. [length^2]");
+  prm.declare_entry(
+      "Section", "solid", Patterns::Selection("solid|plane strain"),
+      "plane strain: one layer of the two-dimensional primitive, whose bottom z = 0 and top are "
+      "symmetry planes (before rotation and translation). 'Source' then is extruded primitive. "
+      "Forces, moments and energies are those of the width 'Height', so per unit of width "
+      "with its default, 1. solid: no such planes.");
   prm.declare_entry("Height", "1", Patterns::Double(),
-                    "Extruded primitives: extent along z, from z = 0. [length]");
+                    "Extruded primitives: extent along z, from z = 0; the width in plane strain. [length]");
   prm.declare_entry("Layers", "1", Patterns::Integer(0),
                     "Extruded primitives: number of layers of elements along z.");
   prm.declare_entry(
@@ -77,10 +92,43 @@ void Mesh::declare(ParameterHandler &prm) {
       "last true condition applies; faces without a true one keep their id.");
 }
 
+namespace {
+
+/// Returns all arguments of the primitive. Refuses unknown primitives and wrong arguments.
+std::string read_arguments(const Reader &reader, const unsigned int dimension) {
+  const std::string name = reader.text("Primitive");
+  const Primitive *primitive = find_primitive(name, dimension);
+  if (primitive == nullptr) {
+    const std::string source = dimension == 2 ? "'Source = extruded primitive'" : "'Source = primitive'";
+    if (find_primitive(name, 5 - dimension) != nullptr)
+      reader.reject("Primitive", "a " + std::to_string(dimension) + "-dimensional primitive with " + source);
+    std::string all;
+    const auto names = primitive_names(dimension);
+    for (const auto &known : names)
+      all += (all.empty() ? "" : ", ") + known;
+    reader.reject("Primitive", "one of: " + all + did_you_mean(name, names));
+  }
+  std::string all;
+  try {
+    all = complete_arguments(*primitive, reader.text("Arguments"));
+  } catch (const std::invalid_argument &error) {
+    reader.reject("Arguments", "'" + name + "' with " + error.what());
+  }
+  return all;
+}
+
+} // namespace
+
 void Mesh::parse(Reader &reader) {
   source = chosen(mesh_sources, reader.text("Source"));
+  if (reader.text("Section") == plane_strain) {
+    if (reader.is_set("Source") && source != Source::extruded)
+      reader.reject("Source", "extruded primitive, since 'Section = plane strain'");
+    if (reader.is_set("Layers") && reader.text("Layers") != "1")
+      reader.reject("Layers", "1, since 'Section = plane strain' makes one layer");
+    source = Source::extruded;
+  }
   primitive = reader.located("Primitive", reader.text("Primitive"));
-  arguments = reader.text("Arguments");
   refinements = reader.count("Refinements", 0, 10);
   section_area = reader.located("Section area", reader.not_negative("Section area"));
   height = reader.positive("Height");
@@ -119,12 +167,15 @@ void Mesh::parse(Reader &reader) {
     file_name.value = reader.file("File");
   } else if (reader.is_set("File"))
     reader.reject("File", "no value: the mesh does not come from a file");
+  else
+    arguments = read_arguments(reader, is_extruded ? 2 : 3);
 }
 
 void Material::declare(ParameterHandler &prm) {
-  prm.declare_entry("Law", "elastoplastic", Patterns::Selection(selection(laws)),
+  prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws)),
                     "elastic: no plasticity; elastoplastic: J2 plasticity (yield in Kirchhoff stress, exact "
-                    "return map).");
+                    "return map); automatic: elastoplastic if a parameter of hardening or rate factors is "
+                    "set, such as 'Yield stress', and elastic otherwise.");
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
@@ -139,10 +190,18 @@ void Material::declare(ParameterHandler &prm) {
                     "of the scene is that of the process.");
 }
 
+bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set) {
+  return find_value(laws, law)
+      .value_or(std::nullopt)
+      .value_or(is_set("Hardening") || is_set("Rate factor") ||
+                join_parameters(hardening_types()).is_any_set(is_set) ||
+                join_parameters(rate_factor_types()).is_any_set(is_set));
+}
+
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
-  if (!chosen(laws, reader.text("Law"))) {
+  if (!has_plasticity(reader.text("Law"), [&](const std::string &key) { return reader.is_set(key); })) {
     // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
       if (reader.is_set(key))
@@ -286,6 +345,20 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
   return plane;
 }
 
+/// Returns the planes of both sides of a layer in plane strain, which moves with the mesh.
+std::array<SymmetryPlane, 2> sides_of_layer(const Mesh &mesh) {
+  const dealii::Tensor<1, 3> along({0., 0., 1.});
+  const dealii::Tensor<1, 3> normal =
+      mesh.rotation_angle == 0. // keeps the planes exact
+          ? along
+          : dealii::Tensor<1, 3>(dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+                                     mesh.rotation_axis, mesh.rotation_angle) *
+                                 along);
+  const double low = normal * mesh.translation;
+  return {SymmetryPlane{normal, low, "bottom of the section"},
+          SymmetryPlane{normal, low + mesh.scale * mesh.height, "top of the section"}};
+}
+
 /// Returns the elements with layers: "'Element = a' or 'Element = b'".
 std::string name_layered_elements() {
   std::string names;
@@ -340,6 +413,11 @@ void Body::parse(Reader &reader) {
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));
+  reader.in("Mesh", [&] {
+    if (reader.text("Section") == plane_strain)
+      for (const SymmetryPlane &plane : sides_of_layer(mesh))
+        symmetry_planes.value.push_back(plane);
+  });
 }
 
 } // namespace billet::parameters

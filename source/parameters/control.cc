@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/control.h"
 
+#include "billet/material/csv_columns.h"
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
@@ -89,6 +91,11 @@ void Amplitude::declare(ParameterHandler &prm) {
                     "constant. Steps of implicit scenes end where the motion reverses, begins, ends or "
                     "changes its rate by more than half. [time]");
   prm.declare_entry("Values", "0, 1", Patterns::Anything(), "Values, one for each time. [any]");
+  prm.declare_entry("File", "", Patterns::Anything(),
+                    "CSV file of times and values, relative to the scene file, instead of 'Times' and "
+                    "'Values'. Lines before the first number and comments after '#' are skipped.");
+  prm.declare_entry("File columns", "1, 2", Patterns::Anything(),
+                    "Columns of that file with times and values, from 1.");
   prm.declare_entry("Interpolation", "linear", Patterns::Selection(selection(interpolations)),
                     "linear: straight lines between the times; smooth: quintic steps with vanishing first "
                     "and second derivative at "
@@ -96,13 +103,26 @@ void Amplitude::declare(ParameterHandler &prm) {
 }
 
 void Amplitude::parse(Reader &reader) {
-  times = reader.numbers("Times");
-  values = reader.numbers("Values");
+  const bool is_from_file = !reader.text("File").empty();
+  if (is_from_file) {
+    for (const std::string key : {"Times", "Values"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: times and values come from 'File'");
+    for (const auto &[time, value] : read_columns(reader, "File", "File columns")) {
+      times.push_back(time);
+      values.push_back(value);
+    }
+  } else {
+    if (reader.is_set("File columns"))
+      reader.reject("File columns", "no value: there is no 'File'");
+    times = reader.numbers("Times");
+    values = reader.numbers("Values");
+  }
   if (times.empty())
     reader.reject("Times", "at least one number");
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1]))
-      reader.reject("Times", "strictly increasing numbers");
+      reader.reject(is_from_file ? "File" : "Times", "strictly increasing numbers");
   if (values.size() != times.size())
     reader.reject("Values", "as many numbers as there are times (" + std::to_string(times.size()) + ")");
   interpolation = chosen(interpolations, reader.text("Interpolation"));

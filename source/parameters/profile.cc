@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/profile.h"
+#include "billet/parameters/body.h"
 
 #include "billet/errors.h"
 #include "billet/friction/friction_law.h"
 #include "billet/material/elasticity.h"
+#include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
 #include "billet/parameters/reader.h"
 
@@ -100,6 +102,12 @@ double number_in(const std::string &text, const double otherwise) {
   }
 }
 
+/// Whether the law of the material in this subsection has plasticity.
+bool is_plastic(const SceneFile &file, const Path &path) {
+  return has_plasticity(file.value(path, "Law", "automatic"),
+                        [&](const std::string &key) { return file.is_set(path, key); });
+}
+
 /// Whether stresses depend on the path. Friction does, too, but slip soon loses the influence of earlier
 /// steps, so that it needs no shorter ones.
 bool depends_on_path(const SceneFile &file) {
@@ -107,8 +115,7 @@ bool depends_on_path(const SceneFile &file) {
   return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
     const Path path = {"Bodies", name, "Material"};
     const ElasticityType *type = elasticity_types().find(file.value(path, "Elasticity", ""));
-    return file.value(path, "Law", "elastoplastic") != "elastic" ||
-           (type != nullptr && type->depends_on_path);
+    return is_plastic(file, path) || (type != nullptr && type->depends_on_path);
   });
 }
 
@@ -187,7 +194,7 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
   if (key == "Elasticity") // hypoelastic laws do not conserve elastic energy
-    return file.value(path, "Law", "elastoplastic") != "elastic" &&
+    return is_plastic(file, path) &&
            (target == 0. || (target >= min_target_of_rates && has_small_elastic_strains(path, file)));
   return true;
 }

@@ -44,6 +44,11 @@ void ParameterUnion::declare(dealii::ParameterHandler &prm) const {
                       (entry.n_users == n_types_ ? "" : entry.users + ": ") + entry.parameter.meaning);
 }
 
+bool ParameterUnion::is_any_set(const std::function<bool(const std::string &)> &is_set) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const Entry &entry) { return is_set(entry.parameter.key); });
+}
+
 void ParameterUnion::reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,
                                    const std::string &reason) const {
   for (const Entry &entry : entries_) {

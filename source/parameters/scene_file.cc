@@ -2,6 +2,7 @@
 #include "billet/parameters/scene_file.h"
 
 #include "billet/errors.h"
+#include "billet/parameters/number_text.h"
 #include "billet/parameters/renames.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -253,8 +254,10 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
                        "; allowed here are: " + known(entry.path));
     } catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error) {
       leave();
+      const std::string allowed = describe_pattern(error.what());
       throw InputError(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value +
-                       "'; allowed is " + describe_pattern(error.what()));
+                       "'; allowed is " + allowed +
+                       (allowed == "a number" ? parameters::number_remedy(entry.value) : ""));
     }
     leave();
   }

@@ -186,6 +186,15 @@ same(
 same("the same tangential penalty", "top on die: Tangential penalty = 10")
 same("linear hardening as a table", NO_LAW + "table & Material: Table = 0 : 10, 0.5 : 35, 1 : 60")
 same(
+    "linear hardening from a file",
+    NO_LAW + "table & Material: Table file = hardening.csv",
+)
+same(
+    "an amplitude from a file on 2 ranks",
+    "ramp: - Times & ramp: - Values & ramp: File = ramp.csv & ramp: File columns = 1, 2",
+    ranks=2,
+)
+same(
     "linear hardening as a power law",
     NO_LAW + "power law & Material: Strength coefficient = 50 & Material: Prestrain = 0.2"
     " & Material: Hardening exponent = 1",

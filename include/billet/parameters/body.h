@@ -8,6 +8,7 @@
 #include "billet/parameters/reader.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -36,6 +37,10 @@ struct Mesh {
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 };
+
+/// Whether a material has plasticity. `law`: value of 'Law', which is automatic by default; `is_set`: whether
+/// the scene sets a parameter of the material.
+bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set);
 
 /// Subsection Material.
 struct Material {

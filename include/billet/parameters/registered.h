@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ class ParameterUnion {
 public:
   void add(const std::string &type, const std::vector<TypeParameter> &parameters);
   void declare(dealii::ParameterHandler &prm) const;
+  /// Whether the user set one of the parameters.
+  bool is_any_set(const std::function<bool(const std::string &)> &is_set) const;
   /// Refuses each parameter that the user set and that is not in `used`. `reason` follows "no value: ".
   void reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,
                      const std::string &reason) const;

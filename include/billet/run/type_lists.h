@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_TYPE_LISTS_H
+#define BILLET_RUN_TYPE_LISTS_H
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Prints what scene files can name, such as primitives, surfaces and loads, with their parameters. The first
+/// of `names` is that of a list, the others are those of its entries; without them, prints all entries, and
+/// without `names` the names of the lists. Throws InputError for an unknown name.
+void print_types(std::ostream &stream, const std::vector<std::string> &names, bool as_json);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/csv_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace billet {
+
+namespace {
+
+/// Returns the cells of a line. Blanks separate them only if nothing else does.
+std::vector<std::string> split(std::string line) {
+  line = line.substr(0, line.find('#'));
+  const auto has = [&line](const char c) { return line.find(c) != std::string::npos; };
+  const char separator = has(';') ? ';' : has(',') ? ',' : has('\t') ? '\t' : ' ';
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, separator);) {
+    const auto begin = cell.find_first_not_of(" \t\r\"");
+    const auto end = cell.find_last_not_of(" \t\r\"");
+    if (begin != std::string::npos)
+      cells.push_back(cell.substr(begin, end - begin + 1));
+    else if (separator != ' ')
+      cells.emplace_back();
+  }
+  if (cells.size() == 1 && cells.front().empty())
+    cells.clear();
+  return cells;
+}
+
+} // namespace
+
+std::vector<std::array<double, 2>> read_columns(std::istream &text,
+                                                const std::array<unsigned int, 2> columns) {
+  std::vector<std::array<double, 2>> rows;
+  std::string line;
+  for (unsigned int number = 1; std::getline(text, line); ++number) {
+    const std::vector<std::string> cells = split(number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0 // a mark
+                                                     ? line.substr(3)
+                                                     : line);
+    if (cells.empty())
+      continue;
+    std::array<double, 2> row{};
+    for (unsigned int i = 0; i < 2; ++i)
+      try {
+        if (columns[i] > cells.size())
+          throw std::invalid_argument("has no column " + std::to_string(columns[i]));
+        row[i] = parse_number(cells[columns[i] - 1]);
+      } catch (const std::invalid_argument &) {
+        if (rows.empty()) { // a head
+          row[0] = NAN;
+          break;
+        }
+        throw std::invalid_argument("line " + std::to_string(number) + " has no number in column " +
+                                    std::to_string(columns[i]));
+      }
+    if (!std::isnan(row[0]))
+      rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<std::array<double, 2>> read_columns(const TypeInput &input, const std::string &file_key,
+                                                const std::string &columns_key) {
+  const auto numbers = input.numbers(columns_key);
+  if (numbers.size() != 2 || std::any_of(numbers.begin(), numbers.end(), [](const double number) {
+        return !(number >= 1. && number <= 1000. && number == std::floor(number));
+      }))
+    input.reject(columns_key, "two whole numbers from 1 to 1000, separated by a comma");
+  std::ifstream stream(input.file(file_key));
+  std::vector<std::array<double, 2>> rows;
+  try {
+    rows =
+        read_columns(stream, {static_cast<unsigned int>(numbers[0]), static_cast<unsigned int>(numbers[1])});
+  } catch (const std::invalid_argument &error) {
+    input.reject(file_key, std::string("a table of numbers; ") + error.what());
+  }
+  if (rows.empty())
+    input.reject(file_key, "a table with numbers in the columns " + input.text(columns_key));
+  return rows;
+}
+
+} // namespace billet
