@@ -338,6 +338,7 @@ private:
                      is_grouped ? std::vector<std::size_t>{mesh_.numbered_group(groups_[i])}
                                 : std::vector<std::size_t>());
     }
+    mesh_.mesh().corners = {0, 1, 3, 2, 4, 5, 7, 6};
     return mesh_.finish();
   }
 

@@ -11,6 +11,7 @@
 #include "billet/solve/explicit/explicit_dynamics.h"
 #include "billet/solve/implicit/implicit_solution.h"
 
+#include <memory>
 #include <ostream>
 
 namespace billet {

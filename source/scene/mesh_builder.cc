@@ -126,8 +126,6 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
 
 void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
   const LoadedMesh loaded = load_mesh_file(parameters);
-  // deal.II's order of the corners of a hexahedron that counts around its bottom
-  constexpr std::array<unsigned int, 8> corners{0, 1, 5, 4, 2, 3, 7, 6};
   std::vector<dealii::Point<3>> vertices;
   for (const auto &x : loaded.mesh.positions)
     vertices.emplace_back(x[0], x[1], x[2]);
@@ -135,7 +133,7 @@ void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
   for (const FileHexahedron &hexahedron : loaded.mesh.hexahedra) {
     cells.emplace_back();
     for (unsigned int i = 0; i < 8; ++i)
-      cells.back().vertices[corners[i]] = hexahedron.nodes[i];
+      cells.back().vertices[loaded.mesh.corners[i]] = hexahedron.nodes[i];
   }
   try {
     const AssertionsThrow refusals_are_errors;

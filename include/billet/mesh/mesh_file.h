@@ -48,6 +48,9 @@ struct MeshFile {
   std::vector<long long> node_numbers; ///< in the file
   std::vector<std::array<double, 3>> positions;
   std::vector<FileHexahedron> hexahedra;
+  /// Place of each corner in deal.II's elements: which edges become which axes. Results depend on it in their
+  /// last digits, so each format keeps the order that deal.II gives it.
+  std::array<unsigned int, 8> corners{0, 1, 5, 4, 2, 3, 7, 6};
   std::vector<FaceGroup> groups;
   std::vector<GroupedFace> faces;
   std::vector<GroupedSet> node_sets, element_sets;
