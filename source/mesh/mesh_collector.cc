@@ -29,9 +29,12 @@ void MeshCollector::add_face(const std::array<long long, 4> &nodes, const std::s
 }
 
 std::size_t MeshCollector::group(const std::string &name, const unsigned int number) {
-  const auto [found, is_new] = group_index_.emplace(std::pair(name, number), mesh_.groups.size());
+  std::string printable = name; // names appear in messages
+  for (char &c : printable)
+    c = static_cast<unsigned char>(c) < ' ' || c == '\x7F' ? '?' : c;
+  const auto [found, is_new] = group_index_.emplace(std::pair(printable, number), mesh_.groups.size());
   if (is_new)
-    mesh_.groups.push_back({name, number});
+    mesh_.groups.push_back({printable, number});
   return found->second;
 }
 

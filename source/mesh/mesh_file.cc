@@ -29,10 +29,12 @@ std::vector<MeshFormat> &mesh_formats() {
   return formats;
 }
 
-MeshFile parse_mesh(const std::string &bytes, const FileAccess &access) {
+namespace {
+
+MeshFile parse(const std::string &bytes, const FileAccess &access) {
   const std::string byte_order_mark = "\xEF\xBB\xBF";
   if (bytes.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
-    return parse_mesh(bytes.substr(byte_order_mark.size()), access);
+    return parse(bytes.substr(byte_order_mark.size()), access);
   for (const MeshFormat &format : mesh_formats())
     if (format.recognises(bytes))
       return format.read(bytes, access);
@@ -45,6 +47,26 @@ MeshFile parse_mesh(const std::string &bytes, const FileAccess &access) {
   for (const MeshFormat &format : mesh_formats())
     known += (known.empty() ? "" : ", ") + format.meaning;
   throw std::invalid_argument("its content is in none of these formats: " + known);
+}
+
+/// Returns a text without what a terminal would take for a command, and not longer than a message should be.
+std::string printable(std::string text) {
+  constexpr std::size_t max_length = 1000;
+  if (text.size() > max_length)
+    text = text.substr(0, max_length) + "...";
+  for (char &c : text)
+    c = c >= ' ' && c <= '~' ? c : '?';
+  return text;
+}
+
+} // namespace
+
+MeshFile parse_mesh(const std::string &bytes, const FileAccess &access) {
+  try {
+    return parse(bytes, access);
+  } catch (const std::invalid_argument &error) {
+    throw std::invalid_argument(printable(error.what()));
+  }
 }
 
 MeshFile read_mesh_file(const std::string &file_name) {
