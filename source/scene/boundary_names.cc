@@ -124,7 +124,15 @@ parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<Bounda
     const std::size_t second = scene.second_body_index(pair);
     resolve(pair.second_boundary_ids, names[second], scene.bodies[second].name);
   }
-  parameters::check_repeated_pairs(scene.pairs, true);
+  // Ids of pairs without names and groups have been compared when the scene was read.
+  const bool has_names = std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const auto &pair) {
+    return !pair.boundary_ids.names.empty() || !pair.second_boundary_ids.names.empty();
+  });
+  const bool has_groups = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
+    return body.mesh.source == parameters::Mesh::Source::file;
+  });
+  if (has_names || has_groups)
+    parameters::check_repeated_pairs(scene.pairs, true);
   return scene;
 }
 
