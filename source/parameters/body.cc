@@ -69,10 +69,15 @@ void Mesh::declare(ParameterHandler &prm) {
                     "Extruded primitives: extent along z, from z = 0; the width in plane strain. [length]");
   prm.declare_entry("Layers", "1", Patterns::Integer(0),
                     "Extruded primitives: number of layers of elements along z.");
+  prm.declare_entry("File", "", Patterns::Anything(),
+                    "Mesh file of hexahedra, relative to the scene file: Gmsh's .msh, .vtk, Abaqus's or "
+                    "CalculiX's .inp, UCD. "
+                    "The content tells the format. Groups of faces give boundary ids and names.");
   prm.declare_entry(
-      "File", "", Patterns::Anything(),
-      "Mesh file (Gmsh .msh, .vtk, UCD .inp or .ucd, deal.II's .vtu) of hexahedra, relative to the scene "
-      "file. Boundary ids are the file's.");
+      "Merge nodes within", "", Patterns::Anything(),
+      "Mesh files: nodes within this distance of each other become one, in the file's unit of length, before "
+      "'Scale'. Empty: nodes at the same place are refused. 0: they stay apart, for parts that only touch. "
+      "[length]");
   prm.declare_entry("Positions", "", Patterns::Anything(),
                     "Three muParser expressions of x, y, z, separated by semicolons: new positions of the "
                     "vertices, before scaling, rotation and translation. 'x*cos(y) ; x*sin(y) ; z' bends a "
@@ -85,11 +90,12 @@ void Mesh::declare(ParameterHandler &prm) {
                     "Angle of the rotation of the mesh. [degrees]");
   prm.declare_entry("Translation", "0, 0, 0", Patterns::Anything(),
                     "Translation of the mesh after the rotation. [length]");
-  prm.declare_entry(
-      "Boundary ids", "", Patterns::Anything(),
-      "New ids of boundary faces: 'id : condition ; id : condition ...', each condition a muParser "
-      "expression of the face's centre x, y, z in the final position, such as '7 : abs(z - 15) < 1e-6'. The "
-      "last true condition applies; faces without a true one keep their id.");
+  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
+                    "New ids or names of boundary faces: 'id : condition ; name : condition ...', each "
+                    "condition a muParser "
+                    "expression of the face's centre x, y, z in the final position, such as 'top : abs(z - "
+                    "15) < 1e-6'. The "
+                    "last true condition applies; faces without a true one keep their id.");
 }
 
 namespace {
@@ -147,11 +153,16 @@ void Mesh::parse(Reader &reader) {
     try {
       if (colon == std::string::npos)
         throw std::invalid_argument("no condition");
-      boundary_ids.value.emplace_back(parse_count(dealii::Utilities::trim(part.substr(0, colon))),
+      const std::string name = dealii::Utilities::trim(part.substr(0, colon));
+      const bool is_name = is_boundary_name(name);
+      boundary_ids.value.emplace_back(is_name ? 0 : parse_count(name),
                                       dealii::Utilities::trim(part.substr(colon + 1)));
+      boundary_names.push_back(is_name ? name : "");
     } catch (const std::invalid_argument &) {
-      reader.reject("Boundary ids",
-                    "'id : condition', separated by semicolons, the id a whole number up to 999999999");
+      reader.reject(
+          "Boundary ids",
+          "'id : condition', separated by semicolons, the id a whole number up to 999999999 or a name "
+          "with a letter and without a comma");
     }
   }
   const bool is_extruded = source == Source::extruded;
@@ -165,10 +176,18 @@ void Mesh::parse(Reader &reader) {
     if (file_name.value.empty())
       reader.reject("File", "the name of a mesh file, since 'Source = file'");
     file_name.value = reader.file("File");
-  } else if (reader.is_set("File"))
-    reader.reject("File", "no value: the mesh does not come from a file");
-  else
+  } else {
+    for (const std::string key : {"File", "Merge nodes within"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value: the mesh does not come from a file");
     arguments = read_arguments(reader, is_extruded ? 2 : 3);
+  }
+  merged_distance = reader.located("Merge nodes within", std::optional<double>());
+  if (!reader.text("Merge nodes within").empty())
+    merged_distance.value = reader.numbers("Merge nodes within").front();
+  if (merged_distance.value &&
+      !(*merged_distance.value >= 0. && reader.numbers("Merge nodes within").size() == 1))
+    reader.reject("Merge nodes within", "a length >= 0, or nothing");
 }
 
 void Material::declare(ParameterHandler &prm) {
@@ -223,8 +242,10 @@ void Material::parse(Reader &reader) {
 }
 
 void Support::declare(ParameterHandler &prm) {
-  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                    "Boundary ids of the nodes with prescribed displacements, separated by commas.");
+  prm.declare_entry(
+      "Boundary ids", "", Patterns::Anything(),
+      "Boundary ids or names of the faces whose nodes have prescribed displacements, separated by "
+      "commas. Names are those of the mesh file's groups and of 'Boundary ids' in Mesh.");
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
                     "Components of the displacement that are prescribed.");
   prm.declare_entry(
@@ -234,8 +255,8 @@ void Support::declare(ParameterHandler &prm) {
 }
 
 void Support::parse(Reader &reader) {
-  boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
-  if (boundary_ids.value.empty())
+  boundary_ids = reader.boundaries("Boundary ids");
+  if (boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
   for (const auto &component : reader.parts("Components", ',')) {
     if (component.size() != 1 || component[0] < 'x' || component[0] > 'z')
@@ -262,9 +283,9 @@ void Load::parse(Reader &reader) {
     throw std::logic_error("unknown load '" + type + "'");
   join_parameters(load_types())
       .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it");
-  boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
+  boundary_ids = reader.boundaries("Boundary ids");
   load = chosen->make(reader);
-  if (load.acts_on_faces() && boundary_ids.value.empty())
+  if (load.acts_on_faces() && boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
   for (const LoadExpression &expression : load.expressions)
     origins.push_back(reader.origin(expression.key));

@@ -6,6 +6,8 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -116,6 +118,13 @@ unsigned int parse_count(const std::string &text) {
   return static_cast<unsigned int>(std::stoul(text));
 }
 
+bool is_boundary_name(const std::string &text) {
+  const auto is_letter = [](const char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) > 127;
+  };
+  return std::any_of(text.begin(), text.end(), is_letter) && text.find(',') == std::string::npos;
+}
+
 std::string Reader::file(const std::string &key) const {
   const std::string written = text(key);
   std::string name = written.empty() || written.front() == '/' ? written : file_.folder() + written;
@@ -135,6 +144,25 @@ std::vector<unsigned int> Reader::counts(const std::string &key) const {
       result.push_back(parse_count(part));
     } catch (const std::invalid_argument &) {
       reject(key, "whole numbers from 0 to 999999999, separated by commas");
+    }
+  }
+  return result;
+}
+
+BoundaryIds Reader::boundaries(const std::string &key) const {
+  BoundaryIds result;
+  result.origin = origin(key);
+  const auto list = dealii::Utilities::split_string_list(prm_.get(key), ',');
+  for (const auto &part : list) {
+    if (part.empty() && list.size() == 1)
+      break;
+    try {
+      if (is_boundary_name(part))
+        result.names.push_back(part);
+      else
+        result.value.push_back(parse_count(part));
+    } catch (const std::invalid_argument &) {
+      reject(key, "whole numbers from 0 to 999999999 and names of boundaries, separated by commas");
     }
   }
   return result;

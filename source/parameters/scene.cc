@@ -159,19 +159,6 @@ unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
   return Side::no_id;
 }
 
-/// Refuses pairs that would apply contact forces twice between the same faces, or a face and a tool.
-void check_twice(const std::vector<ContactPair> &pairs) {
-  for (auto second = pairs.begin(); second != pairs.end(); ++second)
-    for (auto first = pairs.begin(); first != second; ++first) {
-      const unsigned int id = repeated_id(*first, *second);
-      if (id != Side::no_id)
-        throw InputError(second->boundary_ids.origin + " names boundary id " + std::to_string(id) +
-                         "; allowed are other ids, since pair '" + first->name +
-                         "' already names it against the same " +
-                         (first->is_between_bodies() ? "faces" : "tool"));
-    }
-}
-
 /// Refuses parameters of one scheme in scenes of another: a forgotten switch is the usual reason.
 class SchemeCheck {
 public:
@@ -275,6 +262,26 @@ std::size_t Scene::second_body_index(const ContactPair &pair) const {
 
 std::size_t Scene::tool_index(const ContactPair &pair) const { return index_of(tools, pair.tool); }
 
+void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool names_are_known) {
+  const auto is_known = [&](const ContactPair &pair) {
+    return names_are_known || (pair.boundary_ids.names.empty() && pair.second_boundary_ids.names.empty());
+  };
+  for (auto second = pairs.begin(); second != pairs.end(); ++second)
+    for (auto first = pairs.begin(); first != second; ++first) {
+      const unsigned int id =
+          is_known(*first) && is_known(*second) ? repeated_id(*first, *second) : Side::no_id;
+      if (id == Side::no_id)
+        continue;
+      std::string names;
+      for (const std::string &name : second->boundary_ids.names)
+        names += (names.empty() ? " (in " : ", ") + name;
+      throw InputError(second->boundary_ids.origin + " names boundary id " + std::to_string(id) + names +
+                       (names.empty() ? "" : ")") + "; allowed are other ids, since pair '" + first->name +
+                       "' already names it against the same " +
+                       (first->is_between_bodies() ? "faces" : "tool"));
+    }
+}
+
 Scene Scene::read(const std::string &file_name, const std::string &restart_file) {
   const SceneFile file = SceneFile::read(file_name);
   ParameterHandler prm;
@@ -318,7 +325,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
     else
       scene.tool_index(pair);
   }
-  check_twice(scene.pairs);
+  check_repeated_pairs(scene.pairs, false);
   SchemeCheck(scene, file).check();
   if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
     scene.output.every_steps = 0;

@@ -195,15 +195,16 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry("Body", "", Patterns::Anything(), "Name of the body.");
   prm.declare_entry(
       "Boundary ids", "", Patterns::Anything(),
-      "Boundary ids of the body's faces that may touch the tool or the second body, separated by "
+      "Boundary ids or names of the body's faces that may touch the tool or the second body, separated by "
       "commas.");
   prm.declare_entry("Tool", "", Patterns::Anything(),
                     "Name of the tool; a pair has a tool or a second body.");
   prm.declare_entry("Second body", "", Patterns::Anything(),
                     "Name of another body, or of the same body for self-contact.");
-  prm.declare_entry("Second boundary ids", "", Patterns::Anything(),
-                    "Boundary ids of the second body's faces. Empty, where it is the same body: the faces of "
-                    "'Boundary ids' among themselves.");
+  prm.declare_entry(
+      "Second boundary ids", "", Patterns::Anything(),
+      "Boundary ids or names of the second body's faces. Empty, where it is the same body: the faces of "
+      "'Boundary ids' among themselves.");
   prm.declare_entry(
       "Facets", "automatic", Patterns::Selection(selection(facet_methods())),
       "Contact formulation of pairs of bodies. planed: planed contact element without iterations "
@@ -283,10 +284,13 @@ FrictionPointer read_friction(const Reader &reader) {
   return type->make(reader);
 }
 
-void refuse_twice(const Reader &reader, const std::string &key, const std::vector<unsigned int> &ids) {
-  for (auto id = ids.begin(); id != ids.end(); ++id)
-    if (std::find(ids.begin(), id, *id) != id)
-      reader.reject(key, "each boundary id once; " + std::to_string(*id) + " is there twice");
+void refuse_twice(const Reader &reader, const std::string &key, const BoundaryIds &boundaries) {
+  std::vector<std::string> parts = boundaries.names;
+  for (const unsigned int id : boundaries.value)
+    parts.push_back(std::to_string(id));
+  for (auto part = parts.begin(); part != parts.end(); ++part)
+    if (std::find(parts.begin(), part, *part) != part)
+      reader.reject(key, "each boundary id once; " + *part + " is there twice");
 }
 
 } // namespace
@@ -311,10 +315,10 @@ void ContactPair::parse(Reader &reader) {
   origin = reader.origin();
   body = reader.located("Body", reader.text("Body"));
   parse_bodies(reader);
-  boundary_ids = reader.located("Boundary ids", reader.counts("Boundary ids"));
-  if (boundary_ids.value.empty())
+  boundary_ids = reader.boundaries("Boundary ids");
+  if (boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
-  refuse_twice(reader, "Boundary ids", boundary_ids.value);
+  refuse_twice(reader, "Boundary ids", boundary_ids);
   friction = read_friction(reader);
   penalty_unit = chosen(penalty_units, reader.text("Penalty unit"));
   normal_penalty = reader.positive("Normal penalty");
@@ -394,14 +398,14 @@ void ContactPair::parse_bodies(Reader &reader) {
   if (tool.value.empty() == second_body.value.empty())
     reader.reject(tool.value.empty() ? "Tool" : "Second body",
                   "either a 'Tool' or a 'Second body' for each pair");
-  second_boundary_ids = reader.located("Second boundary ids", reader.counts("Second boundary ids"));
-  refuse_twice(reader, "Second boundary ids", second_boundary_ids.value);
+  second_boundary_ids = reader.boundaries("Second boundary ids");
+  refuse_twice(reader, "Second boundary ids", second_boundary_ids);
   if (!is_between_bodies())
     for (const std::string key : {"Second boundary ids", "Facets", "Passes", "Edge contact",
                                   "Reference stiffness", "Smoothing", "Search margin"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the pair is of a body and a tool");
-  if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.value.empty())
+  if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.is_empty())
     reader.reject("Second boundary ids", "at least one boundary id");
   facets = reader.located("Facets", chosen(facet_methods(), reader.text("Facets")));
   passes = chosen(numbers_of_passes, reader.text("Passes"));

@@ -11,6 +11,7 @@
 #include "billet/solve/explicit/explicit_dynamics.h"
 #include "billet/solve/implicit/implicit_solution.h"
 
+#include <memory>
 #include <ostream>
 
 namespace billet {
@@ -59,7 +60,9 @@ void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator
   fail_together(communicator, [&] { check_output_folder(parameters); });
   if (parameters.restart.is_wanted())
     const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
-  const Scene scene(parameters);
+  std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone
+  fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
+  const Scene &scene = *built;
   constexpr std::size_t max_elements = 500000; // takes a minute and some GB on one rank
   DiagnosticList messages = parameters.warnings;
   append(messages, scene.count_elements() <= max_elements ? check_start(scene, communicator)

@@ -5,13 +5,17 @@
 #include "billet/run/output_folder.h"
 #include "billet/run/run.h"
 
+#include <memory>
+
 namespace billet {
 
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
   // All errors of the scene appear here, before anything is written.
   fail_together(communicator, [&] { check_output_folder(parameters); });
   const std::unique_ptr<Resumption> resumption = Resumption::open(parameters, communicator);
-  const Scene scene(parameters);
+  std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone
+  fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
+  const Scene &scene = *built;
   Diagnostics diagnostics(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
   ExitCode code = ExitCode::success;
   try {

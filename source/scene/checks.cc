@@ -37,15 +37,17 @@ template <class Function> void for_each_boundary_face(const Triangulation<3> &me
         f(static_cast<std::size_t>(cell->material_id()), cell->face(i));
 }
 
-void check_ids(const Located<std::vector<unsigned int>> &asked, const std::set<unsigned int> &present,
-               const std::string &body) {
+void check_ids(const BoundaryIds &asked, const std::set<unsigned int> &present, const Body &body) {
   for (const unsigned int id : asked.value)
     if (present.count(id) == 0) {
       std::string allowed;
       for (const unsigned int p : present)
         allowed += (allowed.empty() ? "" : ", ") + std::to_string(p);
+      std::string names;
+      for (const auto &named : body.boundary_names.ids_of_name)
+        names += (names.empty() ? "; names: " : ", ") + named.first;
       throw InputError(asked.origin + " names boundary id " + std::to_string(id) +
-                       "; allowed are those of body '" + body + "': " + allowed);
+                       "; allowed are those of body '" + body.name + "': " + allowed + names);
     }
 }
 
@@ -61,17 +63,17 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
       for (const auto &renamed : parameters_.bodies[i].mesh.boundary_ids.value)
         present[i].insert(renamed.first);
     for (const auto &support : parameters_.bodies[i].supports)
-      check_ids(support.boundary_ids, present[i], bodies_[i].name);
+      check_ids(support.boundary_ids, present[i], bodies_[i]);
     for (const auto &load : parameters_.bodies[i].loads)
-      check_ids(load.boundary_ids, present[i], bodies_[i].name);
+      check_ids(load.boundary_ids, present[i], bodies_[i]);
   }
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
-    check_ids(pair.boundary_ids, present[body], bodies_[body].name);
+    check_ids(pair.boundary_ids, present[body], bodies_[body]);
     if (!pair.is_between_bodies())
       continue;
     const std::size_t second = parameters_.second_body_index(pair);
-    check_ids(pair.second_boundary_ids, present[second], bodies_[second].name);
+    check_ids(pair.second_boundary_ids, present[second], bodies_[second]);
   }
 }
 

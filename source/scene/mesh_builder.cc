@@ -2,15 +2,19 @@
 #include "billet/scene/mesh_builder.h"
 
 #include "billet/errors.h"
+#include "billet/mesh/mesh_checks.h"
+#include "billet/scene/boundary_names.h"
 #include "billet/scene/expression.h"
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace billet {
 
@@ -79,18 +83,35 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
 }
 
 void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
-  dealii::GridIn<3> grid_in;
-  grid_in.attach_triangulation(mesh);
+  const LoadedMesh loaded = load_mesh_file(parameters);
+  std::vector<dealii::Point<3>> vertices;
+  for (const auto &x : loaded.mesh.positions)
+    vertices.emplace_back(x[0], x[1], x[2]);
+  std::vector<dealii::CellData<3>> cells;
+  for (const FileHexahedron &hexahedron : loaded.mesh.hexahedra) {
+    cells.emplace_back();
+    for (unsigned int i = 0; i < 8; ++i)
+      cells.back().vertices[loaded.mesh.corners[i]] = hexahedron.nodes[i];
+  }
   try {
-    grid_in.read(parameters.file_name.value);
+    const AssertionsThrow refusals_are_errors;
+    // As deal.II does with the files that it reads itself.
+    dealii::GridTools::invert_all_negative_measure_cells(vertices, cells);
+    dealii::GridTools::consistently_order_cells(cells);
+    mesh.create_triangulation(vertices, cells, dealii::SubCellData());
   } catch (const std::exception &error) {
     throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
-                     "'; allowed is a hexahedral mesh in one of the formats .msh, .vtk, .ucd, .inp, .vtu. " +
-                     essence(error));
+                     "'; allowed is a mesh of hexahedra that fit each other. " + essence(error));
   }
-  if (!mesh.all_reference_cells_are_hyper_cube())
-    throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
-                     "', which has cells other than hexahedra; allowed are hexahedra only");
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary()) {
+        BoundaryGroups::Face nodes{};
+        for (unsigned int v = 0; v < nodes.size(); ++v)
+          nodes[v] = cell->face(f)->vertex_index(v);
+        std::sort(nodes.begin(), nodes.end());
+        cell->face(f)->set_boundary_id(loaded.groups.id(nodes));
+      }
 }
 
 /// Replaces `mesh` by a copy of its active cells, without manifolds.
@@ -132,6 +153,24 @@ void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mes
 }
 
 } // namespace
+
+LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
+  try {
+    MeshFile mesh = read_mesh_file(parameters.file_name.value);
+    const auto &distance = parameters.merged_distance.value;
+    mend_and_check(mesh,
+                   !distance        ? DoubledNodes::refused
+                   : *distance > 0. ? DoubledNodes::merged
+                                    : DoubledNodes::kept,
+                   distance.value_or(0.));
+    BoundaryGroups groups(mesh, least_new_id(parameters));
+    return {std::move(mesh), std::move(groups)};
+  } catch (const std::invalid_argument &error) {
+    throw InputError(
+        parameters.file_name.origin + " is '" + parameters.file_name.value +
+        "'; allowed is a mesh of hexahedra in one of the formats .msh, .vtk, .inp, .ucd: " + error.what());
+  }
+}
 
 void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Triangulation<3> &mesh) {
   const parameters::Mesh &parameters = body.mesh;

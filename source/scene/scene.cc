@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/material/state_fields.h"
 #include "billet/parameters/reader.h"
+#include "billet/scene/boundary_names.h"
 #include "billet/usage.h"
 
 #include <nlohmann/json.hpp>
@@ -182,6 +183,13 @@ void check_state_fields(const Located<std::vector<std::string>> &wanted, const s
                                       : "allowed are those of the scene's materials: " + allowed));
 }
 
+/// Returns the scene with the ids of all boundaries that it names, and the names of each body.
+std::pair<parameters::Scene, std::vector<BoundaryNames>> resolve(const parameters::Scene &parameters) {
+  std::vector<BoundaryNames> names;
+  parameters::Scene scene = resolve_boundaries(parameters, names);
+  return {std::move(scene), std::move(names)};
+}
+
 /// Returns element, unless it is the default one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
   const BrickElement element = body.element.value;
@@ -201,9 +209,15 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
   return formulation;
 }
 
-Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
-  for (const auto &body : parameters.bodies)
-    bodies_.push_back(make_body(body, parameters.amplitudes));
+Scene::Scene(const parameters::Scene &parameters) : Scene(resolve(parameters)) {}
+
+Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
+    : parameters_(std::move(resolved.first)) {
+  const parameters::Scene &parameters = parameters_;
+  for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
+    bodies_.push_back(make_body(parameters.bodies[i], parameters.amplitudes));
+    bodies_.back().boundary_names = std::move(resolved.second[i]);
+  }
   check_state_fields(parameters.output.state_fields, bodies_);
   check_before_start([&] {
     for (const auto &tool : parameters.tools) {

@@ -148,6 +148,20 @@ def _() -> None:
 for ranks in (2, 3, 4):
     same(f"{ranks} ranks", "", ranks=ranks)
 same("a mesh file .msh", NO_MESH + "block.msh & block: Symmetry planes = x = 0 ; y = 0")
+same(
+    "a mesh file with names",
+    NO_MESH + "named.msh & floor: Boundary ids = bottom & top on die: Boundary ids = Top",
+)
+same(
+    "a deck of Abaqus with names, on 2 ranks",
+    NO_MESH + "named.inp & floor: Boundary ids = bottom & top on die: Boundary ids = top",
+    ranks=2,
+)
+same(
+    "names of boundaries by conditions",
+    "Mesh: Boundary ids = top : abs(z - 2) < 1e-6 ; bottom : abs(z) < 1e-6"
+    " & floor: Boundary ids = bottom & top on die: Boundary ids = top",
+)
 same("a mesh file .vtk", NO_MESH + "block.vtk")
 same("a mesh file .ucd on 2 ranks", NO_MESH + "block.ucd", ranks=2)
 same(

@@ -33,6 +33,10 @@ struct Mesh {
   dealii::Tensor<1, 3> translation;
   /// New id, and muParser condition on x, y, z of the face's centre; the last condition that holds applies.
   Located<std::vector<std::pair<unsigned int, std::string>>> boundary_ids;
+  std::vector<std::string>
+      boundary_names; ///< one for each of these; then the scene chooses the id. Empty: none
+  Located<std::optional<double>>
+      merged_distance; ///< of nodes in a file; 0: doubled nodes stay; none: refused
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
@@ -56,7 +60,7 @@ struct Material {
 /// One named subsection of Supports.
 struct Support {
   std::string name;
-  Located<std::vector<unsigned int>> boundary_ids;
+  BoundaryIds boundary_ids;
   std::array<bool, 3> components{};
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
@@ -71,7 +75,7 @@ struct Load {
   std::string type;
   billet::Load load;
   std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
-  Located<std::vector<unsigned int>> boundary_ids; ///< only for loads on faces
+  BoundaryIds boundary_ids;         ///< only for loads on faces
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -19,11 +19,26 @@ template <class T> struct Located {
   std::string origin;
 };
 
+/// Boundary ids and names of boundaries of one body. The scene adds the ids of the names once it knows the
+/// mesh.
+struct BoundaryIds : Located<std::vector<unsigned int>> {
+  BoundaryIds() = default;
+  BoundaryIds(Located<std::vector<unsigned int>> ids) : Located(std::move(ids)) {}
+
+  std::vector<std::string> names; ///< as the scene file has them
+
+  /// Whether the scene file has neither ids nor names.
+  bool is_empty() const { return value.empty() && names.empty(); }
+};
+
 /// Range of input numbers. Powers and products of numbers outside it may leave the range of double.
 constexpr double max_number = 1e60, min_number = 1e-60;
 
 /// Returns a whole number from 0 to 999999999, such as a boundary id. Throws std::invalid_argument.
 unsigned int parse_count(const std::string &text);
+
+/// Whether a text can be the name of a boundary: it has a letter, and no comma.
+bool is_boundary_name(const std::string &text);
 
 /// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
 /// InputError with file, line, parameter, the value found and the allowed values.
@@ -49,6 +64,8 @@ public:
                      unsigned int maximum = 999999999) const;
   std::vector<double> numbers(const std::string &key) const override;
   std::vector<unsigned int> counts(const std::string &key) const;
+  /// Returns ids and names of boundaries, separated by commas. A name has a letter.
+  BoundaryIds boundaries(const std::string &key) const;
   /// Returns three numbers.
   dealii::Tensor<1, 3> vector(const std::string &key) const override;
   /// Returns a normalised vector of three numbers that are not all zero.

@@ -45,6 +45,10 @@ struct Scene {
   std::size_t tool_index(const ContactPair &pair) const;
 };
 
+/// Refuses pairs that would apply contact forces twice between the same faces, or a face and a tool. Pairs
+/// with names count only if their ids are known.
+void check_repeated_pairs(const std::vector<ContactPair> &pairs, bool names_are_known);
+
 /// Prints every parameter with its default, range, unit and meaning.
 void print_all_parameters(std::ostream &stream);
 

@@ -64,10 +64,10 @@ struct ContactPair {
   std::string name;
   std::string origin;
   Located<std::string> body;
-  Located<std::vector<unsigned int>> boundary_ids;
+  BoundaryIds boundary_ids;
   Located<std::string> tool;        ///< empty for a pair of two bodies
   Located<std::string> second_body; ///< empty for a pair of a body and a tool
-  Located<std::vector<unsigned int>> second_boundary_ids;
+  BoundaryIds second_boundary_ids;
   enum class PenaltyOf { automatic, stiffer, series };
   enum class Passes { automatic, one, two };
   Located<std::optional<FacetMethod>> facets; ///< none: automatic

@@ -2,6 +2,7 @@
 #ifndef BILLET_SCENE_MESH_BUILDER_H
 #define BILLET_SCENE_MESH_BUILDER_H
 
+#include "billet/mesh/boundary_groups.h"
 #include "billet/parameters/body.h"
 
 #include <deal.II/grid/tria.h>
@@ -13,6 +14,15 @@ enum class MeshDetail {
   full,
   outline ///< no refinements, one layer: sufficient for boundary ids, extent and supports
 };
+
+/// Mesh of a file, checked and mended as the scene asks.
+struct LoadedMesh {
+  MeshFile mesh;
+  BoundaryGroups groups;
+};
+
+/// Reads the mesh file of a body. Throws InputError.
+LoadedMesh load_mesh_file(const parameters::Mesh &parameters);
 
 /// Builds the mesh of one body. Throws InputError.
 void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh);

@@ -5,6 +5,7 @@
 #include "billet/diagnostics.h"
 #include "billet/friction/friction_law.h"
 #include "billet/mechanics/element_block.h"
+#include "billet/mesh/boundary_groups.h"
 #include "billet/parameters/scene.h"
 #include "billet/scene/mesh_builder.h"
 #include "billet/scene/tool.h"
@@ -15,6 +16,7 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -46,6 +48,7 @@ ElementFormulation make_formulation(const parameters::Body &parameters);
 /// Material, constraints and loads of a body, without its mesh.
 struct Body {
   std::string name;
+  BoundaryNames boundary_names; ///< of its mesh
   std::shared_ptr<const PointLaw> law;
   ElementFormulation formulation; ///< for implicit scenes
   double young_modulus;
@@ -190,6 +193,7 @@ private:
   void make_pairs();
   void allow_for_loads();
   void choose_material_tangents();
+  explicit Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved);
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_MESH_BOUNDARY_GROUPS_H
+#define BILLET_MESH_BOUNDARY_GROUPS_H
+
+#include "billet/mesh/mesh_file.h"
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Boundary ids that numbers and names of groups stand for.
+struct BoundaryNames {
+  std::map<std::string, std::vector<unsigned int>> ids_of_name;
+  std::map<unsigned int, std::vector<unsigned int>> ids_of_number;
+};
+
+/// Boundary ids of the exterior faces of a mesh. A face has one id but may be in several groups: faces that
+/// are in the same groups share an id, and a group stands for the ids of all its faces. A face in one group
+/// with a number has this number as its id; one in no group has id 0.
+class BoundaryGroups {
+public:
+  /// Nodes of a face in ascending order.
+  using Face = std::array<unsigned int, 4>;
+
+  /// Ids that groups do not have are above all their numbers and above `least_new_id`. Throws
+  /// std::invalid_argument if faces of hexahedra do not fit each other.
+  explicit BoundaryGroups(const MeshFile &mesh, unsigned int least_new_id = 1000);
+
+  /// Returns the id of an exterior face; 0 for others.
+  unsigned int id(const Face &face) const;
+  const BoundaryNames &names() const { return names_; }
+  /// Returns an id that no face and no group has.
+  unsigned int new_id() const { return new_id_; }
+
+private:
+  void find_exterior(const MeshFile &mesh);
+  std::size_t index(const Face &face) const;
+  void assign_ids(const std::vector<std::vector<unsigned int>> &groups_of_face, const MeshFile &mesh);
+
+  std::vector<Face> faces_; ///< exterior, sorted
+  std::vector<unsigned int> elements_, ids_;
+  BoundaryNames names_;
+  unsigned int new_id_;
+};
+
+} // namespace billet
+
+#endif

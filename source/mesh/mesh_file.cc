@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/mesh/mesh_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace billet {
+
+namespace {
+
+std::string read_bytes(const std::string &file_name) {
+  // A device or a pipe may never end.
+  if (!std::filesystem::is_regular_file(file_name))
+    throw std::invalid_argument("'" + file_name + "' is no file that can be read");
+  std::ifstream stream(file_name, std::ios::binary);
+  std::ostringstream buffer;
+  buffer << stream.rdbuf();
+  if (!stream)
+    throw std::invalid_argument("'" + file_name + "' cannot be read");
+  return buffer.str();
+}
+
+} // namespace
+
+std::vector<MeshFormat> &mesh_formats() {
+  static std::vector<MeshFormat> formats{gmsh_format(), vtk_format(), abaqus_format(), ucd_format()};
+  return formats;
+}
+
+namespace {
+
+MeshFile parse(const std::string &bytes, const FileAccess &access) {
+  const std::string byte_order_mark = "\xEF\xBB\xBF";
+  if (bytes.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
+    return parse(bytes.substr(byte_order_mark.size()), access);
+  for (const MeshFormat &format : mesh_formats())
+    if (format.recognises(bytes))
+      return format.read(bytes, access);
+  const std::string beginning = bytes.substr(0, 1000);
+  if (beginning.find("<VTKFile") != std::string::npos)
+    throw std::invalid_argument(
+        "it is XML of VTK, which is not read; convert it to Gmsh's format: 'meshio convert "
+        "part.vtu part.msh' (Debian package python3-meshio)");
+  std::string known;
+  for (const MeshFormat &format : mesh_formats())
+    known += (known.empty() ? "" : ", ") + format.meaning;
+  throw std::invalid_argument("its content is in none of these formats: " + known);
+}
+
+/// Returns a text without what a terminal would take for a command, and not longer than a message should be.
+std::string printable(std::string text) {
+  constexpr std::size_t max_length = 1000;
+  if (text.size() > max_length)
+    text = text.substr(0, max_length) + "...";
+  for (char &c : text)
+    c = c >= ' ' && c <= '~' ? c : '?';
+  return text;
+}
+
+} // namespace
+
+MeshFile parse_mesh(const std::string &bytes, const FileAccess &access) {
+  try {
+    return parse(bytes, access);
+  } catch (const std::invalid_argument &error) {
+    throw std::invalid_argument(printable(error.what()));
+  }
+}
+
+MeshFile read_mesh_file(const std::string &file_name) {
+  const std::filesystem::path folder = std::filesystem::path(file_name).parent_path();
+  return parse_mesh(read_bytes(file_name),
+                    [&folder](const std::string &name) { return read_bytes((folder / name).string()); });
+}
+
+} // namespace billet

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/scene/boundary_names.h"
+
+#include "billet/errors.h"
+#include "billet/mesh/mesh_cursor.h"
+#include "billet/nearest_name.h"
+#include "billet/scene/mesh_builder.h"
+
+#include <algorithm>
+
+namespace billet {
+
+namespace {
+
+void add_once(std::vector<unsigned int> &ids, const unsigned int id) {
+  if (std::find(ids.begin(), ids.end(), id) == ids.end())
+    ids.push_back(id);
+}
+
+/// Returns the name of the body that a scene means, though in other letters: Abaqus does not tell upper case
+/// from lower case. Throws InputError if there is none.
+const std::vector<unsigned int> &find_ids(const std::string &name, const BoundaryNames &known,
+                                          const std::string &origin, const std::string &body) {
+  const auto exact = known.ids_of_name.find(name);
+  const std::vector<unsigned int> *found = exact != known.ids_of_name.end() ? &exact->second : nullptr;
+  std::vector<std::string> names;
+  std::size_t n_similar = 0;
+  for (const auto &[other, ids] : known.ids_of_name) {
+    names.push_back(other);
+    if (exact == known.ids_of_name.end() && lower_case(other) == lower_case(name)) {
+      ++n_similar;
+      found = &ids;
+    }
+  }
+  if (found == nullptr || n_similar > 1) {
+    std::string list;
+    for (const std::string &other : names)
+      list += (list.empty() ? "" : ", ") + other;
+    throw InputError(origin + " names boundary '" + name + "'; " +
+                     (names.empty() ? "body '" + body +
+                                          "' has no names of boundaries; allowed are its ids, and names that "
+                                          "'Boundary ids' in its Mesh gives"
+                                    : "allowed are ids, and the names of body '" + body + "': " + list) +
+                     did_you_mean(name, names));
+  }
+  if (found->empty())
+    throw InputError(origin + " names boundary '" + name +
+                     "', which has no whole face on the outside of body '" + body +
+                     "'; allowed are groups of exterior faces");
+  return *found;
+}
+
+void resolve(BoundaryIds &boundaries, const BoundaryNames &known, const std::string &body) {
+  std::vector<unsigned int> ids;
+  for (const unsigned int number : boundaries.value) {
+    const auto group = known.ids_of_number.find(number);
+    if (group == known.ids_of_number.end())
+      add_once(ids, number);
+    else
+      for (const unsigned int id : group->second)
+        add_once(ids, id);
+  }
+  for (const std::string &name : boundaries.names)
+    for (const unsigned int id : find_ids(name, known, boundaries.origin, body))
+      add_once(ids, id);
+  boundaries.value = std::move(ids);
+}
+
+/// Chooses ids for the names that conditions give to faces.
+void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int new_id) {
+  for (std::size_t i = 0; i < mesh.boundary_names.size(); ++i) {
+    const std::string &name = mesh.boundary_names[i];
+    if (name.empty()) {
+      add_once(names.ids_of_number[mesh.boundary_ids.value[i].first], mesh.boundary_ids.value[i].first);
+      continue;
+    }
+    const auto first = std::find(mesh.boundary_names.begin(), mesh.boundary_names.end(), name);
+    unsigned int &id = mesh.boundary_ids.value[i].first;
+    id = static_cast<std::size_t>(first - mesh.boundary_names.begin()) < i
+             ? mesh.boundary_ids.value[static_cast<std::size_t>(first - mesh.boundary_names.begin())].first
+             : new_id++;
+    add_once(names.ids_of_name[name], id);
+  }
+}
+
+/// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
+/// gives.
+BoundaryNames read_boundary_names(parameters::Mesh &mesh) {
+  unsigned int new_id = least_new_id(mesh) + 1;
+  BoundaryNames names;
+  if (mesh.source == parameters::Mesh::Source::file) {
+    const BoundaryGroups groups = load_mesh_file(mesh).groups;
+    names = groups.names();
+    new_id = groups.new_id();
+  }
+  name_conditions(mesh, names, new_id);
+  return names;
+}
+
+} // namespace
+
+unsigned int least_new_id(const parameters::Mesh &mesh) {
+  unsigned int id = 1000; // above the ids of primitives
+  for (std::size_t i = 0; i < mesh.boundary_names.size(); ++i)
+    if (mesh.boundary_names[i].empty())
+      id = std::max(id, mesh.boundary_ids.value[i].first);
+  return id;
+}
+
+parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<BoundaryNames> &names) {
+  names.clear();
+  for (auto &body : scene.bodies) {
+    names.push_back(read_boundary_names(body.mesh));
+    for (auto &support : body.supports)
+      resolve(support.boundary_ids, names.back(), body.name);
+    for (auto &load : body.loads)
+      resolve(load.boundary_ids, names.back(), body.name);
+  }
+  for (auto &pair : scene.pairs) {
+    const std::size_t body = scene.body_index(pair);
+    resolve(pair.boundary_ids, names[body], scene.bodies[body].name);
+    if (!pair.is_between_bodies())
+      continue;
+    const std::size_t second = scene.second_body_index(pair);
+    resolve(pair.second_boundary_ids, names[second], scene.bodies[second].name);
+  }
+  // Ids of pairs without names and groups have been compared when the scene was read.
+  const bool has_names = std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const auto &pair) {
+    return !pair.boundary_ids.names.empty() || !pair.second_boundary_ids.names.empty();
+  });
+  const bool has_groups = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
+    return body.mesh.source == parameters::Mesh::Source::file;
+  });
+  if (has_names || has_groups)
+    parameters::check_repeated_pairs(scene.pairs, true);
+  return scene;
+}
+
+} // namespace billet

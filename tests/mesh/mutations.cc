@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Thousands of damaged mesh files, the same on every machine: each is refused with a message or accepted with
+// sound indices. Sanitizers and traps see the rest. With clang's -fsanitize=fuzzer and -DBILLET_FUZZ this
+// file is a fuzz target, for which the files beside it are the corpus.
+#include "samples.h"
+
+#include <cstdint>
+#include <random>
+
+using namespace billet;
+using namespace billet::testing;
+
+namespace {
+
+/// Whether all indices of a mesh are sound, all coordinates finite, and all groups there.
+bool is_sound(const MeshFile &mesh) {
+  const std::size_t n_nodes = mesh.positions.size();
+  bool holds = mesh.node_numbers.size() == n_nodes && !mesh.hexahedra.empty();
+  const auto is_node = [&](const unsigned int node) { return node < n_nodes; };
+  for (const auto &position : mesh.positions)
+    for (const double x : position)
+      holds = holds && std::abs(x) <= 1e61;
+  std::set<long long> numbers(mesh.node_numbers.begin(), mesh.node_numbers.end());
+  holds = holds && numbers.size() == n_nodes;
+  for (const auto &hexahedron : mesh.hexahedra)
+    holds = holds && std::all_of(hexahedron.nodes.begin(), hexahedron.nodes.end(), is_node);
+  for (const auto &face : mesh.faces)
+    holds = holds && std::all_of(face.nodes.begin(), face.nodes.end(), is_node) &&
+            face.group < mesh.groups.size();
+  for (const auto &set : mesh.node_sets)
+    holds = holds && std::all_of(set.members.begin(), set.members.end(), is_node) &&
+            set.group < mesh.groups.size();
+  for (const auto &set : mesh.element_sets)
+    for (const unsigned int element : set.members)
+      holds = holds && element < mesh.hexahedra.size() && set.group < mesh.groups.size();
+  return holds;
+}
+
+enum class Outcome { refused, accepted, unsound };
+
+Outcome judge(const std::string &bytes) {
+  try {
+    MeshFile mesh = parse_mesh(bytes, &access_sample);
+    if (!is_sound(mesh))
+      return Outcome::unsound;
+    mend_and_check(mesh, DoubledNodes::merged, 1e-6);
+    if (!is_sound(mesh))
+      return Outcome::unsound;
+    const BoundaryGroups groups(mesh);
+    return Outcome::accepted;
+  } catch (const std::invalid_argument &error) {
+    // A message is short and printable.
+    const std::string message = error.what();
+    const bool is_text = std::all_of(message.begin(), message.end(), [](const char c) { return c >= ' '; });
+    return is_text && message.size() < 2000 ? Outcome::refused : Outcome::unsound;
+  }
+}
+
+#ifndef BILLET_FUZZ
+
+/// Damages files.
+class Damage {
+public:
+  std::string operator()(std::string bytes) {
+    for (std::size_t n = 1 + below(3); n > 0 && !bytes.empty(); --n)
+      change(bytes);
+    return bytes;
+  }
+
+private:
+  std::size_t below(const std::size_t n) { return n == 0 ? 0 : engine_() % n; }
+
+  void change(std::string &bytes) {
+    const std::size_t place = below(bytes.size());
+    switch (below(6)) {
+    case 0:
+      bytes[place] = static_cast<char>(below(256));
+      break;
+    case 1:
+      bytes.resize(place);
+      break;
+    case 2:
+      bytes.erase(place, 1 + below(20));
+      break;
+    case 3:
+      bytes.insert(place, bytes.substr(below(bytes.size()), below(100)));
+      break;
+    case 4:
+      replace_number(bytes, place);
+      break;
+    default: // one line goes or stands twice
+      const std::size_t begin = bytes.rfind('\n', place) == std::string::npos ? 0 : bytes.rfind('\n', place);
+      const std::size_t end = std::min(bytes.find('\n', place + 1), bytes.size());
+      if (end > begin && below(2) == 0)
+        bytes.erase(begin, end - begin);
+      else if (end > begin)
+        bytes.insert(begin, bytes.substr(begin, end - begin));
+    }
+  }
+
+  void replace_number(std::string &bytes, const std::size_t place) {
+    static const std::vector<std::string> numbers{"0",
+                                                  "-1",
+                                                  "1",
+                                                  "2",
+                                                  "19",
+                                                  "1000000000000",
+                                                  "4294967296",
+                                                  "9223372036854775807",
+                                                  "-9223372036854775808",
+                                                  "1e300",
+                                                  "nan",
+                                                  "inf",
+                                                  "99999999999999999999999",
+                                                  "0.5"};
+    const std::size_t begin = bytes.find_first_of("0123456789", place);
+    if (begin == std::string::npos)
+      return;
+    const std::size_t end = std::min(bytes.find_first_not_of("0123456789", begin), bytes.size());
+    bytes.replace(begin, end - begin, numbers[below(numbers.size())]);
+  }
+
+  std::mt19937 engine_;
+};
+
+#endif
+
+} // namespace
+
+#ifdef BILLET_FUZZ
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std::size_t size) {
+  if (judge(std::string(reinterpret_cast<const char *>(data), size)) == Outcome::unsound)
+    __builtin_trap();
+  return 0;
+}
+
+#else
+
+int main(int argc, char **argv) {
+  const unsigned int n = argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 1000;
+  Damage damage;
+  for (const std::string &sample : samples()) {
+    const std::string sound = read_text(sample);
+    std::size_t n_unsound = 0, n_refused = 0;
+    for (unsigned int i = 0; i < n; ++i) {
+      const Outcome outcome = judge(damage(sound));
+      n_unsound += outcome == Outcome::unsound ? 1 : 0;
+      n_refused += outcome == Outcome::refused ? 1 : 0;
+    }
+    check(sample + " damaged", n_unsound == 0 && n_refused > n / 2);
+    // A file that is cut short anywhere, but for white space and what no mesh needs, is refused.
+    std::size_t n_cut = 0, n_accepted = 0;
+    const std::size_t end = sound.find_last_not_of(" \r\n\t");
+    for (std::size_t length = 0; length < end; length += 1 + sound.size() / 300, ++n_cut)
+      n_accepted += judge(sound.substr(0, length)) == Outcome::accepted ? 1 : 0;
+    const bool has_no_end =
+        sample.find(".inp") != std::string::npos || sample.find(".vtk") != std::string::npos;
+    check(sample + " cut short", has_no_end || n_accepted == 0);
+  }
+  return exit_code();
+}
+
+#endif
