@@ -75,6 +75,27 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
   }
 }
 
+namespace {
+
+/// Adds the resistances of springs on a face that act from the start to the end of the scene.
+template <class Face>
+void add_springs(const Body &body, const Face &face, std::vector<Resistance> &resistances) {
+  for (const AppliedLoad &load : body.loads) {
+    const auto &ids = load.boundary_ids;
+    if (load.times.from > 0. || std::isfinite(load.times.until) ||
+        std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
+      continue;
+    Tensor<1, 3> normal =
+        dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+    normal /= normal.norm();
+    for (const auto &direction : load.load.supports(normal))
+      for (const unsigned int v : face->vertex_indices())
+        resistances.push_back({face->vertex(v), direction, Resistance::Sense::both_ways});
+  }
+}
+
+} // namespace
+
 void Scene::check_supports(const Triangulation<3> &mesh) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     std::vector<dealii::Point<3>> points;
@@ -98,6 +119,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
           for (const unsigned int v : face->vertex_indices())
             holding.push_back({face->vertex(v), bodies_[b].holds[h].normal, Resistance::Sense::both_ways});
         }
+      add_springs(bodies_[b], face, holding);
       for (const auto &pair : pairs_)
         if (pair.body == b && std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(),
                                         face->boundary_id()) != pair.boundary_ids.end()) {

@@ -81,8 +81,10 @@ bool is_zero(const std::string &expression) {
 }
 
 AppliedLoad make_load(const parameters::Load &parameters,
-                      const std::vector<parameters::Amplitude> &amplitudes) {
-  AppliedLoad applied{parameters.type, parameters.load, parameters.boundary_ids.value, {}};
+                      const std::vector<parameters::Amplitude> &amplitudes, const double fade_time) {
+  const LoadTimes times{parameters.from, parameters.until, parameters.fade_time.value_or(fade_time)};
+  AppliedLoad applied{parameters.type, parameters.load,  parameters.boundary_ids.value, {},
+                      times,           parameters.origin};
   for (std::size_t i = 0; i < applied.load.expressions.size(); ++i) {
     const LoadExpression &expression = applied.load.expressions[i];
     applied.expressions.emplace_back(expression.text,
@@ -93,7 +95,9 @@ AppliedLoad make_load(const parameters::Load &parameters,
   return applied;
 }
 
-Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
+/// `fade_time`: of loads that leave it open.
+Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes,
+               const double fade_time) {
   Body body;
   body.name = parameters.name;
   body.law = parameters.material.law;
@@ -114,7 +118,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
                                           std::vector<parameters::Amplitude>(),
                                           parameters.thickness_direction.origin);
   for (const auto &load : parameters.loads)
-    body.loads.push_back(make_load(load, amplitudes));
+    body.loads.push_back(make_load(load, amplitudes, fade_time));
   for (const auto &plane : parameters.symmetry_planes.value) {
     Hold hold;
     hold.name = "symmetry plane " + plane.text;
@@ -188,7 +192,8 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
 
 Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
   for (const auto &body : parameters.bodies)
-    bodies_.push_back(make_body(body, parameters.amplitudes));
+    bodies_.push_back(make_body(body, parameters.amplitudes,
+                                parameters.is_dynamic() ? 0. : 0.01 * parameters.time_stepping.end_time));
   check_state_fields(parameters.output.state_fields, bodies_);
   check_before_start([&] {
     for (const auto &tool : parameters.tools) {
@@ -356,6 +361,11 @@ std::vector<double> Scene::stops() const {
     for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
       if (time < parameters_.time_stepping.end_time)
         times.push_back(time);
+  for (const auto &body : bodies_)
+    for (const AppliedLoad &load : body.loads)
+      for (const double time : {load.times.from, load.times.until, load.times.until + load.times.fade_time})
+        if (time > 0. && time < parameters_.time_stepping.end_time)
+          times.push_back(time);
   if (parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics)
     add_corners(times);
   return times;

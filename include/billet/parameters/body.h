@@ -8,6 +8,7 @@
 #include "billet/parameters/reader.h"
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -67,6 +68,9 @@ struct Load {
   billet::Load load;
   std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
   Located<std::vector<unsigned int>> boundary_ids; ///< only for loads on faces
+  double from = 0., until = std::numeric_limits<double>::infinity();
+  std::optional<double> fade_time; ///< none: automatic
+  std::string origin;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <iosfwd>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,12 +33,31 @@ struct Hold {
   const Expression *value = nullptr; ///< null: 0
 };
 
+/// Times between which a load acts.
+struct LoadTimes {
+  double from = 0.;
+  double until = std::numeric_limits<double>::infinity();
+  double fade_time = 0.; ///< over which it fades after `until`; 0: at once
+
+  /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none yet.
+  double factor(const double t) const {
+    constexpr double rounding = 1e-9;
+    if (from > 0. && t <= from * (1. + rounding))
+      return 0.;
+    if (t <= until * (1. + rounding))
+      return 1.;
+    return fade_time > 0. ? std::max(0., 1. - (t - until) / fade_time) : 0.;
+  }
+};
+
 /// Load on a body of the scene.
 struct AppliedLoad {
   std::string type; ///< for messages
   Load load;
   std::vector<unsigned int> boundary_ids; ///< empty if it acts on the whole body
   std::vector<Expression> expressions;    ///< expressions of the load
+  LoadTimes times;
+  std::string origin; ///< place in the scene file, for messages
 };
 
 /// Returns the element formulation of a body.

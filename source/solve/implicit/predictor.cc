@@ -20,6 +20,9 @@ bool Predictor::guess(const double t, const double previous_step) {
 
 bool Predictor::stay_at_rest(const double t) {
   const double t_n = problem_.state().time;
+  const auto &bodies = problem_.scene().bodies();
+  if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))
+    return false; // loads may change with time
   if (has_lost_pace_ || problem_.released().left(t) != problem_.released().left(t_n) ||
       problem_.removal().changes(t_n, t))
     return false;

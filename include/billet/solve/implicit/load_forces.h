@@ -6,15 +6,18 @@
 #include "billet/forces/inertia.h"
 #include "billet/solve/restart.h"
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 namespace billet {
 
-/// Forces of the loads of a dynamic scene on owned dofs, at the start and the end of a step.
+/// Forces of the loads of a scene on owned dofs, at the start and the end of a step.
 class LoadForces {
 public:
+  /// `masses` returns this rank's shares of the nodal masses, and is called if there are loads.
   LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
-             const Inertia &inertia);
+             const std::function<std::vector<double>(const LocalNodes &)> &masses);
 
   /// Subtracts the forces at these displacements and velocities from the residual. Returns their norm.
   /// Collective.
