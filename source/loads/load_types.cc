@@ -22,6 +22,12 @@ TypeParameter loaded_faces() {
   return {"Boundary ids", "", TypeParameter::Kind::text, "Boundary ids of the faces, separated by commas."};
 }
 
+std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters) {
+  for (const TypeParameter &parameter : Axes::parameters())
+    parameters.push_back(parameter);
+  return parameters;
+}
+
 void add_vector_expressions(const TypeInput &input, const std::string &key, const bool uses_position,
                             Load &load) {
   const auto components = input.parts(key);

@@ -169,11 +169,14 @@ void Support::declare(ParameterHandler &prm) {
   prm.declare_entry("Boundary ids", "", Patterns::Anything(),
                     "Boundary ids of the nodes with prescribed displacements, separated by commas.");
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
-                    "Components of the displacement that are prescribed.");
+                    "Components of the displacement that are prescribed: x, y and z are the first, second "
+                    "and third of 'Axes'.");
   prm.declare_entry(
       "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
       "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position x, y, "
       "z, the time t and the names of amplitudes. Other components have no effect. [length]");
+  for (const TypeParameter &parameter : Axes::parameters())
+    declare_parameter(prm, parameter, parameter.meaning);
 }
 
 void Support::parse(Reader &reader) {
@@ -187,6 +190,7 @@ void Support::parse(Reader &reader) {
   }
   if (!components[0] && !components[1] && !components[2])
     reader.reject("Components", "at least one of x, y and z");
+  axes = Axes(reader);
   const auto expressions = reader.parts("Displacement");
   if (expressions.size() != 3)
     reader.reject("Displacement", "three expressions, separated by semicolons");

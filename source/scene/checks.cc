@@ -51,6 +51,24 @@ void check_ids(const Located<std::vector<unsigned int>> &asked, const std::set<u
 
 } // namespace
 
+/// Refuses supports in cylindrical axes that hold a node on the line, where no direction is radial.
+void Scene::check_axes(const Triangulation<3> &mesh) const {
+  for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
+    for (const Hold &hold : bodies_[body].holds) {
+      if (!hold.axes || !hold.axes->are_cylindrical() || hold.component == 2 || !holds_face(hold, face, 0.))
+        continue;
+      for (const unsigned int v : face->vertex_indices())
+        if (hold.axes->radius(face->vertex(v)) < 1e-8 * face->diameter()) {
+          std::ostringstream message;
+          message << hold.origin << ": " << hold.name << " holds the node at (" << face->vertex(v)
+                  << "), which is on the line of its cylindrical axes; allowed are nodes off the line, or "
+                     "'Components = z', along it";
+          throw InputError(message.str());
+        }
+    }
+  });
+}
+
 void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail detail) const {
   std::vector<std::set<unsigned int>> present(bodies_.size());
   for_each_boundary_face(
@@ -117,7 +135,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
         if (holds_face(bodies_[b].holds[h], face, 1e-8 * size)) {
           used[h] = true;
           for (const unsigned int v : face->vertex_indices())
-            holding.push_back({face->vertex(v), bodies_[b].holds[h].normal, Resistance::Sense::both_ways});
+            holding.push_back({face->vertex(v), bodies_[b].holds[h].direction(face->vertex(v)),
+                               Resistance::Sense::both_ways});
         }
       add_springs(bodies_[b], face, holding);
       for (const auto &pair : pairs_)

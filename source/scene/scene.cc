@@ -135,6 +135,9 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         hold.origin = support.displacement.origin;
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
+        hold.component = i;
+        if (!support.axes.are_global())
+          hold.axes = std::make_shared<const Axes>(support.axes);
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
                                                                 Expression::Variables::time_and_position,
                                                                 amplitudes, support.displacement.origin));
@@ -344,6 +347,7 @@ void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) 
   }
   merge_bodies(pointers, mesh);
   check_boundary_ids(mesh, detail);
+  check_axes(mesh);
   if (!parameters_.is_dynamic())
     check_supports(mesh);
   check_initial_penetration(mesh);
@@ -435,8 +439,9 @@ std::array<bool, 3> Scene::free_directions() const {
           are_free[i] && body.loads.empty() &&
           std::none_of(planes.begin(), planes.end(),
                        [i](const parameters::SymmetryPlane &plane) { return plane.normal[i] != 0.; }) &&
-          std::none_of(body.supports.begin(), body.supports.end(),
-                       [i](const parameters::Support &support) { return support.components[i]; });
+          std::none_of(body.supports.begin(), body.supports.end(), [i](const parameters::Support &support) {
+            return support.components[i] || !support.axes.are_global();
+          });
     }
   return are_free;
 }

@@ -2,6 +2,7 @@
 #ifndef BILLET_LOADS_LOAD_H
 #define BILLET_LOADS_LOAD_H
 
+#include "billet/geometry/axes.h"
 #include "billet/mechanics/nodal_vectors.h"
 #include "billet/registered_type.h"
 
@@ -174,6 +175,9 @@ TypeTable<Load> &load_types();
 
 /// Adds the three expressions of the parameter `key`, which are separated by semicolons.
 void add_vector_expressions(const TypeInput &input, const std::string &key, bool uses_position, Load &load);
+
+/// Adds the parameters of Axes.
+std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters);
 
 /// Returns the parameter that selects the faces; every load on faces has it, and the scene reads it.
 TypeParameter loaded_faces();

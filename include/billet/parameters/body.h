@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_BODY_H
 #define BILLET_PARAMETERS_BODY_H
 
+#include "billet/geometry/axes.h"
 #include "billet/loads/load.h"
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_type.h"
@@ -56,6 +57,7 @@ struct Support {
   std::array<bool, 3> components{};
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
+  Axes axes;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

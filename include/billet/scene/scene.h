@@ -4,6 +4,7 @@
 
 #include "billet/diagnostics.h"
 #include "billet/friction/friction_law.h"
+#include "billet/geometry/axes.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/parameters/scene.h"
 #include "billet/scene/mesh_builder.h"
@@ -31,6 +32,13 @@ struct Hold {
   dealii::Tensor<1, 3> normal;
   double offset = 0.;
   const Expression *value = nullptr; ///< null: 0
+  std::shared_ptr<const Axes> axes;  ///< of a support with axes of its own, or null
+  unsigned int component = 0;        ///< of these axes
+
+  /// Returns the unit normal at an undeformed position.
+  dealii::Tensor<1, 3> direction(const dealii::Tensor<1, 3> &position) const {
+    return axes ? axes->at(position)[component] : normal;
+  }
 };
 
 /// Times between which a load acts.
@@ -210,6 +218,7 @@ private:
   void make_pairs();
   void allow_for_loads();
   void choose_material_tangents();
+  void check_axes(const dealii::Triangulation<3> &mesh) const;
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;

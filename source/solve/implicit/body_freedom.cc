@@ -62,7 +62,8 @@ std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const 
       position[i] += problem.state().displacements(entry.second.dofs[i]);
     for (const auto &hold : problem.scene().bodies()[body].holds)
       if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
-        resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
+        resistances.push_back(
+            {position, hold.direction(entry.second.position), Resistance::Sense::both_ways});
   }
   add_springs(problem, body, resistances);
   for (const auto &contact : problem.contacts())

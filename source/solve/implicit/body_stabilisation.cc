@@ -39,8 +39,9 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
     for (std::size_t body = 0; body < n_bodies; ++body)
       for (const auto &hold : scene.bodies()[body].holds)
         if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0) {
-          supported_nodes.push_back({body, entry.second.position, hold.normal, entry.second.dofs});
-          support.add_support(body, entry.second.position, hold.normal);
+          const dealii::Tensor<1, 3> normal = hold.direction(entry.second.position);
+          supported_nodes.push_back({body, entry.second.position, normal, entry.second.dofs});
+          support.add_support(body, entry.second.position, normal);
         }
   if (support.find().n_free > 0)
     return;
