@@ -111,12 +111,12 @@ void check_weight(const std::string &name, const std::string &density, const std
   check(name + ": work of the load", std::abs(energies.external / energies.elastic - 1.), 1e-4);
 }
 
-void check_ring() {
+/// `planes` and `supports` keep the sections and the ends in their planes.
+void check_ring(const std::string &name, const std::string &planes, const std::string &supports) {
   const double a = 1., b = 2., young = 1e4, nu = 0.3, p = 1.;
   SceneRun run(read({"      set Arguments = 10, 16, 1 : 0, 0, 0 : 1, 16, 0.2 : true\n"
                      "      set Positions = (1+x)*cos(pi/32*y) ; (1+x)*sin(pi/32*y) ; z\n",
-                     "x = 0 ; y = 0 ; z = 0 ; z = 0.2",
-                     "      set Young modulus = 1e4\n      set Poisson ratio = 0.3\n", "",
+                     planes, "      set Young modulus = 1e4\n      set Poisson ratio = 0.3\n", supports,
                      load("gas", "        set Type = pressure\n        set Boundary ids = 0\n"
                                  "        set Pressure = t\n"),
                      in_steps(2)}));
@@ -126,7 +126,7 @@ void check_ring() {
   };
   for (const double r : {a, b}) {
     const double u = displacement_at(run, Tensor<1, 3>({r, 0., 0.}))[0];
-    check(std::string("ring: displacement of the ") + (r == a ? "inner" : "outer") + " face",
+    check(name + ": displacement of the " + (r == a ? "inner" : "outer") + " face",
           std::abs(u / closed_form(r) - 1.), 0.01);
   }
 }
@@ -206,7 +206,17 @@ int main(int argc, char *argv[]) {
   check_weight("gravity", "      set Density = 1e-3\n",
                "        set Type = acceleration\n        set Acceleration = 0 ; 0 ; -10*t\n");
   check_weight("body force", "", "        set Type = body force\n        set Body force = 0 ; 0 ; -0.01*t\n");
-  check_ring();
+  check_ring("ring", "x = 0 ; y = 0 ; z = 0 ; z = 0.2", "");
+  check_ring(
+      "ring in cylindrical axes", "",
+      "      subsection sections\n        set Boundary ids = 2, 3\n        set Components = y\n"
+      "        set Axes = cylindrical\n        set Axis point = 0, 0, 1\n"
+      "        set Axis direction = 0, 0, 2\n      end\n"
+      "      subsection ends\n        set Boundary ids = 4, 5\n        set Components = z\n      end\n");
+  check_ring("ring in local axes", "x = 0 ; z = 0 ; z = 0.2",
+             "      subsection section\n        set Boundary ids = 2\n        set Components = x\n"
+             "        set Axes = local\n        set First axis = 0, 1, 0\n"
+             "        set Second axis = 1, 1, 0\n      end\n");
   check_roll();
   check_block("force on a face",
               "        set Type = force\n        set Boundary ids = 5\n        set Force = 1e-5 ; 0 ; 2e-5\n",
