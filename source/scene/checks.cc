@@ -100,8 +100,7 @@ template <class Face>
 void add_springs(const Body &body, const Face &face, std::vector<Resistance> &resistances) {
   for (const AppliedLoad &load : body.loads) {
     const auto &ids = load.boundary_ids;
-    if (load.times.from > 0. || std::isfinite(load.times.until) ||
-        std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
+    if (!load.times.always() || std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
       continue;
     Tensor<1, 3> normal =
         dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));

@@ -240,10 +240,10 @@ Scene::Scene(const parameters::Scene &parameters) : parameters_(parameters) {
     throw InputError(quote_linear_solver(parameters.solver) +
                      ", but this scene's contact tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
-  if (parameters.is_dynamic() && !parameters.is_explicit())
+  if (!parameters.is_explicit()) {
     allow_for_loads();
-  if (!parameters.is_explicit())
     choose_material_tangents();
+  }
 }
 
 void Scene::choose_material_tangents() {

@@ -13,6 +13,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iosfwd>
 #include <limits>
 #include <memory>
@@ -47,6 +48,8 @@ struct LoadTimes {
   double until = std::numeric_limits<double>::infinity();
   double fade_time = 0.; ///< over which it fades after `until`; 0: at once
 
+  /// Whether it acts during the whole run.
+  bool always() const { return !(from > 0.) && !std::isfinite(until); }
   /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none yet.
   double factor(const double t) const {
     constexpr double rounding = 1e-9;

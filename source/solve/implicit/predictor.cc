@@ -127,6 +127,11 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   if (!is_admissible)
     return false;
   rhs *= -1.;
+  Vector loads = correction;
+  if (problem_.scheme().add_load_change(t, step.start.displacements, loads)) {
+    problem_.supports().condense(loads);
+    rhs += loads;
+  }
   std::vector<double> load_rhs, offset_changes(unknown.size());
   for (const std::size_t tool : unknown)
     load_rhs.push_back(-tools.imbalance(tool, t) / tools.unit_of(tool));

@@ -12,15 +12,29 @@ Statics::Statics(const Scene &scene, const Discretization &discretization)
 
 void Statics::start_step(const double t_n, const double t, const Vector &displacements,
                          const std::vector<double> & /*offsets*/) {
+  t_n_ = t_n;
   length_ = t - t_n;
   start_ = displacements;
 }
 
 double Statics::add_loads(const double t, const Vector &displacements, Vector &residual) {
+  if (length_ > 0. && t <= t_n_) {
+    residual -= loads_.at_start();
+    return loads_.at_start().l2_norm();
+  }
   Vector velocities = displacements;
   velocities -= start_;
   velocities *= length_ > 0. ? 1. / length_ : 0.;
   return loads_.subtract(t, displacements, velocities, residual);
+}
+
+bool Statics::add_load_change(const double t, const Vector &displacements, Vector &forces) {
+  Vector at_rest = forces;
+  at_rest = 0.;
+  Vector change = loads_.at_start();
+  loads_.subtract(t, displacements, at_rest, change);
+  forces -= change;
+  return true;
 }
 
 void Statics::add_tangent(const double t, const TangentSystem &system) const {

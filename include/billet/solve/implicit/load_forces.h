@@ -24,6 +24,8 @@ public:
   double subtract(double t, const Vector &displacements, const Vector &velocities, Vector &residual);
   /// Adds the derivatives, after subtract(); `damping_factor` as TimeIntegrator's.
   void add_tangent(double t, double damping_factor, const TangentSystem &system) const;
+  /// Returns the forces at the start of the step.
+  const Vector &at_start() const { return forces_n_; }
   /// Makes the forces of the last subtract() those at the start of the step.
   void start() { forces_n_ = forces_; }
   /// Does the same after a step. Returns the work of the forces, by the trapezoidal rule.

@@ -51,6 +51,11 @@ public:
   virtual double add_loads(double /*t*/, const Vector & /*displacements*/, Vector & /*residual*/) {
     return 0.;
   }
+  /// Adds the change of the loads in the step, at these displacements at its start. Returns false without
+  /// loads, and where a predictor needs none. Collective.
+  virtual bool add_load_change(double /*t*/, const Vector & /*displacements*/, Vector & /*forces*/) {
+    return false;
+  }
   /// Begins the next step from the loads of the last add_loads(), after a restart.
   virtual void start_loads() {}
   /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the norm of

@@ -15,7 +15,9 @@ public:
 
   void start_step(double t_n, double t, const Vector &displacements,
                   const std::vector<double> &offsets) override;
+  /// At the start of the step, as opposed to its end, the loads are those of the last one.
   double add_loads(double t, const Vector &displacements, Vector &residual) override;
+  bool add_load_change(double t, const Vector &displacements, Vector &forces) override;
   void add_tangent(double t, const TangentSystem &system) const override;
   /// Makes the loads of the last add_loads() those at the start of the step.
   void start_loads() override { loads_.start(); }
@@ -28,8 +30,8 @@ public:
 private:
   LocalNodes nodes_;
   LoadForces loads_;
-  double length_ = 0.; ///< of the step; 0: none yet [time]
-  Vector start_;       ///< displacements at its start
+  double t_n_ = 0., length_ = 0.; ///< of the step; length 0: none yet [time]
+  Vector start_;                  ///< displacements at its start
 };
 
 } // namespace billet
