@@ -199,6 +199,34 @@ void check_times() {
   check("times: force", error.value(), 1e-4);
 }
 
+/// Only springs in all directions that act all the time support a body; forces act on its points.
+void check_refused() {
+  const auto is_refused = [](const std::string &loads) {
+    try {
+      const SceneRun run(read({cube, "", stiff, "", loads, in_steps(1)}));
+    } catch (const InputError &) {
+      return true;
+    }
+    return false;
+  };
+  const std::string ground =
+      "        set Type = spring\n        set Boundary ids = 4\n        set Stiffness = 1\n";
+  check("refused: nothing to refuse", !is_refused(load("ground", ground)));
+  check("refused: springs along normals only",
+        is_refused(load("ground", ground + "        set Direction = normal\n")));
+  check("refused: springs for a while", is_refused(load("ground", ground + "        set Until = 0.5\n")));
+  check("refused: dashpots only",
+        is_refused(load(
+            "oil", "        set Type = dashpot\n        set Boundary ids = 4\n        set Damping = 1\n")));
+  check("refused: a point outside",
+        is_refused(springs + load("push", "        set Type = force\n        set Point = 0.5, 0.5, 1.1\n"
+                                          "        set Force = 0 ; 0 ; 1\n")));
+  check("refused: a point far from all nodes",
+        is_refused(springs + load("push",
+                                  "        set Type = force\n        set Point = 0.5, 0.5, 2\n"
+                                  "        set Force = 0 ; 0 ; 1\n        set Place = nearest node\n")));
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -235,5 +263,6 @@ int main(int argc, char *argv[]) {
               Tensor<1, 3>({1e-5, 0., 2e-5}), Tensor<1, 3>({1., 1., 1.}));
   check_dashpot();
   check_times();
+  check_refused();
   return testing::exit_code();
 }
