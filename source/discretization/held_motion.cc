@@ -17,11 +17,12 @@ HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
       continue;
     // Gram-Schmidt on the planes' normals. A dependent normal adds nothing.
     for (const Hold *hold : held.holds) {
-      Direction direction{hold->normal, {}};
+      const Tensor<1, 3> normal = hold->direction(held.position);
+      Direction direction{normal, {}};
       if (hold->value != nullptr)
         direction.terms.push_back({hold, 1.});
       for (const auto &before : node.directions) {
-        const double part = hold->normal * before.e;
+        const double part = normal * before.e;
         direction.e -= part * before.e;
         for (const auto &term : before.terms)
           direction.terms.push_back({term.hold, -part * term.weight});

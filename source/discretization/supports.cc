@@ -61,7 +61,7 @@ std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization 
   for (const auto &[dof, node] : collect_held_nodes(scene, discretization)) {
     std::vector<dealii::Tensor<1, 3>> basis;
     for (const Hold *hold : node.holds) {
-      dealii::Tensor<1, 3> left = hold->normal;
+      dealii::Tensor<1, 3> left = hold->direction(node.position);
       for (const auto &e : basis)
         left -= (left * e) * e;
       if (left.norm() > independent)
@@ -92,7 +92,7 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
   };
   std::vector<Row> rows(holds.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    rows[r].n = holds[r]->normal;
+    rows[r].n = holds[r]->direction(position);
     rows[r].weights.assign(holds.size(), 0.);
     rows[r].weights[r] = 1.;
   }

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/forces/external_loads.h"
 
-#include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
+#include "billet/mechanics/element_mass.h"
 #include "billet/usage.h"
 
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/fe/mapping_q1.h>
+
 #include <algorithm>
+#include <limits>
+#include <sstream>
 
 namespace billet {
 
@@ -48,6 +53,55 @@ template <class Placed> std::size_t memory_of(const std::vector<Placed> &loads) 
   return bytes;
 }
 
+/// Adds a load's forces, which `add` adds to a vector, with its factor at time t.
+template <class Add>
+void add_with_factor(const AppliedLoad &load, const double t, NodalVectors &forces, const Add &add) {
+  const double factor = load.times.factor(t);
+  if (factor == 1.)
+    add(forces.data());
+  if (factor == 1. || factor == 0.)
+    return;
+  NodalVectors whole(forces.size(), 0.);
+  add(whole.data());
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    forces[i] += factor * whole[i];
+}
+
+/// Point in an element's reference coordinates, and how far these are outside [0, 1].
+struct FoundPoint {
+  const Element *element = nullptr;
+  dealii::Point<3> coordinates;
+  double outside = std::numeric_limits<double>::infinity();
+};
+
+FoundPoint find_point(const std::vector<Element> &elements, const dealii::Point<3> &point) {
+  FoundPoint best;
+  for (const Element &element : elements) {
+    const auto &cell = element.cell;
+    if (cell->center().distance(point) > cell->diameter())
+      continue;
+    dealii::Point<3> at;
+    try {
+      at = dealii::StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, point);
+    } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // it is not there
+      continue;
+    }
+    const double outside = dealii::GeometryInfo<3>::distance_to_unit_cell(at);
+    if (outside < best.outside)
+      best = {&element, dealii::GeometryInfo<3>::project_to_unit_cell(at), outside};
+  }
+  return best;
+}
+
+/// Returns the first rank with the least first number, and its numbers.
+std::pair<unsigned int, std::vector<double>> find_least(const MPI_Comm communicator,
+                                                        const std::vector<double> &numbers) {
+  const auto all = dealii::Utilities::MPI::all_gather(communicator, numbers);
+  const auto least = std::min_element(all.begin(), all.end(),
+                                      [](const auto &a, const auto &b) { return a.front() < b.front(); });
+  return {static_cast<unsigned int>(least - all.begin()), *least};
+}
+
 } // namespace
 
 ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses)
@@ -55,7 +109,7 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
     for (const AppliedLoad &load : scene.bodies()[b].loads)
       std::visit([&](const auto &action) { place(load, *action, b); }, load.load.action);
-  memory_.set(memory_of(on_bodies_) + memory_of(on_faces_) + memory_of(on_nodes_));
+  memory_.set(memory_of(on_bodies_) + memory_of(on_faces_) + memory_of(on_nodes_) + memory_of(on_points_));
   // Detects expressions without a value before any output is written.
   fail_together(nodes.discretization().communicator(), [&] {
     check_before_start([&] {
@@ -67,24 +121,78 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const BodyLoad &action, const std::size_t body) {
+  std::vector<double> volumes(action.is_per_volume() ? masses_.size() : 0, 0.);
   std::vector<unsigned int> nodes;
-  for (const auto &element : nodes_.elements(body))
+  for (std::size_t e = 0; e < nodes_.elements(body).size(); ++e) {
+    const auto &element = nodes_.elements(body)[e];
     nodes.insert(nodes.end(), element.begin(), element.end());
+    if (!action.is_per_volume())
+      continue;
+    ReferenceElement reference{};
+    compute_reference_element(nodal_positions(nodes_.discretization().elements(body)[e].cell), reference);
+    const auto shares = compute_nodal_volumes(reference);
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      volumes[element[a]] += shares[a];
+  }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  on_bodies_.push_back({&load, &action, std::move(nodes)});
+  std::vector<WeightedNode> sites;
+  for (const unsigned int node : nodes)
+    sites.push_back({node, action.is_per_volume() ? volumes[node] : masses_[node]});
+  on_bodies_.push_back({&load, &action, std::move(sites), nullptr});
+}
+
+std::unique_ptr<LoadedSurface>
+ExternalLoads::measure_surface(const std::vector<BoundaryFacet> &facets) const {
+  constexpr std::size_t n_sums = 10; // area, ∫x dA, ∫x ⊗ x dA
+  std::vector<double> sums(n_sums, 0.);
+  const auto add = [&](const Tensor<1, 3> &x, const double area) {
+    sums[0] += area;
+    for (unsigned int i = 0, k = 4; i < 3; ++i) {
+      sums[1 + i] += area * x[i];
+      for (unsigned int j = i; j < 3; ++j)
+        sums[k++] += area * x[i] * x[j];
+    }
+  };
+  // About the middle of the scene, so that a face far from the origin keeps its digits.
+  const Tensor<1, 3> &middle = nodes_.discretization().centre();
+  for (const BoundaryFacet &facet : facets)
+    for (const auto &point : facet_points()) {
+      const auto corner = [&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); };
+      Tensor<1, 3> x;
+      for (unsigned int a = 0; a < 4; ++a)
+        x += point.N[a] * (corner(a) - middle);
+      add(x, point.area_vector(corner).norm());
+    }
+  dealii::Utilities::MPI::sum(sums, nodes_.discretization().communicator(), sums);
+  auto surface = std::make_unique<LoadedSurface>();
+  surface->area = sums[0];
+  const Tensor<1, 3> c = Tensor<1, 3>({sums[1], sums[2], sums[3]}) / sums[0];
+  surface->centre = middle + c;
+  Tensor<2, 3> squares;
+  for (unsigned int i = 0, k = 4; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j, ++k)
+      squares[i][j] = squares[j][i] = sums[k] - sums[0] * c[i] * c[j];
+  for (unsigned int i = 0; i < 3; ++i)
+    surface->second_moment[i][i] = dealii::trace(squares);
+  surface->second_moment -= squares;
+  return surface;
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const FaceLoad &action, const std::size_t body) {
+  const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
+  auto surface = measure_surface(facets);
   std::vector<LoadedFace> faces;
-  for (const auto &facet : collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids))
-    faces.push_back({local_corners(facet, nodes_), centre_of(facet)});
-  on_faces_.push_back({&load, &action, std::move(faces)});
+  for (const auto &facet : facets)
+    faces.push_back({local_corners(facet, nodes_), centre_of(facet), surface.get()});
+  on_faces_.push_back({&load, &action, std::move(faces), std::move(surface)});
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, const std::size_t body) {
+  const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
+  auto surface = measure_surface(facets);
   std::vector<LoadedNode> nodes;
-  for (const auto &facet : collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids)) {
+  for (const auto &facet : facets) {
     std::array<double, 4> areas{};
     for (const auto &point : facet_points()) {
       const Tensor<1, 3> area =
@@ -95,30 +203,81 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
     const auto corners = local_corners(facet, nodes_);
     const Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
     for (unsigned int a = 0; a < 4; ++a)
-      nodes.push_back({corners[a], areas[a], normal, centre_of(facet)});
+      nodes.push_back({corners[a], areas[a], normal, centre_of(facet), surface.get()});
   }
-  on_nodes_.push_back({&load, &action, std::move(nodes)});
+  on_nodes_.push_back({&load, &action, std::move(nodes), std::move(surface)});
+}
+
+void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
+  const Discretization &discretization = nodes_.discretization();
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(discretization.communicator());
+  const dealii::Point<3> point = action.position();
+  // The nearest node: its distance, position and number on its rank.
+  std::vector<double> nearest{std::numeric_limits<double>::infinity(), 0., 0., 0., 0.};
+  for (const auto &element : nodes_.elements(body))
+    for (const unsigned int node : element) {
+      const Tensor<1, 3> x = get_vector(nodes_.positions().data(), node);
+      const double distance = (x - point).norm();
+      if (distance < nearest[0])
+        nearest = {distance, x[0], x[1], x[2], static_cast<double>(node)};
+    }
+  const auto [rank_of_node, node] = find_least(discretization.communicator(), nearest);
+  constexpr double near = 0.1, inside = 1e-6; // of the scene's radius; in reference coordinates
+  const FoundPoint found = find_point(discretization.elements(body), point);
+  const auto [rank_of_point, outside] = find_least(discretization.communicator(), {found.outside});
+  const bool takes_node = action.takes_nearest_node();
+  if (takes_node ? node[0] > near * discretization.radius() : outside[0] > inside) {
+    std::ostringstream message;
+    message << load.origin << ": the point (" << point
+            << ") is not in the undeformed body; its nearest node, (" << node[1] << " " << node[2] << " "
+            << node[3] << "), is at a distance of " << node[0] << "; allowed is "
+            << (takes_node ? "a distance of at most a tenth of the scene's radius"
+                           : "a point of the body, or 'Place = nearest node'");
+    throw InputError(message.str());
+  }
+  std::vector<WeightedNode> sites;
+  if (takes_node && rank == rank_of_node)
+    sites.push_back({static_cast<unsigned int>(node[4]), 1.});
+  if (!takes_node && rank == rank_of_point)
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      sites.push_back({nodes_.find(found.element->dofs[std::size_t{3} * a]),
+                       dealii::GeometryInfo<3>::d_linear_shape_function(found.coordinates, a)});
+  on_points_.push_back({&load, &action, std::move(sites), nullptr});
 }
 
 void ExternalLoads::add_forces(const double t, const NodalVectors &displacements,
                                const NodalVectors &velocities, NodalVectors &forces) const {
-  std::size_t n_loads = on_bodies_.size() + on_faces_.size();
+  std::size_t n_loads = on_bodies_.size() + on_faces_.size() + on_points_.size();
   for (const auto &placed : on_nodes_)
     n_loads += placed.sites.size();
   Usage::count_if(n_loads > 0, Capability::loads, n_loads);
   const NodalMotion at = motion(displacements, velocities);
-  for (const auto &[load, action, nodes] : on_bodies_) {
+  const auto values_of = [t](const AppliedLoad &load) {
     std::vector<double> values;
-    for (const Expression &expression : load->expressions)
+    for (const Expression &expression : load.expressions)
       values.push_back(expression.value(t));
-    const Tensor<1, 3> a = action->acceleration(values.data());
-    for (const unsigned int node : nodes)
-      add_vector(forces.data(), node, masses_[node] * a);
-  }
-  for (const auto &[load, action, faces] : on_faces_)
-    action->add_forces(faces, evaluate(*load, t, faces), at, forces.data());
-  for (const auto &[load, action, nodes] : on_nodes_)
-    action->add_forces(nodes, evaluate(*load, t, nodes), at, forces.data());
+    return values;
+  };
+  for (const auto &placed : on_bodies_)
+    add_with_factor(*placed.load, t, forces, [&](double *sum) {
+      const Tensor<1, 3> a = placed.action->acceleration(values_of(*placed.load).data());
+      for (const auto &[node, weight] : placed.sites)
+        add_vector(sum, node, weight * a);
+    });
+  for (const auto &placed : on_faces_)
+    add_with_factor(*placed.load, t, forces, [&](double *sum) {
+      placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
+    });
+  for (const auto &placed : on_nodes_)
+    add_with_factor(*placed.load, t, forces, [&](double *sum) {
+      placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
+    });
+  for (const auto &placed : on_points_)
+    add_with_factor(*placed.load, t, forces, [&](double *sum) {
+      const Tensor<1, 3> force = placed.action->force(values_of(*placed.load).data());
+      for (const auto &[node, weight] : placed.sites)
+        add_vector(sum, node, weight * force);
+    });
 }
 
 void ExternalLoads::add_tangent(const double t, const NodalVectors &displacements,
@@ -127,9 +286,11 @@ void ExternalLoads::add_tangent(const double t, const NodalVectors &displacement
   const NodalMotion at = motion(displacements, velocities);
   dealii::FullMatrix<double> of_face(12, 12), of_node(3, 3);
   std::vector<DofIndex> face_dofs(12), node_dofs(3);
-  for (const auto &[load, action, faces] : on_faces_) {
-    if (action->tangent() == LoadTangent::none)
+  for (const auto &[load, action, faces, surface] : on_faces_) {
+    const double factor = load->times.factor(t);
+    if (action->tangent() == LoadTangent::none || factor == 0.)
       continue;
+    const TangentSystem target{system.constraints, system.matrix, system.lift, factor * system.weight};
     const LoadValues values = evaluate(*load, t, faces);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       for (unsigned int a = 0; a < 4; ++a)
@@ -137,18 +298,20 @@ void ExternalLoads::add_tangent(const double t, const NodalVectors &displacement
           face_dofs[3 * a + i] = nodes_.dofs(faces[f].nodes[a])[i];
       of_face = 0.;
       action->add_tangent(faces[f], values.at(f), at, damping_factor, of_face);
-      system.add(of_face, face_dofs);
+      target.add(of_face, face_dofs);
     }
   }
-  for (const auto &[load, action, nodes] : on_nodes_) {
-    if (action->tangent() == LoadTangent::none)
+  for (const auto &[load, action, nodes, surface] : on_nodes_) {
+    const double factor = load->times.factor(t);
+    if (action->tangent() == LoadTangent::none || factor == 0.)
       continue;
+    const TangentSystem target{system.constraints, system.matrix, system.lift, factor * system.weight};
     const LoadValues values = evaluate(*load, t, nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       std::copy_n(nodes_.dofs(nodes[k].node).begin(), 3, node_dofs.begin());
       of_node = 0.;
       action->add_tangent(nodes[k], values.at(k), at, damping_factor, of_node);
-      system.add(of_node, node_dofs);
+      target.add(of_node, node_dofs);
     }
   }
 }

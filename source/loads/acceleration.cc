@@ -23,12 +23,8 @@ LoadType acceleration_type() {
           {{"Acceleration", "0 ; 0 ; 0", TypeParameter::Kind::text,
             "Three muParser expressions of the time t and the names of amplitudes. [length/time^2]"}},
           [](const TypeInput &input) {
-            const auto components = input.parts("Acceleration");
-            if (components.size() != 3)
-              input.reject("Acceleration", "three expressions, separated by semicolons");
             Load load{{}, std::make_shared<const Acceleration>()};
-            for (const std::string &component : components)
-              load.expressions.push_back({"Acceleration", component, false});
+            add_vector_expressions(input, "Acceleration", false, load);
             return load;
           }};
 }

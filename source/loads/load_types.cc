@@ -7,14 +7,34 @@ LoadType acceleration_type();
 LoadType pressure_type();
 LoadType spring_type();
 LoadType dashpot_type();
+LoadType dead_traction_type();
+LoadType body_force_type();
+LoadType force_type();
+LoadType moment_type();
 
 TypeTable<Load> &load_types() {
-  static TypeTable<Load> types{acceleration_type(), pressure_type(), spring_type(), dashpot_type()};
+  static TypeTable<Load> types{acceleration_type(),  pressure_type(),   spring_type(), dashpot_type(),
+                               dead_traction_type(), body_force_type(), force_type(),  moment_type()};
   return types;
 }
 
 TypeParameter loaded_faces() {
   return {"Boundary ids", "", TypeParameter::Kind::text, "Boundary ids of the faces, separated by commas."};
+}
+
+std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters) {
+  for (const TypeParameter &parameter : Axes::parameters())
+    parameters.push_back(parameter);
+  return parameters;
+}
+
+void add_vector_expressions(const TypeInput &input, const std::string &key, const bool uses_position,
+                            Load &load) {
+  const auto components = input.parts(key);
+  if (components.size() != 3)
+    input.reject(key, "three expressions, separated by semicolons");
+  for (const std::string &component : components)
+    load.expressions.push_back({key, component, uses_position});
 }
 
 bool Load::has_unsymmetric_tangent() const {
@@ -23,6 +43,17 @@ bool Load::has_unsymmetric_tangent() const {
   if (const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action))
     return (*node)->tangent() == LoadTangent::unsymmetric;
   return false;
+}
+
+bool Load::acts_on_mass() const {
+  const auto *body = std::get_if<std::shared_ptr<const BodyLoad>>(&action);
+  return body != nullptr && !(*body)->is_per_volume();
+}
+
+std::vector<dealii::Tensor<1, 3>> Load::supports(const dealii::Tensor<1, 3> &normal) const {
+  if (const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action))
+    return (*node)->supports(normal);
+  return {};
 }
 
 bool Load::limits_steps() const {

@@ -15,6 +15,19 @@ ResistedDirection::ResistedDirection(const TypeInput &input) {
     vector_ = input.direction("Direction");
 }
 
+std::vector<dealii::Tensor<1, 3>> ResistedDirection::directions(const dealii::Tensor<1, 3> &normal) const {
+  switch (kind_) {
+  case Kind::all:
+    return {dealii::Tensor<1, 3>({1., 0., 0.}), dealii::Tensor<1, 3>({0., 1., 0.}),
+            dealii::Tensor<1, 3>({0., 0., 1.})};
+  case Kind::normal:
+    return {normal};
+  case Kind::vector:
+    return {vector_};
+  }
+  return {};
+}
+
 void ResistedDirection::add(const double c, const LoadedNode &node,
                             dealii::FullMatrix<double> &matrix) const {
   const dealii::Tensor<1, 3> &d = along(node);

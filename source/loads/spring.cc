@@ -25,6 +25,9 @@ public:
     direction_.add(stiffness_ * node.area, node, matrix);
   }
   Bound bound() const override { return {stiffness_, 0.}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const override {
+    return direction_.directions(normal);
+  }
 
 private:
   double stiffness_;
@@ -35,7 +38,7 @@ private:
 
 LoadType spring_type() {
   return {"spring",
-          "resists displacements of the faces",
+          "resists displacements of the faces, and supports the body",
           {loaded_faces(),
            {"Stiffness", "0", TypeParameter::Kind::number,
             "> 0. Stiffness per undeformed area. [force/length^3]"},

@@ -15,6 +15,7 @@
 #include <deal.II/physics/transformations.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 
@@ -198,7 +199,8 @@ void Material::declare(ParameterHandler &prm) {
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
-                    "Density of the undeformed body, > 0 in dynamic scenes. [mass/length^3]");
+                    "Density of the undeformed body, > 0 in dynamic scenes and for loads on the mass. "
+                    "[mass/length^3]");
   prm.declare_entry("Temperature", "", Patterns::Anything(),
                     "Temperature of the whole body, for laws that depend on it: a muParser expression of the "
                     "time t and the names of amplitudes. [temperature]");
@@ -247,11 +249,14 @@ void Support::declare(ParameterHandler &prm) {
       "Boundary ids or names of the faces whose nodes have prescribed displacements, separated by "
       "commas. Names are those of the mesh file's groups and of 'Boundary ids' in Mesh.");
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
-                    "Components of the displacement that are prescribed.");
+                    "Components of the displacement that are prescribed: x, y and z are the first, second "
+                    "and third of 'Axes'.");
   prm.declare_entry(
       "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
       "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position x, y, "
       "z, the time t and the names of amplitudes. Other components have no effect. [length]");
+  for (const TypeParameter &parameter : Axes::parameters())
+    declare_parameter(prm, parameter, parameter.meaning);
 }
 
 void Support::parse(Reader &reader) {
@@ -265,6 +270,7 @@ void Support::parse(Reader &reader) {
   }
   if (!components[0] && !components[1] && !components[2])
     reader.reject("Components", "at least one of x, y and z");
+  axes = Axes(reader);
   const auto expressions = reader.parts("Displacement");
   if (expressions.size() != 3)
     reader.reject("Displacement", "three expressions, separated by semicolons");
@@ -274,6 +280,16 @@ void Support::parse(Reader &reader) {
 
 void Load::declare(ParameterHandler &prm) {
   declare_selection(prm, "Type", "pressure", load_types(), "Kind of the load.");
+  prm.declare_entry("From", "0", Patterns::Double(),
+                    ">= 0. Time at which the load begins to act. A step ends there. [time]");
+  prm.declare_entry("Until", "", Patterns::Anything(),
+                    "> 'From'. Time at which the load is switched off; a step ends there. Empty: never. "
+                    "[time]");
+  prm.declare_entry(
+      "Fade time", "", Patterns::Anything(),
+      ">= 0. Time over which the load fades, linearly, after 'Until'. Empty: a hundredth of the "
+      "end time in static scenes, where a jump has no equilibrium path; 0, at once, in "
+      "dynamic ones. [time]");
 }
 
 void Load::parse(Reader &reader) {
@@ -287,6 +303,22 @@ void Load::parse(Reader &reader) {
   load = chosen->make(reader);
   if (load.acts_on_faces() && boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
+  origin = reader.origin();
+  from = reader.not_negative("From");
+  if (!reader.text("Until").empty()) {
+    const auto times = reader.numbers("Until");
+    if (times.size() != 1 || !(times[0] > from))
+      reader.reject("Until", "a number > 'From', or nothing");
+    until = times[0];
+  }
+  if (!reader.text("Fade time").empty()) {
+    if (!std::isfinite(until))
+      reader.reject("Fade time", "no value: 'Until' is not set, so that the load never fades");
+    const auto times = reader.numbers("Fade time");
+    if (times.size() != 1 || !(times[0] >= 0.))
+      reader.reject("Fade time", "a number >= 0, or nothing");
+    fade_time = times[0];
+  }
   for (const LoadExpression &expression : load.expressions)
     origins.push_back(reader.origin(expression.key));
 }

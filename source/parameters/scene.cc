@@ -217,9 +217,11 @@ private:
       return;
     if (!scene_.is_dynamic())
       refuse(path, "Initial velocity");
-    if (!scene_.is_dynamic() && !body.loads.empty())
-      throw InputError(file_.where({path[0], path[1], "Loads", body.loads.front().name}) +
-                       ": the scene is quasi-static; allowed are loads in dynamic scenes");
+    for (const Load &load : body.loads)
+      if (load.load.acts_on_mass() && !(body.material.density.value > 0.))
+        throw InputError(file_.where({path[0], path[1], "Material"}, "Density") + ": 'Density' of body '" +
+                         body.name + "' is 0; allowed is a number > 0, since load '" + load.name +
+                         "' acts on the mass. 'Type = body force' gives a force per volume instead");
   }
   void refuse(const SceneFile::Path &path, const std::string &key) const {
     if (file_.is_set(path, key))

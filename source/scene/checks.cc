@@ -53,6 +53,24 @@ void check_ids(const BoundaryIds &asked, const std::set<unsigned int> &present, 
 
 } // namespace
 
+/// Refuses supports in cylindrical axes that hold a node on the line, where no direction is radial.
+void Scene::check_axes(const Triangulation<3> &mesh) const {
+  for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
+    for (const Hold &hold : bodies_[body].holds) {
+      if (!hold.axes || !hold.axes->are_cylindrical() || hold.component == 2 || !holds_face(hold, face, 0.))
+        continue;
+      for (const unsigned int v : face->vertex_indices())
+        if (hold.axes->radius(face->vertex(v)) < 1e-8 * face->diameter()) {
+          std::ostringstream message;
+          message << hold.origin << ": " << hold.name << " holds the node at (" << face->vertex(v)
+                  << "), which is on the line of its cylindrical axes; allowed are nodes off the line, or "
+                     "'Components = z', along it";
+          throw InputError(message.str());
+        }
+    }
+  });
+}
+
 void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail detail) const {
   std::vector<std::set<unsigned int>> present(bodies_.size());
   for_each_boundary_face(
@@ -77,6 +95,26 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
   }
 }
 
+namespace {
+
+/// Adds the resistances of springs on a face that act from the start to the end of the scene.
+template <class Face>
+void add_springs(const Body &body, const Face &face, std::vector<Resistance> &resistances) {
+  for (const AppliedLoad &load : body.loads) {
+    const auto &ids = load.boundary_ids;
+    if (!load.times.always() || std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
+      continue;
+    Tensor<1, 3> normal =
+        dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+    normal /= normal.norm();
+    for (const auto &direction : load.load.supports(normal))
+      for (const unsigned int v : face->vertex_indices())
+        resistances.push_back({face->vertex(v), direction, Resistance::Sense::both_ways});
+  }
+}
+
+} // namespace
+
 void Scene::check_supports(const Triangulation<3> &mesh) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     std::vector<dealii::Point<3>> points;
@@ -98,8 +136,10 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
         if (holds_face(bodies_[b].holds[h], face, 1e-8 * size)) {
           used[h] = true;
           for (const unsigned int v : face->vertex_indices())
-            holding.push_back({face->vertex(v), bodies_[b].holds[h].normal, Resistance::Sense::both_ways});
+            holding.push_back({face->vertex(v), bodies_[b].holds[h].direction(face->vertex(v)),
+                               Resistance::Sense::both_ways});
         }
+      add_springs(bodies_[b], face, holding);
       for (const auto &pair : pairs_)
         if (pair.body == b && std::find(pair.boundary_ids.begin(), pair.boundary_ids.end(),
                                         face->boundary_id()) != pair.boundary_ids.end()) {

@@ -316,7 +316,7 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold>
         dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
     constexpr double along = 0.99;
     return std::any_of(holds.begin(), holds.end(), [&](const Hold &hold) {
-      return std::abs(hold.normal * area) > along * area.norm() &&
+      return std::abs(hold.direction(face->center()) * area) > along * area.norm() &&
              holds_face(hold, face, 1e-8 * box.diagonal());
     });
   };

@@ -97,8 +97,10 @@ bool is_zero(const std::string &expression) {
 }
 
 AppliedLoad make_load(const parameters::Load &parameters,
-                      const std::vector<parameters::Amplitude> &amplitudes) {
-  AppliedLoad applied{parameters.type, parameters.load, parameters.boundary_ids.value, {}};
+                      const std::vector<parameters::Amplitude> &amplitudes, const double fade_time) {
+  const LoadTimes times{parameters.from, parameters.until, parameters.fade_time.value_or(fade_time)};
+  AppliedLoad applied{parameters.type, parameters.load,  parameters.boundary_ids.value, {},
+                      times,           parameters.origin};
   for (std::size_t i = 0; i < applied.load.expressions.size(); ++i) {
     const LoadExpression &expression = applied.load.expressions[i];
     applied.expressions.emplace_back(expression.text,
@@ -109,7 +111,9 @@ AppliedLoad make_load(const parameters::Load &parameters,
   return applied;
 }
 
-Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes) {
+/// `fade_time`: of loads that leave it open.
+Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes,
+               const double fade_time) {
   Body body;
   body.name = parameters.name;
   body.law = parameters.material.law;
@@ -130,7 +134,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
                                           std::vector<parameters::Amplitude>(),
                                           parameters.thickness_direction.origin);
   for (const auto &load : parameters.loads)
-    body.loads.push_back(make_load(load, amplitudes));
+    body.loads.push_back(make_load(load, amplitudes, fade_time));
   for (const auto &plane : parameters.symmetry_planes.value) {
     Hold hold;
     hold.name = "symmetry plane " + plane.text;
@@ -147,6 +151,9 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         hold.origin = support.displacement.origin;
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
+        hold.component = i;
+        if (!support.axes.are_global())
+          hold.axes = std::make_shared<const Axes>(support.axes);
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
                                                                 Expression::Variables::time_and_position,
                                                                 amplitudes, support.displacement.origin));
@@ -215,7 +222,8 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
     : parameters_(std::move(resolved.first)) {
   const parameters::Scene &parameters = parameters_;
   for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
-    bodies_.push_back(make_body(parameters.bodies[i], parameters.amplitudes));
+    bodies_.push_back(make_body(parameters.bodies[i], parameters.amplitudes,
+                                parameters.is_dynamic() ? 0. : 0.01 * parameters.time_stepping.end_time));
     bodies_.back().boundary_names = std::move(resolved.second[i]);
   }
   check_state_fields(parameters.output.state_fields, bodies_);
@@ -261,10 +269,10 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
     throw InputError(quote_linear_solver(parameters.solver) +
                      ", but this scene's contact tangent is unsymmetric; "
                      "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
-  if (parameters.is_dynamic() && !parameters.is_explicit())
+  if (!parameters.is_explicit()) {
     allow_for_loads();
-  if (!parameters.is_explicit())
     choose_material_tangents();
+  }
 }
 
 void Scene::choose_material_tangents() {
@@ -368,6 +376,7 @@ void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) 
   }
   merge_bodies(pointers, mesh);
   check_boundary_ids(mesh, detail);
+  check_axes(mesh);
   if (!parameters_.is_dynamic())
     check_supports(mesh);
   check_initial_penetration(mesh);
@@ -385,6 +394,11 @@ std::vector<double> Scene::stops() const {
     for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
       if (time < parameters_.time_stepping.end_time)
         times.push_back(time);
+  for (const auto &body : bodies_)
+    for (const AppliedLoad &load : body.loads)
+      for (const double time : {load.times.from, load.times.until, load.times.until + load.times.fade_time})
+        if (time > 0. && time < parameters_.time_stepping.end_time)
+          times.push_back(time);
   if (parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics)
     add_corners(times);
   return times;
@@ -454,8 +468,9 @@ std::array<bool, 3> Scene::free_directions() const {
           are_free[i] && body.loads.empty() &&
           std::none_of(planes.begin(), planes.end(),
                        [i](const parameters::SymmetryPlane &plane) { return plane.normal[i] != 0.; }) &&
-          std::none_of(body.supports.begin(), body.supports.end(),
-                       [i](const parameters::Support &support) { return support.components[i]; });
+          std::none_of(body.supports.begin(), body.supports.end(), [i](const parameters::Support &support) {
+            return support.components[i] || !support.axes.are_global();
+          });
     }
   return are_free;
 }

@@ -18,7 +18,7 @@ using billet::testing::check;
 namespace {
 
 /// F_a = A_a t, where t is a force per undeformed area.
-class DeadTraction final : public NodalLoad {
+class AddedTraction final : public NodalLoad {
 public:
   void add_forces(const std::vector<LoadedNode> &nodes, const LoadValues &values,
                   const NodalMotion & /*motion*/, double *forces) const override {
@@ -30,8 +30,8 @@ public:
   LoadTangent tangent() const override { return LoadTangent::none; }
 };
 
-LoadType dead_traction_type() {
-  return {"dead traction",
+LoadType added_traction_type() {
+  return {"added traction",
           "on the undeformed faces, in a fixed direction",
           {loaded_faces(),
            {"Traction", "0 ; 0 ; 0", TypeParameter::Kind::text,
@@ -41,7 +41,7 @@ LoadType dead_traction_type() {
             const auto components = input.parts("Traction");
             if (components.size() != 3)
               input.reject("Traction", "three expressions, separated by semicolons");
-            Load load{{}, std::make_shared<const DeadTraction>()};
+            Load load{{}, std::make_shared<const AddedTraction>()};
             for (const std::string &component : components)
               load.expressions.push_back({"Traction", component, true});
             return load;
@@ -73,7 +73,7 @@ parameters::Scene make_cube(const bool is_explicit, const std::string &planes, c
           "    end\n"
           "    subsection Loads\n"
           "      subsection pull\n"
-          "        set Type = dead traction\n"
+          "        set Type = added traction\n"
           "        set Boundary ids = 5\n"
           "        set Traction = "
        << traction
@@ -122,7 +122,7 @@ void check_tension(const std::string &name, const Run &run, const SolutionState 
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  load_types().add(dead_traction_type());
+  load_types().add(added_traction_type());
 
   // Slow: 50 times what a wave takes through the cube and back.
   constexpr double duration = 4e-5, traction = 1e4;

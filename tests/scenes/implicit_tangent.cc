@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The tangent of implicit dynamics against central differences of the residual: inertia, a pressure that
-// follows its faces, springs, dashpots, contact with friction on a heavy tool whose travel is unknown,
-// supports that move.
+// follows its faces, a moment that does, springs, dashpots, contact with friction on a heavy tool whose
+// travel is unknown, supports that move.
 #include "billet/integration/time_integrator_type.h"
 
 #include "tangent_check.h"
@@ -30,7 +30,11 @@ parameters::Scene make_scene() {
            {"spring", "set Boundary ids = 1\nset Stiffness = 300"},
            {"spring", "set Boundary ids = 2\nset Stiffness = 300\nset Direction = normal"},
            {"dashpot", "set Boundary ids = 3\nset Damping = 30"},
-           {"dashpot", "set Boundary ids = 2\nset Damping = 30\nset Direction = 0.6, 0, 0.8"}})
+           {"dashpot", "set Boundary ids = 2\nset Damping = 30\nset Direction = 0.6, 0, 0.8"},
+           {"dead traction", "set Boundary ids = 3\nset Traction = 3*t ; x ; 1"},
+           {"body force", "set Body force = 1 ; 2*t ; 3"},
+           {"force", "set Point = 0.3, 0.4, 0.5\nset Force = 1 ; 2*t ; 3"},
+           {"moment", "set Boundary ids = 1\nset Moment = 2 ; 3*t ; 1"}})
     body.loads.push_back(testing::make_load(type, lines));
   return scene;
 }
@@ -52,6 +56,10 @@ int main(int argc, char *argv[]) {
   check_scene("generalised-alpha", scene);
   scene.implicit_dynamics.integrator = hilber_hughes_taylor(-0.2);
   scene.implicit_dynamics.mass = parameters::ImplicitDynamics::Mass::lumped;
+  parameters::Scene statics = make_scene();
+  statics.time_stepping.scheme = parameters::TimeStepping::Scheme::quasi_static;
+  statics.bodies[0].initial_velocity.value = {"0", "0", "0"};
+  check_scene("statics", statics);
   check_scene("HHT, lumped mass", scene);
 
   auto &motion = scene.tools[0].motion;

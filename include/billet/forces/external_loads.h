@@ -2,19 +2,22 @@
 #ifndef BILLET_FORCES_EXTERNAL_LOADS_H
 #define BILLET_FORCES_EXTERNAL_LOADS_H
 
+#include "billet/discretization/boundary_facets.h"
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/supports.h"
 #include "billet/usage.h"
 
+#include <memory>
 #include <vector>
 
 namespace billet {
 
 /// Loads of all bodies on the elements, faces and nodes of a rank, in the order: body loads, loads on
-/// deformed faces, nodal loads.
+/// deformed faces, nodal loads, loads on points.
 class ExternalLoads {
 public:
-  /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads act.
+  /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads act. Throws
+  /// InputError. Collective.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
 
   /// Adds the forces [force] at time t.
@@ -35,19 +38,28 @@ private:
     const AppliedLoad *load;
     const Action *action;
     std::vector<Site> sites;
+    std::unique_ptr<LoadedSurface> surface; ///< that the sites refer to, or null
+  };
+  /// Node and its mass, volume or part of a force on a point.
+  struct WeightedNode {
+    unsigned int node;
+    double weight;
   };
   void place(const AppliedLoad &load, const BodyLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const FaceLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const NodalLoad &action, std::size_t body);
+  void place(const AppliedLoad &load, const PointLoad &action, std::size_t body);
+  std::unique_ptr<LoadedSurface> measure_surface(const std::vector<BoundaryFacet> &facets) const;
   NodalMotion motion(const NodalVectors &displacements, const NodalVectors &velocities) const {
     return {nodes_.positions().data(), displacements.data(), velocities.data()};
   }
 
   const LocalNodes &nodes_;
   std::vector<double> masses_;
-  std::vector<Placed<BodyLoad, unsigned int>> on_bodies_;
+  std::vector<Placed<BodyLoad, WeightedNode>> on_bodies_;
   std::vector<Placed<FaceLoad, LoadedFace>> on_faces_;
   std::vector<Placed<NodalLoad, LoadedNode>> on_nodes_;
+  std::vector<Placed<PointLoad, WeightedNode>> on_points_;
   HeldMemory memory_{Capability::loads};
 };
 

@@ -2,6 +2,7 @@
 #ifndef BILLET_LOADS_LOAD_H
 #define BILLET_LOADS_LOAD_H
 
+#include "billet/geometry/axes.h"
 #include "billet/mechanics/nodal_vectors.h"
 #include "billet/registered_type.h"
 
@@ -44,10 +45,19 @@ struct NodalMotion {
   const double *velocities;    ///< [length/time]
 };
 
+/// All faces under one load, undeformed, on all ranks.
+struct LoadedSurface {
+  double area = 0.;            ///< [length²]
+  dealii::Tensor<1, 3> centre; ///< centroid
+  /// ∫ r² I − r ⊗ r dA about the centroid [length⁴].
+  dealii::Tensor<2, 3> second_moment;
+};
+
 /// Face under a load.
 struct LoadedFace {
   std::array<unsigned int, 4> nodes; ///< in the order of FacetPoint
   dealii::Point<3> centre;           ///< undeformed
+  const LoadedSurface *surface = nullptr;
 
   /// Returns the current positions of the corners.
   std::array<dealii::Tensor<1, 3>, 4> positions(const NodalMotion &motion) const {
@@ -64,18 +74,34 @@ struct LoadedNode {
   double area;                 ///< share of the undeformed face, the integral of N_a [length²]
   dealii::Tensor<1, 3> normal; ///< outward unit normal of the undeformed face
   dealii::Point<3> centre;     ///< centre of the undeformed face
+  const LoadedSurface *surface = nullptr;
 };
 
 /// Derivatives of the forces by displacements and velocities.
 enum class LoadTangent { none, symmetric, unsymmetric };
 
-/// Load on the mass of a body.
+/// Load on the mass or the volume of a body.
 class BodyLoad {
 public:
   virtual ~BodyLoad() = default;
 
-  /// Returns the force per mass [length/time²].
+  /// Returns the force per mass [length/time²], or per undeformed volume [force/length³].
   virtual dealii::Tensor<1, 3> acceleration(const double *values) const = 0;
+  virtual bool is_per_volume() const { return false; }
+};
+
+/// Force of fixed direction on a material point of a body.
+class PointLoad {
+public:
+  virtual ~PointLoad() = default;
+
+  /// Returns the undeformed position.
+  virtual dealii::Point<3> position() const = 0;
+  /// Whether it acts on the node nearest to it; otherwise on the nodes of its element, by their shape
+  /// functions there.
+  virtual bool takes_nearest_node() const = 0;
+  /// Returns the force.
+  virtual dealii::Tensor<1, 3> force(const double *values) const = 0;
 };
 
 /// Load on the deformed faces of a body.
@@ -115,6 +141,10 @@ public:
     double damping = 0.;   ///< [force time/length³]
   };
   virtual Bound bound() const { return {}; }
+  /// Returns the directions in which it supports a node of a face with this normal: those of springs.
+  virtual std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const {
+    return {};
+  }
 };
 
 /// External load on a body, other than contact with tools and other bodies.
@@ -122,10 +152,17 @@ struct Load {
   /// Expressions whose values the forces depend on, in this order.
   std::vector<LoadExpression> expressions;
   std::variant<std::shared_ptr<const BodyLoad>, std::shared_ptr<const FaceLoad>,
-               std::shared_ptr<const NodalLoad>>
+               std::shared_ptr<const NodalLoad>, std::shared_ptr<const PointLoad>>
       action;
 
-  bool acts_on_faces() const { return !std::holds_alternative<std::shared_ptr<const BodyLoad>>(action); }
+  bool acts_on_faces() const {
+    return std::holds_alternative<std::shared_ptr<const FaceLoad>>(action) ||
+           std::holds_alternative<std::shared_ptr<const NodalLoad>>(action);
+  }
+  /// Whether it needs a density.
+  bool acts_on_mass() const;
+  /// Returns the directions in which it supports a node of a face with this normal.
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const;
   bool has_unsymmetric_tangent() const;
   /// Whether the load limits the explicit time step.
   bool limits_steps() const;
@@ -135,6 +172,12 @@ struct Load {
 /// type, and its name in the table of load_types.cc.
 using LoadType = RegisteredType<Load>;
 TypeTable<Load> &load_types();
+
+/// Adds the three expressions of the parameter `key`, which are separated by semicolons.
+void add_vector_expressions(const TypeInput &input, const std::string &key, bool uses_position, Load &load);
+
+/// Adds the parameters of Axes.
+std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters);
 
 /// Returns the parameter that selects the faces; every load on faces has it, and the scene reads it.
 TypeParameter loaded_faces();

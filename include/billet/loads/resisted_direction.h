@@ -19,6 +19,8 @@ public:
     const dealii::Tensor<1, 3> &d = along(node);
     return (f * d) * d;
   }
+  /// Returns orthogonal unit vectors of its range, on a face with this normal.
+  std::vector<dealii::Tensor<1, 3>> directions(const dealii::Tensor<1, 3> &normal) const;
   /// Adds c P to `matrix`.
   void add(double c, const LoadedNode &node, dealii::FullMatrix<double> &matrix) const;
 

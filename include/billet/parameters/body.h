@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_BODY_H
 #define BILLET_PARAMETERS_BODY_H
 
+#include "billet/geometry/axes.h"
 #include "billet/loads/load.h"
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_type.h"
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -64,6 +66,7 @@ struct Support {
   std::array<bool, 3> components{};
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
+  Axes axes;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
@@ -75,7 +78,10 @@ struct Load {
   std::string type;
   billet::Load load;
   std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
-  BoundaryIds boundary_ids;         ///< only for loads on faces
+  BoundaryIds boundary_ids; ///< only for loads on faces
+  double from = 0., until = std::numeric_limits<double>::infinity();
+  std::optional<double> fade_time; ///< none: automatic
+  std::string origin;
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -4,6 +4,7 @@
 
 #include "billet/diagnostics.h"
 #include "billet/friction/friction_law.h"
+#include "billet/geometry/axes.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/mesh/boundary_groups.h"
 #include "billet/parameters/scene.h"
@@ -13,7 +14,9 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iosfwd>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,6 +35,32 @@ struct Hold {
   dealii::Tensor<1, 3> normal;
   double offset = 0.;
   const Expression *value = nullptr; ///< null: 0
+  std::shared_ptr<const Axes> axes;  ///< of a support with axes of its own, or null
+  unsigned int component = 0;        ///< of these axes
+
+  /// Returns the unit normal at an undeformed position.
+  dealii::Tensor<1, 3> direction(const dealii::Tensor<1, 3> &position) const {
+    return axes ? axes->at(position)[component] : normal;
+  }
+};
+
+/// Times between which a load acts.
+struct LoadTimes {
+  double from = 0.;
+  double until = std::numeric_limits<double>::infinity();
+  double fade_time = 0.; ///< over which it fades after `until`; 0: at once
+
+  /// Whether it acts during the whole run.
+  bool always() const { return !(from > 0.) && !std::isfinite(until); }
+  /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none yet.
+  double factor(const double t) const {
+    constexpr double rounding = 1e-9;
+    if (from > 0. && t <= from * (1. + rounding))
+      return 0.;
+    if (t <= until * (1. + rounding))
+      return 1.;
+    return fade_time > 0. ? std::max(0., 1. - (t - until) / fade_time) : 0.;
+  }
 };
 
 /// Load on a body of the scene.
@@ -40,6 +69,8 @@ struct AppliedLoad {
   Load load;
   std::vector<unsigned int> boundary_ids; ///< empty if it acts on the whole body
   std::vector<Expression> expressions;    ///< expressions of the load
+  LoadTimes times;
+  std::string origin; ///< place in the scene file, for messages
 };
 
 /// Returns the element formulation of a body.
@@ -194,6 +225,7 @@ private:
   void allow_for_loads();
   void choose_material_tangents();
   explicit Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved);
+  void check_axes(const dealii::Triangulation<3> &mesh) const;
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/body_freedom.h"
 
+#include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 #include "billet/scene/rigid_motions.h"
 #include "billet/solve/penalty_watch.h"
@@ -31,6 +32,26 @@ bool is_held(const Constraints &constraints, const DofIndex dof) {
          });
 }
 
+/// Adds the resistances of springs that act on this rank's faces.
+void add_springs(const ImplicitProblem &problem, const std::size_t body,
+                 std::vector<Resistance> &resistances) {
+  const SolutionState &state = problem.state();
+  for (const AppliedLoad &load : problem.scene().bodies()[body].loads) {
+    if (!load.load.acts_on_faces() || (load.times.factor(state.time) == 0.))
+      continue;
+    for (const auto &facet : collect_boundary_facets(problem.discretization(), body, load.boundary_ids)) {
+      const dealii::Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
+      for (const auto &direction : load.load.supports(normal))
+        for (unsigned int a = 0; a < 4; ++a) {
+          dealii::Tensor<1, 3> position = facet.corners[a];
+          for (unsigned int i = 0; i < 3; ++i)
+            position[i] += state.displacements(facet.dofs[a][i]);
+          resistances.push_back({position, direction, Resistance::Sense::both_ways});
+        }
+    }
+  }
+}
+
 } // namespace
 
 std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
@@ -41,8 +62,10 @@ std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const 
       position[i] += problem.state().displacements(entry.second.dofs[i]);
     for (const auto &hold : problem.scene().bodies()[body].holds)
       if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
-        resistances.push_back({position, hold.normal, Resistance::Sense::both_ways});
+        resistances.push_back(
+            {position, hold.direction(entry.second.position), Resistance::Sense::both_ways});
   }
+  add_springs(problem, body, resistances);
   for (const auto &contact : problem.contacts())
     contact.measures().add_resistances(body, resistances);
 

@@ -2,6 +2,7 @@
 #include "billet/solve/implicit/body_stabilisation.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/discretization/boundary_facets.h"
 #include "billet/mechanics/element_mass.h"
 #include "billet/solve/restart.h"
 
@@ -11,6 +12,25 @@
 #include <sstream>
 
 namespace billet {
+
+namespace {
+
+/// Calls visit(facet, corner, direction) for this rank's springs that support the body during the whole run.
+template <class Visit>
+void visit_springs(const Body &body, const Discretization &discretization, const std::size_t index,
+                   const Visit &visit) {
+  for (const AppliedLoad &load : body.loads) {
+    const dealii::Tensor<1, 3> any({1., 0., 0.});
+    if (!load.times.always() || load.load.supports(any).empty())
+      continue;
+    for (const auto &facet : collect_boundary_facets(discretization, index, load.boundary_ids))
+      for (const auto &direction : load.load.supports(facet.area_vector() / facet.area_vector().norm()))
+        for (unsigned int corner = 0; corner < 4; ++corner)
+          visit(facet, corner, direction);
+  }
+}
+
+} // namespace
 
 RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization) {
   const std::size_t n_bodies = scene.bodies().size();
@@ -39,9 +59,16 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
     for (std::size_t body = 0; body < n_bodies; ++body)
       for (const auto &hold : scene.bodies()[body].holds)
         if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0) {
-          supported_nodes.push_back({body, entry.second.position, hold.normal, entry.second.dofs});
-          support.add_support(body, entry.second.position, hold.normal);
+          const dealii::Tensor<1, 3> normal = hold.direction(entry.second.position);
+          supported_nodes.push_back({body, entry.second.position, normal, entry.second.dofs});
+          support.add_support(body, entry.second.position, normal);
         }
+  for (std::size_t body = 0; body < n_bodies; ++body)
+    visit_springs(scene.bodies()[body], discretization, body,
+                  [&](const BoundaryFacet &facet, const unsigned int corner, const auto &direction) {
+                    supported_nodes.push_back({body, facet.corners[corner], direction, facet.dofs[corner]});
+                    support.add_support(body, facet.corners[corner], direction);
+                  });
   if (support.find().n_free > 0)
     return;
   frames.clear();

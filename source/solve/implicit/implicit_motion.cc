@@ -31,8 +31,9 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
     : scene_(scene), discretization_(discretization), supports_(supports),
       integrator_(scene.parameters().implicit_dynamics.integrator), nodes_(discretization),
       mass_(scene, discretization, supports, is_lumped(scene)),
-      loads_(scene, discretization, nodes_, mass_.inertia()), tools_(scene),
-      held_(scene, discretization, supports),
+      loads_(scene, discretization, nodes_,
+             [this](const LocalNodes &nodes) { return mass_.inertia().nodal_masses(nodes); }),
+      tools_(scene), held_(scene, discretization, supports),
       error_(scene, discretization, nodes_, mass_.inertia(), mass_.row_sums()) {
   step_.u_n = start_.velocity = start_.acceleration = damping_.end = damping_.start = damping_.forces_n =
       discretization.make_owned_vector();

@@ -2,6 +2,7 @@
 #include "billet/solve/implicit/implicit_problem.h"
 
 #include "billet/errors.h"
+#include "billet/solve/implicit/statics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,16 @@ std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretiza
   return nullptr;
 }
 
+/// Makes what time adds to a static scene; null for a dynamic one.
+std::unique_ptr<ImplicitScheme> make_statics(const Scene &scene, const Discretization &discretization) {
+  if (scene.parameters().is_dynamic())
+    return nullptr;
+  const auto &bodies = scene.bodies();
+  if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))
+    return std::make_unique<Statics>(scene, discretization);
+  return std::make_unique<ImplicitScheme>();
+}
+
 /// Returns a hundred times the force by the last bit of a displacement of the scene's size.
 double find_round_off_force(const Scene &scene, const Discretization &discretization) {
   double stiffest = 0.;
@@ -45,7 +56,7 @@ double find_round_off_force(const Scene &scene, const Discretization &discretiza
 ImplicitParts::ImplicitParts(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
       internal_(scene, discretization), contacts_(scene, discretization),
-      motion_(make_motion(scene, discretization, supports_)),
+      statics_(make_statics(scene, discretization)), motion_(make_motion(scene, discretization, supports_)),
       tools_(scene, discretization, supports_, contacts_, scheme()),
       removal_(scene, discretization, contacts_), stabilisation_(scene, discretization),
       tangent_(scene, discretization, supports_, contacts_) {

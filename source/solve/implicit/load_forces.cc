@@ -8,12 +8,12 @@
 namespace billet {
 
 LoadForces::LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
-                       const Inertia &inertia)
+                       const std::function<std::vector<double>(const LocalNodes &)> &masses)
     : discretization_(discretization), nodes_(nodes), forces_n_(discretization.make_owned_vector()),
       forces_(forces_n_) {
   if (std::any_of(scene.bodies().begin(), scene.bodies().end(),
                   [](const Body &body) { return !body.loads.empty(); }))
-    loads_ = std::make_unique<ExternalLoads>(scene, nodes, inertia.nodal_masses(nodes));
+    loads_ = std::make_unique<ExternalLoads>(scene, nodes, masses(nodes));
 }
 
 NodalVectors LoadForces::nodal(const Vector &field) const {

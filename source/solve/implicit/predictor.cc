@@ -20,6 +20,9 @@ bool Predictor::guess(const double t, const double previous_step) {
 
 bool Predictor::stay_at_rest(const double t) {
   const double t_n = problem_.state().time;
+  const auto &bodies = problem_.scene().bodies();
+  if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))
+    return false; // loads may change with time
   if (has_lost_pace_ || problem_.released().left(t) != problem_.released().left(t_n) ||
       problem_.removal().changes(t_n, t))
     return false;
@@ -124,6 +127,11 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   if (!is_admissible)
     return false;
   rhs *= -1.;
+  Vector loads = correction;
+  if (problem_.scheme().add_load_change(t, step.start.displacements, loads)) {
+    problem_.supports().condense(loads);
+    rhs += loads;
+  }
   std::vector<double> load_rhs, offset_changes(unknown.size());
   for (const std::size_t tool : unknown)
     load_rhs.push_back(-tools.imbalance(tool, t) / tools.unit_of(tool));

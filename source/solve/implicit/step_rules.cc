@@ -68,16 +68,19 @@ void StaticRules::save(StateWriter &writer) const {
   writer.write_text("free body", free_body_);
   modes_.save(writer);
   balance_.save(writer);
+  problem_.scheme().save(writer, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
 }
 
 void StaticRules::load(StateReader &reader, const bool is_exact) {
   balance_.load(reader);
   modes_.load(reader, is_exact);
+  problem_.scheme().load(reader, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
   if (is_exact)
     free_body_ = reader.read_text("free body");
 }
 
 void StaticRules::hold_imbalance(const Vector &residual) {
+  problem_.scheme().start_loads();
   problem_.released().hold(residual, problem_.state().time);
 }
 

@@ -83,7 +83,7 @@ public:
   void update_state(SolutionState &state) const override;
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const override;
-  void load(const StateReader &reader, const OwnedNodes &nodes);
+  void load(const StateReader &reader, const OwnedNodes &nodes) override;
   void save_tool(const std::size_t tool, StateWriter &writer) const override { tools_.save(tool, writer); }
   /// Replaces load() at time t of another method's state. Takes its velocities if it has some, else the
   /// initial ones.

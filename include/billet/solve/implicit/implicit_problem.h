@@ -32,8 +32,8 @@ public:
   const InternalForces &internal() const { return internal_; }
   ContactSet &contacts() { return contacts_; }
   const ContactSet &contacts() const { return contacts_; }
-  ImplicitScheme &scheme() { return motion_ ? *motion_ : statics_; }
-  const ImplicitScheme &scheme() const { return motion_ ? *motion_ : statics_; }
+  ImplicitScheme &scheme() { return motion_ ? *motion_ : *statics_; }
+  const ImplicitScheme &scheme() const { return motion_ ? *motion_ : *statics_; }
   /// Returns the motion; null in statics.
   ImplicitMotion *motion() { return motion_.get(); }
   DrivenTools &tools() { return tools_; }
@@ -53,8 +53,8 @@ protected:
   Supports supports_;
   InternalForces internal_;
   ContactSet contacts_;
-  ImplicitScheme statics_;
-  std::unique_ptr<ImplicitMotion> motion_; ///< null in statics
+  std::unique_ptr<ImplicitScheme> statics_; ///< null in dynamics
+  std::unique_ptr<ImplicitMotion> motion_;  ///< null in statics
   DrivenTools tools_;
   ToolRemoval removal_;
   ReleasedForces released_;

@@ -6,21 +6,26 @@
 #include "billet/forces/inertia.h"
 #include "billet/solve/restart.h"
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 namespace billet {
 
-/// Forces of the loads of a dynamic scene on owned dofs, at the start and the end of a step.
+/// Forces of the loads of a scene on owned dofs, at the start and the end of a step.
 class LoadForces {
 public:
+  /// `masses` returns this rank's shares of the nodal masses, and is called if there are loads.
   LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
-             const Inertia &inertia);
+             const std::function<std::vector<double>(const LocalNodes &)> &masses);
 
   /// Subtracts the forces at these displacements and velocities from the residual. Returns their norm.
   /// Collective.
   double subtract(double t, const Vector &displacements, const Vector &velocities, Vector &residual);
   /// Adds the derivatives, after subtract(); `damping_factor` as TimeIntegrator's.
   void add_tangent(double t, double damping_factor, const TangentSystem &system) const;
+  /// Returns the forces at the start of the step.
+  const Vector &at_start() const { return forces_n_; }
   /// Makes the forces of the last subtract() those at the start of the step.
   void start() { forces_n_ = forces_; }
   /// Does the same after a step. Returns the work of the forces, by the trapezoidal rule.

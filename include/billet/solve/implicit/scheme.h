@@ -13,8 +13,8 @@
 namespace billet {
 
 /// Contributions of time to the sum of all forces in a step: inertia, loads and the weights of a time
-/// integrator. This class is for statics: weights are one, and inertia is zero. ImplicitMotion is implicit
-/// dynamics.
+/// integrator. Here weights are one, and inertia and loads are zero. Statics adds loads; ImplicitMotion is
+/// implicit dynamics.
 class ImplicitScheme {
 public:
   ImplicitScheme() = default;
@@ -51,6 +51,13 @@ public:
   virtual double add_loads(double /*t*/, const Vector & /*displacements*/, Vector & /*residual*/) {
     return 0.;
   }
+  /// Adds the change of the loads in the step, at these displacements at its start. Returns false without
+  /// loads, and where a predictor needs none. Collective.
+  virtual bool add_load_change(double /*t*/, const Vector & /*displacements*/, Vector & /*forces*/) {
+    return false;
+  }
+  /// Begins the next step from the loads of the last add_loads(), after a restart.
+  virtual void start_loads() {}
   /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the norm of
   /// the inertia forces.
   virtual double complete(const Vector & /*contact*/, Vector & /*residual*/) const { return 0.; }
@@ -77,6 +84,7 @@ public:
 
   /// Saves the state at the start of the step, and that of a tool to the tool's group.
   virtual void save(StateWriter &, const OwnedNodes &) const {}
+  virtual void load(const StateReader &, const OwnedNodes &) {}
   virtual void save_tool(std::size_t /*tool*/, StateWriter &) const {}
 };
 

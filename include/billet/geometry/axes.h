@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_GEOMETRY_AXES_H
+#define BILLET_GEOMETRY_AXES_H
+
+#include "billet/registered_type.h"
+
+#include <array>
+#include <vector>
+
+namespace billet {
+
+/// Axes of the components of a vector at an undeformed position, such as a prescribed displacement: those of
+/// space, a fixed triad, or the radial, circumferential and axial directions about a line.
+class Axes {
+public:
+  static std::vector<TypeParameter> parameters();
+
+  /// Those of space.
+  Axes() = default;
+  /// Refuses wrong values.
+  explicit Axes(const TypeInput &input);
+
+  bool are_global() const { return kind_ == Kind::global; }
+  bool are_cylindrical() const { return kind_ == Kind::cylindrical; }
+  /// Returns the distance to the line of cylindrical axes [length].
+  double radius(const dealii::Tensor<1, 3> &position) const;
+  /// Returns the unit vectors. On the line itself, that of the radius is arbitrary.
+  std::array<dealii::Tensor<1, 3>, 3> at(const dealii::Tensor<1, 3> &position) const;
+  /// Returns the vector with these components.
+  dealii::Tensor<1, 3> to_global(const double *components, const dealii::Tensor<1, 3> &position) const;
+
+private:
+  enum class Kind { global, local, cylindrical };
+
+  Kind kind_ = Kind::global;
+  std::array<dealii::Tensor<1, 3>, 3> triad_; ///< the third is the axis of cylindrical ones
+  dealii::Tensor<1, 3> point_;                ///< on the axis
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/geometry/axes.h"
+
+#include "billet/geometry/frame.h"
+
+namespace billet {
+
+using dealii::Tensor;
+
+std::vector<TypeParameter> Axes::parameters() {
+  using Kind = TypeParameter::Kind;
+  return {
+      {"Axes", "global", Kind::choice,
+       "global|local|cylindrical: what the components refer to: x, y, z; a fixed triad of 'First axis' and "
+       "'Second axis'; or radius, circumference and axis about the line of 'Axis point' and 'Axis "
+       "direction', at the undeformed position."},
+      {"First axis", "", Kind::text, "Local axes: vector 'x, y, z' of any length along the first axis."},
+      {"Second axis", "", Kind::text,
+       "Local axes: vector 'x, y, z'. Its part across the first axis is along the second one; the third "
+       "one follows by the right-hand rule."},
+      {"Axis point", "", Kind::text, "Cylindrical axes: point 'x, y, z' of the line. [length]"},
+      {"Axis direction", "", Kind::text,
+       "Cylindrical axes: vector 'x, y, z' along the line, about which the circumference turns by the "
+       "right-hand rule."}};
+}
+
+Axes::Axes(const TypeInput &input) {
+  const std::string kind = input.text("Axes");
+  kind_ = kind == "local" ? Kind::local : kind == "cylindrical" ? Kind::cylindrical : Kind::global;
+  for (const std::string key : {"First axis", "Second axis"})
+    if (input.is_set(key) && kind_ != Kind::local)
+      input.reject(key, "no value: 'Axes' is " + kind);
+  for (const std::string key : {"Axis point", "Axis direction"})
+    if (input.is_set(key) && kind_ != Kind::cylindrical)
+      input.reject(key, "no value: 'Axes' is " + kind);
+  if (kind_ == Kind::local) {
+    triad_[0] = input.direction("First axis");
+    triad_[1] = input.direction("Second axis");
+    triad_[1] -= (triad_[1] * triad_[0]) * triad_[0];
+    constexpr double parallel = 1e-6;
+    if (triad_[1].norm() < parallel)
+      input.reject("Second axis", "a vector that is not parallel to 'First axis'");
+    triad_[1] /= triad_[1].norm();
+    triad_[2] = dealii::cross_product_3d(triad_[0], triad_[1]);
+  }
+  if (kind_ == Kind::cylindrical) {
+    point_ = input.vector("Axis point");
+    triad_[2] = input.direction("Axis direction");
+  }
+}
+
+double Axes::radius(const Tensor<1, 3> &position) const {
+  const Tensor<1, 3> arm = position - point_;
+  return (arm - (arm * triad_[2]) * triad_[2]).norm();
+}
+
+std::array<Tensor<1, 3>, 3> Axes::at(const Tensor<1, 3> &position) const {
+  if (kind_ == Kind::global)
+    return {Tensor<1, 3>({1., 0., 0.}), Tensor<1, 3>({0., 1., 0.}), Tensor<1, 3>({0., 0., 1.})};
+  if (kind_ == Kind::local)
+    return triad_;
+  const Tensor<1, 3> &axis = triad_[2];
+  Tensor<1, 3> radial = position - point_;
+  radial -= (radial * axis) * axis;
+  radial = radial.norm() > 0. ? radial / radial.norm() : Frame::from_normal(axis).q;
+  return {radial, dealii::cross_product_3d(axis, radial), axis};
+}
+
+Tensor<1, 3> Axes::to_global(const double *components, const Tensor<1, 3> &position) const {
+  if (kind_ == Kind::global)
+    return Tensor<1, 3>({components[0], components[1], components[2]});
+  const auto axes = at(position);
+  return components[0] * axes[0] + components[1] * axes[1] + components[2] * axes[2];
+}
+
+} // namespace billet
