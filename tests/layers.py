@@ -28,7 +28,7 @@ WITHOUT_MPI = WITHOUT_MESH - {"algebra"}
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every layer
 FOR_ALL = set(
-    "compatibility diagnostic_kinds diagnostics errors registered_type state usage version"
+    "compatibility diagnostic_kinds diagnostics errors nearest_name registered_type state usage version"
     " without_traps".split()
 )
 ABOVE_ALL = {"main"}  # files that may include everything
