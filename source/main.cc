@@ -101,15 +101,16 @@ billet::parameters::Scene read_scene(const std::string &file, const std::string 
   return parameters;
 }
 
-template <class Error> void print_error(const Error &error, const bool is_first) {
+void print_errors(const billet::DiagnosticList &errors, const bool is_first) {
   if (is_first)
-    std::cerr << error.diagnostic().text() << std::endl;
+    for (const auto &error : errors)
+      std::cerr << error.text() << std::endl;
 }
 
 /// Prints the JSON object of `--check --json` for a refused scene.
 void print_refusal(const std::string &file, const billet::InputError &error, const bool is_first) {
   if (is_first)
-    std::cout << billet::describe_refusal_as_json(file, error.diagnostic()) << "\n";
+    std::cout << billet::describe_refusal_as_json(file, error.diagnostics()) << "\n";
 }
 
 /// Writes the scene of the first file with current names to the second file, or prints it. Reports the
@@ -179,7 +180,7 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
         if (command.json)
           print_refusal(file, error, is_first);
         else
-          print_error(error, is_first);
+          print_errors(error.diagnostics(), is_first);
         code = ExitCode::bad_input;
       }
     break;
@@ -208,10 +209,10 @@ int main(int argc, char *argv[]) {
   try {
     code = perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
   } catch (const billet::InputError &error) { // thrown on all ranks, as is SolutionFailure
-    print_error(error, is_first);
+    print_errors(error.diagnostics(), is_first);
     code = ExitCode::bad_input;
   } catch (const billet::SolutionFailure &error) {
-    print_error(error, is_first);
+    print_errors({error.diagnostic()}, is_first);
     code = ExitCode::failed_solution;
   } catch (const std::exception &error) {
     // Other ranks may be waiting for this one: abort all of them.
