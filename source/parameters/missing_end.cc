@@ -91,6 +91,13 @@ std::size_t count_by_indentation(const Statement &statement, const std::vector<O
 
 MissingEnd find_missing_end(const std::vector<Statement> &statements, const Path &outer) {
   const KnownNames known;
+  const auto count = [&](const Statement::Kind kind) {
+    return std::count_if(statements.begin(), statements.end(),
+                         [&](const Statement &statement) { return statement.kind == kind; });
+  };
+  // More cannot be unclosed anywhere.
+  const auto n_missing =
+      static_cast<std::size_t>(count(Statement::Kind::subsection) - count(Statement::Kind::end));
   std::vector<Open> open;
   Path path = outer;
   for (const Statement &statement : statements) {
@@ -99,7 +106,7 @@ MissingEnd find_missing_end(const std::vector<Statement> &statements, const Path
     const std::size_t n_unclosed = statement.kind == Statement::Kind::end
                                        ? count_by_indentation(statement, open)
                                        : count_by_name(known, statement, path, open.size());
-    if (n_unclosed > 0)
+    if (n_unclosed > 0 && n_unclosed <= n_missing)
       return {path, open.back().line, statement.line};
     if (statement.kind == Statement::Kind::subsection) {
       open.push_back({statement.name, statement.indentation, statement.line});

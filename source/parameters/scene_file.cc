@@ -83,8 +83,8 @@ std::string single_spaced(const std::string &text) {
   return result;
 }
 
-/// Returns a description of a ParameterHandler pattern in plain words.
-std::string describe_pattern(const std::string &message) {
+/// Returns the end of a message about a value: what ParameterHandler's pattern allows, in plain words.
+std::string describe_pattern(const std::string &message, const std::string &value) {
   // The message is "... does not match the given pattern <[Double ...]>."; deal.II breaks it into lines at
   // any blank.
   std::istringstream words(message);
@@ -95,21 +95,24 @@ std::string describe_pattern(const std::string &message) {
   const auto begin = text.rfind(before);
   const auto end = text.find("]>", begin);
   if (begin == std::string::npos || end == std::string::npos)
-    return text;
-  std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
+    return "; " + text;
+  const std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
   if (pattern.find("List of <[Double") != std::string::npos)
-    return "numbers, separated by commas";
+    return "; allowed is numbers, separated by commas";
   if (pattern.find("List of <[Integer") != std::string::npos)
-    return "whole numbers, separated by commas";
+    return "; allowed is whole numbers, separated by commas";
   if (pattern.compare(0, 6, "Double") == 0)
-    return "a number";
+    return "; allowed is a number";
   if (pattern.compare(0, 7, "Integer") == 0)
-    return "a whole number, not negative";
+    return "; allowed is a whole number, not negative";
   if (pattern.compare(0, 4, "Bool") == 0)
-    return "true or false";
-  if (pattern.compare(0, 9, "Selection") == 0)
-    return "one of: " + dealii::Utilities::replace_in_string(trim(pattern.substr(10)), "|", ", ");
-  return pattern;
+    return "; allowed is true or false";
+  if (pattern.compare(0, 9, "Selection") != 0)
+    return "; allowed is " + pattern;
+  const std::string names = trim(pattern.substr(10));
+  const std::string advice = did_you_mean(value, dealii::Utilities::split_string_list(names, '|'));
+  return (advice.empty() ? "; allowed" : advice + " Allowed") +
+         " is one of: " + dealii::Utilities::replace_in_string(names, "|", ", ");
 }
 
 } // namespace
@@ -154,6 +157,11 @@ void SceneFile::require_sound() const {
     throw InputError(errors_);
 }
 
+void SceneFile::fail(const std::string &error) {
+  note(error);
+  throw InputError(errors_);
+}
+
 void SceneFile::note(const std::string &error) { errors_.emplace_back(diagnostic::bad_input, error); }
 
 void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path,
@@ -177,7 +185,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       continue;
     if (take_keyword(statement, "subsection")) {
       if (statement.empty())
-        note(where + ": 'subsection' needs a name");
+        fail(where + ": 'subsection' needs a name");
       path.push_back(single_spaced(statement));
       subsections_.push_back({path, where});
       statements.push_back({Statement::Kind::subsection, path.back(), indentation, first_line});
@@ -188,7 +196,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       statements.push_back({Statement::Kind::set, current_names(path, key, "").key, indentation, first_line});
     } else if (statement == "end") {
       if (path.size() == outer.size())
-        throw InputError(where + ": 'end' closes no subsection");
+        fail(where + ": 'end' closes no subsection");
       path.pop_back();
       statements.push_back({Statement::Kind::end, "", indentation, first_line});
     } else
@@ -207,14 +215,14 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
 void SceneFile::include(const std::string &statement, const std::string &where, const std::string &name,
                         Path &path, const std::vector<unsigned int> &files) {
   if (statement.empty())
-    throw InputError(where + ": 'include' needs the name of a file");
+    fail(where + ": 'include' needs the name of a file");
   constexpr std::size_t max_depth = 20;
   if (files.size() > max_depth)
-    throw InputError(where + ": files include each other in a cycle");
+    fail(where + ": files include each other in a cycle");
   const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
   std::ifstream stream(included);
   if (!stream || std::filesystem::is_directory(included))
-    throw InputError(where + ": the included file '" + included + "' cannot be read");
+    fail(where + ": the included file '" + included + "' cannot be read");
   scan_file(stream, included, path, files);
 }
 
@@ -445,7 +453,7 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
     } catch (const ParameterHandler::ExcEntryUndeclared &) {
       is_declared = false;
     } catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error) {
-      wrong_value = describe_pattern(error.what());
+      wrong_value = describe_pattern(error.what(), entry.value);
     }
     for (std::size_t i = 0; i < entry.path.size(); ++i)
       prm.leave_subsection();
@@ -456,8 +464,7 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
       add(entry.where + ": there is no parameter '" + entry.key + "'" + place +
           declared.advice(near.empty() ? declared.other_place(entry.key) : near, "here", entry.path));
     } else if (!wrong_value.empty())
-      add(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value + "'; allowed is " +
-          wrong_value);
+      add(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value + "'" + wrong_value);
   }
   if (!errors.empty())
     throw InputError(errors);

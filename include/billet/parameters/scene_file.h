@@ -107,6 +107,8 @@ private:
   void add_setting(const Setting &setting);
   void resolve_overrides();
   void note(const std::string &error);
+  /// Throws InputError with this and all earlier errors.
+  [[noreturn]] void fail(const std::string &error);
   std::string last_opened(const Path &path) const;
   const Entry *find(const Path &path, const std::string &key) const;
 
