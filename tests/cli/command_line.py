@@ -210,8 +210,8 @@ def _() -> None:
 @check("--set says what is wrong with it")
 def _() -> None:
     for setting, expected in {
-        "Time stepping/End tiem=1": r"--set .*: there is no parameter 'End tiem' in .*; did you mean 'End time'",
-        "Time steping/End time=1": r"--set .*: there is no subsection .*; did you mean 'Time stepping'\?",
+        "Time stepping/End tiem=1": r"no parameter 'End tiem' in 'Time stepping'; did you mean 'End time'",
+        "Time steping/End time=1": r"no subsection 'Time steping'; did you mean 'Time stepping'\?",
         "Bodies/blok/Material/Young modulus=1": r"no subsection 'Bodies / blok'; did you mean 'block'\?",
         "Time stepping/End time=soon": r"'End time' in 'Time stepping' is 'soon'; allowed is a number",
         "Bodies/block/Material/Young modulus=-1": r"--set .*=-1: 'Young modulus' .*; allowed is a number > 0",
