@@ -88,8 +88,9 @@ std::string move_aside(const parameters::Scene &parameters, const fs::path &fold
 void make_folder(const parameters::Scene &parameters) {
   const fs::path folder = parameters.output.folder.value;
   std::error_code error;
-  // The folder behind a symbolic link may have been moved.
-  fs::create_directories(fs::is_symlink(folder, error) ? fs::weakly_canonical(folder, error) : folder, error);
+  // The folder behind a symbolic link may have been moved, or was never made.
+  fs::create_directories(
+      fs::is_symlink(folder, error) ? folder.parent_path() / fs::read_symlink(folder, error) : folder, error);
   if (!fs::is_directory(folder, error))
     refuse_writing(parameters);
 }

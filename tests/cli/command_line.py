@@ -285,7 +285,10 @@ def _() -> None:
 @check("files stand beside the scene, or beside the part that names them")
 def _() -> None:
     write_text("parts/steel.csv", "0, 10\n1, 20\n")
-    mesh = "Mesh: - Primitive & Mesh: - Arguments & Mesh: Source = file & Mesh: File = brick.vtk"
+    mesh = (
+        "Mesh: - Primitive & Mesh: - Arguments & Mesh: Source = file & Mesh: File = brick.vtk"
+        " & Mesh: Boundary ids = 7 : abs(z - 2) < 1e-6 ; 4 : abs(z) < 1e-6"
+    )
     write_text("parts/meshed.prm", edit(UNNAMED, mesh).text)
     write_text("meshed.prm", "include parts/meshed.prm\n")
     says("'brick.vtk' cannot", billet("--check", "meshed.prm", code=2).errors)
