@@ -84,7 +84,7 @@ struct CommandLine {
   std::string option_of_runs; ///< the last option that runs and checks alone have
 };
 
-/// Options, the tasks among them, for completion and for messages.
+/// Options, the tasks among them, for advice on misspelt ones.
 const std::vector<std::string> options = {"--check",
                                           "--force",
                                           "--help",
