@@ -410,10 +410,30 @@ private:
   SceneFile all_;
 };
 
+struct SetResult {
+  bool is_declared = true;
+  std::string wrong_value; ///< end of the message; empty if the value is allowed
+};
+
+SetResult try_to_set(dealii::ParameterHandler &prm, const SceneFile::Entry &entry) {
+  SetResult result;
+  for (const auto &name : entry.path)
+    prm.enter_subsection(name);
+  try {
+    prm.set(entry.key, entry.value);
+  } catch (const dealii::ParameterHandler::ExcEntryUndeclared &) {
+    result.is_declared = false;
+  } catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &error) {
+    result.wrong_value = describe_pattern(error.what(), entry.value);
+  }
+  for (std::size_t i = 0; i < entry.path.size(); ++i)
+    prm.leave_subsection();
+  return result;
+}
+
 } // namespace
 
 void SceneFile::set_all(dealii::ParameterHandler &prm) const {
-  using dealii::ParameterHandler;
   DiagnosticList errors = errors_;
   const auto add = [&errors](const std::string &error) { errors.emplace_back(diagnostic::bad_input, error); };
   std::vector<Path> unknown;
@@ -432,6 +452,10 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
     if (!prm.subsection_path_exists(subsection.path))
       refuse_subsection(subsection.path, subsection.where);
 
+  const auto has_unknown_shape = [&](const Path &path) {
+    const Entry *shape = find(path, "Shape");
+    return shape != nullptr && !try_to_set(prm, *shape).wrong_value.empty();
+  };
   for (const auto &entry : entries_) {
     if (!entry.path.empty() && !prm.subsection_path_exists(entry.path)) {
       if (entry.files.empty()) // the command line opens no subsections
@@ -444,20 +468,10 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
         }
       continue;
     }
-    for (const auto &name : entry.path)
-      prm.enter_subsection(name);
-    std::string wrong_value;
-    bool is_declared = true;
-    try {
-      prm.set(entry.key, entry.value);
-    } catch (const ParameterHandler::ExcEntryUndeclared &) {
-      is_declared = false;
-    } catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error) {
-      wrong_value = describe_pattern(error.what(), entry.value);
-    }
-    for (std::size_t i = 0; i < entry.path.size(); ++i)
-      prm.leave_subsection();
+    const auto [is_declared, wrong_value] = try_to_set(prm, entry);
     const std::string place = entry.path.empty() ? "" : " in '" + join(entry.path) + "'";
+    if (!is_declared && has_unknown_shape(entry.path))
+      continue; // the shape decides which parameters there are
     if (!is_declared) {
       const Declared declared(prm);
       const std::string near = did_you_mean(entry.key, declared.parameters(entry.path));
