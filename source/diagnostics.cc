@@ -213,11 +213,32 @@ std::string describe_diagnostic_kinds_as_json() {
   return kinds.dump(1);
 }
 
-std::string describe_refusal_as_json(const std::string &file, const Diagnostic &why) {
+std::string serialize(const DiagnosticList &diagnostics) {
+  Json list = Json::array();
+  for (const Diagnostic &diagnostic : diagnostics) {
+    const std::string bytes = diagnostic.serialize();
+    list.push_back(std::vector<unsigned char>(bytes.begin(), bytes.end()));
+  }
+  const auto bytes = Json::to_cbor(list);
+  return {bytes.begin(), bytes.end()};
+}
+
+DiagnosticList deserialize(const std::string &bytes) {
+  DiagnosticList diagnostics;
+  for (const Json &entry : Json::from_cbor(bytes.begin(), bytes.end())) {
+    const auto content = entry.get<std::vector<unsigned char>>();
+    diagnostics.push_back(Diagnostic::deserialize({content.begin(), content.end()}));
+  }
+  return diagnostics;
+}
+
+std::string describe_refusal_as_json(const std::string &file, const DiagnosticList &why) {
   Json object;
   object["file"] = file;
   object["valid"] = false;
-  object["diagnostics"] = Json::array({Json::parse(why.json())});
+  object["diagnostics"] = Json::array();
+  for (const Diagnostic &diagnostic : why)
+    object["diagnostics"].push_back(Json::parse(diagnostic.json()));
   return dump(object);
 }
 

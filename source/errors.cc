@@ -32,7 +32,7 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
     action();
   } catch (const InputError &error) {
     failure = Failure::input;
-    content = error.diagnostic().serialize();
+    content = serialize(error.diagnostics());
   } catch (const SolutionFailure &error) {
     failure = Failure::solution;
     content = error.diagnostic().serialize();
@@ -55,7 +55,7 @@ void fail_together(MPI_Comm communicator, const std::function<void()> &action) {
   case Failure::other:
     break;
   case Failure::input:
-    throw InputError(Diagnostic::deserialize(content));
+    throw InputError(deserialize(content));
   case Failure::solution:
     throw SolutionFailure(Diagnostic::deserialize(content));
   }

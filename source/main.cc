@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/nearest_name.h"
+#include "billet/output/console_log.h"
 #include "billet/parameters/scene_update.h"
 #include "billet/run/check.h"
 #include "billet/run/new_scene.h"
+#include "billet/run/launch.h"
 #include "billet/run/simulation.h"
 #include "billet/run/type_lists.h"
 #include "billet/version.h"
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -20,7 +27,8 @@ namespace {
 using billet::ExitCode;
 
 const char help[] =
-    R"(Usage: mpirun -n N billet SCENE.prm      run a scene on N processes
+    R"(Usage: billet SCENE.prm                  run a scene on one process
+       billet --ranks N SCENE.prm       run it on N processes; on several machines: mpirun -n N billet SCENE.prm
        billet --restart FILE SCENE.prm  resume from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
        billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or print it
@@ -30,14 +38,43 @@ const char help[] =
        billet --print-diagnostics       every message by its key, with meaning and remedy
        billet --version | --help
 
-With --json, --check prints one JSON object per scene and line, --print-parameters a JSON Schema of
-scenes, --list and --print-diagnostics a JSON array.
+Options of runs and checks:
+       --set PATH=VALUE   override a parameter of the scene, such as --set "Time stepping/End time=2"
+       --output FOLDER    write results to FOLDER; without it, and without 'Folder' in the scene, they go to
+                          a folder with the name of the scene
+       --force            replace results of an earlier run; without it they are moved to FOLDER.1, FOLDER.2...
+       --quiet            print warnings and errors only
+       --json             --check prints one JSON object per scene and line, --print-parameters a JSON Schema
+                          of scenes, --list and --print-diagnostics a JSON array
 
 Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
 in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint;
 6 completed with warnings, and the scene says 'Warnings = errors'; 7 completed, and the estimated error
 exceeds the 'Target error'.
+
 )";
+
+/// Returns the folder or file in one of these places, seen from a folder above the program: where it is
+/// installed, or in the sources around the folder in which it was built.
+std::string find_shipped(const std::vector<std::string> &places) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    for (const std::string &place : places)
+      if (fs::exists(folder / place, error))
+        return (folder / place).string();
+  return places.back() + " in the sources";
+}
+
+void print_help(std::ostream &stream) {
+  stream << help << "Shipped scenes:  "
+         << find_shipped({"share/billet/prm/billet_upsetting.prm", "prm/billet_upsetting.prm"})
+         << " and others beside it\nManual:          "
+         << find_shipped({"share/doc/billet/manual.md", "doc/manual.md"})
+         << "\nbillet-trade:    measures accuracy against cost of a scene's parameters; see 'billet-trade "
+            "--help'\n";
+}
 
 enum class Task {
   run,
@@ -56,11 +93,67 @@ struct CommandLine {
   std::vector<std::string> scenes;
   std::string restart_file;
   bool json = false;
+  std::vector<billet::SceneFile::Setting> settings;
+  bool replaces_results = false;
+  std::string option_of_runs; ///< the last option that runs and checks alone have
 };
 
+/// Options, the tasks among them, for advice on misspelt ones.
+const std::vector<std::string> options = {"--check",
+                                          "--force",
+                                          "--help",
+                                          "--json",
+                                          "--list",
+                                          "--new",
+                                          "--output",
+                                          "--print-diagnostics",
+                                          "--print-parameters",
+                                          "--quiet",
+                                          "--ranks",
+                                          "--restart",
+                                          "--set",
+                                          "--update-scene",
+                                          "--version"};
+
 [[noreturn]] void refuse(const std::string &argument) {
-  throw billet::InputError("command line: '" + argument +
-                           "' is not allowed here; allowed is the following.\n" + help);
+  const std::string advice = billet::did_you_mean(argument, options);
+  throw billet::InputError("command line: '" + argument + "' is not allowed here" +
+                           (advice.empty() ? "; allowed" : advice + " Allowed") + " is the following.\n" +
+                           help);
+}
+
+/// Returns the argument of an option. Throws InputError if there is none.
+std::string argument_of(const std::string &option, const std::vector<std::string> &arguments,
+                        std::size_t &next, const std::string &what) {
+  if (++next == arguments.size() || arguments[next].empty())
+    throw billet::InputError("command line: '" + option + "' names no " + what +
+                             "; allowed is the following.\n" + help);
+  return arguments[next];
+}
+
+/// Reads an option of runs and checks. Returns false if it is none.
+bool read_option_of_runs(const std::string &option, const std::vector<std::string> &arguments,
+                         std::size_t &next, CommandLine &command) {
+  if (option == "--restart")
+    command.restart_file = argument_of(option, arguments, next, "checkpoint");
+  else if (option == "--set") {
+    const std::string setting = argument_of(option, arguments, next, "parameter");
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos)
+      throw billet::InputError("command line: '--set' is followed by '" + setting +
+                               "'; allowed is a path and a value, such as 'Time stepping/End time=2'");
+    command.settings.push_back({setting.substr(0, equals), setting.substr(equals + 1), "--set " + setting});
+  } else if (option == "--output") {
+    const std::string folder = argument_of(option, arguments, next, "folder");
+    command.settings.push_back({"Output/Folder", folder, "--output " + folder});
+  } else if (option == "--quiet")
+    command.settings.push_back({"Output/Verbosity", "quiet", option});
+  else if (option == "--force")
+    command.replaces_results = true;
+  else
+    return false;
+  command.option_of_runs = option;
+  return true;
 }
 
 /// Refuses arguments of '--new' other than the kind of scene and the name of a file.
@@ -79,34 +172,26 @@ void check_new(const CommandLine &command) {
 
 CommandLine read_command_line(const std::vector<std::string> &arguments) {
   CommandLine command;
-  for (auto next = arguments.begin(); next != arguments.end(); ++next) {
-    const std::string &argument = *next;
-    if (argument == "--help" || argument == "-h")
-      return {Task::help, {}, {}};
-    if (argument == "--version")
-      return {Task::version, {}, {}};
+  const std::vector<std::pair<std::string, Task>> tasks = {{"--print-parameters", Task::print_parameters},
+                                                           {"--print-diagnostics", Task::print_diagnostics},
+                                                           {"--check", Task::check},
+                                                           {"--update-scene", Task::update_scene}};
+  for (std::size_t next = 0; next < arguments.size(); ++next) {
+    const std::string argument = arguments[next];
+    const auto task = std::find_if(tasks.begin(), tasks.end(),
+                                   [&](const auto &candidate) { return candidate.first == argument; });
+    if (argument == "--help" || argument == "-h" || argument == "--version") {
+      command.task = argument == "--version" ? Task::version : Task::help;
+      return command;
+    }
     if (argument == "--json")
       command.json = true;
-    else if (argument == "--print-parameters")
-      command.task = Task::print_parameters;
-    else if (argument == "--print-diagnostics")
-      command.task = Task::print_diagnostics;
-    else if (argument == "--check")
-      command.task = Task::check;
-    else if (argument == "--list")
-      command.task = Task::list;
-    else if (argument == "--new")
-      command.task = Task::new_scene;
-    else if (argument == "--update-scene")
-      command.task = Task::update_scene;
-    else if (argument == "--restart") {
-      if (++next == arguments.end() || next->empty())
-        throw billet::InputError(
-            std::string("command line: '--restart' names no checkpoint; allowed is the following.\n") + help);
-      command.restart_file = *next;
-    } else if (argument.empty() || argument.front() == '-')
+    else if (task != tasks.end())
+      command.task = task->second;
+    else if (argument.empty() ||
+             (argument.front() == '-' && !read_option_of_runs(argument, arguments, next, command)))
       refuse(argument);
-    else
+    else if (argument.front() != '-')
       command.scenes.push_back(argument);
   }
   if (command.task == Task::print_parameters || command.task == Task::print_diagnostics ||
@@ -125,28 +210,32 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     refuse("--json");
   if (command.task != Task::update_scene)
     command.task = Task::run;
+  else if (!command.option_of_runs.empty())
+    refuse(command.option_of_runs);
   const std::size_t max_files = command.task == Task::run ? 1 : 2;
   if (command.scenes.size() > max_files)
     refuse(command.scenes[max_files]);
   return command;
 }
 
-billet::parameters::Scene read_scene(const std::string &file, const std::string &restart_file) {
+billet::parameters::Scene read_scene(const std::string &file, const CommandLine &command) {
   billet::parameters::Scene parameters;
-  billet::fail_together(MPI_COMM_WORLD,
-                        [&] { parameters = billet::parameters::Scene::read(file, restart_file); });
+  billet::fail_together(MPI_COMM_WORLD, [&] {
+    parameters = billet::parameters::Scene::read(file, command.restart_file, command.settings);
+  });
   return parameters;
 }
 
-template <class Error> void print_error(const Error &error, const bool is_first) {
+void print_errors(const billet::DiagnosticList &errors, const bool is_first) {
   if (is_first)
-    std::cerr << error.diagnostic().text() << std::endl;
+    for (const auto &error : errors)
+      std::cerr << error.text() << std::endl;
 }
 
 /// Prints the JSON object of `--check --json` for a refused scene.
 void print_refusal(const std::string &file, const billet::InputError &error, const bool is_first) {
   if (is_first)
-    std::cout << billet::describe_refusal_as_json(file, error.diagnostic()) << "\n";
+    std::cout << billet::describe_refusal_as_json(file, error.diagnostics()) << "\n";
 }
 
 /// Writes the scene of the first file with current names to the second file, or prints it. Reports the
@@ -190,12 +279,12 @@ void print_diagnostic_kinds(std::ostream &stream) {
            << " | " << kind->remedy << " |\n";
 }
 
-ExitCode perform(const CommandLine &command, const bool is_first) {
+ExitCode perform(const CommandLine &command, const bool is_first, billet::ConsoleLog *log) {
   ExitCode code = ExitCode::success;
   switch (command.task) {
   case Task::help:
     if (is_first)
-      std::cout << help;
+      print_help(std::cout);
     break;
   case Task::version:
     if (is_first)
@@ -229,13 +318,12 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
   case Task::check:
     for (const auto &file : command.scenes)
       try {
-        billet::check_simulation(read_scene(file, command.restart_file), MPI_COMM_WORLD, std::cout,
-                                 command.json);
+        billet::check_simulation(read_scene(file, command), MPI_COMM_WORLD, std::cout, command.json);
       } catch (const billet::InputError &error) { // the other scenes are still checked
         if (command.json)
           print_refusal(file, error, is_first);
         else
-          print_error(error, is_first);
+          print_errors(error.diagnostics(), is_first);
         code = ExitCode::bad_input;
       }
     break;
@@ -246,7 +334,8 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
     });
     break;
   case Task::run:
-    code = billet::run_simulation(read_scene(command.scenes.front(), command.restart_file), MPI_COMM_WORLD);
+    code = billet::run_simulation(read_scene(command.scenes.front(), command), MPI_COMM_WORLD,
+                                  {command.replaces_results, log});
     break;
   }
   return code;
@@ -255,24 +344,28 @@ ExitCode perform(const CommandLine &command, const bool is_first) {
 } // namespace
 
 int main(int argc, char *argv[]) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (const auto code = billet::launch(arguments))
+    return *code;
   // Only the program's name is passed on: PETSc, if deal.II has it, would interpret --check as its own
   // option. One thread for each rank: more would be idle.
   int n_for_libraries = 1;
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const auto log = is_first ? std::make_unique<billet::ConsoleLog>() : nullptr;
   ExitCode code = ExitCode::success;
   try {
-    code = perform(read_command_line(std::vector<std::string>(argv + 1, argv + argc)), is_first);
+    code = perform(read_command_line(arguments), is_first, log.get());
   } catch (const billet::InputError &error) { // thrown on all ranks, as is SolutionFailure
-    print_error(error, is_first);
+    print_errors(error.diagnostics(), is_first);
     code = ExitCode::bad_input;
   } catch (const billet::SolutionFailure &error) {
-    print_error(error, is_first);
+    print_errors({error.diagnostic()}, is_first);
     code = ExitCode::failed_solution;
   } catch (const std::exception &error) {
     // Other ranks may be waiting for this one: abort all of them.
     std::cerr << billet::Diagnostic(billet::diagnostic::internal_error, error.what()).text() << std::endl;
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
   }
-  return static_cast<int>(code);
+  return billet::report_exit_code(static_cast<int>(code), is_first);
 }

@@ -66,7 +66,9 @@ std::string nearest_name(const std::string &name, const std::vector<std::string>
       least = distance;
     }
   }
-  return nearest.empty() ? only_continuation(wanted, known) : nearest;
+  // "implicit" means "implicit dynamics" rather than "explicit".
+  const std::string continuation = least < 2 && !nearest.empty() ? "" : only_continuation(wanted, known);
+  return nearest.empty() || !continuation.empty() ? continuation : nearest;
 }
 
 std::string did_you_mean(const std::string &name, const std::vector<std::string> &known) {

@@ -32,6 +32,7 @@ VOLATILE = (
     (r"line <\d+> of file <.*/", "file <"),
     (r"-0\.(0+)(?!\d)", r"0.\1"),
     (r"^Completed in \d+:\d+", "Completed in 0:00"),
+    (r"^ +\d+ % in .*\n", ""),
     (
         r" elements in \S+ s: \S+ ns for each element and step, \S+ of",
         " elements in 0 s: 0 ns for each element and step, 0 of",

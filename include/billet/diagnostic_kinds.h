@@ -353,6 +353,16 @@ inline const DiagnosticKind comparison_failed(
     "Steps of twice the length do not converge, so there is no error estimate of the steps from here on.",
     "Choose another 'Contact tangent' or a lower penalty");
 
+inline const DiagnosticKind already_complete(
+    "already-complete", Severity::note,
+    "The checkpoint is from the end of the scene. The program ends with code 0 and writes nothing.",
+    "Set a later 'End time' to continue");
+
+inline const DiagnosticKind results_moved("results-moved", Severity::note,
+                                          "The output folder had results of an earlier run. It has another "
+                                          "name now.",
+                                          "With '--force' a run replaces them");
+
 inline const DiagnosticKind resumed("resumed", Severity::note, "The run continues from a checkpoint.", "");
 
 inline const DiagnosticKind mass_scaling("mass-scaling", Severity::note,

@@ -133,8 +133,12 @@ struct Explanation {
 
 using DiagnosticList = std::vector<Diagnostic>;
 
+/// Returns all of the messages as bytes, for other ranks; deserialize() makes the same messages of them.
+std::string serialize(const DiagnosticList &diagnostics);
+DiagnosticList deserialize(const std::string &bytes);
+
 /// Returns {"file": ..., "valid": false, "diagnostics": [...]}, the description of a refused scene.
-std::string describe_refusal_as_json(const std::string &file, const Diagnostic &why);
+std::string describe_refusal_as_json(const std::string &file, const DiagnosticList &why);
 
 /// Returns the first message of this kind in the list, or null.
 const Diagnostic *find(const DiagnosticList &list, const DiagnosticKind &kind);

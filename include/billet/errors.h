@@ -32,12 +32,16 @@ public:
   explicit InputError(const std::string &message);
   InputError(const DiagnosticKind &kind, const std::string &message)
       : InputError(Diagnostic(kind, message)) {}
-  explicit InputError(Diagnostic diagnostic)
-      : std::runtime_error(diagnostic.what()), diagnostic_(std::move(diagnostic)) {}
-  const Diagnostic &diagnostic() const { return diagnostic_; }
+  explicit InputError(Diagnostic diagnostic) : InputError(DiagnosticList{std::move(diagnostic)}) {}
+  /// Makes one error of several, at least one.
+  explicit InputError(DiagnosticList diagnostics)
+      : std::runtime_error(diagnostics.front().what()), diagnostics_(std::move(diagnostics)) {}
+  /// Returns the first error.
+  const Diagnostic &diagnostic() const { return diagnostics_.front(); }
+  const DiagnosticList &diagnostics() const { return diagnostics_; }
 
 private:
-  Diagnostic diagnostic_;
+  DiagnosticList diagnostics_;
 };
 
 /// Error for a computation that cannot continue. The message names the time, the cause and possible remedies.

@@ -13,6 +13,8 @@ using Verbosity = parameters::Output::Verbosity;
 
 namespace {
 
+constexpr double seconds_between_lines = 30.; // of progress where there is no terminal
+
 std::string format_duration(const double seconds) {
   const auto whole = std::lround(seconds);
   std::ostringstream stream;
@@ -37,7 +39,6 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   if (verbosity_ == Verbosity::quiet)
     return;
   shows_linear_iterations_ = solution.solves_iteratively();
-  const auto histories = solution.history_sizes();
   if (!scene_.parameters().title.empty())
     stream_ << scene_.parameters().title << "\n";
   const parameters::Scene &parameters = scene_.parameters();
@@ -50,10 +51,10 @@ void Progress::start(const Discretization &discretization, const Solution &solut
       stream_ << (&preset == parameters.presets.data() ? " " : ", ") << parameters::to_string(preset);
     stream_ << "\n";
   }
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(discretization.communicator());
   stream_ << discretization.n_global_elements() << " elements, " << discretization.dof_handler().n_dofs()
-          << " dofs, " << dealii::Utilities::MPI::n_mpi_processes(discretization.communicator()) << " ranks, "
-          << solution.method() << ", history " << histories[0] << " + " << histories[1]
-          << " doubles (elements + contact)\n";
+          << " unknowns, " << n_ranks << (n_ranks == 1 ? " process, " : " processes, ") << solution.method()
+          << "\n";
 }
 
 void Progress::show_number_of_steps(const double n_steps, const double step) {
@@ -92,7 +93,7 @@ void Progress::accept(const StepReport &report, const SolutionState &state) {
   for (const auto &load : state.tool_loads)
     stream_ << std::setw(14) << load.force.norm();
   stream_ << std::setw(15) << state.energies.plastic << "\n";
-  show_bar(state.time);
+  show_advance(state.time, report.length);
   stream_ << std::flush;
 }
 
@@ -119,7 +120,7 @@ void Progress::show(const unsigned int step, const double length, const Solution
   for (const auto &load : state.body_pair_loads)
     stream_ << std::setw(14) << load.force.norm();
   stream_ << "\n";
-  show_bar(state.time);
+  show_advance(state.time, length);
   stream_ << std::flush;
 }
 
@@ -142,17 +143,29 @@ void Progress::show_iterations(const NewtonReport &newton) {
             << "  step length " << std::setprecision(3) << iteration.step_length << "\n";
 }
 
-void Progress::show_bar(const double time) {
-  if (!is_terminal_)
-    return;
-  const double part = std::min(1., time / scene_.parameters().time_stepping.end_time);
+void Progress::show_advance(const double time, const double length) {
+  if (!begin_)
+    begin_ = std::max(0., time - length);
+  const double end = scene_.parameters().time_stepping.end_time, now = elapsed();
+  // A run that resumes has not spent its time on what was there.
+  const double part = std::min(1., time / end), part_of_run = (time - *begin_) / (end - *begin_);
+  std::string duration = format_duration(now);
+  if (part_of_run > 0. && part < 1.)
+    duration += ", about " + format_duration(now * (1. - part_of_run) / part_of_run) + " to go";
+  if (is_terminal_)
+    return show_bar(part, duration);
+  if (part < 1. && now - last_line_ >= seconds_between_lines) {
+    stream_ << "       " << static_cast<int>(100. * part) << " % in " << duration << "\n";
+    last_line_ = now;
+  }
+}
+
+void Progress::show_bar(const double part, const std::string &duration) {
   constexpr int width = 40;
   const int filled = static_cast<int>(part * width);
   stream_ << "[" << std::string(static_cast<std::size_t>(filled), '=')
           << std::string(static_cast<std::size_t>(width - filled), ' ') << "] "
-          << static_cast<int>(100. * part) << " %  " << format_duration(elapsed());
-  if (part > 0. && part < 1.)
-    stream_ << ", about " << format_duration(elapsed() * (1. - part) / part) << " to go";
+          << static_cast<int>(100. * part) << " %  " << duration;
   has_bar_ = true;
 }
 

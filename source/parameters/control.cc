@@ -355,8 +355,11 @@ void Solver::parse(Reader &reader) {
 }
 
 void Output::declare(ParameterHandler &prm) {
-  prm.declare_entry("Folder", "results", Patterns::Anything(),
-                    "Folder of all output, relative to the current folder. The run creates it if necessary.");
+  prm.declare_entry("Folder", "", Patterns::Anything(),
+                    "Folder of all output, relative to the current folder. The run creates it if necessary; "
+                    "a folder with results of another run is moved aside first, to FOLDER.1 or the lowest "
+                    "free number, unless --force is given or the run resumes from a checkpoint in it. Empty: "
+                    "the name of the scene file without its extension.");
   prm.declare_entry("Format", "vtu", Patterns::Selection(selection(formats)),
                     "Format of the field output for ParaView. vtu: VTU and PVD; hdf5: HDF5 and XDMF, one "
                     "file for each output time on any number of ranks; none: no field output.");
@@ -399,7 +402,7 @@ void Output::declare(ParameterHandler &prm) {
 
 void Output::parse(Reader &reader) {
   folder = reader.located("Folder", reader.text("Folder"));
-  if (folder.value.empty())
+  if (folder.value.empty() && reader.is_set("Folder"))
     reader.reject("Folder", "the name of a folder");
   format = chosen(formats, reader.text("Format"));
   every_steps = reader.count("Step interval");

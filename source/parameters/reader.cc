@@ -126,8 +126,7 @@ bool is_boundary_name(const std::string &text) {
 }
 
 std::string Reader::file(const std::string &key) const {
-  const std::string written = text(key);
-  std::string name = written.empty() || written.front() == '/' ? written : file_.folder() + written;
+  std::string name = file_.resolve(path_, key, text(key));
   std::ifstream stream(name);
   if (!stream || std::filesystem::is_directory(name))
     reject(key, "a file that can be read ('" + name + "' cannot)");

@@ -3,6 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
+#include "billet/nearest_name.h"
 #include "billet/parameters/declaration.h"
 #include "billet/parameters/scene_update.h"
 
@@ -13,6 +14,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <ostream>
 
@@ -86,10 +88,12 @@ template <class T> std::vector<T> parse_named(Reader &reader, const std::string 
   std::vector<T> result;
   reader.in(list, [&] {
     for (const auto &name : reader.names())
-      reader.in(name, [&] {
-        result.emplace_back();
-        result.back().name = name;
-        result.back().parse(reader);
+      reader.note_errors([&] {
+        reader.in(name, [&] {
+          result.emplace_back();
+          result.back().name = name;
+          result.back().parse(reader);
+        });
       });
   });
   return result;
@@ -97,13 +101,17 @@ template <class T> std::vector<T> parse_named(Reader &reader, const std::string 
 
 template <class T> std::size_t index_of(const std::vector<T> &list, const Located<std::string> &name) {
   std::string known;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (list[i].name == name.value)
       return i;
     known += (i == 0 ? "" : ", ") + list[i].name;
+    names.push_back(list[i].name);
   }
-  throw InputError(name.origin + " is '" + name.value +
-                   "'; allowed is one of: " + (known.empty() ? "(none is defined)" : known));
+  const std::string advice = did_you_mean(name.value, names);
+  throw InputError(name.origin + " is '" + name.value + "'" +
+                   (advice.empty() ? "; allowed" : advice + " Allowed") +
+                   " is one of: " + (known.empty() ? "(none is defined)" : known));
 }
 
 void check_amplitude_name(const std::string &name, const std::string &file_name) {
@@ -157,6 +165,18 @@ unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
         return id;
     }
   return Side::no_id;
+}
+
+/// Returns the name of the scene file without folder and extension, for the results of a scene that names no
+/// folder. If that is the file itself or its folder, ".results" follows.
+std::string default_folder(const std::string &file_name) {
+  namespace fs = std::filesystem;
+  const std::string name = fs::path(file_name).stem().string();
+  std::error_code error;
+  const fs::path scene_folder = fs::path(file_name).parent_path();
+  const bool holds_scene = fs::equivalent(name, file_name, error) ||
+                           fs::equivalent(name, scene_folder.empty() ? fs::path(".") : scene_folder, error);
+  return holds_scene ? name + ".results" : name;
 }
 
 /// Refuses parameters of one scheme in scenes of another: a forgotten switch is the usual reason.
@@ -284,18 +304,20 @@ void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool name
     }
 }
 
-Scene Scene::read(const std::string &file_name, const std::string &restart_file) {
-  const SceneFile file = SceneFile::read(file_name);
+Scene Scene::read(const std::string &file_name, const std::string &restart_file,
+                  const std::vector<SceneFile::Setting> &settings) {
+  const SceneFile file = SceneFile::read(file_name, settings);
   ParameterHandler prm;
   declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
                     [&file](const SceneFile::Path &path) { return file.value(path, "Shape", "plane"); }});
   file.set_all(prm);
 
-  Scene scene;
+  Scene scene{};
   scene.warnings = describe_old_names(file);
   scene.presets = apply_presets(prm, file);
   scene.target_error = read_target_error(file);
   Reader reader(prm, file);
+  reader.collect_errors();
   scene.profile = reader.text("Profile");
   scene.title = reader.text("Title");
   scene.warnings_are_errors = reader.text("Warnings") == "errors";
@@ -313,6 +335,9 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file)
   reader.in("Solver", [&] { scene.solver.parse(reader); });
   reader.in("Output", [&] { scene.output.parse(reader); });
   reader.in("Restart", [&] { scene.restart.parse(reader); });
+  reader.require_sound();
+  if (scene.output.folder.value.empty())
+    scene.output.folder.value = default_folder(file_name);
   if (!restart_file.empty())
     scene.restart.file = {restart_file, "command line: --restart"};
 

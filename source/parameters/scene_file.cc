@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/scene_file.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/parameters/number_text.h"
+#include "billet/nearest_name.h"
+#include "billet/parameters/missing_end.h"
 #include "billet/parameters/renames.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -34,11 +37,41 @@ bool take_keyword(std::string &line, const std::string &keyword) {
   return true;
 }
 
-[[noreturn]] void refuse_second(const SceneFile::Entry &entry, const SceneFile::Entry &first) {
+std::string describe_second(const SceneFile::Entry &entry, const SceneFile::Entry &first) {
   if (entry.written_key != first.written_key)
-    throw InputError(entry.where + ": '" + entry.written_key + "' is the same parameter as '" +
-                     first.written_key + "' at " + first.where + "; allowed is '" + entry.key + "' alone");
-  throw InputError(entry.where + ": '" + entry.written_key + "' is set twice, first at " + first.where);
+    return entry.where + ": '" + entry.written_key + "' is the same parameter as '" + first.written_key +
+           "' at " + first.where + "; allowed is '" + entry.key + "' alone";
+  return entry.where + ": '" + entry.written_key + "' is set twice, first at " + first.where;
+}
+
+/// Removes what editors of other systems add: a byte-order mark in the first line, a carriage return at the
+/// end of each. Throws InputError for text in UTF-16.
+void clean_line(std::string &line, const bool is_first, const std::string &where) {
+  const std::string mark = "\xEF\xBB\xBF";
+  if (is_first && (line.compare(0, 2, "\xFF\xFE") == 0 || line.compare(0, 2, "\xFE\xFF") == 0))
+    throw InputError(where +
+                     ": the file's encoding is UTF-16; allowed is plain text or UTF-8. Save it as UTF-8");
+  if (is_first && line.compare(0, mark.size(), mark) == 0)
+    line.erase(0, mark.size());
+  while (!line.empty() && line.back() == '\r')
+    line.pop_back();
+}
+
+/// Reads a statement, which continues on the next line after a backslash; counts lines. Returns false at the
+/// end.
+bool read_statement(std::istream &text, const std::string &name, std::string &line, unsigned int &number) {
+  if (!std::getline(text, line))
+    return false;
+  ++number;
+  clean_line(line, number == 1, name + ":1");
+  std::string next;
+  while (!trim(line).empty() && trim(line).back() == '\\' && std::getline(text, next)) {
+    line = trim(line);
+    line.pop_back();
+    line += " " + trim(next);
+    ++number;
+  }
+  return true;
 }
 
 std::string single_spaced(const std::string &text) {
@@ -51,8 +84,8 @@ std::string single_spaced(const std::string &text) {
   return result;
 }
 
-/// Returns a description of a ParameterHandler pattern in plain words.
-std::string describe_pattern(const std::string &message) {
+/// Returns the end of a message about a value: what ParameterHandler's pattern allows, in plain words.
+std::string describe_pattern(const std::string &message, const std::string &value) {
   // The message is "... does not match the given pattern <[Double ...]>."; deal.II breaks it into lines at
   // any blank.
   std::istringstream words(message);
@@ -63,21 +96,24 @@ std::string describe_pattern(const std::string &message) {
   const auto begin = text.rfind(before);
   const auto end = text.find("]>", begin);
   if (begin == std::string::npos || end == std::string::npos)
-    return text;
-  std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
+    return "; " + text;
+  const std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
   if (pattern.find("List of <[Double") != std::string::npos)
-    return "numbers, separated by commas";
+    return "; allowed is numbers, separated by commas";
   if (pattern.find("List of <[Integer") != std::string::npos)
-    return "whole numbers, separated by commas";
+    return "; allowed is whole numbers, separated by commas";
   if (pattern.compare(0, 6, "Double") == 0)
-    return "a number";
+    return "; allowed is a number" + parameters::number_remedy(value);
   if (pattern.compare(0, 7, "Integer") == 0)
-    return "a whole number, not negative";
+    return "; allowed is a whole number, not negative";
   if (pattern.compare(0, 4, "Bool") == 0)
-    return "true or false";
-  if (pattern.compare(0, 9, "Selection") == 0)
-    return "one of: " + dealii::Utilities::replace_in_string(trim(pattern.substr(10)), "|", ", ");
-  return pattern;
+    return "; allowed is true or false";
+  if (pattern.compare(0, 9, "Selection") != 0)
+    return "; allowed is " + pattern;
+  const std::string names = trim(pattern.substr(10));
+  const std::string advice = did_you_mean(value, dealii::Utilities::split_string_list(names, '|'));
+  return (advice.empty() ? "; allowed" : advice + " Allowed") +
+         " is one of: " + dealii::Utilities::replace_in_string(names, "|", ", ");
 }
 
 } // namespace
@@ -89,79 +125,171 @@ std::string join(const SceneFile::Path &path) {
   return result;
 }
 
-SceneFile SceneFile::read(const std::string &file_name) {
+bool SceneFile::Entry::overrides(const Entry &other) const {
+  return files.size() < other.files.size() && std::equal(files.begin(), files.end(), other.files.begin());
+}
+
+SceneFile SceneFile::read(const std::string &file_name, const std::vector<Setting> &settings) {
   std::ifstream stream(file_name);
   if (!stream || std::filesystem::is_directory(file_name))
     throw InputError(file_name + ": the program cannot read the scene file. Check its name");
-  return scan(stream, file_name);
+  SceneFile file;
+  file.file_name_ = file_name;
+  Path path;
+  file.scan_file(stream, file_name, path, {});
+  for (const Setting &setting : settings)
+    file.add_setting(setting);
+  file.resolve_overrides();
+  return file;
 }
 
 SceneFile SceneFile::scan(std::istream &text, const std::string &name) {
   SceneFile file;
   file.file_name_ = name;
   Path path;
-  file.scan_file(text, name, path, 0);
-  if (!path.empty())
-    throw InputError(file.last_opened(path) + ": subsection '" + join(path) + "' has no 'end'");
+  file.scan_file(text, name, path, {});
+  file.resolve_overrides();
+  file.require_sound();
   return file;
 }
 
-void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path, const unsigned int depth) {
-  const std::size_t outer_depth = path.size();
+void SceneFile::require_sound() const {
+  if (!errors_.empty())
+    throw InputError(errors_);
+}
+
+void SceneFile::fail(const std::string &error) {
+  note(error);
+  throw InputError(errors_);
+}
+
+void SceneFile::note(const std::string &error) { errors_.emplace_back(diagnostic::bad_input, error); }
+
+void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path,
+                          const std::vector<unsigned int> &outer_files) {
+  const Path outer = path;
+  std::vector<unsigned int> files = outer_files;
+  files.push_back(n_files_++);
+  std::vector<Statement> statements;
   std::string line;
-  for (unsigned int number = 1; std::getline(text, line); ++number) {
-    const unsigned int first_line = number;
-    const std::string where = name + ":" + std::to_string(number);
-    std::string next;
-    while (!trim(line).empty() && trim(line).back() == '\\' && std::getline(text, next)) {
-      line = trim(line);
-      line.pop_back();
-      line += " " + trim(next);
-      ++number;
-    }
+  for (unsigned int number = 0, first_line = 1; read_statement(text, name, line, number);
+       first_line = number + 1) {
+    const std::string where = name + ":" + std::to_string(first_line);
     std::string statement = trim(line.substr(0, line.find('#')));
     if (take_keyword(statement, "include")) {
-      if (statement.empty())
-        throw InputError(where + ": 'include' needs the name of a file");
-      if (depth == 20)
-        throw InputError(where + ": files include each other in a cycle");
-      const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
-      std::ifstream stream(included);
-      if (!stream || std::filesystem::is_directory(included))
-        throw InputError(where + ": the included file '" + included + "' cannot be read");
-      scan_file(stream, included, path, depth + 1);
+      include(statement, where, name, path, files);
       continue;
     }
-    text_ += line + "\n";
+    lines_.emplace_back(line, no_entry);
+    const std::size_t indentation = line.find_first_not_of(" \t");
     if (statement.empty())
       continue;
     if (take_keyword(statement, "subsection")) {
       if (statement.empty())
-        throw InputError(where + ": 'subsection' needs a name");
+        fail(where + ": 'subsection' needs a name");
       path.push_back(single_spaced(statement));
       subsections_.push_back({path, where});
+      statements.push_back({Statement::Kind::subsection, path.back(), indentation, first_line});
     } else if (take_keyword(statement, "set")) {
-      const auto equals = statement.find('=');
-      if (equals == std::string::npos)
-        throw InputError(where + ": the statement is 'set " + statement +
-                         "'; allowed is 'set parameter = value'");
-      const std::string key = single_spaced(trim(statement.substr(0, equals))),
-                        value = trim(statement.substr(equals + 1));
-      const CurrentNames names = current_names(path, key, value);
-      const Entry entry{path, names.key, names.value, where, key, value, first_line, depth > 0};
-      if (const Entry *first = find(path, entry.key))
-        refuse_second(entry, *first);
-      entries_.push_back(entry);
+      add_entry(statement, path,
+                {path, "", "", where, "", "", first_line, files.size() > 1, files, folder_of(name)});
+      const std::string key = single_spaced(trim(statement.substr(0, statement.find('='))));
+      statements.push_back({Statement::Kind::set, current_names(path, key, "").key, indentation, first_line});
     } else if (statement == "end") {
-      if (path.size() == outer_depth)
-        throw InputError(where + ": 'end' closes no subsection");
+      if (path.size() == outer.size())
+        fail(where + ": 'end' closes no subsection");
       path.pop_back();
+      statements.push_back({Statement::Kind::end, "", indentation, first_line});
     } else
-      throw InputError(where + ": the statement is '" + statement +
-                       "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'");
+      note(where + ": the statement is '" + statement +
+           "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'");
   }
-  if (depth > 0 && path.size() != outer_depth)
-    throw InputError(last_opened(path) + ": subsection '" + join(path) + "' has no 'end' in this file");
+  if (path.size() == outer.size())
+    return;
+  const MissingEnd missing = find_missing_end(statements, outer);
+  throw InputError(
+      name + ":" + std::to_string(missing.line) + ": subsection '" + join(missing.path) + "' has no 'end'" +
+      (files.size() > 1 ? " in this file" : "") +
+      (missing.before > 0 ? "; it is probably missing before line " + std::to_string(missing.before) : ""));
+}
+
+void SceneFile::include(const std::string &statement, const std::string &where, const std::string &name,
+                        Path &path, const std::vector<unsigned int> &files) {
+  if (statement.empty())
+    fail(where + ": 'include' needs the name of a file");
+  constexpr std::size_t max_depth = 20;
+  if (files.size() > max_depth)
+    fail(where + ": files include each other in a cycle");
+  const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
+  std::ifstream stream(included);
+  if (!stream || std::filesystem::is_directory(included))
+    fail(where + ": the included file '" + included + "' cannot be read");
+  scan_file(stream, included, path, files);
+}
+
+void SceneFile::add_entry(const std::string &statement, const Path &path, Entry entry) {
+  const auto equals = statement.find('=');
+  if (equals == std::string::npos)
+    return note(entry.where + ": the statement is 'set " + statement +
+                "'; allowed is 'set parameter = value'");
+  entry.written_key = single_spaced(trim(statement.substr(0, equals)));
+  entry.written_value = trim(statement.substr(equals + 1));
+  const CurrentNames names = current_names(path, entry.written_key, entry.written_value);
+  entry.key = names.key;
+  entry.value = names.value;
+  lines_.back().second = entries_.size();
+  entries_.push_back(std::move(entry));
+}
+
+void SceneFile::add_setting(const Setting &setting) {
+  Path path;
+  for (const auto &name : dealii::Utilities::split_string_list(setting.path, '/'))
+    path.push_back(single_spaced(trim(name)));
+  const std::string key = path.empty() ? "" : path.back();
+  if (std::count(path.begin(), path.end(), "") > 0 || key.empty())
+    return note(setting.where + ": the path is '" + setting.path +
+                "'; allowed are names of subsections and of a parameter, such as 'Time stepping/End time'");
+  path.pop_back();
+  std::string indentation;
+  lines_.emplace_back("# command line: " + setting.where, no_entry);
+  for (const auto &name : path) {
+    lines_.emplace_back(indentation + "subsection " + name, no_entry);
+    indentation += "  ";
+  }
+  lines_.emplace_back(indentation + "set " + key + " = " + setting.value, no_entry);
+  add_entry(key + " = " + setting.value, path, {path, "", "", setting.where, "", "", 0, true, {}, ""});
+  for (std::size_t i = path.size(); i > 0; --i)
+    lines_.emplace_back(std::string(2 * (i - 1), ' ') + "end", no_entry);
+}
+
+void SceneFile::resolve_overrides() {
+  const auto is_same = [](const Entry &a, const Entry &b) { return a.key == b.key && a.path == b.path; };
+  std::vector<std::string> overridden_at(entries_.size());
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (is_same(entries_[i], entries_[j])) {
+        if (entries_[i].overrides(entries_[j]))
+          overridden_at[j] = entries_[i].where;
+        else if (entries_[j].overrides(entries_[i]))
+          overridden_at[i] = entries_[j].where;
+      }
+  std::vector<Entry> kept;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (!overridden_at[i].empty())
+      continue;
+    const auto first = std::find_if(kept.begin(), kept.end(),
+                                    [&](const Entry &entry) { return is_same(entry, entries_[i]); });
+    if (first == kept.end())
+      kept.push_back(entries_[i]);
+    else
+      note(describe_second(entries_[i], *first));
+  }
+  for (const auto &[line, entry] : lines_)
+    text_ += entry != no_entry && !overridden_at[entry].empty()
+                 ? "# " + line + " (overridden by " + overridden_at[entry] + ")\n"
+                 : line + "\n";
+  entries_ = std::move(kept);
+  lines_.clear();
 }
 
 const SceneFile::Entry *SceneFile::find(const Path &path, const std::string &key) const {
@@ -211,56 +339,150 @@ std::string SceneFile::last_opened(const Path &path) const {
   return last->where;
 }
 
-std::string SceneFile::folder() const { return folder_of(file_name_); }
+std::vector<SceneFile::Path> SceneFile::paths() const {
+  std::vector<Path> paths;
+  for (const auto &subsection : subsections_)
+    paths.push_back(subsection.path);
+  return paths;
+}
+
+std::string SceneFile::resolve(const Path &path, const std::string &key, const std::string &name) const {
+  if (name.empty() || name.front() == '/')
+    return name;
+  const Entry *entry = find(path, key);
+  const std::string beside_scene = folder_of(file_name_) + name;
+  if (entry == nullptr || entry->folder == folder_of(file_name_))
+    return beside_scene;
+  const std::string beside_entry = entry->folder + name;
+  std::error_code error;
+  return !std::filesystem::exists(beside_scene, error) && std::filesystem::exists(beside_entry, error)
+             ? beside_entry
+             : beside_scene;
+}
+
+namespace {
+
+/// What ParameterHandler knows, from its own print-out.
+class Declared {
+public:
+  explicit Declared(const dealii::ParameterHandler &prm) {
+    std::ostringstream printed;
+    prm.print_parameters(printed, dealii::ParameterHandler::ShortPRM);
+    std::istringstream text(printed.str());
+    all_ = SceneFile::scan(text, "");
+  }
+
+  std::vector<std::string> subsections(const SceneFile::Path &path) const { return all_.names_below(path); }
+
+  std::vector<std::string> parameters(const SceneFile::Path &path) const {
+    std::vector<std::string> names;
+    for (const auto &entry : all_.entries())
+      if (entry.path == path)
+        names.push_back(entry.key);
+    return names;
+  }
+
+  /// Returns the end of a message about an unknown name: the nearest known one, and all that are known.
+  std::string advice(const std::string &nearest, const std::string &here, const SceneFile::Path &path) const {
+    std::string list;
+    for (const auto &name : parameters(path))
+      list += (list.empty() ? "" : ", ") + name;
+    for (const auto &name : subsections(path))
+      list += (list.empty() ? "subsection " : ", subsection ") + name;
+    return nearest.empty() ? "; allowed " + here + " are: " + list
+                           : nearest + " Allowed " + here + " are: " + list;
+  }
+
+  /// Returns "; 'Key' belongs to 'Path'." if one other subsection alone has such a parameter.
+  std::string other_place(const std::string &key) const {
+    const SceneFile::Entry *found = nullptr;
+    for (const auto &entry : all_.entries())
+      if (entry.key == key) {
+        if (found != nullptr)
+          return "";
+        found = &entry;
+      }
+    return found == nullptr      ? ""
+           : found->path.empty() ? "; '" + key + "' belongs to the top level."
+                                 : "; '" + key + "' belongs to '" + join(found->path) + "'.";
+  }
+
+private:
+  SceneFile all_;
+};
+
+struct SetResult {
+  bool is_declared = true;
+  std::string wrong_value; ///< end of the message; empty if the value is allowed
+};
+
+SetResult try_to_set(dealii::ParameterHandler &prm, const SceneFile::Entry &entry) {
+  SetResult result;
+  for (const auto &name : entry.path)
+    prm.enter_subsection(name);
+  try {
+    prm.set(entry.key, entry.value);
+  } catch (const dealii::ParameterHandler::ExcEntryUndeclared &) {
+    result.is_declared = false;
+  } catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &error) {
+    result.wrong_value = describe_pattern(error.what(), entry.value);
+  }
+  for (std::size_t i = 0; i < entry.path.size(); ++i)
+    prm.leave_subsection();
+  return result;
+}
+
+} // namespace
 
 void SceneFile::set_all(dealii::ParameterHandler &prm) const {
-  using dealii::ParameterHandler;
-  // Returns what is allowed below a path, from ParameterHandler's own print-out.
-  const auto known = [&prm](const Path &path) {
-    std::ostringstream printed;
-    prm.print_parameters(printed, ParameterHandler::ShortPRM);
-    std::istringstream text(printed.str());
-    const SceneFile all = SceneFile::scan(text, "");
-    std::string list;
-    for (const auto &entry : all.entries_)
-      if (entry.path == path)
-        list += (list.empty() ? "" : ", ") + entry.key;
-    for (const auto &name : all.names_below(path))
-      list += (list.empty() ? "subsection " : ", subsection ") + name;
-    return list;
+  DiagnosticList errors = errors_;
+  const auto add = [&errors](const std::string &error) { errors.emplace_back(diagnostic::bad_input, error); };
+  std::vector<Path> unknown;
+  const auto refuse_subsection = [&](const Path &path, const std::string &where) {
+    const Path above(path.begin(), path.end() - 1);
+    if (!above.empty() && !prm.subsection_path_exists(above)) // one message for what is in it
+      return;
+    const Declared declared(prm);
+    if (std::find(unknown.begin(), unknown.end(), path) == unknown.end())
+      add(where + ": there is no subsection '" + join(path) + "'" +
+          declared.advice(did_you_mean(path.back(), declared.subsections(above)),
+                          above.empty() ? "at the top level" : "in '" + join(above) + "'", above));
+    unknown.push_back(path);
   };
-
   for (const auto &subsection : subsections_)
-    if (!prm.subsection_path_exists(subsection.path)) {
-      const Path above(subsection.path.begin(), subsection.path.end() - 1);
-      throw InputError(subsection.where + ": there is no subsection '" + join(subsection.path) +
-                       "'; allowed " + (above.empty() ? "at the top level" : "in '" + join(above) + "'") +
-                       " are: " + known(above));
-    }
+    if (!prm.subsection_path_exists(subsection.path))
+      refuse_subsection(subsection.path, subsection.where);
 
+  const auto has_unknown_shape = [&](const Path &path) {
+    const Entry *shape = find(path, "Shape");
+    return shape != nullptr && !try_to_set(prm, *shape).wrong_value.empty();
+  };
   for (const auto &entry : entries_) {
-    for (const auto &name : entry.path)
-      prm.enter_subsection(name);
-    const auto leave = [&] {
-      for (std::size_t i = 0; i < entry.path.size(); ++i)
-        prm.leave_subsection();
-    };
-    const std::string place = entry.path.empty() ? "" : " in '" + join(entry.path) + "'";
-    try {
-      prm.set(entry.key, entry.value);
-    } catch (const ParameterHandler::ExcEntryUndeclared &) {
-      leave();
-      throw InputError(entry.where + ": there is no parameter '" + entry.key + "'" + place +
-                       "; allowed here are: " + known(entry.path));
-    } catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error) {
-      leave();
-      const std::string allowed = describe_pattern(error.what());
-      throw InputError(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value +
-                       "'; allowed is " + allowed +
-                       (allowed == "a number" ? parameters::number_remedy(entry.value) : ""));
+    if (!entry.path.empty() && !prm.subsection_path_exists(entry.path)) {
+      if (entry.files.empty()) // the command line opens no subsections
+        for (std::size_t n = 1; n <= entry.path.size(); ++n) {
+          const Path part(entry.path.begin(), entry.path.begin() + static_cast<std::ptrdiff_t>(n));
+          if (!prm.subsection_path_exists(part)) {
+            refuse_subsection(part, entry.where);
+            break;
+          }
+        }
+      continue;
     }
-    leave();
+    const auto [is_declared, wrong_value] = try_to_set(prm, entry);
+    const std::string place = entry.path.empty() ? "" : " in '" + join(entry.path) + "'";
+    if (!is_declared && has_unknown_shape(entry.path))
+      continue; // the shape decides which parameters there are
+    if (!is_declared) {
+      const Declared declared(prm);
+      const std::string near = did_you_mean(entry.key, declared.parameters(entry.path));
+      add(entry.where + ": there is no parameter '" + entry.key + "'" + place +
+          declared.advice(near.empty() ? declared.other_place(entry.key) : near, "here", entry.path));
+    } else if (!wrong_value.empty())
+      add(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value + "'" + wrong_value);
   }
+  if (!errors.empty())
+    throw InputError(errors);
 }
 
 } // namespace billet

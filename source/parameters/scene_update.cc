@@ -85,10 +85,12 @@ DiagnosticList describe_old_names(const SceneFile &file) {
 
 SceneUpdate update_scene(const std::string &file_name) {
   const SceneFile file = SceneFile::read(file_name);
+  file.require_sound();
   SceneUpdate update;
   std::ifstream stream(file_name, std::ios::binary);
   update.text.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  std::vector<std::size_t> lines = {0};
+  const std::string mark = "\xEF\xBB\xBF"; // byte-order mark
+  std::vector<std::size_t> lines = {update.text.compare(0, mark.size(), mark) == 0 ? mark.size() : 0};
   for (std::size_t i = 0; i < update.text.size(); ++i)
     if (update.text[i] == '\n')
       lines.push_back(i + 1);

@@ -57,7 +57,7 @@ DiagnosticList check_outline(const Scene &scene, MPI_Comm communicator) {
 
 void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
                       const bool as_json) {
-  fail_together(communicator, [&] { check_output_folder(parameters); });
+  fail_together(communicator, [&] { check_output_folder(parameters, EarlierResults::replaced); });
   if (parameters.restart.is_wanted())
     const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
   std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone

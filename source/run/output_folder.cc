@@ -2,41 +2,140 @@
 #include "billet/run/output_folder.h"
 
 #include "billet/errors.h"
+#include "billet/output/console_log.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
 
 namespace billet {
 
-void check_output_folder(const parameters::Scene &parameters) {
-  namespace fs = std::filesystem;
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the beginning of a message.
+std::string quote_folder(const parameters::Scene &parameters) {
+  return parameters.output.folder.origin + " is '" + parameters.output.folder.value + "'";
+}
+
+/// Whether a run has left its results in this folder.
+bool has_results(const fs::path &folder) {
+  constexpr std::array<const char *, 3> files = {"history.csv", "diagnostics.jsonl", log_file};
   std::error_code error;
-  fs::path folder = fs::absolute(parameters.output.folder.value, error);
-  while (!fs::exists(folder, error) && folder.has_relative_path())
-    folder = folder.parent_path();
-  if (!fs::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError(parameters.output.folder.origin + " is '" + parameters.output.folder.value +
-                     "'; allowed is a folder that the program can create and write to; '" + folder.string() +
-                     "' is " + (fs::is_directory(folder, error) ? "not writable" : "not a folder"));
-  for (const std::string name : {"scene.prm", "history.csv"}) {
-    const fs::path file = fs::path(parameters.output.folder.value) / name;
-    if (fs::exists(file, error) && (fs::is_directory(file, error) || access(file.c_str(), W_OK) != 0))
-      throw InputError(parameters.output.folder.origin + " is '" + parameters.output.folder.value +
-                       "'; allowed is a folder that the program can create and write to; '" + file.string() +
-                       "' cannot be overwritten");
+  return std::any_of(files.begin(), files.end(),
+                     [&](const char *file) { return fs::is_regular_file(folder / file, error); });
+}
+
+/// Whether a file or folder is this folder or anywhere in it.
+bool is_inside(const fs::path &file, const fs::path &folder) {
+  std::error_code error;
+  const fs::path inner = fs::weakly_canonical(file, error), outer = fs::weakly_canonical(folder, error);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+/// Refuses to move a folder away that the run itself needs.
+void check_movable(const parameters::Scene &parameters, const fs::path &folder) {
+  const auto refuse = [&](const std::string &what) {
+    throw InputError(quote_folder(parameters) +
+                     ", where an earlier run has left results; they cannot be moved "
+                     "aside, since " +
+                     what + "; allowed is another folder, or '--force', which replaces them");
+  };
+  std::error_code error;
+  if (is_inside(fs::current_path(error), folder))
+    refuse("it holds the current folder");
+  if (is_inside(parameters.file_name, folder))
+    refuse("it holds the scene file");
+  if (parameters.restart.is_wanted() && is_inside(parameters.restart.file.value, folder))
+    refuse("it holds the checkpoint from which the run resumes");
+  const fs::path parent = fs::weakly_canonical(folder, error).parent_path();
+  if (access(parent.c_str(), W_OK | X_OK) != 0)
+    refuse("'" + parent.string() + "' is not writable");
+}
+
+/// Renames the folder to the one with the lowest free number. Returns the new name.
+std::string move_aside(const parameters::Scene &parameters, const fs::path &folder) {
+  std::error_code error;
+  const fs::path source = fs::is_symlink(folder, error) ? fs::canonical(folder, error) : folder;
+  std::string name = source.string();
+  while (name.size() > 1 && name.back() == '/')
+    name.pop_back();
+  for (unsigned int number = 1;; ++number) {
+    const std::string target = name + "." + std::to_string(number);
+    if (fs::exists(fs::symlink_status(target, error)))
+      continue;
+    fs::rename(name, target, error);
+    if (!error)
+      return target;
+    // Another run may have taken the number in the meantime.
+    if (error != std::errc::directory_not_empty && error != std::errc::file_exists)
+      throw InputError(quote_folder(parameters) +
+                       ", where an earlier run has left results; they cannot be "
+                       "renamed '" +
+                       target + "' (" + error.message() +
+                       "); allowed is another folder, or '--force', which replaces them");
   }
 }
 
-void prepare_output_folder(const parameters::Scene &parameters) {
-  const std::filesystem::path folder = parameters.output.folder.value;
+[[noreturn]] void refuse_writing(const parameters::Scene &parameters) {
+  throw InputError(parameters.output.folder.origin + ": the program cannot write to '" +
+                   parameters.output.folder.value + "'");
+}
+
+void make_folder(const parameters::Scene &parameters) {
+  const fs::path folder = parameters.output.folder.value;
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  std::ofstream copy(folder / "scene.prm");
+  // The folder behind a symbolic link may have been moved, or was never made.
+  fs::create_directories(
+      fs::is_symlink(folder, error) ? folder.parent_path() / fs::read_symlink(folder, error) : folder, error);
+  if (!fs::is_directory(folder, error))
+    refuse_writing(parameters);
+}
+
+} // namespace
+
+void check_output_folder(const parameters::Scene &parameters, const EarlierResults earlier) {
+  std::error_code error;
+  const fs::path results = parameters.output.folder.value;
+  fs::path folder = fs::absolute(results, error);
+  while (!fs::exists(folder, error) && folder.has_relative_path())
+    folder = folder.parent_path();
+  const std::string allowed = "; allowed is a folder that the program can create and write to; '";
+  if (!fs::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(quote_folder(parameters) + allowed + folder.string() + "' is " +
+                     (fs::is_directory(folder, error) ? "not writable" : "not a folder"));
+  if (is_held_by_a_run((results / log_file).string()))
+    throw InputError(quote_folder(parameters) +
+                     ", where another run writes its results; allowed is a folder that no other run uses");
+  if (earlier == EarlierResults::moved_aside && has_results(results))
+    return check_movable(parameters, results);
+  for (const std::string name : {"scene.prm", "history.csv", log_file}) {
+    const fs::path file = results / name;
+    if (fs::exists(file, error) && (fs::is_directory(file, error) || access(file.c_str(), W_OK) != 0))
+      throw InputError(quote_folder(parameters) + allowed + file.string() + "' cannot be overwritten");
+  }
+}
+
+std::string prepare_output_folder(const parameters::Scene &parameters, const EarlierResults earlier) {
+  const fs::path folder = parameters.output.folder.value;
+  std::string moved;
+  if (earlier == EarlierResults::moved_aside && has_results(folder)) {
+    check_movable(parameters, folder);
+    moved = move_aside(parameters, folder);
+  }
+  make_folder(parameters);
+  return moved;
+}
+
+void write_scene(const parameters::Scene &parameters) {
+  make_folder(parameters);
+  std::ofstream copy(fs::path(parameters.output.folder.value) / "scene.prm");
   copy << parameters.text;
-  if (error || !copy.flush())
-    throw InputError(parameters.output.folder.origin + ": the program cannot write to '" + folder.string() +
-                     "'");
+  if (!copy.flush())
+    refuse_writing(parameters);
 }
 
 } // namespace billet

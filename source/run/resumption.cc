@@ -4,6 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -31,6 +32,13 @@ void Resumption::load(const Scene &scene, const Discretization &discretization,
   if (report.time < parameters.time_stepping.end_time)
     return;
   std::ostringstream message;
+  constexpr double rounding = 1e-9;
+  if (report.is_exact &&
+      std::abs(report.time - parameters.time_stepping.end_time) <= rounding * std::abs(report.time)) {
+    message << reader.file_name() << " is from the end of the scene, time " << report.time
+            << ", so that nothing remains to be computed";
+    throw AlreadyComplete{Diagnostic(diagnostic::already_complete, message.str())};
+  }
   message << parameters.file_name << ": 'End time' is " << parameters.time_stepping.end_time
           << "; allowed is a time after that of the checkpoint, " << report.time;
   throw InputError(message.str());

@@ -60,7 +60,7 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
   });
   fail_together(communicator, [&] {
     if (is_first_) {
-      prepare_output_folder(scene.parameters());
+      write_scene(scene.parameters());
       diagnostics_.open(folder + "/diagnostics.jsonl", continues);
       history_ = continues ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
                            : std::make_unique<HistoryFile>(scene, folder);

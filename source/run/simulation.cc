@@ -1,27 +1,62 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/simulation.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/output/capabilities_file.h"
+#include "billet/output/console_log.h"
 #include "billet/run/output_folder.h"
 #include "billet/run/run.h"
 
 #include <memory>
+#include <iostream>
 
 namespace billet {
 
-ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator) {
+namespace {
+
+EarlierResults treat_earlier_results(const parameters::Scene &parameters, const Resumption *resumption,
+                                     const RunOptions &options) {
+  if (resumption != nullptr && resumption->is_from(parameters.output.folder.value))
+    return EarlierResults::continued;
+  return options.replaces_results ? EarlierResults::replaced : EarlierResults::moved_aside;
+}
+
+} // namespace
+
+ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator,
+                        const RunOptions &options) {
   // All errors of the scene appear here, before anything is written.
-  fail_together(communicator, [&] { check_output_folder(parameters); });
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   const std::unique_ptr<Resumption> resumption = Resumption::open(parameters, communicator);
+  const EarlierResults earlier = treat_earlier_results(parameters, resumption.get(), options);
+  fail_together(communicator, [&] { check_output_folder(parameters, earlier); });
   std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone
   fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
   const Scene &scene = *built;
-  Diagnostics diagnostics(dealii::Utilities::MPI::this_mpi_process(communicator) == 0);
+  Diagnostics diagnostics(is_first);
   ExitCode code = ExitCode::success;
   try {
     const std::unique_ptr<Run> run = make_run(scene, communicator, resumption.get());
+    std::string moved;
+    fail_together(communicator, [&] {
+      if (!is_first)
+        return;
+      moved = prepare_output_folder(parameters, earlier);
+      if (options.log != nullptr)
+        options.log->open(parameters.output.folder.value + "/" + log_file,
+                          earlier == EarlierResults::continued);
+    });
     RunOutput output(scene, communicator, diagnostics, resumption.get());
+    if (!moved.empty()) // no message of the run: it depends on what was there before
+      output.progress().show_diagnostic(
+          Severity::note,
+          Diagnostic(diagnostic::results_moved, "The results of an earlier run are now in '" + moved + "'")
+              .text());
     code = run_to_end(*run, output, resumption.get());
+  } catch (const AlreadyComplete &complete) { // on all ranks
+    if (is_first)
+      std::cout << complete.diagnostic.text() << std::endl;
+    return ExitCode::success;
   } catch (const SolutionFailure &failure) { // on all ranks
     diagnostics.report(failure.diagnostic());
     diagnostics.write_summary(static_cast<int>(ExitCode::failed_solution));

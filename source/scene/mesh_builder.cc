@@ -22,7 +22,8 @@ using dealii::Triangulation;
 
 namespace {
 
-/// Returns the line of an exception's message that names the problem; deal.II surrounds its own with rulers.
+/// Returns the part of an exception's message that names the problem, on one line; deal.II surrounds its own
+/// with rulers, and breaks it into lines.
 std::string essence(const std::exception &error) {
   std::istringstream lines(error.what());
   std::string line, result;
@@ -32,13 +33,15 @@ std::string essence(const std::exception &error) {
       after_information = true;
       continue;
     }
-    if (after_information && !line.empty() && line[0] != '-') {
-      result = line;
+    if (!after_information)
+      continue;
+    if (!line.empty() && line[0] == '-')
       break;
-    }
+    std::istringstream words(line);
+    for (std::string word; words >> word;)
+      result += (result.empty() ? "" : " ") + word;
   }
-  const auto begin = result.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : result.substr(begin);
+  return result;
 }
 
 std::string describe_refusal(const parameters::Mesh &parameters) {

@@ -614,10 +614,15 @@ void Scene::describe(std::ostream &stream) const {
                                                                                 : ", fixed steps of ")
            << stepping.initial_step << "\n";
   stream << "Elements       " << n_elements << " in all, " << describe_scheme(stepping.scheme) << "\n";
+  std::string unused;
   for (const CapabilityUse &use : capability_uses())
-    stream << use.name << std::string(15 - use.name.size(), ' ')
-           << (use.is_used ? "yes" : "no (neither allocated nor run)") << (use.how.empty() ? "" : ": ")
-           << use.how << "\n";
+    if (use.is_used)
+      stream << use.name << std::string(15 - use.name.size(), ' ') << "yes" << (use.how.empty() ? "" : ": ")
+             << use.how << "\n";
+    else
+      unused += (unused.empty() ? "" : ", ") + use.name;
+  if (!unused.empty())
+    stream << "Not modelled   " << unused << "\n";
   stream << "Output         " << parameters_.output.folder.value << "\n";
 }
 

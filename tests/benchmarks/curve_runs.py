@@ -97,7 +97,7 @@ class CurveRun:
         self.curves = self.energies if self.is_explicit else self.forces
         self.steps = int(rows[-1]["step"]) if rows else 0
         said_elements = [
-            line for line in self.said.splitlines() if " elements, " in line and " dofs, " in line
+            line for line in self.said.splitlines() if " elements, " in line and " unknowns, " in line
         ]
         self.elements = int(said_elements[0].split()[0]) if said_elements else 0
         self.work = (

@@ -8,7 +8,8 @@ Each line of TABLE is a scene that billet must refuse:    EDIT -> MESSAGE
 
 EDIT of block.prm, or of the file that a line 'scene FILE' names: see edits.py. MESSAGE: all that is printed,
 where '...' stands for anything, '@' for the file and the line of the last edit, '@{name}' for those of that
-subsection. 'allowed ...' alone stands for "@: 'Key' in 'Path' is 'value'; allowed ...". After NAME :=
+subsection. 'allowed ...' or 'did you mean ...' alone stands for "@: 'Key' in 'Path' is 'value'; allowed ...".
+Several messages are separated by ' || '. After NAME :=
 EDIT, NAME at the start of a line stands for EDIT. '#' begins a comment.
 
 One start of the program with --check reads the whole table: it must say the messages and nothing else. Every
@@ -35,10 +36,20 @@ class Case(NamedTuple):
     file: str
     expected: str
 
-    def matches(self, message: str) -> bool:
-        """Tells whether this is the message."""
-        pattern = ".*".join(re.escape(part) for part in self.expected.split("..."))
-        return re.fullmatch(rf"error\[bad-input\]: {pattern}\.?\n", message) is not None
+    @property
+    def n_messages(self) -> int:
+        """Number of messages that are expected."""
+        return len(self.expected.split(" || "))
+
+    def matches(self, messages: Sequence[str]) -> bool:
+        """Tells whether these are the messages."""
+        patterns = [
+            ".*".join(re.escape(part) for part in one.split("...")) for one in self.expected.split(" || ")
+        ]
+        return len(messages) == len(patterns) and all(
+            re.fullmatch(rf"error\[bad-input\]: {pattern}\.?\n", message)
+            for pattern, message in zip(patterns, messages)
+        )
 
 
 def read_cases(table: Path, base: str) -> list[Case]:
@@ -58,7 +69,7 @@ def read_cases(table: Path, base: str) -> list[Case]:
         edited = edit(base, re.sub(r"^(\w+)(?= &|$)", lambda word: short.get(word[1], word[1]), name))
         file = f"case_{len(cases) + 1:03d}.prm"
         write_text(file, edited.text)
-        if expected.startswith("allowed "):
+        if expected.startswith(("allowed ", "did you mean ")):
             place = f" in '{edited.path}'" if edited.path else ""
             verb = "contains" if "muParser" in expected else "is"  # an expression may be a part of a value
             expected = f"@: '{edited.key}'{place} {verb} '{edited.value}'; {expected}"
@@ -83,9 +94,11 @@ class Refusals:
         for case in cases:
             named = re.match(r"error\[bad-input\]: (case_\d+\.prm)", messages[0]) if messages else None
             is_of_another = named is not None and named[1] != case.file
-            message = messages.pop(0) if messages and not is_of_another else "nothing\n"
-            if not case.matches(message):
-                self._note(case, f"says:\n{message}instead of:\nerror[bad-input]: {case.expected}\n")
+            found = [] if is_of_another else messages[: case.n_messages]
+            messages = messages[len(found) :]
+            if not case.matches(found):
+                said = "".join(found) or "nothing\n"
+                self._note(case, f"says:\n{said}instead of:\nerror[bad-input]: {case.expected}\n")
         last = cases[-1]
         if output:
             self._note(last, "prints:\n" + "".join(output.splitlines(keepends=True)[:8]))

@@ -81,6 +81,15 @@ int main(int argc, char *argv[]) {
                                                                    error.diagnostic().text() ==
                                                                        "error[bad-input]: It's wrong.";
                                                           }));
+  check("several input errors stay several", all_throw<InputError>(
+                                                 [&] {
+                                                   throw InputError(billet::DiagnosticList{full, plain});
+                                                 },
+                                                 [&](const auto &error) {
+                                                   return error.diagnostics().size() == 2 &&
+                                                          is_same(error.diagnostics()[0], full) &&
+                                                          is_same(error.diagnostics()[1], plain);
+                                                 }));
   check("other exceptions keep their text",
         all_throw<std::runtime_error>(
             [] { throw std::logic_error("a defect"); },

@@ -19,6 +19,9 @@ int main() {
   check("case", nearest_name("end TIME", known) == "End time");
   check("several letters", nearest_name("Poissons ratio", known) == "Poisson ratio");
   check("a beginning", nearest_name("Friction", known) == "Friction coefficient");
+  check("a beginning before what is similar",
+        nearest_name("implicit", {"explicit", "implicit dynamics"}) == "implicit dynamics");
+  check("the same name but for case", nearest_name("voce", {"Voce", "Voce hardening"}) == "Voce");
   check("the nearest of two", nearest_name("Mas", {"Max", "Mass", "Mast"}) == "Max");
   check("two beginnings are none", nearest_name("Penalty", {"Penalty factor", "Penalty growth"}).empty());
   check("a stranger is none", nearest_name("Temperature", known).empty());

@@ -7,11 +7,14 @@
 
 #include <chrono>
 #include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace billet {
 
-/// Console of a run: a line for every step and, on a terminal, a progress bar with the remaining time. First
-/// rank only.
+/// Console of a run: a line for every step and the remaining time, as a progress bar on a terminal, else as a
+/// line every half minute. First rank only.
 class Progress {
 public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
@@ -34,7 +37,9 @@ public:
 
 private:
   void show_iterations(const NewtonReport &newton);
-  void show_bar(double time);
+  /// Shows how far the run is after a step of this length, and the time to go.
+  void show_advance(double time, double length);
+  void show_bar(double part, const std::string &duration);
   void erase_bar();
   double elapsed() const;
 
@@ -44,6 +49,8 @@ private:
   bool has_bar_ = false;
   bool shows_linear_iterations_ = false;
   unsigned int n_lines_ = 0;
+  std::optional<double> begin_; ///< time before the first step shown
+  double last_line_ = 0.;       ///< when the last line of progress was shown [s]
   parameters::Output::Verbosity verbosity_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

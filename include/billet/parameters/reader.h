@@ -2,6 +2,7 @@
 #ifndef BILLET_PARAMETERS_READER_H
 #define BILLET_PARAMETERS_READER_H
 
+#include "billet/errors.h"
 #include "billet/parameters/scene_file.h"
 #include "billet/registered_type.h"
 
@@ -46,11 +47,39 @@ class Reader : public TypeInput {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
 
-  /// Calls `read` inside the subsection `name`.
+  /// Calls `read` inside the subsection `name`. At the top level errors are noted if they are collected.
   template <class Function> void in(const std::string &name, const Function &read) {
-    enter(name);
-    read();
-    leave();
+    const auto read_inside = [&] {
+      enter(name);
+      try {
+        read();
+      } catch (...) {
+        leave();
+        throw;
+      }
+      leave();
+    };
+    if (path_.empty())
+      note_errors(read_inside);
+    else
+      read_inside();
+  }
+  /// Makes later calls of in() at the top level, and of note_errors(), note errors instead of throwing them.
+  void collect_errors() { collects_ = true; }
+  /// Calls `read` and notes its errors if they are collected, so that those of other parts follow.
+  template <class Function> void note_errors(const Function &read) {
+    if (!collects_)
+      return read();
+    try {
+      read();
+    } catch (const InputError &error) {
+      append(errors_, error.diagnostics());
+    }
+  }
+  /// Throws InputError with all errors noted so far.
+  void require_sound() const {
+    if (!errors_.empty())
+      throw InputError(errors_);
   }
   /// Returns the names of the subsections that the user opened here.
   std::vector<std::string> names() const { return file_.names_below(path_); }
@@ -92,6 +121,8 @@ private:
   dealii::ParameterHandler &prm_;
   const SceneFile &file_;
   SceneFile::Path path_;
+  bool collects_ = false;
+  DiagnosticList errors_;
 };
 
 } // namespace billet

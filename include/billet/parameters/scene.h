@@ -34,8 +34,10 @@ struct Scene {
   Output output;
   Restart restart;
 
-  /// Reads a scene file. `restart_file`, unless it is empty, replaces the scene's own. Throws InputError.
-  static Scene read(const std::string &file_name, const std::string &restart_file = "");
+  /// Reads a scene file. `restart_file`, unless it is empty, replaces the scene's own; `settings` from the
+  /// command line override the file. Throws InputError.
+  static Scene read(const std::string &file_name, const std::string &restart_file = "",
+                    const std::vector<SceneFile::Setting> &settings = {});
 
   bool is_explicit() const { return time_stepping.scheme == TimeStepping::Scheme::explicit_dynamics; }
   /// Whether bodies have inertia, in either scheme.

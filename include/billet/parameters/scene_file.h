@@ -2,8 +2,11 @@
 #ifndef BILLET_PARAMETERS_SCENE_FILE_H
 #define BILLET_PARAMETERS_SCENE_FILE_H
 
+#include "billet/diagnostics.h"
+
 #include <istream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dealii {
@@ -28,23 +31,40 @@ public:
     std::string written_key, written_value;
     unsigned int line; ///< in its file, from 1
     bool is_included;  ///< from a file that the scene file includes
+    /// Numbers of the files from the scene file to the one that sets it, each included by the one before;
+    /// empty for the command line.
+    std::vector<unsigned int> files;
+    std::string folder; ///< of its file, with a final slash unless it is empty
 
     bool has_old_name() const { return key != written_key || value != written_value; }
+    /// Whether this entry overrides the other one: that is in a file which the file of this one includes.
+    bool overrides(const Entry &other) const;
   };
   struct Subsection {
     Path path;
     std::string where;
   };
+  /// Value from the command line, which overrides the files.
+  struct Setting {
+    std::string path; ///< "Time stepping/End time"
+    std::string value;
+    std::string where; ///< its source for messages, such as "--set Time stepping/End time=2"
+  };
 
   /// Reads `file_name` and the files that it includes, in ParameterHandler's text format. It knows `set`,
   /// `subsection`, `end`, `include` (relative to the including file), `#` comments and `\` at a line's end.
-  /// Replaces old names of parameters by current ones. Throws InputError.
-  static SceneFile read(const std::string &file_name);
+  /// A file overrides what the files that it includes set; `settings` override all. Replaces old names of
+  /// parameters by current ones. Throws InputError for a file whose subsections cannot be told; other errors
+  /// wait for set_all() or require_sound().
+  static SceneFile read(const std::string &file_name, const std::vector<Setting> &settings = {});
 
-  /// Reads a scene from a stream; `name` replaces the file's name in messages.
+  /// Reads a scene from a stream; `name` replaces the file's name in messages. Throws InputError.
   static SceneFile scan(std::istream &text, const std::string &name);
 
-  /// Returns all entries in the order of their appearance.
+  /// Throws InputError with all errors found so far.
+  void require_sound() const;
+
+  /// Returns all entries in the order of their appearance, without overridden ones.
   const std::vector<Entry> &entries() const { return entries_; }
 
   /// Returns the names of the subsections directly below `path`, in the order of their appearance.
@@ -56,8 +76,11 @@ public:
   /// Returns the value of an entry; `otherwise` if it is not set.
   std::string value(const Path &path, const std::string &key, const std::string &otherwise) const;
 
-  /// Sets every entry in `prm`. Throws InputError with file and line for an unknown subsection or parameter,
-  /// a parameter that is set twice, or a value of the wrong type.
+  /// Returns the paths of all subsections in the order of their appearance.
+  std::vector<Path> paths() const;
+
+  /// Sets every entry in `prm`. Throws InputError with all unknown subsections and parameters, parameters
+  /// that are set twice, and values of the wrong type, each with file and line.
   void set_all(dealii::ParameterHandler &prm) const;
 
   /// Returns where an entry was set, "file:line". If it was not, returns "file:line (default)" with the line
@@ -68,13 +91,24 @@ public:
   std::string where(const Path &path) const;
 
   const std::string &file_name() const { return file_name_; }
-  /// Returns the folder of the scene file, with a final slash unless it is empty.
-  std::string folder() const;
-  /// Returns the file's text as read, with includes resolved.
+  /// Returns a file that an entry names, as a path from the working directory: beside the scene file, or
+  /// else, if an included file names it, beside that one.
+  std::string resolve(const Path &path, const std::string &key, const std::string &name) const;
+  /// Returns the file's text as read, with includes resolved, overridden lines as comments, and the settings
+  /// of the command line at its end.
   const std::string &text() const { return text_; }
 
 private:
-  void scan_file(std::istream &text, const std::string &name, Path &path, unsigned int depth);
+  void scan_file(std::istream &text, const std::string &name, Path &path,
+                 const std::vector<unsigned int> &files);
+  void include(const std::string &statement, const std::string &where, const std::string &name, Path &path,
+               const std::vector<unsigned int> &files);
+  void add_entry(const std::string &statement, const Path &path, Entry entry);
+  void add_setting(const Setting &setting);
+  void resolve_overrides();
+  void note(const std::string &error);
+  /// Throws InputError with this and all earlier errors.
+  [[noreturn]] void fail(const std::string &error);
   std::string last_opened(const Path &path) const;
   const Entry *find(const Path &path, const std::string &key) const;
 
@@ -82,6 +116,10 @@ private:
   std::string text_;
   std::vector<Entry> entries_;
   std::vector<Subsection> subsections_;
+  DiagnosticList errors_;
+  unsigned int n_files_ = 0;
+  std::vector<std::pair<std::string, std::size_t>> lines_; ///< of the text, each with its entry or no_entry
+  static constexpr std::size_t no_entry = static_cast<std::size_t>(-1);
 };
 
 /// Returns "Bodies / billet / Material".

@@ -6,12 +6,27 @@
 
 namespace billet {
 
-/// Throws InputError if the scene's output folder does not exist and cannot be made, or is not writable.
-void check_output_folder(const parameters::Scene &parameters);
+/// What becomes of results of an earlier run in the output folder.
+enum class EarlierResults {
+  moved_aside, ///< the folder is renamed FOLDER.1, or FOLDER with the lowest free number
+  replaced,    ///< the new run writes over them
+  continued    ///< the new run resumes from a checkpoint among them
+};
 
-/// Makes the folder and writes a copy of the scene as read into it. First rank only. Throws InputError on
-/// failure.
-void prepare_output_folder(const parameters::Scene &parameters);
+/// Name of the file in the output folder with all that the console shows.
+constexpr const char *log_file = "billet.log";
+
+/// Throws InputError if the scene's output folder does not exist and cannot be made, is not writable, has
+/// results that would have to be moved aside but cannot be, or is in use by another run.
+void check_output_folder(const parameters::Scene &parameters, EarlierResults earlier);
+
+/// Moves earlier results aside if they are to be, and makes the folder. Returns the name that the results
+/// have now; empty if none were moved. First rank only. Throws InputError on failure.
+std::string prepare_output_folder(const parameters::Scene &parameters, EarlierResults earlier);
+
+/// Writes a copy of the scene as read into the folder, which it makes if necessary. First rank only. Throws
+/// InputError on failure.
+void write_scene(const parameters::Scene &parameters);
 
 } // namespace billet
 

@@ -12,6 +12,11 @@
 
 namespace billet {
 
+/// Thrown on all ranks if the checkpoint is from the end of the scene that resumes from it.
+struct AlreadyComplete {
+  Diagnostic diagnostic;
+};
+
 /// Start of a run from a checkpoint, in place of time 0.
 struct Resumption {
   CheckpointReader reader;
@@ -24,7 +29,7 @@ struct Resumption {
   /// Whether the checkpoint is in this folder; then the run continues the files there.
   bool is_from(const std::string &folder) const;
   /// Checks the scene against the checkpoint and calls `load`, which reads the solution and returns the
-  /// report. Throws InputError if the scene does not fit.
+  /// report. Throws InputError if the scene does not fit, AlreadyComplete if nothing remains to be computed.
   void load(const Scene &scene, const Discretization &discretization,
             const std::function<RestartReport()> &load);
   /// Returns a message about time and changes of the scene. It includes unbalanced forces above this relative

@@ -9,10 +9,19 @@
 
 namespace billet {
 
+class ConsoleLog;
+
+/// What the command line says of a run, beside parameters.
+struct RunOptions {
+  bool replaces_results = false; ///< rather than to move those of an earlier run aside
+  ConsoleLog *log = nullptr;     ///< to be opened in the output folder; null: none
+};
+
 /// Runs a scene from start to end, or from a checkpoint. Throws InputError before anything is written,
 /// SolutionFailure after all results are on disk. Returns the exit code: success, warnings, target_missed, or
-/// stopped by a signal. Collective.
-ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator);
+/// stopped by a signal. A run that would resume at its own end reports that, and is a success. Collective.
+ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator,
+                        const RunOptions &options = {});
 
 } // namespace billet
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/launch.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace billet {
+
+namespace {
+
+constexpr const char *exit_code_file = "BILLET_EXIT_CODE_FILE"; // in the environment of the ranks
+constexpr int max_ranks = 99999;
+
+volatile pid_t mpirun = 0;
+
+/// mpirun passes SIGUSR1 and SIGUSR2 on to its ranks, but kills them on other signals. A second Ctrl-C does
+/// that.
+void pass_on(const int signal) {
+  static volatile std::sig_atomic_t n_stops = 0;
+  const bool stops = signal != SIGUSR1 && signal != SIGUSR2;
+  if (stops)
+    n_stops = n_stops + 1;
+  if (mpirun > 0)
+    kill(mpirun, !stops ? signal : n_stops == 1 ? SIGUSR1 : SIGTERM);
+}
+
+[[noreturn]] void refuse(const std::string &what) { throw InputError("command line: " + what); }
+
+/// Takes "--ranks N" from the arguments. Returns N; empty if it is not there.
+std::string take_ranks(std::vector<std::string> &arguments) {
+  const auto option = std::find(arguments.begin(), arguments.end(), "--ranks");
+  if (option == arguments.end())
+    return "";
+  const std::string number = option + 1 == arguments.end() ? "" : *(option + 1);
+  if (number.empty() || number.size() > 5 || number.find_first_not_of("0123456789") != std::string::npos ||
+      std::stoi(number) < 1)
+    refuse("'--ranks' is '" + number + "'; allowed is a whole number from 1 to " + std::to_string(max_ranks));
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr)
+    refuse("'--ranks' is not allowed under mpirun; allowed is one of the two");
+  arguments.erase(option, option + 2);
+  return number;
+}
+
+/// Becomes mpirun. Does not return.
+[[noreturn]] void become_mpirun(const std::string &n_ranks, const std::vector<std::string> &arguments) {
+  setpgid(0, 0); // Ctrl-C reaches the launcher alone, which passes it on
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  std::error_code error;
+  std::vector<std::string> words = {"mpirun", "-n", n_ranks,
+                                    std::filesystem::read_symlink("/proc/self/exe", error).string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char *> pointers;
+  for (std::string &word : words)
+    pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execvp("mpirun", pointers.data());
+  std::cerr << Diagnostic(diagnostic::bad_input, std::string("command line: '--ranks' needs mpirun, which "
+                                                             "cannot be started: ") +
+                                                     std::strerror(errno))
+                   .text()
+            << std::endl;
+  _exit(static_cast<int>(ExitCode::bad_input));
+}
+
+/// Waits for mpirun. Returns its exit code, or that of the ranks.
+int wait_for_ranks(const std::string &file) {
+  int status = 0;
+  while (waitpid(mpirun, &status, 0) < 0 && errno == EINTR) {
+  }
+  constexpr int by_signal = 128;
+  int code = WIFEXITED(status) ? WEXITSTATUS(status) : by_signal + WTERMSIG(status);
+  if (code == 0 && !(std::ifstream(file) >> code))
+    code = static_cast<int>(ExitCode::internal_error);
+  return code;
+}
+
+} // namespace
+
+std::optional<int> launch(const std::vector<std::string> &arguments) {
+  try {
+    std::vector<std::string> others = arguments;
+    const std::string n_ranks = take_ranks(others);
+    if (n_ranks.empty())
+      return {};
+    std::string file = std::filesystem::temp_directory_path() / "billet.XXXXXX";
+    const int descriptor = mkstemp(file.data());
+    if (descriptor < 0)
+      refuse("'--ranks' needs a temporary file, and '" + file + "' cannot be made: " + std::strerror(errno));
+    close(descriptor);
+    setenv(exit_code_file, file.c_str(), 1);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2})
+      std::signal(signal, pass_on);
+    mpirun = fork();
+    if (mpirun == 0)
+      become_mpirun(n_ranks, others);
+    const int code = mpirun > 0 ? wait_for_ranks(file) : static_cast<int>(ExitCode::internal_error);
+    std::remove(file.c_str());
+    return code;
+  } catch (const InputError &error) {
+    std::cerr << error.diagnostic().text() << std::endl;
+    return static_cast<int>(ExitCode::bad_input);
+  }
+}
+
+int report_exit_code(const int code, const bool is_first) {
+  const char *file = std::getenv(exit_code_file);
+  if (file == nullptr)
+    return code;
+  if (!is_first)
+    return 0;
+  std::ofstream stream(file);
+  stream << code << "\n";
+  stream.close();
+  return stream ? 0 : code;
+}
+
+} // namespace billet
