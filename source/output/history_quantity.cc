@@ -14,6 +14,7 @@ HistoryQuantity momenta_quantity();
 HistoryQuantity support_reactions_quantity();
 HistoryQuantity tool_pair_loads_quantity();
 HistoryQuantity force_balance_quantity();
+HistoryQuantity energy_ratio_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -38,6 +39,7 @@ HistoryQuantities &history_quantities() {
     all.add(support_reactions_quantity());
     all.add(tool_pair_loads_quantity());
     all.add(force_balance_quantity());
+    all.add(energy_ratio_quantity());
     return all;
   }();
   return quantities;

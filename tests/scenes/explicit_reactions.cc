@@ -16,13 +16,18 @@ void balance(const std::string &name, const double allowed) {
   ExplicitDynamics &problem = run.problem;
   const double end = parameters.time_stepping.end_time;
   WorstError defect, pairs, free;
+  double largest = 0.;
   constexpr unsigned int n_steps = 400, interval = 20;
   for (unsigned int step = 0; step < n_steps && problem.time() < end; ++step) {
     problem.prepare_step(end);
     if (step % interval == 0) {
       problem.update_ledger();
       const Reactions &reactions = problem.reactions();
-      defect.add(reactions.balance.defect());
+      const ForceBalance &forces = reactions.balance;
+      defect.add(forces.defect());
+      largest = std::max(largest, std::max({forces.reactions.norm(), forces.contact.norm(),
+                                            forces.loads.norm(), forces.inertia.norm()}) /
+                                      std::max(forces.size, 1e-300));
       free.add(reactions.balance.size > 0. ? reactions.balance.free.norm() / reactions.balance.size : 0.);
       std::vector<dealii::Tensor<1, 3>> of_tools(run.scene.tools().size());
       for (std::size_t i = 0; i < run.scene.pairs().size(); ++i)
@@ -33,7 +38,7 @@ void balance(const std::string &name, const double allowed) {
     }
     problem.finish_step();
   }
-  check(name + ": forces balance", defect.value(), allowed);
+  check(name + ": forces balance", largest > 1e-6 ? defect.value() : 1., allowed); // else nothing is shown
   check(name + ": constraints take all of the residual at their nodes", free.value(), 1e-14);
   check(name + ": forces of pairs are those of tools", pairs.value(), 1e-14);
 }
