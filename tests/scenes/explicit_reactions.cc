@@ -9,8 +9,9 @@ using billet::testing::WorstError;
 
 namespace {
 
-/// Steps through the first part of a scene, and checks the balance of its forces.
-void balance(const std::string &name, const double allowed) {
+/// Steps through the first part of a scene, and checks the balance of its forces. `is_loaded`: whether forces
+/// from outside act by then, without which the sums would show little.
+void balance(const std::string &name, const bool is_loaded) {
   const parameters::Scene parameters = testing::read_test_scene(name + ".prm");
   testing::ExplicitRun run(parameters);
   ExplicitDynamics &problem = run.problem;
@@ -38,7 +39,7 @@ void balance(const std::string &name, const double allowed) {
     }
     problem.finish_step();
   }
-  check(name + ": forces balance", largest > 1e-6 ? defect.value() : 1., allowed); // else nothing is shown
+  check(name + ": forces balance", is_loaded && !(largest > 1e-6) ? 1. : defect.value(), 1e-12);
   check(name + ": constraints take all of the residual at their nodes", free.value(), 1e-14);
   check(name + ": forces of pairs are those of tools", pairs.value(), 1e-14);
 }
@@ -47,9 +48,10 @@ void balance(const std::string &name, const double allowed) {
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  for (const std::string name :
-       {"block_and_slab", "contact_patch", "elastic_bar", "expanding_rings", "explicit_ranks", "hard_blow",
-        "held_ring", "light_tool", "restart_ring", "sliding_block", "springback", "two_bars"})
-    balance(name, 1e-12);
+  for (const std::string name : {"contact_patch", "elastic_bar", "expanding_rings", "explicit_ranks",
+                                 "hard_blow", "held_ring", "light_tool", "sliding_block"})
+    balance(name, true);
+  for (const std::string name : {"block_and_slab", "restart_ring", "springback", "two_bars"})
+    balance(name, false);
   return testing::exit_code();
 }

@@ -82,6 +82,18 @@ void hold_twice() {
   check("bar, held twice: the second has none", reaction(twice, "support again").force.norm() == 0.);
 }
 
+/// A difference above round-off is a warning, in float above that of float.
+void warn() {
+  ForceBalance forces;
+  forces.reactions[0] = forces.free[0] = forces.size = 1.;
+  check("forces that balance are no warning", check_force_balance(forces, 0., false).empty());
+  forces.free[0] += 1e-8;
+  check("a difference is one", check_force_balance(forces, 0., false).size() == 1);
+  check("not in float", check_force_balance(forces, 0., true).empty());
+  forces.contact[1] = 0.01;
+  check("a large one is one in float, too", check_force_balance(forces, 0., true).size() == 1);
+}
+
 /// Runs a few steps of a scene, and checks the balance of its forces.
 void balance(const std::string &name, const std::function<void(parameters::Scene &)> &change = {}) {
   parameters::Scene parameters = testing::read_test_scene(name + ".prm");
@@ -115,6 +127,7 @@ int main(int argc, char *argv[]) {
   press_cube();
   swing_bar();
   hold_twice();
+  warn();
   for (const std::string name : {"block_on_plane", "confined_block", "dragged_blocks", "drawn_block",
                                  "flush_tools", "friction_account_of_bodies", "open_ring", "pressed_blocks",
                                  "restart_blocks", "restart_press", "turning_tool"})
