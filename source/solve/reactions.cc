@@ -28,7 +28,8 @@ ContactLoad about_origin(ContactLoad load, const Placement &placement) {
 
 DiagnosticList check_force_balance(const ForceBalance &balance, const double time, const bool in_float) {
   const double defect = balance.defect();
-  if (defect <= (in_float ? Limits::in_float : Limits::in_double))
+  if (defect <= (in_float ? Limits::in_float : Limits::in_double) ||
+      defect * balance.size <= balance.round_off)
     return {};
   std::ostringstream text;
   text << "The reactions (" << balance.reactions << "), contact forces (" << balance.contact << "), loads ("

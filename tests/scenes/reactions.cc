@@ -89,6 +89,8 @@ void warn() {
   check("forces that balance are no warning", check_force_balance(forces, 0., false).empty());
   forces.free[0] += 1e-8;
   check("a difference is one", check_force_balance(forces, 0., false).size() == 1);
+  forces.round_off = 1e-7;
+  check("round-off of positions is none", check_force_balance(forces, 0., false).empty());
   check("not in float", check_force_balance(forces, 0., true).empty());
   forces.contact[1] = 0.01;
   check("a large one is one in float, too", check_force_balance(forces, 0., true).size() == 1);

@@ -21,6 +21,7 @@ struct ForceBalance {
   dealii::Tensor<1, 3> inertia;   ///< −M a
   dealii::Tensor<1, 3> free;      ///< forces that are out of balance at unconstrained dofs
   double size = 0.;               ///< sum of the magnitudes of nodal forces
+  double round_off = 0.;          ///< force by round-off of positions
 
   /// Returns the sum of the first four without the last, which is round-off, over the size.
   double defect() const;
@@ -37,7 +38,8 @@ struct Reactions {
 /// the moment is before.
 ContactLoad about_origin(ContactLoad load, const Placement &placement);
 
-/// Returns a warning if the forces of the whole model fail to balance by more than round-off. `in_float`:
+/// Returns a warning if the forces of the whole model fail to balance by more than round-off, that of
+/// positions included. `in_float`:
 /// whether elements compute in float.
 DiagnosticList check_force_balance(const ForceBalance &balance, double time, bool in_float);
 

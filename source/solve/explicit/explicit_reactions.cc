@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_reactions.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace billet {
 
@@ -9,13 +12,24 @@ using dealii::Tensor;
 
 namespace {
 
+/// Returns a hundred times the force by the last bit of a displacement of the scene's size.
+double find_round_off_force(const ExplicitParts &parts) {
+  double stiffest = 0.;
+  for (const auto &body : parts.scene.bodies())
+    stiffest = std::max(stiffest, body.max_modulus);
+  const double last_bit = parts.settings().number_type == NumberType::float_precision
+                              ? double{std::numeric_limits<float>::epsilon()}
+                              : std::numeric_limits<double>::epsilon();
+  return 100. * last_bit * stiffest * parts.discretization.radius() * parts.discretization.radius();
+}
+
 /// Returns the sum of the magnitudes of the components.
 double l1_norm(const Tensor<1, 3> &v) { return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]); }
 
 } // namespace
 
 ExplicitReactions::ExplicitReactions(const ExplicitParts &parts)
-    : parts_(parts), supports_(parts.scene, parts.discretization) {
+    : parts_(parts), supports_(parts.scene, parts.discretization), round_off_(find_round_off_force(parts)) {
   values_.of_supports.resize(named_supports(parts.scene).size());
   values_.of_tool_pairs.resize(parts.scene.pairs().size());
 }
@@ -26,6 +40,7 @@ void ExplicitReactions::update() {
       supports_.compute(parts_.nodes, motion.support_forces(), motion.displacements());
   values_.of_supports = forces.of_supports;
   values_.balance = {};
+  values_.balance.round_off = round_off_;
   // Constraints act along their normals alone, so that the second is round-off.
   values_.balance.free = -forces.free;
   for (const Resultant &resultant : values_.of_supports)

@@ -50,6 +50,7 @@ void ImplicitReactions::start() {
   balance.loads = sums[1] + sums[2] - sums[0];
   balance.inertia = sums[0] - sums[3];
   balance.free = -forces.free;
+  balance.round_off = problem_.round_off_force();
   balance.size = std::max(trial.internal.l1_norm() + trial.contact.l1_norm() + trial.supports.l1_norm() +
                               residual.l1_norm(),
                           problem_.scales().lasting);

@@ -22,6 +22,7 @@ private:
 
   const ExplicitParts &parts_;
   SupportReactions supports_;
+  double round_off_; ///< force by round-off of positions
   Reactions values_;
 };
 
