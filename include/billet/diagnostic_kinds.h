@@ -388,6 +388,12 @@ inline const DiagnosticKind file_failed("file-failed", Severity::warning,
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
                                             "The computation cannot continue.", "");
 
+inline const DiagnosticKind forces_do_not_balance(
+    "forces-do-not-balance", Severity::warning,
+    "Reactions, contact forces, loads and inertia of the whole model differ from the free residuals by more "
+    "than round-off.",
+    "The program has a defect: report it with the scene file");
+
 inline const DiagnosticKind
     energy_drift("energy-drift", Severity::error,
                  "The energies fail to balance by more than 'Maximum energy drift' allows.", "");

@@ -75,12 +75,12 @@ void HistoryFile::begin(const Scene &scene) {
 
 HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<double>(stream_.tellp())}; }
 
-void HistoryFile::write(const StepReport &report, const SolutionState &state) {
-  write({state, report.step, report.length, &report});
+void HistoryFile::write(const StepReport &report, const Solution &solution) {
+  write({solution.state(), report.step, report.length, &report, solution.reactions()});
 }
 
-void HistoryFile::write(const unsigned int step, const double length, const SolutionState &state) {
-  write({state, step, length, nullptr});
+void HistoryFile::write(const unsigned int step, const double length, const Solution &solution) {
+  write({solution.state(), step, length, nullptr, solution.reactions()});
 }
 
 void HistoryFile::write(const HistorySample &sample) {

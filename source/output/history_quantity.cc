@@ -11,6 +11,10 @@ HistoryQuantity tool_loads_quantity();
 HistoryQuantity body_pair_loads_quantity();
 std::vector<HistoryQuantity> energy_quantities();
 HistoryQuantity momenta_quantity();
+HistoryQuantity support_reactions_quantity();
+HistoryQuantity tool_pair_loads_quantity();
+HistoryQuantity force_balance_quantity();
+HistoryQuantity energy_ratio_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -31,6 +35,11 @@ HistoryQuantities &history_quantities() {
     for (const HistoryQuantity &energy : energy_quantities())
       all.add(energy);
     all.add(momenta_quantity());
+    // Programs that read a history rely on its columns: later ones stand behind those above.
+    all.add(support_reactions_quantity());
+    all.add(tool_pair_loads_quantity());
+    all.add(force_balance_quantity());
+    all.add(energy_ratio_quantity());
     return all;
   }();
   return quantities;

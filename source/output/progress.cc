@@ -14,6 +14,8 @@ using Verbosity = parameters::Output::Verbosity;
 namespace {
 
 constexpr double seconds_between_lines = 30.; // of progress where there is no terminal
+/// Number of columns with forces, above which only those of tools and of contact between bodies are shown.
+constexpr std::size_t max_force_columns = 5;
 
 std::string format_duration(const double seconds) {
   const auto whole = std::lround(seconds);
@@ -29,7 +31,59 @@ std::string format_duration(const double seconds) {
 
 Progress::Progress(const Scene &scene, std::ostream &stream, const bool is_terminal)
     : scene_(scene), stream_(stream), is_terminal_(is_terminal),
-      verbosity_(scene.parameters().output.verbosity) {}
+      verbosity_(scene.parameters().output.verbosity) {
+  make_columns();
+}
+
+void Progress::add_forces(const std::string &name, const std::function<double(const Solution &)> &value) {
+  columns_.push_back({("|F| " + name).substr(0, 13), 14, value});
+}
+
+void Progress::make_columns() {
+  const Capabilities &capabilities = scene_.capabilities();
+  const auto add_energy = [this](const char *header, double EnergyLedger::*energy) {
+    columns_.push_back({header, 15, [energy](const Solution &s) { return s.state().energies.*energy; }});
+  };
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    add_forces(scene_.tools()[i].name(),
+               [i](const Solution &s) { return s.state().tool_loads[i].force.norm(); });
+  for (std::size_t i = 0; i < scene_.body_pairs().size(); ++i)
+    add_forces(scene_.body_pairs()[i].name,
+               [i](const Solution &s) { return s.state().body_pair_loads[i].force.norm(); });
+  const auto has_room = [this] { return columns_.size() < max_force_columns; };
+  for (std::size_t i = 0; i < scene_.pairs().size() && has_room(); ++i) {
+    const auto is_of_tool = [&](const ContactPair &pair) { return pair.tool == scene_.pairs()[i].tool; };
+    if (std::count_if(scene_.pairs().begin(), scene_.pairs().end(), is_of_tool) > 1) // else it is the tool's
+      add_forces(scene_.pairs()[i].name,
+                 [i](const Solution &s) { return s.reactions().of_tool_pairs[i].force.norm(); });
+  }
+  const std::vector<NamedSupport> supports = named_supports(scene_);
+  const std::string support = "support ", plane = "symmetry plane ";
+  for (const std::string *kind : {&support, &plane}) {
+    if (kind == &plane && !columns_.empty()) // most symmetry planes balance what is shown already
+      break;
+    for (std::size_t i = 0; i < supports.size() && has_room(); ++i)
+      if (supports[i].name.rfind(*kind, 0) == 0)
+        add_forces(supports[i].name.substr(kind->size()),
+                   [i](const Solution &s) { return s.reactions().of_supports[i].force.norm(); });
+  }
+  if (capabilities.plasticity)
+    add_energy("plastic work", &EnergyLedger::plastic);
+  if (capabilities.friction)
+    add_energy("friction work", &EnergyLedger::friction);
+}
+
+void Progress::show_headers() const {
+  for (const Column &column : columns_)
+    stream_ << std::setw(column.width) << column.header;
+  stream_ << "\n";
+}
+
+void Progress::show_values(const Solution &solution) const {
+  for (const Column &column : columns_)
+    stream_ << std::setw(column.width) << column.value(solution);
+  stream_ << "\n";
+}
 
 double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -71,7 +125,7 @@ void Progress::show_diagnostic(const Severity severity, const std::string &text)
   stream_ << text << std::endl;
 }
 
-void Progress::accept(const StepReport &report, const SolutionState &state) {
+void Progress::accept(const StepReport &report, const Solution &solution) {
   if (verbosity_ == Verbosity::quiet)
     return;
   erase_bar();
@@ -80,46 +134,35 @@ void Progress::accept(const StepReport &report, const SolutionState &state) {
   if (n_lines_++ % 40 == 0) {
     stream_ << "  step        time        step iter" << (shows_linear_iterations_ ? " linear" : "")
             << "   residual";
-    for (const auto &tool : scene_.tools())
-      stream_ << std::setw(14) << ("|F| " + tool.name()).substr(0, 13);
-    stream_ << "   plastic work\n";
+    show_headers();
   }
-  stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << state.time
-          << std::setw(12) << std::setprecision(4) << report.length << std::setw(5)
-          << report.newton.iterations.size();
+  const double time = solution.state().time;
+  stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << time << std::setw(12)
+          << std::setprecision(4) << report.length << std::setw(5) << report.newton.iterations.size();
   if (shows_linear_iterations_)
     stream_ << std::setw(7) << report.newton.linear_iterations;
   stream_ << std::setw(11) << std::setprecision(2) << report.newton.force << std::setprecision(7);
-  for (const auto &load : state.tool_loads)
-    stream_ << std::setw(14) << load.force.norm();
-  stream_ << std::setw(15) << state.energies.plastic << "\n";
-  show_advance(state.time, report.length);
+  show_values(solution);
+  show_advance(time, report.length);
   stream_ << std::flush;
 }
 
-void Progress::show(const unsigned int step, const double length, const SolutionState &state) {
+void Progress::show(const unsigned int step, const double length, const Solution &solution) {
   if (verbosity_ == Verbosity::quiet)
     return;
   erase_bar();
   if (n_lines_++ % 40 == 0) {
-    stream_ << "    step        time        step       kinetic       plastic      external   drift";
-    for (const auto &tool : scene_.tools())
-      stream_ << std::setw(14) << ("|F| " + tool.name()).substr(0, 13);
-    for (const auto &pair : scene_.body_pairs())
-      stream_ << std::setw(14) << ("|F| " + pair.name).substr(0, 13);
-    stream_ << "\n";
+    stream_ << "    step        time        step       kinetic      external   drift";
+    show_headers();
   }
+  const SolutionState &state = solution.state();
   const EnergyLedger &energies = state.energies;
   const double scale = std::max(energies.total(), std::abs(energies.initial));
   stream_ << std::setw(8) << step << std::setw(12) << std::setprecision(6) << state.time << std::setw(12)
           << std::setprecision(4) << length << std::setprecision(6) << std::setw(14) << energies.kinetic
-          << std::setw(14) << energies.plastic << std::setw(14) << energies.external << std::setw(8)
-          << std::setprecision(1) << (scale > 0. ? energies.drift() / scale : 0.) << std::setprecision(6);
-  for (const auto &load : state.tool_loads)
-    stream_ << std::setw(14) << load.force.norm();
-  for (const auto &load : state.body_pair_loads)
-    stream_ << std::setw(14) << load.force.norm();
-  stream_ << "\n";
+          << std::setw(14) << energies.external << std::setw(8) << std::setprecision(1)
+          << (scale > 0. ? energies.drift() / scale : 0.) << std::setprecision(6);
+  show_values(solution);
   show_advance(state.time, length);
   stream_ << std::flush;
 }

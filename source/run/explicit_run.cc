@@ -152,10 +152,12 @@ void ExplicitRun::show_number_of_steps(RunOutput &output) const {
 
 void ExplicitRun::write_row(RunOutput &output) {
   problem_.update_ledger();
-  output.write_row([&](HistoryFile &history) {
-    history.write(problem_.n_steps(), problem_.step_length(), problem_.state());
-  });
-  output.progress().show(problem_.n_steps(), problem_.step_length(), problem_.state());
+  output.write_row(
+      [&](HistoryFile &history) { history.write(problem_.n_steps(), problem_.step_length(), problem_); });
+  output.progress().show(problem_.n_steps(), problem_.step_length(), problem_);
+  output.report(
+      check_force_balance(problem_.reactions().balance, problem_.time(),
+                          parameters_.explicit_dynamics.number_type == NumberType::float_precision));
   output.report(problem_.check_penalties());
   problem_.update_state();
   output.report(review_.after_step(problem_, problem_.time() >= stops_.end()));

@@ -139,8 +139,9 @@ void ImplicitRun::after_step(RunOutput &output) {
   control_errors(output);
   continued_ = report_.length;
   report_.step = control_.n_steps();
-  output.write_row([&](HistoryFile &history) { history.write(report_, problem_.state()); });
-  output.progress().accept(report_, problem_.state());
+  output.write_row([&](HistoryFile &history) { history.write(report_, problem_); });
+  output.progress().accept(report_, problem_);
+  output.report(check_force_balance(problem_.reactions().balance, problem_.state().time, false));
   output.report(review_.after_step(problem_, control_.is_finished()));
   output.report(stability_.check(control_.time(), problem_.state().displacements));
   check_energies(output);

@@ -84,7 +84,7 @@ int main(int argc, char *argv[]) {
     value *= 2.;
   check("nodes", max_difference(testing::read_field(file, "doubled_z", 0), twice), 1e-8);
 
-  HistoryFile(run.scene, "fields").write({}, run.problem.state());
+  HistoryFile(run.scene, "fields").write({}, run.problem);
   std::ifstream history("fields/history.csv");
   std::string columns, values;
   std::getline(history, columns);

@@ -26,9 +26,9 @@ public:
   /// is renamed with the `time` at which it ends, and a new one begins.
   HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, double time);
 
-  void write(const StepReport &report, const SolutionState &state);
+  void write(const StepReport &report, const Solution &solution);
   /// Writes a line of an explicit scene: number of steps, and length of the next.
-  void write(unsigned int step, double length, const SolutionState &state);
+  void write(unsigned int step, double length, const Solution &solution);
 
 private:
   void begin(const Scene &scene);

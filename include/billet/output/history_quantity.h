@@ -26,6 +26,7 @@ struct HistorySample {
   unsigned int step;
   double length;            ///< explicit scenes: of the next step [time]
   const StepReport *report; ///< null in explicit scenes
+  const Reactions &reactions;
 };
 
 /// Columns of the history that belong together.

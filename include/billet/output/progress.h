@@ -6,6 +6,7 @@
 #include "billet/output/history_file.h"
 
 #include <chrono>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -23,10 +24,10 @@ public:
   /// Shows the estimated number of steps of an explicit scene, from the length of the first step.
   void show_number_of_steps(double n_steps, double step);
   /// Shows a step of an explicit scene for which a line of the history is due.
-  void show(unsigned int step, double length, const SolutionState &state);
+  void show(unsigned int step, double length, const Solution &solution);
   /// Shows a warning at any verbosity, a note unless the verbosity is quiet.
   void show_diagnostic(Severity severity, const std::string &text);
-  void accept(const StepReport &report, const SolutionState &state);
+  void accept(const StepReport &report, const Solution &solution);
   void reject(const StepReport &report, double from, double to);
   /// Shows wall-clock and CPU time of the steps of an explicit scene, without output.
   void show_pace(unsigned int n_steps, std::size_t n_elements, double seconds, double processor_seconds);
@@ -36,6 +37,16 @@ public:
               const std::string &file_to_open);
 
 private:
+  /// Number of a line that depends on what the scene has.
+  struct Column {
+    std::string header;
+    int width;
+    std::function<double(const Solution &)> value;
+  };
+  void make_columns();
+  void add_forces(const std::string &name, const std::function<double(const Solution &)> &value);
+  void show_headers() const;
+  void show_values(const Solution &solution) const;
   void show_iterations(const NewtonReport &newton);
   /// Shows how far the run is after a step of this length, and the time to go.
   void show_advance(double time, double length);
@@ -51,6 +62,7 @@ private:
   unsigned int n_lines_ = 0;
   std::optional<double> begin_; ///< time before the first step shown
   double last_line_ = 0.;       ///< when the last line of progress was shown [s]
+  std::vector<Column> columns_;
   parameters::Output::Verbosity verbosity_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -7,6 +7,7 @@
 #include "billet/discretization/discretization.h"
 #include "billet/geometry/placement.h"
 #include "billet/mechanics/element_block.h"
+#include "billet/solve/reactions.h"
 
 #include <vector>
 
@@ -68,6 +69,8 @@ public:
   virtual DiagnosticList initial_diagnostics() const = 0;
   /// Whether the console shows linear iterations.
   virtual bool solves_iteratively() const { return false; }
+  /// Returns the forces on the bodies at the state.
+  virtual const Reactions &reactions() const = 0;
 };
 
 } // namespace billet

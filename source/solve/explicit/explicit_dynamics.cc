@@ -14,7 +14,7 @@ const std::string &name_of_scheme() {
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : parts_(scene, discretization), ledger_(parts_), stable_step_(parts_.settings().safety_factor),
-      crossing_limit_(parts_), penalties_(parts_) {
+      crossing_limit_(parts_), penalties_(parts_), reactions_(parts_) {
   state_.body_pair_loads.resize(parts_.contacts.of_bodies().size());
   state_.tool_loads.resize(parts_.tools.size());
   state_.placements.resize(parts_.tools.size());
@@ -62,7 +62,10 @@ void ExplicitDynamics::finish_step() {
   parts_.clock.advance();
 }
 
-void ExplicitDynamics::update_ledger() { ledger_.update(state_); }
+void ExplicitDynamics::update_ledger() {
+  ledger_.update(state_);
+  reactions_.update();
+}
 
 void ExplicitDynamics::update_state() {
   update_ledger();

@@ -16,6 +16,7 @@ ExplicitTools::ExplicitTools(const Scene &scene, const LocalNodes &nodes) : scen
                   tools_.begin(), tools_.end(), [](const FreeTool &tool) { return tool.wants_load(); })) *
               sizeof(FreeTool));
   loads_.resize(tools_.size());
+  pair_loads_.resize(scene.pairs().size());
   fading_forces_.resize(tools_.size());
 }
 
@@ -32,12 +33,14 @@ std::vector<Placement> ExplicitTools::placements(const Placement &(FreeTool::*ge
 
 void ExplicitTools::clear_loads() {
   std::fill(loads_.begin(), loads_.end(), ContactLoad());
+  std::fill(pair_loads_.begin(), pair_loads_.end(), ContactLoad());
   stiffness_.assign(tools_.size(), 0.);
 }
 
 void ExplicitTools::add_load(const ContactInterface &contact, const std::size_t tool,
                              const ContactLoad &load) {
   loads_[tool] += load;
+  pair_loads_[contact.group_index()] = load;
   if (tools_[tool].inverse_inertia() > 0.)
     stiffness_[tool] += contact.stiffness_against_tool();
 }

@@ -24,7 +24,7 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
       round_off_(problem_), books_(problem_), diagnosis_(problem_),
       rules_(make_step_rules(problem_, paths_, books_)),
       attempt_({problem_, solver_, measurement_, augmentation_, continuation_, paths_, round_off_, *rules_}),
-      checkpoint_(problem_) {
+      checkpoint_(problem_), reactions_(problem_) {
   if (scene.parameters().restart.is_wanted()) // load() does the rest
     return;
   ContactSet &contacts = problem_.contacts();
@@ -184,6 +184,7 @@ ImplicitSolution::Probe ImplicitSolution::probe(const double t, const double pre
 void ImplicitSolution::commit(const double t, NewtonReport &report) {
   StepState &step = problem_.step();
   ForceScales &scales = problem_.scales();
+  reactions_.start();
   round_off_.commit(t, report);
   penetration_ = problem_.contacts().find_penetration();
   append(report.diagnostics, paths_.check_motion(t));
@@ -248,6 +249,8 @@ void ImplicitSolution::commit_loads(const double t) {
     if (const auto &tool = contacts[i].rigid_tool()) {
       state.tool_loads[*tool] += load;
       books_.set(i, load.stored_energy);
+      reactions_.set_pair(contacts[i].group_index(), load,
+                          problem_.tools().place(*tool, t, problem_.tools().offsets()[*tool]));
     } else {
       *body_pair_load++ = load;
       state.energies.contact += load.stored_energy;

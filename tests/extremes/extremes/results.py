@@ -54,7 +54,7 @@ def in_base_units(history: History, frame: Frame) -> History:
     turned = {}
     for name, values in h.items():
         last = name.rsplit(".", 1)[-1]
-        if last.startswith("force_"):
+        if last.startswith(("force_x", "force_y", "force_z", "free_residual")):
             unit = frame.force
         elif last.startswith("moment_of_momentum"):
             unit = frame.momentum * frame.length
@@ -107,7 +107,14 @@ class Result:
     @cached_property
     def named(self) -> list[str]:
         """Tools and pairs with forces."""
-        return [name[: -len(".force_x")] for name in self.history if name.endswith(".force_x")]
+        return [
+            name[: -len(".force_x")]
+            for name in self.history
+            if name.endswith(".force_x")
+            and not name.startswith("pair ")
+            and ".support " not in name
+            and ".symmetry plane " not in name
+        ]
 
     def force(self, name: str) -> Array:
         return numpy.stack([self.history[f"{name}.force_{i}"] for i in "xyz"], axis=1)

@@ -40,6 +40,18 @@ class Output(ABC):
         return self.norm(reference_values)
 
 
+def contact_forces(result: Result) -> list[str]:
+    """Columns with forces of tools and of pairs of bodies: not reactions, nor parts of a tool's force."""
+    return [
+        column
+        for column in result.history
+        if ".force_" in column
+        and not column.startswith("pair ")
+        and ".support " not in column
+        and ".symmetry plane " not in column
+    ]
+
+
 class Force(Output):
     """Forces of tools, or of contact pairs of bodies where there are no tools: ∫|F − F*| / ∫|F*| over time,
     at the ends of steps. Explicit histories, which ring, by running means.
@@ -77,7 +89,7 @@ class Force(Output):
     @staticmethod
     def all_forces(result: Result, scene: Scene) -> list[str]:
         found = [c for name in scene.names("Tools") for c in result.history if c.startswith(f"{name}.force_")]
-        return found or [c for c in result.history if ".force_" in c]
+        return found or contact_forces(result)
 
     def _curve(self, result: Result) -> tuple[Array, Array]:
         """As the history has it, from a force of zero at time zero on."""

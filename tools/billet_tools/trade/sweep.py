@@ -15,7 +15,7 @@ from ..scene import Scene
 from ..text import table
 from . import picture, report
 from .options import Options, read_outputs, read_settings
-from .outputs import Force, Output, Profile, Rebound, Shape
+from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
 from .plan import Candidates
 from .reference import GIVEN, Plan, Reference
 from .report import Forces, Point, Sweep
@@ -34,7 +34,7 @@ def refuse_outputs(weights: Mapping[str, float], scene: Scene) -> None:
 def make_force(options: Options, scene: Scene, centre: Result, finest: Result | None = None) -> Force | None:
     """The force, whether it counts or only judges; None where there is none. `finest`: the run with the
     shortest steps."""
-    if not any(".force_" in column for column in centre.history):
+    if not contact_forces(centre):
         return None
     columns = [c.strip() for c in options.force.split(",")] if options.force else None
     return Force(centre, scene, columns, options.window, finest)

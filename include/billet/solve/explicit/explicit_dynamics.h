@@ -5,6 +5,7 @@
 #include "billet/solve/explicit/crossing_limit.h"
 #include "billet/solve/explicit/explicit_ledger.h"
 #include "billet/solve/explicit/explicit_penalties.h"
+#include "billet/solve/explicit/explicit_reactions.h"
 
 #include <algorithm>
 #include <vector>
@@ -40,7 +41,7 @@ public:
 
   /// Number of steps between updates of the energies, on which steps depend.
   static constexpr unsigned int steps_between_checks = ExplicitLedger::steps_between_updates;
-  /// Updates energies, momenta and tools in the state, after prepare_step(). Collective.
+  /// Updates energies, momenta, tools and reactions, after prepare_step(). Collective.
   void update_ledger();
   /// Updates these and the fields. Collective.
   void update_state();
@@ -77,6 +78,7 @@ public:
   std::array<std::size_t, 2> history_sizes() const override;
   std::string method() const override;
   DiagnosticList initial_diagnostics() const override { return parts_.contacts.check_start(); }
+  const Reactions &reactions() const override { return reactions_.values(); }
 
 private:
   /// Computes forces and bounds on the step at t_n. Throws any failure on all ranks.
@@ -91,6 +93,7 @@ private:
   CrossingLimit crossing_limit_;
   ExplicitPenalties penalties_;
   SolutionState state_;
+  ExplicitReactions reactions_;
 };
 
 } // namespace billet

@@ -33,6 +33,8 @@ public:
   void add_load(const ContactInterface &contact, std::size_t tool, const ContactLoad &load);
   /// Returns the load on the bodies at t_n, on this rank.
   const ContactLoad &load(const std::size_t tool) const { return loads_[tool]; }
+  /// Returns the same for a pair of Scene::pairs().
+  const ContactLoad &pair_load(const std::size_t pair) const { return pair_loads_[pair]; }
   /// Returns the addition of the free tools' masses to ω² of the contacts [1/time²]. Collective.
   double max_frequency_square() const;
 
@@ -64,8 +66,8 @@ private:
   const Scene &scene_;
   const LocalNodes &nodes_;
   std::vector<FreeTool> tools_;
-  std::vector<ContactLoad> loads_; ///< at t_n, of this rank
-  std::vector<double> stiffness_;  ///< against free tools, of this rank
+  std::vector<ContactLoad> loads_, pair_loads_; ///< at t_n, of this rank
+  std::vector<double> stiffness_;               ///< against free tools, of this rank
   bool has_free_tools_;
   std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools at removal, of this rank
   HeldMemory memory_{Capability::driven_tools};

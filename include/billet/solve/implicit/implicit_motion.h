@@ -58,6 +58,7 @@ public:
   double add_loads(double t, const Vector &displacements, Vector &residual) override;
   /// Completes the residual after add_loads(); adds no inertia at the start of the run.
   double complete(const Vector &contact, Vector &residual) const override;
+  double residual_weight() const override { return 1. / (1. + integrator_.forces_before()); }
   /// Adds the tangent. The system's constraints are homogeneous: accelerations of constrained nodes do not
   /// depend on u.
   void add_tangent(double t, const TangentSystem &system) const override;

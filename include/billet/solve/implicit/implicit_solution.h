@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 #define BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 
+#include "billet/solve/implicit/implicit_reactions.h"
 #include "billet/solve/implicit/problem_checkpoint.h"
 #include "billet/solve/implicit/step_attempt.h"
 #include "billet/solve/implicit/step_diagnosis.h"
@@ -86,6 +87,7 @@ public:
   std::string method() const override { return problem_.tangent().solver().name(); }
   DiagnosticList initial_diagnostics() const override;
   bool solves_iteratively() const override { return problem_.tangent().solver().is_iterative(); }
+  const Reactions &reactions() const override { return reactions_.values(); }
 
   /// Returns messages at the end of the run. They concern stabilised bodies, contact that has lost or
   /// generated energy in total, round-off of penalties, and augmentation that was given up. Collective.
@@ -140,6 +142,7 @@ private:
   std::unique_ptr<StepRules> rules_;
   StepAttempt attempt_;
   ProblemCheckpoint checkpoint_;
+  ImplicitReactions reactions_;
   double penetration_ = 0.;
 };
 

@@ -61,6 +61,9 @@ public:
   /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the norm of
   /// the inertia forces.
   virtual double complete(const Vector & /*contact*/, Vector & /*residual*/) const { return 0.; }
+  /// Returns the factor of the residual that makes the weights of its forces at both ends of the step sum up
+  /// to one.
+  virtual double residual_weight() const { return 1.; }
   /// Adds the derivatives of loads and inertia.
   virtual void add_tangent(double /*t*/, const TangentSystem &) const {}
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_SUPPORT_REACTIONS_H
+#define BILLET_DISCRETIZATION_SUPPORT_REACTIONS_H
+
+#include "billet/discretization/local_nodes.h"
+#include "billet/discretization/supports.h"
+
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Force and moment that act on bodies.
+struct Resultant {
+  dealii::Tensor<1, 3> force;  ///< [force]
+  dealii::Tensor<1, 3> moment; ///< about the origin, at deformed positions [force length]
+};
+
+/// Support or symmetry plane of a body.
+struct NamedSupport {
+  std::size_t body;
+  std::string name; ///< as Hold::name: "support NAME" or "symmetry plane TEXT"
+};
+
+/// Returns the symmetry planes and supports of all bodies, body by body in the order of Body::holds. The
+/// components of a support are one entry.
+std::vector<NamedSupport> named_supports(const Scene &scene);
+
+/// Forces of supports and symmetry planes on the bodies, from the residual of all other forces: R_a = Σ λ n +
+/// free residual at a node a. Each constraint n · u = value takes a force along n alone. Where normals depend
+/// on each other, the constraint that stands first in Body::holds takes the force: symmetry planes before
+/// supports, and these in the order of the scene. The sum of all reactions is therefore that of the node.
+class SupportReactions {
+public:
+  SupportReactions(const Scene &scene, const Discretization &discretization);
+
+  /// Reactions, and what the constraints leave of the residual.
+  struct Forces {
+    std::vector<Resultant> of_supports; ///< in the order of named_supports()
+    dealii::Tensor<1, 3> free;          ///< sum of the residual that no constraint takes
+  };
+  /// Returns the reactions of this residual (owned, without constraints) at these displacements. Forces at
+  /// hanging nodes count at the nodes on which these depend. Collective.
+  Forces compute(Vector residual, const Vector &displacements) const;
+  /// Returns the reactions of forces of the constraints at the nodes, the same on all ranks that have a node;
+  /// the free residual is that of constrained nodes. Collective.
+  Forces compute(const LocalNodes &nodes, const NodalVectors &forces,
+                 const NodalVectors &displacements) const;
+
+private:
+  /// Constraint at a node: λ = dual · R.
+  struct Part {
+    std::size_t support; ///< index in named_supports()
+    dealii::Tensor<1, 3> normal, dual;
+  };
+  struct Node {
+    std::array<DofIndex, 3> dofs;
+    dealii::Point<3> position; ///< undeformed
+    std::vector<Part> parts;
+  };
+  Forces sum_over_ranks(const Forces &own) const;
+  static void add(const Node &node, const dealii::Tensor<1, 3> &displacement,
+                  const dealii::Tensor<1, 3> &residual, Forces &sums);
+
+  const Discretization &discretization_;
+  std::size_t n_supports_;
+  std::vector<Node> nodes_; ///< owned by this rank
+  Constraints links_;       ///< of hanging nodes
+  bool couples_ranks_ = false;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_REACTIONS_H
+#define BILLET_SOLVE_IMPLICIT_IMPLICIT_REACTIONS_H
+
+#include "billet/solve/implicit/implicit_problem.h"
+#include "billet/solve/reactions.h"
+
+namespace billet {
+
+/// Reactions of the accepted steps of an implicit scene: at a constrained dof, the residual without
+/// constraints. In dynamics that is the balance of the integrator, whose forces are those at a time within
+/// the step.
+class ImplicitReactions {
+public:
+  explicit ImplicitReactions(const ImplicitProblem &problem);
+
+  const Reactions &values() const { return values_; }
+  /// Computes the reactions of supports from the last residual, before anything is committed; contact comes
+  /// by set_pair(). Collective.
+  void start();
+  /// Sets the load of a pair with a tool, whose placement is that at the end of the step.
+  void set_pair(std::size_t pair, const ContactLoad &load, const Placement &placement);
+
+private:
+  const ImplicitProblem &problem_;
+  SupportReactions supports_;
+  Reactions values_;
+};
+
+} // namespace billet
+
+#endif

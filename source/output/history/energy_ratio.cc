@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_quantity.h"
+
+namespace billet {
+
+HistoryQuantity energy_ratio_quantity();
+
+HistoryQuantity energy_ratio_quantity() {
+  return {"kinetic to internal energy",
+          [](const Scene &scene) -> std::vector<std::string> {
+            if (!scene.parameters().is_dynamic())
+              return {};
+            return {"kinetic_to_internal"};
+          },
+          [](const HistorySample &sample) -> std::vector<double> {
+            const EnergyLedger &energies = sample.state.energies;
+            const double internal = energies.of_elements();
+            return {internal > 0. ? energies.kinetic / internal : 0.};
+          }};
+}
+
+} // namespace billet

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_quantity.h"
+
+#include <algorithm>
+
+namespace billet {
+
+HistoryQuantity support_reactions_quantity();
+HistoryQuantity tool_pair_loads_quantity();
+HistoryQuantity force_balance_quantity();
+
+namespace {
+
+std::string column_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](const char c) { return c == ',' || c == '"'; }, '_');
+  return name;
+}
+
+constexpr std::array<const char *, 6> resultant_names = {"force_x",  "force_y",  "force_z",
+                                                         "moment_x", "moment_y", "moment_z"};
+
+void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values) {
+  for (unsigned int c = 0; c < 3; ++c)
+    values.push_back(vector[c]);
+}
+
+} // namespace
+
+HistoryQuantity support_reactions_quantity() {
+  return {"reactions of supports",
+          [](const Scene &scene) {
+            std::vector<std::string> columns;
+            for (const NamedSupport &support : named_supports(scene))
+              for (const char *quantity : resultant_names)
+                columns.push_back(column_name(scene.bodies()[support.body].name + "." + support.name) + "." +
+                                  quantity);
+            return columns;
+          },
+          [](const HistorySample &sample) {
+            std::vector<double> values;
+            for (const Resultant &reaction : sample.reactions.of_supports) {
+              add_vector(reaction.force, values);
+              add_vector(reaction.moment, values);
+            }
+            return values;
+          }};
+}
+
+HistoryQuantity tool_pair_loads_quantity() {
+  return {"loads of pairs with tools",
+          [](const Scene &scene) {
+            std::vector<std::string> columns;
+            for (const ContactPair &pair : scene.pairs()) {
+              const std::string name = "pair " + column_name(pair.name) + ".";
+              for (const char *quantity : resultant_names)
+                columns.push_back(name + quantity);
+              for (const char *quantity : {"contact_area", "deepest_penetration"})
+                columns.push_back(name + quantity);
+            }
+            return columns;
+          },
+          [](const HistorySample &sample) {
+            std::vector<double> values;
+            for (const ContactLoad &load : sample.reactions.of_tool_pairs) {
+              add_vector(load.force, values);
+              add_vector(load.moment, values);
+              values.push_back(load.area);
+              values.push_back(load.deepest);
+            }
+            return values;
+          }};
+}
+
+HistoryQuantity force_balance_quantity() {
+  return {"balance of forces",
+          [](const Scene &) -> std::vector<std::string> {
+            return {"free_residual_x", "free_residual_y", "free_residual_z", "force_balance_defect"};
+          },
+          [](const HistorySample &sample) -> std::vector<double> {
+            const ForceBalance &balance = sample.reactions.balance;
+            return {balance.free[0], balance.free[1], balance.free[2], balance.defect()};
+          }};
+}
+
+} // namespace billet
