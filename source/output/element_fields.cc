@@ -177,17 +177,12 @@ std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
     const GridField &form = fields[0][f];
     if (form.type != FileNumber::float32)
       continue;
-    NodalAverage average{form.name, form.n_components, {}};
-    for (unsigned int first = 0; first < form.n_components; first += 3) {
-      average.values.push_back(
+    NodalAverage average{form.name, form.n_components, {}, volumes};
+    for (unsigned int first = 0; first < form.n_components; first += 3)
+      average.sums.push_back(
           sum([&](const std::size_t body, const std::size_t e,
                   const unsigned int c) { return fields[body][f].values[form.n_components * e + first + c]; },
               std::min(3U, form.n_components - first)));
-      for (const auto i : discretization.owned_dofs())
-        if (volumes(i) > 0.)
-          average.values.back()(i) = average.values.back()(i) / volumes(i);
-      average.values.back().compress(dealii::VectorOperation::insert);
-    }
     averages.push_back(std::move(average));
   }
   return averages;

@@ -194,7 +194,7 @@ private:
       GridField added{"averaged_" + average.name, average.n_components};
       for (const DofIndex node : nodes.owned())
         for (unsigned int c = 0; c < average.n_components; ++c)
-          added.values.push_back(average.values[c / 3](node + c % 3));
+          added.values.push_back(average(node, c));
       grid.point_fields.push_back(std::move(added));
     }
   }

@@ -17,7 +17,13 @@ std::vector<std::vector<GridField>> collect_element_fields(const Scene &scene, c
 struct NodalAverage {
   std::string name;
   unsigned int n_components;
-  std::vector<Vector> values; ///< component c is entry c % 3 of a node in vector c / 3; owned entries
+  std::vector<Vector> sums; ///< times volumes: component c is entry c % 3 of a node in vector c / 3
+  Vector volumes;           ///< their sum, in each entry of a node
+
+  /// Returns a component at an owned node.
+  double operator()(const DofIndex first_dof, const unsigned int c) const {
+    return sums[c / 3](first_dof + c % 3) / volumes(first_dof);
+  }
 };
 
 /// Returns the averages of the fields of floating-point numbers. A node has the mean of the elements of its
