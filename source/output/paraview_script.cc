@@ -91,7 +91,7 @@ def show_bodies(part, view):
 def show_tools(part, view):
     shown = simple.Show(part, view)
     shown.Representation = "Surface"
-    simple.ColorBy(shown, None)
+    shown.ColorArrayName = [None, ""]
     shown.DiffuseColor = shown.AmbientColor = TOOL
     shown.Opacity = 0.3
 

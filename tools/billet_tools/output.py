@@ -96,7 +96,7 @@ def components(name: str, values: Array) -> Fields:
 
 
 def read_block(file: Path) -> tuple[Fields, Fields, Array, Whole]:
-    """Returns the fields of points and cells of a .vtu file of hexahedra by name, its points and its cells."""
+    """Returns the fields of points and of cells of a .vtu file of hexahedra, its points and its cells."""
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
