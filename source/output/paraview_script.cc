@@ -66,7 +66,7 @@ def extract(results, group):
     """Returns a group of blocks as a part of its own; nothing if the scene has none."""
     part = simple.ExtractBlock(registrationName=group, Input=results)
     part.Selectors = ["/Root/" + group.replace(" ", "")]
-    part.UpdatePipeline()
+    part.UpdatePipeline(simple.GetAnimationScene().AnimationTime)
     if part.GetDataInformation().GetNumberOfPoints() > 0:
         return part
     simple.Delete(part)
@@ -114,7 +114,8 @@ def main():
     view.OrientationAxesLabelColor = EDGE
     results = open_results()
     simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
-    simple.GetAnimationScene().GoToLast()
+    simple.GetAnimationScene().AnimationTime = max(results.TimestepValues)
+    view.ViewTime = simple.GetAnimationScene().AnimationTime
     simple.Hide(results, view)
     bodies, tools = extract(results, "Bodies"), extract(results, "Tools")
     surfaces, outsides = extract(results, "Contact surfaces"), extract(results, "Boundaries")
