@@ -107,7 +107,7 @@ def read_block(file: Path) -> tuple[Fields, Fields, Array, Whole]:
             values = vtk_to_numpy(data.GetArray(i)).astype(float)
             fields.update(components(data.GetArrayName(i), values))
     points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    return *found, points, vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
+    return found[0], found[1], points, vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
 
 
 def read_grid(file: Path) -> Fields:
