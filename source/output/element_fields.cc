@@ -4,7 +4,6 @@
 #include "billet/output/field_quantity.h"
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -191,10 +190,12 @@ std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
 dealii::Tensor<2, 3> mean_deformation_gradient(const ElementVectors &positions,
                                                const ElementVectors &displacements) {
   using Unit = dealii::GeometryInfo<3>;
-  static const dealii::QGauss<3> quadrature(2);
   dealii::Tensor<2, 3> sum;
   double volume = 0.;
-  for (const dealii::Point<3> &xi : quadrature.get_points()) {
+  for (unsigned int q = 0; q < n_element_nodes; ++q) { // Gauss points, of equal weights
+    const auto coordinate = [](const bool is_upper) { return 0.5 + (is_upper ? 0.5 : -0.5) / std::sqrt(3.); };
+    const dealii::Point<3> xi(coordinate((q & 1U) != 0), coordinate((q & 2U) != 0),
+                              coordinate((q & 4U) != 0));
     dealii::Tensor<2, 3> before, now;
     for (unsigned int a = 0; a < n_element_nodes; ++a) {
       const auto gradient = Unit::d_linear_shape_function_gradient(xi, a);
