@@ -23,15 +23,16 @@ from paraview.simple import (
     Clip,
     ColorBy,
     CreateView,
+    ExtractBlock,
     ExtractSurface,
     FeatureEdges,
     GetColorTransferFunction,
     GetScalarBar,
+    MergeBlocks,
     Reflect,
     SaveScreenshot,
     Show,
-    XMLPartitionedUnstructuredGridReader,
-    XMLPolyDataReader,
+    XMLMultiBlockDataReader,
 )
 
 Proxy = Any  # of ParaView's, which has no types
@@ -50,23 +51,30 @@ is_eighth = any(
 )
 
 
-def files(part: str) -> list[str]:
-    """The files of the bodies or the tools, by time."""
-    return [
-        str(scene_file.parent / entry.attrib["file"])
-        for entry in ElementTree.parse(scene_file).iter("DataSet")
-        if entry.get("name") == part
-    ]
+def entries() -> list[ElementTree.Element]:
+    """The snapshots, by time."""
+    return list(ElementTree.parse(scene_file).iter("DataSet"))
+
+
+def files() -> list[str]:
+    return [str(scene_file.parent / entry.attrib["file"]) for entry in entries()]
 
 
 def file_at(time: float) -> str:
-    """Of the bodies, at the time nearest to this."""
-    entries = [
-        entry for entry in ElementTree.parse(scene_file).iter("DataSet") if entry.get("name") == "bodies"
-    ]
-    return str(
-        scene_file.parent / min(entries, key=lambda e: abs(float(e.attrib["timestep"]) - time)).attrib["file"]
-    )
+    """At the time nearest to this."""
+    nearest = min(entries(), key=lambda entry: abs(float(entry.attrib["timestep"]) - time))
+    return str(scene_file.parent / nearest.attrib["file"])
+
+
+def blocks_at(file: str, group: str) -> Proxy:
+    """All blocks of a group as one grid."""
+    part = ExtractBlock(Input=XMLMultiBlockDataReader(FileName=[file]))
+    part.Selectors = ["/Root/" + group]
+    return MergeBlocks(Input=part, MergePoints=0)
+
+
+def smoothed(source: Proxy) -> Proxy:
+    return CellDatatoPointData(Input=source)
 
 
 def mirrored(source: Proxy, plane: str) -> Proxy:
@@ -78,7 +86,7 @@ def image(source: Proxy, plane: str) -> Proxy:
 
 
 def merged(source: Proxy) -> Proxy:
-    """With nodes at one place made one: elements and images have their own."""
+    """With nodes at one place made one: images have their own."""
     return CleantoGrid(Input=source, ToleranceIsAbsolute=0, Tolerance=1e-6)
 
 
@@ -101,13 +109,13 @@ def box(source: Proxy) -> tuple[list[float], list[float]]:
 
 
 def body_at(file: str) -> Proxy:
-    body = XMLPartitionedUnstructuredGridReader(FileName=[file])
+    body = blocks_at(file, "Bodies")
     return three_quarters(mirrored(body, "Z") if is_eighth else body)
 
 
 def tool_at(file: str) -> Proxy:
     """The part of the tools that the modelled quarter sees."""
-    tool = XMLPolyDataReader(FileName=[file])
+    tool = blocks_at(file, "Tools")
     for normal in ([1, 0, 0], [0, 1, 0]):
         tool = Clip(Input=tool, ClipType="Plane", Invert=0)
         tool.ClipType.Origin, tool.ClipType.Normal = [0, 0, 0], normal
@@ -200,9 +208,9 @@ def largest_of(sources: Sequence[Proxy], name: str) -> float:
     return max(source.PointData[name].GetRange()[1] if source.PointData[name] else 0.0 for source in sources)
 
 
-last = max(float(e.attrib["timestep"]) for e in ElementTree.parse(scene_file).iter("DataSet"))
+last = max(float(entry.attrib["timestep"]) for entry in entries())
 shown_times = [float(time) for time in sys.argv[3:]] or [last]
-plain = [XMLPartitionedUnstructuredGridReader(FileName=[file_at(time)]) for time in shown_times]
+plain = [smoothed(blocks_at(file_at(time), "Bodies")) for time in shown_times]
 extent = box(plain[0])[1]
 is_flat = extent[1] < 0.2 * min(extent[0], extent[2])
 FIELD = STRAIN if largest_of(plain, STRAIN[0]) > 0.0 else STRESS
@@ -214,10 +222,10 @@ if is_flat or not is_quarter:
     sys.exit()
 
 view = make_view(1200)
-show_field(CellDatatoPointData(Input=body_at(files("bodies")[-1]), CellDataArraytoprocess=[FIELD[0]]), view)
+show_field(CellDatatoPointData(Input=body_at(files()[-1]), CellDataArraytoprocess=[FIELD[0]]), view)
 
 # What it was at time 0.
-start = ExtractSurface(Input=body_at(files("bodies")[0]))
+start = ExtractSurface(Input=body_at(files()[0]))
 show_plain(start, [0.5, 0.55, 0.6], 0.10)
 show_plain(FeatureEdges(Input=start, FeatureAngle=50), [0.5, 0.54, 0.6], 1.0, 1.6)
 
@@ -226,7 +234,7 @@ bounds = start.GetDataInformation().GetBounds()
 size = bounds[5] if is_eighth else 0.6 * bounds[1]
 
 # The tools, a hair's breadth off the body, which their penalty lets in a little.
-tool = tool_at(files("tools")[-1])
+tool = tool_at(files()[-1])
 plates = (
     ((three_quarters(tool), 1), (all_around(image(tool, "Z")), -1))
     if is_eighth

@@ -10,12 +10,15 @@ NodalQuantity displacement_quantity();
 NodalQuantity velocity_quantity();
 NodalQuantity contact_quantity();
 ElementQuantity stress_quantity();
+ElementQuantity strain_quantity();
 ElementQuantity plastic_strain_quantity();
 ElementQuantity body_quantity();
+ElementQuantity material_quantity();
 
 FieldQuantities &field_quantities() {
   static FieldQuantities quantities{{displacement_quantity(), velocity_quantity(), contact_quantity()},
-                                    {stress_quantity(), plastic_strain_quantity(), body_quantity()}};
+                                    {stress_quantity(), strain_quantity(), plastic_strain_quantity(),
+                                     body_quantity(), material_quantity()}};
   return quantities;
 }
 

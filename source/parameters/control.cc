@@ -361,8 +361,9 @@ void Output::declare(ParameterHandler &prm) {
                     "free number, unless --force is given or the run resumes from a checkpoint in it. Empty: "
                     "the name of the scene file without its extension.");
   prm.declare_entry("Format", "vtu", Patterns::Selection(selection(formats)),
-                    "Format of the field output for ParaView. vtu: VTU and PVD; hdf5: HDF5 and XDMF, one "
-                    "file for each output time on any number of ranks; none: no field output.");
+                    "Format of the field output for ParaView. vtu: VTU, one file for each block and output "
+                    "time on any number of ranks; hdf5: HDF5 and XDMF, one file for each output time; none: "
+                    "no field output.");
   prm.declare_entry("Step interval", "1", Patterns::Integer(0),
                     "Number of steps between field outputs, in addition to those at the start and at the "
                     "end. 0, the default of explicit scenes: none, or by the interval.");
@@ -375,6 +376,8 @@ void Output::declare(ParameterHandler &prm) {
                     "reaches a multiple of it. 0: 1/200 of the end time. [time]");
   prm.declare_entry("Stress", "true", Patterns::Bool(),
                     "Write Cauchy stress, von Mises stress and pressure.");
+  prm.declare_entry("Strain", "true", Patterns::Bool(),
+                    "Write the logarithmic strain ln V of the mean deformation gradient of an element.");
   prm.declare_entry("Plastic strain", "true", Patterns::Bool(),
                     "Write the equivalent plastic strain, if a body is plastic.");
   prm.declare_entry(
@@ -385,6 +388,9 @@ void Output::declare(ParameterHandler &prm) {
       "state_NAME_COMPONENT in the files, and is 0 in bodies whose law does not have it.");
   prm.declare_entry("Contact", "true", Patterns::Bool(),
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
+  prm.declare_entry("Nodal averages", "false", Patterns::Bool(),
+                    "Write element fields at the nodes, too, under names that begin with 'averaged_'. A node "
+                    "has the mean of the elements of its body around it, weighted by undeformed volume.");
   prm.declare_entry("Verbosity", "steps", Patterns::Selection(selection(verbosities)),
                     "quiet: only warnings and errors; steps: a line for each step; iterations: residuals of "
                     "each iteration, too.");
@@ -411,12 +417,14 @@ void Output::parse(Reader &reader) {
   if (interval > 0. && every_steps > 0 && reader.is_set("Step interval"))
     reader.reject("Step interval", "no value, or 0: fields are written by the 'Interval'");
   stress = reader.flag("Stress");
+  strain = reader.flag("Strain");
   plastic_strain = reader.flag("Plastic strain");
   state_fields = reader.located("State fields", reader.parts("State fields", ','));
   const auto &names = state_fields.value;
   if (std::set<std::string>(names.begin(), names.end()).size() < names.size())
     reader.reject("State fields", "names that differ from each other");
   contact = reader.flag("Contact");
+  averages = reader.flag("Nodal averages");
   verbosity = chosen(verbosities, reader.text("Verbosity"));
   reader.in("Checkpoint", [&] {
     checkpoint.every_steps = reader.count("Step interval");

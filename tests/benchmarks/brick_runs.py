@@ -13,7 +13,7 @@ from typing import Callable, Iterator, Sequence
 import numpy
 
 from billet_runs import PROGRAM, Changes, Measured, variant
-from billet_tools.output import Array, Fields, read_grid, read_numbers
+from billet_tools.output import Array, Fields, pictures_of, read_grid, read_numbers
 from billet_tools.records import read_records, warnings_of
 
 Picture = tuple[Array, Array, Fields]  # where nodes are, where they were, all fields
@@ -156,11 +156,7 @@ class Solution:
                 sys.exit(f"billet ended with {done.code}: {done.stderr}")
             self.rows = read_numbers(folder / "results/history.csv")
             records = read_records(folder / "results/diagnostics.jsonl")
-            self.pictures = (
-                [self.read(file) for file in sorted((folder / "results").glob("fields_*.0.vtu"))]
-                if pictures
-                else []
-            )
+            self.pictures = [self.read(file) for file in pictures_of(folder / "results")] if pictures else []
         self.failure = "it takes too long" if done.code < 0 else done.stderr.strip() if done.code else ""
         self.keys = warnings_of(records)
         self.warnings = sorted(set(self.keys) & ABOUT_ELEMENTS)

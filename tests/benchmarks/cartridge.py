@@ -77,7 +77,7 @@ class Picture:
 PLACES = {"mouth, z = 31 mm": 31.0, "middle, z = 17.5 mm": 17.5, "bottom, z = 4 mm": 4.0}
 with tempfile.TemporaryDirectory() as folder:
     r = ExplicitRun(SCENE, {"Output/Interval": 0.05e-3}, folder, options.ranks)
-    n = len(list((r.folder / "results").glob("fields_*.pvtu")))
+    n = len(list((r.folder / "results").glob("fields_*.vtm")))
     times = numpy.linspace(0, END, n)
     pictures = [Picture(*r.picture(i)) for i in range(n)]
 loads = LOAD * times / END

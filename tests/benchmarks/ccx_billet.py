@@ -29,8 +29,7 @@ def read_mesh(refinements: int) -> tuple[list[Node], list[Brick]]:
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "scene.prm").write_text(variant(SCENE.read_text(), changes))
         subprocess.run([PROGRAM, "scene.prm"], cwd=folder, check=True)
-        text = Path(folder, "results/fields_00000.0.vtu").read_text()
-    return read_bricks(text, 4)
+        return read_bricks(Path(folder, "results/fields_00000.vtm"), 4)
 
 
 def write_deck(

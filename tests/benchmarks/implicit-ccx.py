@@ -60,9 +60,7 @@ class Deck:
                 "Time stepping/Stops": "",
             }
             ExplicitRun(ROOT / f"prm/{scene}.prm", begin, folder)
-            self.nodes, self.bodies = read_bodies(
-                Path(folder, "results/fields_00000.0.vtu").read_text(), digits
-            )
+            self.nodes, self.bodies = read_bodies(Path(folder, "results/fields_00000.vtm"), digits)
         if turn is not None:
             self.nodes = [tuple(turn @ numpy.array(node)) for node in self.nodes]
         for (x0, y0, z0), (x1, y1, z1) in plates:

@@ -251,7 +251,7 @@ def geometry_rows(name: str, tubes: Sequence[tuple[float, Tube]]) -> list[list[A
 
 
 def every_picture(r: ExplicitRun) -> Iterable[int]:
-    return range(1, len(list((r.folder / "results").glob("fields_*.pvtu"))))
+    return range(1, len(list((r.folder / "results").glob("fields_*.vtm"))))
 
 
 control: Changes = {"Contact pairs/folds/Boundary ids": "5", "Explicit dynamics/Maximum energy drift": 1}

@@ -53,7 +53,7 @@ def run_billet(changes: Changes, folder: str, scene: str = SCENE) -> tuple[int, 
 def read_mesh() -> tuple[list[Node], list[Brick]]:
     with tempfile.TemporaryDirectory() as folder:
         run_billet({"Time stepping/End time": 1e-5}, folder)
-        return read_bricks(Path(folder, "results/fields_00000.0.vtu").read_text(), 6)
+        return read_bricks(Path(folder, "results/fields_00000.vtm"), 6)
 
 
 def write_deck(path: Path, nodes: list[Node], bricks: list[Brick], n_steps: int, contact: bool) -> None:

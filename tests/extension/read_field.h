@@ -4,10 +4,8 @@
 
 #include "billet/output/field_writer.h"
 
+#include "../snapshot_file.h"
 #include "../testing.h"
-
-#include <deal.II/base/hdf5.h>
-#include <deal.II/lac/full_matrix.h>
 
 #include <cmath>
 #include <filesystem>
@@ -25,13 +23,8 @@ inline std::string write_fields(const Scene &scene, const Solution &solution) {
 
 /// The component of a field at each vertex of each element.
 inline std::vector<double> read_field(const std::string &file_name, const std::string &field,
-                                      const unsigned int component = 0) {
-  dealii::HDF5::File file(file_name, dealii::HDF5::File::FileAccessMode::open, MPI_COMM_WORLD);
-  const auto matrix = file.open_dataset(field).read<dealii::FullMatrix<double>>();
-  std::vector<double> values;
-  for (unsigned int i = 0; i < matrix.m(); ++i)
-    values.push_back(matrix(i, component));
-  return values;
+                                      const unsigned int component = 0, const unsigned int n_bodies = 1) {
+  return SnapshotFile(file_name, n_bodies).read(field, component);
 }
 
 inline double max_difference(const std::vector<double> &values, const std::vector<double> &others) {

@@ -4,13 +4,12 @@
 // penetration; the gap is the node's height over the plane; nodes that slide have slip and obey Coulomb's
 // law; nodes that no pair names have none. The stress, constant in the elements, carries the same force
 // through a section.
+#include "../snapshot_file.h"
 #include "scene_run.h"
 
 #include "billet/output/field_writer.h"
 
-#include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/full_matrix.h>
 
 #include <filesystem>
 #include <map>
@@ -22,33 +21,17 @@ using dealii::Tensor;
 
 namespace {
 
-/// Fields of one HDF5 file, by name; rows are the vertices of the elements, one after the other.
-class Fields {
-public:
-  explicit Fields(const std::string &file_name)
-      : file_(file_name, dealii::HDF5::File::FileAccessMode::open, MPI_COMM_WORLD) {}
-
-  std::vector<double> scalar(const std::string &name) {
-    auto dataset = file_.open_dataset(name);
-    const auto matrix = dataset.read<dealii::FullMatrix<double>>();
-    std::vector<double> values;
-    for (unsigned int i = 0; i < matrix.m(); ++i)
-      values.push_back(matrix(i, 0));
-    return values;
+/// Returns a vector field at the corners of the elements.
+std::vector<Tensor<1, 3>> read_vector(testing::SnapshotFile &file, const std::string &name) {
+  std::vector<Tensor<1, 3>> values;
+  for (unsigned int i = 0; i < 3; ++i) {
+    const auto component = name.empty() ? file.positions(i) : file.read(name, i);
+    values.resize(component.size());
+    for (std::size_t k = 0; k < component.size(); ++k)
+      values[k][i] = component[k];
   }
-  std::vector<Tensor<1, 3>> vector(const std::string &name) {
-    auto dataset = file_.open_dataset(name);
-    const auto matrix = dataset.read<dealii::FullMatrix<double>>();
-    std::vector<Tensor<1, 3>> values(matrix.m());
-    for (unsigned int i = 0; i < matrix.m(); ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        values[i][j] = matrix(i, j);
-    return values;
-  }
-
-private:
-  dealii::HDF5::File file_;
-};
+  return values;
+}
 
 } // namespace
 
@@ -73,15 +56,16 @@ int main(int argc, char *argv[]) {
   scene.finish();
   writer.write(scene.problem);
 
-  Fields fields(folder + "/fields_00000.h5");
-  const auto positions = fields.vector("nodes");
-  const auto tractions = fields.vector("contact_traction"), displacements = fields.vector("displacement");
-  const auto pressures = fields.scalar("contact_pressure"), gaps = fields.scalar("contact_gap");
-  const auto slips = fields.scalar("contact_slip"), states = fields.scalar("contact_status");
-  const auto areas = fields.scalar("contact_area"), pairs = fields.scalar("contact_pair");
-  const auto stresses_zz = fields.scalar("stress_zz"), stresses_xz = fields.scalar("stress_xz");
+  testing::SnapshotFile fields(folder + "/fields_00000.h5", 1);
+  const auto positions = read_vector(fields, "");
+  const auto tractions = read_vector(fields, "contact_traction"),
+             displacements = read_vector(fields, "displacement");
+  const auto pressures = fields.read("contact_pressure"), gaps = fields.read("contact_gap");
+  const auto slips = fields.read("contact_slip"), states = fields.read("contact_status");
+  const auto areas = fields.read("contact_area"), pairs = fields.read("contact_pair");
+  const auto stresses_zz = fields.read("stress_zz"), stresses_xz = fields.read("stress_xz");
 
-  // A node stands in the file once for each element around it.
+  check("nodes are shared", fields.n_nodes() == 27);
   std::map<std::array<long, 3>, std::size_t> nodes;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Tensor<1, 3> start = positions[i] - displacements[i];

@@ -86,7 +86,7 @@ def check(file: str) -> tuple[dict[str, str], str]:
     return scene, ""
 
 
-def pvtu(file: Path, n: int, stretch: float) -> None:
+def write_fields(file: Path, n: int, stretch: float) -> None:
     places, moved = [], []
     for i in range(n):
         for z in (i / n, (i + 1) / n):
@@ -101,26 +101,22 @@ def pvtu(file: Path, n: int, stretch: float) -> None:
             + "</DataArray>"
         )
 
-    data = (
-        array("displacement", moved, 3)
-        + array("body", [0.0] * len(places), 1)
-        + array("contact_pair", [0.0 if p[2] > 1 + stretch - 1e-9 else -1.0 for p in places], 1)
+    data = array("displacement", moved, 3) + array(
+        "contact_pair", [0.0 if p[2] > 1 + stretch - 1e-9 else -1.0 for p in places], 1
     )
     file.with_suffix(".0.vtu").write_text(
         '<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid><Piece'
         f' NumberOfPoints="{len(places)}" NumberOfCells="{n}">'
-        f'<Points>{array("Points", places, 3)}</Points><PointData>{data}</PointData><Cells>'
+        f'<Points>{array("Points", places, 3)}</Points><PointData>{data}</PointData>'
+        f'<CellData>{array("body", [0] * n, 1, "Int32")}</CellData><Cells>'
         f'{array("connectivity", range(8 * n), 1, "Int64")}'
         f'{array("offsets", range(8, 8 * n + 1, 8), 1, "Int64")}'
         f'{array("types", [12] * n, 1, "UInt8")}</Cells></Piece></UnstructuredGrid></VTKFile>'
     )
-    file.with_suffix(".pvtu").write_text(
-        '<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid'
-        ' GhostLevel="0"><PPointData><PDataArray type="Float64" Name="displacement"'
-        ' NumberOfComponents="3"/><PDataArray type="Float64" Name="body"/><PDataArray type="Float64"'
-        ' Name="contact_pair"/></PPointData><PPoints><PDataArray type="Float64"'
-        ' NumberOfComponents="3"/></PPoints><Piece'
-        f' Source="{file.name}.0.vtu"/></PUnstructuredGrid></VTKFile>'
+    file.with_suffix(".vtm").write_text(
+        '<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDataSet>'
+        '<Block index="0" name="Bodies"><DataSet index="0" name="bar"'
+        f' file="{file.name}.0.vtu"/></Block></vtkMultiBlockDataSet></VTKFile>'
     )
 
 
@@ -186,7 +182,7 @@ def run(scene: Mapping[str, str]) -> int:
         )
         print(f"error[solution-failed]: {message}", file=sys.stderr)
         return 3
-    pvtu(results / "fields_00001", n, 0.1 * (1 + error))
+    write_fields(results / "fields_00001", n, 0.1 * (1 + error))
     return 0
 
 

@@ -6,11 +6,12 @@ from __future__ import annotations
 import csv
 import math
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 Array = NDArray[numpy.float64]
 Whole = NDArray[numpy.int64]
@@ -69,20 +70,60 @@ def max_drift(history: History) -> float:
 
 def pictures_of(folder: Path) -> list[Path]:
     """Returns the files of the bodies' fields in a folder of results, in the order of time."""
-    return sorted(folder.glob("fields_*.pvtu"))
+    return sorted(folder.glob("fields_*.vtm"))
 
 
-def read_grid(file: Path) -> Fields:
-    """Returns all fields of a file .pvtu or .vtu by name, its `points` and its `cells`."""
-    reader = vtkXMLPUnstructuredGridReader() if file.suffix == ".pvtu" else vtkXMLUnstructuredGridReader()
+# Corners of a hexahedron in lexicographic order, by their places in VTK's order, and the other way round.
+LEXICOGRAPHIC = [0, 1, 3, 2, 4, 5, 7, 6]
+SYMMETRIC = ("xx", "yy", "zz", "xy", "yz", "xz")  # VTK's order
+FULL = tuple(i + j for i in "xyz" for j in "xyz")
+
+
+def blocks_of(file: Path, group: str) -> dict[str, Path]:
+    """Returns the files of a group of blocks in a .vtm file by their names."""
+    return {
+        part.attrib["name"]: file.parent / part.attrib["file"]
+        for block in ElementTree.parse(file).iter("Block")
+        if block.get("name") == group
+        for part in block.iter("DataSet")
+    }
+
+
+def components(name: str, values: Array) -> Fields:
+    """Returns a tensor's components as fields of their own; any other field as it is."""
+    names = {6: SYMMETRIC, 9: FULL}.get(values.shape[1] if values.ndim > 1 else 1)
+    return {f"{name}_{n}": values[:, i] for i, n in enumerate(names)} if names else {name: values}
+
+
+def read_block(file: Path) -> tuple[Fields, Fields, Array, Whole]:
+    """Returns the fields of points and of cells of a .vtu file of hexahedra, its points and its cells."""
+    reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
     grid = reader.GetOutput()
-    data = grid.GetPointData()
-    fields = {
-        data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)).astype(float)
-        for i in range(data.GetNumberOfArrays())
-    }
-    fields["points"] = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    fields["cells"] = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
+    found: list[Fields] = [{}, {}]
+    for fields, data in zip(found, (grid.GetPointData(), grid.GetCellData())):
+        for i in range(data.GetNumberOfArrays()):
+            values = vtk_to_numpy(data.GetArray(i)).astype(float)
+            fields.update(components(data.GetArrayName(i), values))
+    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    return found[0], found[1], points, vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 8)
+
+
+def read_grid(file: Path) -> Fields:
+    """Returns all fields of the bodies in a .vtm file by name, their `points` and their `cells`. Each element
+    has its own copy of its eight corners, one behind the other in lexicographic order, so that fields of
+    elements and of nodes have the same length. `node` numbers the nodes that the copies are of."""
+    parts: list[Fields] = []
+    n_nodes = 0
+    for block in blocks_of(file, "Bodies").values():
+        of_points, of_cells, points, cells = read_block(block)
+        corners = cells[:, LEXICOGRAPHIC].ravel()
+        parts.append({name: values[corners] for name, values in of_points.items()})
+        parts[-1].update({name: numpy.repeat(values, 8, axis=0) for name, values in of_cells.items()})
+        parts[-1]["points"], parts[-1]["node"] = points[corners], (corners + n_nodes).astype(float)
+        n_nodes += len(points)
+    fields = {name: numpy.concatenate([part[name] for part in parts]) for name in parts[0]}
+    first = numpy.arange(0, len(fields["points"]), 8)[:, None]
+    fields["cells"] = first + numpy.array(LEXICOGRAPHIC)
     return fields

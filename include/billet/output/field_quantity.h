@@ -17,10 +17,14 @@ struct ElementAverage {
   std::size_t body;
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
   double equivalent_plastic_strain;
-  StateAverage state; ///< of the law; without numbers unless a quantity reads it
+  StateAverage state;                             ///< of the law; without numbers unless a quantity reads it
+  dealii::Tensor<2, 3> deformation_gradient = {}; ///< mean over the undeformed element
+  std::size_t material = 0;                       ///< number of the body's material
 };
 
-/// Quantity that is constant in an element: a scalar, or the components of a vector or tensor.
+/// Quantity that is constant in an element: a scalar, or the components of a vector or tensor. Six components
+/// whose names end with _xx, _yy, _zz, _xy, _xz and _yz become one tensor in the files, see
+/// join_components().
 struct ElementQuantity {
   std::string name;                    ///< name in the manual
   std::string unit;                    ///< of all components; empty if they have none
@@ -30,6 +34,7 @@ struct ElementQuantity {
   /// Returns one value for each component.
   std::function<std::vector<double>(const ElementAverage &)> evaluate;
   bool reads_state = false; ///< whether it follows from ElementAverage::state
+  bool is_number = false;   ///< whether it numbers things: written as an integer, and never averaged
 };
 
 /// Vector, or three scalars, at the nodes.

@@ -2,19 +2,18 @@
 #ifndef BILLET_OUTPUT_FIELD_WRITER_H
 #define BILLET_OUTPUT_FIELD_WRITER_H
 
+#include "billet/output/grid.h"
 #include "billet/solve/solution.h"
 #include "billet/state.h"
-
-#include <deal.II/base/data_out_base.h>
 
 #include <string>
 #include <vector>
 
 namespace billet {
 
-/// Field output for ParaView: the deformed bodies with the requested fields, as VTU or HDF5, and the tools as
-/// VTP. An index file lists all snapshots. It is rewritten with each snapshot, so that results of an
-/// interrupted run remain readable.
+/// Field output for ParaView: the blocks of make_snapshot_grids(), as VTU or HDF5. An index file lists all
+/// snapshots. It is rewritten with each snapshot, so that results of an interrupted run remain readable. A
+/// script beside it shows them in ParaView.
 class FieldWriter {
 public:
   FieldWriter(const Scene &scene, MPI_Comm communicator, std::string folder);
@@ -26,11 +25,14 @@ public:
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns the file to open, once a snapshot was written; empty if the scene requests no fields.
+  /// Returns what to open in words, once a snapshot was written; empty if the scene requests no fields.
   std::string file_to_open() const;
 
 private:
-  void write_tools(const Solution &solution, const std::string &name) const;
+  /// Returns the name of the index file.
+  std::string index() const;
+  /// Writes a file for each block. Collective.
+  void write_blocks(const std::vector<Grid> &grids, double time);
   void write_index() const;
 
   const Scene &scene_;
@@ -40,10 +42,10 @@ private:
   unsigned int n_written_ = 0;
   struct Snapshot {
     double time;
-    std::string fields, tools; ///< file names in the folder
+    std::string file; ///< name in the folder
   };
   std::vector<Snapshot> snapshots_;
-  std::vector<dealii::XDMFEntry> xdmf_entries_;
+  std::vector<std::string> xdmf_grids_; ///< descriptions of the snapshots; several may be one text
 };
 
 } // namespace billet

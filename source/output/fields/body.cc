@@ -6,14 +6,16 @@ namespace billet {
 ElementQuantity body_quantity();
 
 ElementQuantity body_quantity() {
-  return {"number of the body",
-          "",
-          {"body"},
-          false,
-          [](const Scene &) { return true; },
-          [](const ElementAverage &average) -> std::vector<double> {
-            return {static_cast<double>(average.body)};
-          }};
+  ElementQuantity quantity{"number of the body",
+                           "",
+                           {"body"},
+                           false,
+                           [](const Scene &) { return true; },
+                           [](const ElementAverage &average) -> std::vector<double> {
+                             return {static_cast<double>(average.body)};
+                           }};
+  quantity.is_number = true;
+  return quantity;
 }
 
 } // namespace billet

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_PARAVIEW_SCRIPT_H
+#define BILLET_OUTPUT_PARAVIEW_SCRIPT_H
+
+#include <string>
+
+namespace billet {
+
+/// Name of the script in the output folder.
+const std::string paraview_script_name = "show_in_paraview.py";
+
+/// Returns a Python script that opens the results beside it in ParaView. `index`: the file that lists them.
+std::string paraview_script(const std::string &index);
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_SNAPSHOT_GRIDS_H
+#define BILLET_OUTPUT_SNAPSHOT_GRIDS_H
+
+#include "billet/output/grid.h"
+#include "billet/solve/solution.h"
+
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Groups of blocks, the same in each scene; a group may be empty.
+namespace block_group {
+const std::string bodies = "Bodies", boundaries = "Boundaries", contact_surfaces = "Contact surfaces",
+                  tools = "Tools";
+const std::vector<std::string> all{bodies, boundaries, contact_surfaces, tools};
+} // namespace block_group
+
+/// Returns the blocks of a snapshot, all at their deformed positions: each body; its outside, with boundary
+/// ids; the surfaces of each contact pair; each tool. The nodes of a block are shared by its cells, also
+/// across ranks. Collective.
+std::vector<Grid> make_snapshot_grids(const Scene &scene, const Solution &solution);
+
+} // namespace billet
+
+#endif
