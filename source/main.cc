@@ -175,6 +175,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
   const std::vector<std::pair<std::string, Task>> tasks = {{"--print-parameters", Task::print_parameters},
                                                            {"--print-diagnostics", Task::print_diagnostics},
                                                            {"--check", Task::check},
+                                                           {"--list", Task::list},
+                                                           {"--new", Task::new_scene},
                                                            {"--update-scene", Task::update_scene}};
   for (std::size_t next = 0; next < arguments.size(); ++next) {
     const std::string argument = arguments[next];
