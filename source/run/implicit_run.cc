@@ -109,6 +109,7 @@ bool ImplicitRun::step(RunOutput &output) {
     return false;
   }
   control_.accept(static_cast<unsigned int>(report_.newton.hardest), problem_.time_error());
+  n_failed_ = 0;
   return true;
 }
 
@@ -128,6 +129,11 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
                                "uses the exact one from here on, with an unsymmetric matrix")
                         .time(from));
   }
+  // Steps that fail whatever their length need another start, as do those that cannot be cut.
+  constexpr unsigned int max_cuts_in_a_row = 4;
+  if (!newton.is_lost_in_round_off && !newton.is_explained &&
+      (!may_continue || ++n_failed_ >= max_cuts_in_a_row))
+    may_continue = problem_.take_low_penalties() || may_continue;
   if (may_continue)
     return;
   output.snapshots().write(problem_);

@@ -42,7 +42,7 @@ public:
         previous_ = to - from;
         return report;
       }
-      if (!control.reject())
+      if (!control.reject() && !problem.take_low_penalties())
         throw SolutionFailure("step from " + std::to_string(from) + " to " + std::to_string(to) +
                               " failed: " + report.failure + ". " + report.advice);
     }

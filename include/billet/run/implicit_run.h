@@ -50,6 +50,7 @@ private:
   std::unique_ptr<EnergyErrors> errors_; ///< only for dynamic ones; their steps follow another estimate
   EnergyWatch energies_;
   StepReport report_;
+  unsigned int n_failed_ = 0; ///< attempts in a row
   double continued_ = 0.; ///< length of the last step, if its increment may be continued
 };
 

@@ -189,6 +189,7 @@ void ImplicitSolution::commit(const double t, NewtonReport &report) {
   penetration_ = problem_.contacts().find_penetration();
   append(report.diagnostics, paths_.check_motion(t));
   augmentation_.commit();
+  continuation_.forbid_low();
   rules_->predictor().commit();
   scales.lasting = std::max(scales.lasting, ForceScales::Limits::lasting * scales.force);
   step.last_increment = step.trial.displacements;

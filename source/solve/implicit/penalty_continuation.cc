@@ -25,6 +25,8 @@ std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above(con
 }
 
 bool PenaltyContinuation::is_possible(const Start start) const {
+  if (start == Start::low && !permits_low_)
+    return false;
   const std::vector<Octaves> above = octaves_above(start);
   return std::any_of(above.begin(), above.end(),
                      [](const Octaves &o) { return std::max(o.normal, o.tangential) > 0; });

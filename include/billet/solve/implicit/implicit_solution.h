@@ -62,6 +62,9 @@ public:
   void set_accuracy(const double factor) { solver_.set_accuracy(factor); }
   /// Switches to the exact contact tangent after failed steps; see TangentMatrix::take_exact(). Collective.
   bool take_exact_tangent() { return problem_.tangent().take_exact(); }
+  /// Lets the step that failed, and shorter ones, begin with low penalties until one is accepted. Returns
+  /// false if they already could, or the scheme does without.
+  bool take_low_penalties() { return rules_->may_continue_penalties() && continuation_.permit_low(); }
 
   /// Returns the time error of the last step that was tried, in dynamic scenes; see
   /// ImplicitMotion::step_error().

@@ -4,6 +4,7 @@
 
 #include "billet/solve/implicit/equilibrium_solver.h"
 
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -23,8 +24,13 @@ public:
     low     ///< E/h / 820, at which bricks with a fifth of the length in thickness bend as easily
   };
 
-  /// Whether penalties are above those of the start, so that lower ones may lead to them. Collective.
+  /// Whether penalties are above those of the start, so that lower ones may lead to them. Low ones also have
+  /// to be permitted. Collective.
   bool is_possible(Start start = Start::enough) const;
+  /// Permits low penalties, a last resort: a long step by them may lead to another equilibrium than short
+  /// ones, such as that of nodes which have slid off an edge. Returns whether they were not permitted before.
+  bool permit_low() { return !std::exchange(permits_low_, true); }
+  void forbid_low() { permits_low_ = false; }
   /// Iterates like EquilibriumSolver::iterate(), with the penalties of the start first, which then rise to
   /// their values.
   NewtonReport iterate(Start start, std::vector<double> &offsets, Vector &displacements);
@@ -49,6 +55,7 @@ private:
 
   ImplicitProblem &problem_;
   EquilibriumSolver &solver_;
+  bool permits_low_ = false;
 };
 
 } // namespace billet
