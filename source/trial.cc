@@ -4,10 +4,9 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <exception>
 #include <fcntl.h>
 #include <fstream>
 #include <new>
@@ -27,11 +26,11 @@ rlim_t size_of_process() {
   return n_pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit(const int resource, const rlim_t value) {
+void limit(const decltype(RLIMIT_CPU) resource, const rlim_t value) {
   rlimit limits{};
-  getrlimit(static_cast<__rlimit_resource_t>(resource), &limits);
-  limits.rlim_cur = limits.rlim_max == RLIM_INFINITY ? value : std::min(value, limits.rlim_max);
-  setrlimit(static_cast<__rlimit_resource_t>(resource), &limits);
+  getrlimit(resource, &limits);
+  limits.rlim_cur = std::min(value, limits.rlim_max);
+  setrlimit(resource, &limits);
 }
 
 [[noreturn]] void run_in_copy(const TrialLimits &limits, const std::function<void()> &action) {
@@ -48,8 +47,7 @@ void limit(const int resource, const rlim_t value) {
     action();
   } catch (const std::bad_alloc &) {
     _exit(code_of_memory);
-  } catch (...) {
-    _exit(code_of_return);
+  } catch (...) { // counts as a return
   }
   _exit(code_of_return);
 }
@@ -65,10 +63,12 @@ TrialEnd try_in_copy(const TrialLimits &limits, const std::function<void()> &act
   int status = 0;
   while (waitpid(copy, &status, 0) < 0 && errno == EINTR)
     continue;
-  if (WIFSIGNALED(status))
-    return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? TrialEnd::out_of_time
-                                                                      : TrialEnd::crashed;
-  return WEXITSTATUS(status) == code_of_memory ? TrialEnd::out_of_memory : TrialEnd::returned;
+  if (!WIFSIGNALED(status))
+    return WEXITSTATUS(status) == code_of_memory ? TrialEnd::out_of_memory : TrialEnd::returned;
+  // The system ends a process with SIGKILL where memory is short.
+  if (WTERMSIG(status) == SIGKILL)
+    return TrialEnd::out_of_memory;
+  return WTERMSIG(status) == SIGXCPU ? TrialEnd::out_of_time : TrialEnd::crashed;
 }
 
 } // namespace billet

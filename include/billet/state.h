@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -47,11 +48,12 @@ private:
 };
 
 /// Returns a count from a number of a file. Throws InputError if it is not a whole number from 0 to `max`.
-inline std::uint64_t to_count(const double value, const std::uint64_t max = 0xffffffff) {
+template <class Count = unsigned int>
+Count to_count(const double value, const Count max = std::numeric_limits<Count>::max()) {
   if (!(value >= 0. && value <= static_cast<double>(max)) || value != std::floor(value))
     throw InputError("its count " + std::to_string(value) + " is no whole number from 0 to " +
                      std::to_string(max));
-  return static_cast<std::uint64_t>(value);
+  return static_cast<Count>(value);
 }
 
 /// Reads state. Throws InputError, on all ranks, if an entry is missing or has another size.
@@ -85,10 +87,7 @@ public:
     return values;
   }
   double number(const std::string &name) const { return read(name, 1)[0]; }
-  /// Returns a count up to `max`.
-  std::uint64_t count(const std::string &name, const std::uint64_t max = 0xffffffff) const {
-    return to_count(number(name), max);
-  }
+  unsigned int count(const std::string &name) const { return to_count(number(name)); }
 
   template <class Read> void in(const std::string &name, const Read &read) {
     enter(name);
@@ -156,9 +155,10 @@ inline void write_list(StateWriter &writer, const std::string &name, const unsig
 inline std::vector<double> read_list(const StateReader &reader, const std::string &name,
                                      const unsigned int rank) {
   const double size = reader.read_rows(name + " size", 1, {rank})[0];
-  const bool is_sound = size >= 0. && size <= static_cast<double>(reader.n_rows(name));
+  const std::size_t n_rows = reader.n_rows(name);
+  const bool is_sound = size >= 0. && size <= static_cast<double>(n_rows);
   // read_rows() refuses a list with one row too many on all ranks.
-  std::vector<std::uint64_t> keys(is_sound ? static_cast<std::size_t>(size) : reader.n_rows(name) + 1);
+  std::vector<std::uint64_t> keys(is_sound ? static_cast<std::size_t>(size) : n_rows + 1);
   std::iota(keys.begin(), keys.end(), std::uint64_t{rank} << 40U);
   return reader.read_rows(name, 1, keys);
 }

@@ -260,7 +260,7 @@ bool ContactBlocks::load(const StateReader &reader, const std::vector<std::uint6
     for (RowReader row(numbers); !row.is_at_end();) {
       couplings_.emplace_back(to_count(row.number(), numbers.size()));
       for (DofIndex &dof : couplings_.back())
-        dof = static_cast<DofIndex>(to_count(row.number(), last));
+        dof = to_count(row.number(), last);
     }
     contact_.couplings().set(facets);
   });

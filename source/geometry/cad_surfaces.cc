@@ -44,7 +44,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #endif
@@ -339,29 +338,26 @@ SurfacePatches convert_file(const TypeInput &input, const std::size_t n_defined)
   return patches;
 }
 
-/// Returns what OpenCASCADE may need for a file.
-TrialLimits limits_for(const std::string &file) {
-  std::error_code error;
-  const std::uintmax_t n_bytes = std::filesystem::file_size(file, error);
-  const auto n_megabytes =
-      error ? 0U : static_cast<unsigned int>(std::min(n_bytes >> 20U, std::uintmax_t{10000}));
-  return {8 + 20 * n_megabytes, 2000 + std::size_t{500} * n_megabytes};
-}
-
 /// Refuses a file that is cut short or damaged as its text shows, and returns how many faces it defines.
-std::size_t check_file(const TypeInput &input) {
-  std::ostringstream text;
-  text << std::ifstream(input.file("File"), std::ios::binary).rdbuf();
-  const CadFileReport report = is_iges(input) ? check_iges_file(text.str()) : check_step_file(text.str());
+std::size_t check_text(const TypeInput &input, const std::string &text) {
+  const CadFileReport report = is_iges(input) ? check_iges_file(text) : check_step_file(text);
   if (!report.fault.empty())
     input.reject("File", std::string("a sound ") + (is_iges(input) ? "IGES" : "STEP") + " file; " +
                              report.fault + ". Write it again");
   return report.n_faces;
 }
 
+/// Returns what OpenCASCADE may need for a file of this size.
+TrialLimits limits_for(const std::size_t n_bytes) {
+  const std::size_t n_megabytes = n_bytes >> 20U;
+  return {8 + 20 * static_cast<unsigned int>(n_megabytes), 2000 + 500 * n_megabytes};
+}
+
 SurfacePatches make(const TypeInput &input) {
-  const std::size_t n_defined = check_file(input);
-  const TrialLimits limits = limits_for(input.file("File"));
+  std::ostringstream text;
+  text << std::ifstream(input.file("File"), std::ios::binary).rdbuf();
+  const std::size_t n_defined = check_text(input, text.str());
+  const TrialLimits limits = limits_for(text.str().size());
   // OpenCASCADE trusts a file: some damaged ones end the program, or it never ends reading them.
   const TrialEnd end = try_in_copy(limits, [&] { convert_file(input, n_defined); });
   const std::string advice = " This one may be damaged. Write it again, or with fewer faces";

@@ -333,7 +333,7 @@ CheckpointReader::CheckpointReader(MPI_Comm communicator, const std::string &fil
       throw InputError(origin + ": '" + file_name +
                        "' cannot be opened on every rank; allowed is a file that all ranks can read");
   });
-  load("", [&] { n_ranks_ = static_cast<unsigned int>(count("ranks")); });
+  load("", [&] { n_ranks_ = count("ranks"); });
 }
 
 CheckpointReader::~CheckpointReader() {
@@ -348,10 +348,6 @@ void CheckpointReader::load(const std::string &group, const std::function<void()
   } catch (const InputError &error) {
     group_ = outside;
     throw InputError(origin_ + ": '" + file_name_ + "' does not match this scene: " + error.what());
-  } catch (const std::out_of_range &) {
-    group_ = outside;
-    throw InputError(origin_ + ": '" + file_name_ +
-                     "' does not match this scene: it has a list that is too short");
   }
 }
 
@@ -382,15 +378,19 @@ std::array<hsize_t, 2> extent_of(const hid_t set, const std::string &name) {
   return size;
 }
 
-/// Returns all values of an array.
-template <class T>
-std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t type,
-                        std::array<hsize_t, 2> &size) {
-  const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.is_open())
+/// Opens an array. Throws InputError if there is none.
+Handle open_array(const hid_t file, const std::string &name) {
+  const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+  if (set < 0)
     throw InputError("it has no '" + name + "'");
-  size = extent_of(set.id(), name);
-  std::vector<T> values(size[0] * size[1]);
+  return {set, H5Dclose};
+}
+
+/// Returns all values of an array.
+template <class T> std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t type) {
+  const Handle set = open_array(file, name);
+  const auto [n_rows, n_columns] = extent_of(set.id(), name);
+  std::vector<T> values(n_rows * n_columns);
   if (!values.empty() && H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw InputError("its '" + name + "' cannot be read");
   return values;
@@ -399,19 +399,17 @@ std::vector<T> read_all(const hid_t file, const std::string &name, const hid_t t
 } // namespace
 
 std::vector<double> CheckpointReader::read(const std::string &name) const {
-  std::array<hsize_t, 2> size{};
-  return read_all<double>(file_, group_ + name, H5T_NATIVE_DOUBLE, size);
+  return read_all<double>(file_, group_ + name, H5T_NATIVE_DOUBLE);
 }
 
 std::string CheckpointReader::read_text(const std::string &name) const {
-  std::array<hsize_t, 2> size{};
-  const auto letters = read_all<char>(file_, group_ + name, H5T_NATIVE_CHAR, size);
+  const auto letters = read_all<char>(file_, group_ + name, H5T_NATIVE_CHAR);
   return {letters.begin(), letters.end()};
 }
 
 std::size_t CheckpointReader::n_rows(const std::string &name) const {
-  const Handle set(H5Dopen2(file_, (group_ + name + "/keys").c_str(), H5P_DEFAULT), H5Dclose);
-  return set.is_open() ? extent_of(set.id(), name)[0] : 0;
+  const std::string path = group_ + name + "/keys";
+  return extent_of(open_array(file_, path).id(), path)[0];
 }
 
 std::vector<double> CheckpointReader::read_rows(const std::string &name, const std::size_t width,
@@ -421,13 +419,9 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
   std::vector<bool> is_there(keys.size(), false);
   fail_together(communicator_, [&] {
     const std::string path = group_ + name;
-    std::array<hsize_t, 2> size{};
-    const auto all_keys = read_all<std::uint64_t>(file_, path + "/keys", H5T_NATIVE_UINT64, size);
-    const Handle set(H5Dopen2(file_, (path + "/rows").c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set.is_open())
-      throw InputError("it has no '" + path + "'");
-    const Handle space(H5Dget_space(set.id()), H5Sclose);
-    size = extent_of(set.id(), path);
+    const auto all_keys = read_all<std::uint64_t>(file_, path + "/keys", H5T_NATIVE_UINT64);
+    const Handle set = open_array(file_, path + "/rows"), space(H5Dget_space(set.id()), H5Sclose);
+    const std::array<hsize_t, 2> size = extent_of(set.id(), path);
     if (size[0] != all_keys.size())
       throw InputError("its '" + path + "' has " + std::to_string(size[0]) + " rows for " +
                        std::to_string(all_keys.size()) + " nodes or elements");
@@ -535,7 +529,7 @@ void Checkpoints::load(const StateReader &reader, const double time, const bool 
     n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
   if (!is_same_folder)
     return;
-  n_written_ = static_cast<unsigned int>(reader.count("checkpoints written"));
+  n_written_ = reader.count("checkpoints written");
   // These files will be removed: a name that is none of this class's own could be any file of the user.
   const std::regex own_name("checkpoint_[0-9]{5,10}\\.h5");
   std::istringstream names(reader.read_text("checkpoints"));

@@ -111,7 +111,7 @@ void FieldWriter::save(StateWriter &writer) const {
 }
 
 void FieldWriter::load(const StateReader &reader) {
-  n_written_ = static_cast<unsigned int>(reader.number("written"));
+  n_written_ = reader.count("written");
   std::istringstream names(reader.read_text("names"));
   for (const double time : reader.read("times")) {
     snapshots_.push_back({time, {}});

@@ -45,10 +45,9 @@ HistoryFile::HistoryFile(const Scene &scene, const std::string &folder, const Ma
   std::ifstream in(name_);
   std::getline(in, first_line);
   in.close();
-  const auto n_bytes = static_cast<std::uintmax_t>(mark.n_bytes);
-  if (mark.columns == columns_ && first_line == columns_ && fs::file_size(name_, error) >= n_bytes &&
+  if (mark.columns == columns_ && first_line == columns_ && fs::file_size(name_, error) >= mark.n_bytes &&
       !error) {
-    fs::resize_file(name_, n_bytes, error);
+    fs::resize_file(name_, mark.n_bytes, error);
     stream_.open(name_, std::ios::app | std::ios::ate);
     if (error || !stream_)
       throw InputError(scene.parameters().output.folder.origin + ": '" + name_ + "' cannot be written");
@@ -73,7 +72,7 @@ void HistoryFile::begin(const Scene &scene) {
   stream_ << columns_ << "\n" << std::setprecision(15) << std::flush;
 }
 
-HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<double>(stream_.tellp())}; }
+HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<std::uintmax_t>(stream_.tellp())}; }
 
 void HistoryFile::write(const StepReport &report, const Solution &solution) {
   write({solution.state(), report.step, report.length, &report, solution.reactions()});

@@ -65,11 +65,11 @@ void ExplicitRun::load(Resumption &resumption) {
     errors_->begin(problem_.time());
   if (!resumption.report.is_exact || !reader.has("rows"))
     return;
-  reader.in("rows", [&] {
+  reader.load("rows", [&] {
     // If the interval has changed, the next row is due at once.
     if (reader.number("interval") == history_times_.interval())
       history_times_.begin_after(reader.number("last"));
-    balanced_step_ = static_cast<unsigned int>(reader.count("balanced step"));
+    balanced_step_ = reader.count("balanced step");
     review_.load(reader);
     if (errors_ && reader.has("errors")) {
       errors_->load(reader);

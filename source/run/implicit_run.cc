@@ -58,11 +58,11 @@ void ImplicitRun::load_control(Resumption &resumption) {
   if (errors_)
     errors_->begin(start.time);
   if (reader.has("steps"))
-    reader.in("steps", [&] {
+    reader.load("steps", [&] {
       control_.load(reader);
       const std::vector<double> totals = reader.read("totals", 2);
       continued_ = start.is_exact ? totals.at(0) : 0.;
-      report_.total_iterations = static_cast<unsigned int>(to_count(totals.at(1)));
+      report_.total_iterations = to_count(totals.at(1));
       report_.total_cuts = control_.n_cuts();
       if (watch_)
         watch_->load(reader);

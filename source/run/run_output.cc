@@ -46,8 +46,9 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
   const bool continues = resumption != nullptr && resumption->is_from(folder);
   HistoryFile::Mark mark;
   if (resumption != nullptr)
-    resumption->reader.in("output", [&] {
-      mark = {resumption->reader.read_text("columns"), resumption->reader.number("bytes")};
+    resumption->reader.load("output", [&] {
+      mark = {resumption->reader.read_text("columns"),
+              to_count(resumption->reader.number("bytes"), std::uintmax_t{1} << 50U)};
       checkpoints_.load(resumption->reader, resumption->report.time, continues);
       snapshots_.load(resumption->reader);
       if (continues && resumption->reader.read_text("format") == format())
@@ -98,7 +99,7 @@ bool RunOutput::write_checkpoint(const double time, const std::function<void(Sta
     save(state);
     state.in("output", [&] {
       state.write_text("columns", mark.columns);
-      state.write("bytes", {mark.n_bytes});
+      state.write("bytes", {static_cast<double>(mark.n_bytes)});
       state.write_text("format", format());
       state.write_text("diagnostics", diagnostics_.save());
       checkpoints_.save(state);

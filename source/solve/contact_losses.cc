@@ -2,6 +2,7 @@
 #include "billet/solve/contact_losses.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/state.h"
 
 #include <algorithm>
 #include <numeric>
@@ -81,9 +82,10 @@ std::vector<double> ContactLosses::save() const {
 }
 
 void ContactLosses::load(const std::vector<double> &numbers) {
-  static_cast<void>(numbers.at(energies_.size())); // refuses a list that is too short
-  std::copy_n(numbers.begin(), energies_.size(), energies_.begin());
-  reported_ = numbers.at(energies_.size());
+  RowReader row(numbers);
+  for (double &energy : energies_)
+    energy = row.number();
+  reported_ = row.number();
 }
 
 } // namespace billet

@@ -66,7 +66,7 @@ void EnergyErrors::save(StateWriter &writer) const {
 }
 
 void EnergyErrors::load(const StateReader &reader) {
-  const std::vector<double> state = reader.read("errors");
+  const std::vector<double> state = reader.read("errors", 10);
   has_begun_ = state.at(0) > 0.;
   time_ = state.at(1);
   last_drift_ = state.at(2);
@@ -76,7 +76,7 @@ void EnergyErrors::load(const StateReader &reader) {
   penetration_ = state.at(6);
   total_ = state.at(7);
   step_factor_ = state.at(8);
-  start_ = state.size() > 9 ? state[9] : 0.;
+  start_ = state.at(9);
 }
 
 } // namespace billet

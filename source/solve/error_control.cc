@@ -37,9 +37,7 @@ void ErrorControl::save(StateWriter &writer) const {
 }
 
 void ErrorControl::load(const StateReader &reader) {
-  std::vector<double> numbers = reader.read("errors");
-  static_cast<void>(numbers.at(n_numbers - 2)); // old checkpoints may lack the last one only
-  numbers.resize(n_numbers);
+  const std::vector<double> numbers = reader.read("errors", n_numbers);
   iterations_ = numbers[place_of_iterations];
   course_.load(numbers);
   steps_.load(numbers);

@@ -260,8 +260,8 @@ void ErrorWatch::load(StateReader &reader) {
   if (!reader.has("comparison")) // an earlier run without error control
     return;
   allow_penetration();
-  n_iterations_ = static_cast<unsigned int>(reader.count("iterations of measurements"));
-  const std::vector<double> comparison = reader.read("comparison");
+  n_iterations_ = reader.count("iterations of measurements");
+  const std::vector<double> comparison = reader.read("comparison", 4);
   probe_length_ = is_whole ? comparison.at(0) : 0.;
   probe_end_ = comparison.at(1);
   last_residual_ = comparison.at(2);

@@ -72,11 +72,11 @@ void PenaltyWatch::save(StateWriter &writer) const {
 void PenaltyWatch::load(const StateReader &reader) {
   std::istringstream pairs(reader.read_text("watched pairs"));
   const std::vector<double> values = reader.read("watched depths");
-  has_low_penalties_ = values.at(0) != 0.;
-  std::size_t i = 1;
+  RowReader row(values);
+  has_low_penalties_ = row.flag();
   for (std::string pair; std::getline(pairs, pair);) {
-    displacements_[pair] = values.at(i++);
-    are_deep_[pair] = values.at(i++) != 0.;
+    displacements_[pair] = row.number();
+    are_deep_[pair] = row.flag();
   }
 }
 

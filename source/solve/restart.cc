@@ -136,7 +136,7 @@ void check_scene(StateReader &reader, const Scene &scene, const Discretization &
       if (material != body.law->description())
         throw InputError("its body '" + name + "' is " + material + ", but here it is " +
                          body.law->description());
-      const std::vector<double> then = reader.read("mesh"), now = measure(discretization, b);
+      const std::vector<double> then = reader.read("mesh", 5), now = measure(discretization, b);
       if (then.at(0) != now[0])
         throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +
                          " elements, but here it has " + std::to_string(std::lround(now[0])));
@@ -199,7 +199,7 @@ std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
                                                const std::vector<std::uint64_t> &keys) {
   std::vector<ThicknessAxis> axes;
   for (const double code : reader.read_rows("thickness axes", 1, keys))
-    axes.push_back(ThicknessAxis::from_code(static_cast<unsigned int>(to_count(code, 5))));
+    axes.push_back(ThicknessAxis::from_code(to_count(code, 5U)));
   return axes;
 }
 

@@ -121,13 +121,13 @@ void StepControl::save(StateWriter &writer) const {
 
 void StepControl::load(const StateReader &reader) {
   const std::vector<double> state = reader.read("state", 6);
-  begin(state.at(0), static_cast<unsigned int>(to_count(state.at(4))));
-  n_cuts_ = static_cast<unsigned int>(to_count(state.at(5)));
+  begin(state.at(0), to_count(state.at(4)));
+  n_cuts_ = to_count(state.at(5));
   if (reader.read("rules") != rules())
     return;
   step_ = state.at(1);
   grid_start_ = state.at(2);
-  n_on_grid_ = static_cast<unsigned int>(to_count(state.at(3)));
+  n_on_grid_ = to_count(state.at(3));
 }
 
 void StepControl::begin(const double time, const unsigned int n_steps) {

@@ -31,7 +31,7 @@ using namespace billet::testing;
 
 namespace {
 
-/// A plate with a hole and a rounded edge; a half of it as splines.
+/// A plate with a hole and a rounded edge.
 TopoDS_Shape plate(const bool as_splines) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(4., 3., 1.).Shape();
   BRepFilletAPI_MakeFillet rounded(box);

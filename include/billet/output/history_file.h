@@ -4,6 +4,7 @@
 
 #include "billet/output/history_quantity.h"
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ public:
   /// Position in a history, to resume from.
   struct Mark {
     std::string columns; ///< its first line
-    double n_bytes = 0.;
+    std::uintmax_t n_bytes = 0;
   };
   Mark mark();
   /// Continues after the mark of a run in the same folder. If the file has other columns, or is shorter, it

@@ -78,8 +78,8 @@ void ExplicitClock::save(StateWriter &writer) const {
 void ExplicitClock::load(const StateReader &reader) {
   time_ = reader.number("time");
   const std::vector<double> clock = reader.read("clock", 7);
-  n_steps_ = static_cast<unsigned int>(to_count(clock.at(0)));
-  n_planned_ = static_cast<unsigned int>(to_count(clock.at(1)));
+  n_steps_ = to_count(clock.at(0));
+  n_planned_ = to_count(clock.at(1));
   step_ = clock.at(2);
   step_before_ = clock.at(3);
   is_growing_ = clock.at(4) != 0.;

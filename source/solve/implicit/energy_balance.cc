@@ -153,7 +153,7 @@ void StaticBalance::save(StateWriter &writer) const {
 
 void StaticBalance::load(const StateReader &reader) {
   EnergyBalance::load(reader);
-  step_energy_.load(reader.read("rejected step"));
+  step_energy_.load(reader.read("rejected step", 2));
 }
 
 double DynamicBalance::max_energy_of_trial() const {

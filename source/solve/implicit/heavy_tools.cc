@@ -128,9 +128,10 @@ void HeavyTools::load(const std::size_t tool, const StateReader &reader, const b
   if (reader.has("rate"))
     heavy.rate = reader.number("rate");
   if (is_exact) {
-    heavy.acceleration = reader.read("acceleration", 3).at(0);
-    heavy.exerted = reader.read("acceleration", 3).at(1);
-    heavy.load = reader.read("acceleration", 3).at(2);
+    const std::vector<double> acceleration = reader.read("acceleration", 3);
+    heavy.acceleration = acceleration[0];
+    heavy.exerted = acceleration[1];
+    heavy.load = acceleration[2];
   }
 }
 

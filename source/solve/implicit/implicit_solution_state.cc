@@ -86,7 +86,7 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
   rules_->predictor().load(reader, nodes, is_exact);
   if (reader.has("exact tangent"))
     problem_.tangent().take_exact();
-  problem_.scales().lasting = reader.read("scales").at(0);
+  problem_.scales().lasting = reader.read("scales", 2).at(0);
   problem_.released().load(reader, nodes, problem_.discretization());
 }
 

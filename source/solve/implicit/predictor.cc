@@ -185,7 +185,7 @@ void Predictor::save(StateWriter &writer, const OwnedNodes &nodes) const {
 }
 
 void Predictor::load(StateReader &reader, const OwnedNodes &nodes, const bool is_exact) {
-  has_lost_pace_ = reader.read("scales").at(1) != 0.;
+  has_lost_pace_ = reader.read("scales", 2).at(1) != 0.;
   if (!is_exact || !reader.has("probe"))
     return;
   reader.in("probe", [&] {

@@ -116,8 +116,9 @@ void ReleasedForces::load(StateReader &reader, const OwnedNodes &nodes,
     return;
   forces_ = std::make_unique<Vector>(discretization.make_owned_vector());
   load_nodal(reader, "imbalance", nodes, *forces_);
-  begin_ = reader.read("release", 2).at(0);
-  end_ = reader.read("release", 2).at(1);
+  const std::vector<double> release = reader.read("release", 2);
+  begin_ = release[0];
+  end_ = release[1];
 }
 
 } // namespace billet
