@@ -19,8 +19,8 @@ import tempfile
 from pathlib import Path
 
 LAYERS = (
-    "mesh geometry material friction integration mechanics loads probes algebra parameters scene discretization"
-    " forces contact solve output run"
+    "mesh geometry material friction integration mechanics loads probes algebra parameters scene"
+    " discretization forces contact solve output run"
 ).split()
 # Layers without meshes, and those without MPI: algebra/ distributes vectors.
 WITHOUT_MESH = set("mesh geometry material friction integration mechanics loads probes algebra".split())
