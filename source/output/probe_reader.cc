@@ -75,21 +75,45 @@ std::array<double, 4> corner_areas(const BoundaryFacet &facet) {
   return areas;
 }
 
+/// Returns the components along the axes at an undeformed position.
+Tensor<1, 3> along(const Axes &axes, const Tensor<1, 3> &position, const Tensor<1, 3> &vector) {
+  if (axes.are_global())
+    return vector;
+  const auto directions = axes.at(position);
+  return Tensor<1, 3>({directions[0] * vector, directions[1] * vector, directions[2] * vector});
+}
+
+dealii::SymmetricTensor<2, 3> along(const Axes &axes, const Tensor<1, 3> &position,
+                                    const dealii::SymmetricTensor<2, 3> &tensor) {
+  if (axes.are_global())
+    return tensor;
+  const auto directions = axes.at(position);
+  dealii::SymmetricTensor<2, 3> result;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j)
+      result[i][j] = directions[i] * (tensor * directions[j]);
+  return result;
+}
+
 /// Appends six components.
 void append(const dealii::SymmetricTensor<2, 3> &tensor, std::vector<double> &values) {
   values.insert(values.end(),
                 {tensor[0][0], tensor[1][1], tensor[2][2], tensor[0][1], tensor[0][2], tensor[1][2]});
 }
 
-/// Appends what a quantity of nodes writes of its vector.
-void append(const Kind kind, const Tensor<1, 3> &vector, std::vector<double> &values) {
+/// Appends what a quantity of nodes writes of its vector at this undeformed position.
+void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const Tensor<1, 3> &position,
+            std::vector<double> &values) {
   if (kind == Kind::contact_pressure) {
     values.push_back(vector[0]);
     return;
   }
-  values.insert(values.end(), {vector[0], vector[1], vector[2]});
-  if (kind != Kind::position)
-    values.push_back(vector.norm());
+  if (kind == Kind::position) {
+    values.insert(values.end(), {vector[0], vector[1], vector[2]});
+    return;
+  }
+  const Tensor<1, 3> components = along(axes, position, vector);
+  values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
 }
 
 double energy_ratio(const ProbedEnergies &of, const EnergyLedger &energies) {
@@ -190,14 +214,14 @@ public:
     return displacement(dofs);
   }
 
-  /// Appends the values of a quantity of elements.
-  void append_of_element(const Kind kind, const std::size_t body, const std::size_t e,
-                         std::vector<double> &values) const {
+  /// Appends the values of a quantity of elements, in the axes at an undeformed position.
+  void append_of_element(const Kind kind, const std::size_t body, const std::size_t e, const Axes &axes,
+                         const Tensor<1, 3> &position, std::vector<double> &values) const {
     if (kind == Kind::strain) {
       const Element &element = discretization_.elements(body)[e];
-      append(logarithmic_strain(mean_deformation_gradient(
-                 nodal_positions(element.cell), gather(solution_.state().displacements, element.dofs))),
-             values);
+      const auto strain = logarithmic_strain(mean_deformation_gradient(
+          nodal_positions(element.cell), gather(solution_.state().displacements, element.dofs)));
+      append(along(axes, position, strain), values);
       return;
     }
     const ElementSummary &summary = summaries_[body][e];
@@ -205,26 +229,33 @@ public:
       values.push_back(summary.equivalent_plastic_strain);
       return;
     }
-    append(summary.cauchy_stress, values);
+    append(along(axes, position, summary.cauchy_stress), values);
     values.push_back(std::sqrt(1.5) * dealii::deviator(summary.cauchy_stress).norm());
     values.push_back(-dealii::trace(summary.cauchy_stress) / 3.);
   }
 
   /// Returns the values of all quantities at a point of an element.
-  std::vector<double> at_point(const std::vector<ProbeQuantity> &quantities, const std::size_t body,
-                               const std::size_t e, const dealii::Point<3> &coordinates) const {
+  std::vector<double> at_point(const Probe &probe, const std::size_t body, const std::size_t e,
+                               const dealii::Point<3> &coordinates) const {
     const Element &element = discretization_.elements(body)[e];
+    const auto interpolate = [&](const auto &value) {
+      Tensor<1, 3> sum;
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        sum += dealii::GeometryInfo<3>::d_linear_shape_function(coordinates, a) * value(a);
+      return sum;
+    };
+    const Tensor<1, 3> position =
+        interpolate([&](const unsigned int a) { return Tensor<1, 3>(element.cell->vertex(a)); });
     std::vector<double> values;
-    for (const ProbeQuantity &quantity : quantities) {
+    for (const ProbeQuantity &quantity : probe.quantities) {
       if (!quantity.is_nodal()) {
-        append_of_element(quantity.kind, body, e, values);
+        append_of_element(quantity.kind, body, e, probe.axes, position, values);
         continue;
       }
-      Tensor<1, 3> vector;
-      for (unsigned int a = 0; a < n_element_nodes; ++a)
-        vector += dealii::GeometryInfo<3>::d_linear_shape_function(coordinates, a) *
-                  at_node(quantity.kind, dofs_of(element, a), element.cell->vertex(a));
-      append(quantity.kind, vector, values);
+      const Tensor<1, 3> vector = interpolate([&](const unsigned int a) {
+        return at_node(quantity.kind, dofs_of(element, a), element.cell->vertex(a));
+      });
+      append(quantity.kind, vector, probe.axes, position, values);
     }
     return values;
   }
@@ -417,7 +448,7 @@ ProbeRows ProbeReader::read_points(const Placed &placed, const State &state) con
   ProbeRows rows(placed.probe().components().size());
   for (const MaterialPoint &point : placed.points)
     rows.add(point.number, point.key, 1.,
-             state.at_point(placed.probe().quantities, placed.body, point.element, point.coordinates));
+             state.at_point(placed.probe(), placed.body, point.element, point.coordinates));
   return rows;
 }
 
@@ -430,7 +461,7 @@ ProbeRows ProbeReader::read_space(const Placed &placed, const State &state) cons
     for (std::size_t p = 0; p < points.size(); ++p)
       if (const auto coordinates = hexahedron.find(points[p]))
         rows.add(p, element_key(elements[e].cell), 1.,
-                 state.at_point(placed.probe().quantities, placed.body, e, *coordinates));
+                 state.at_point(placed.probe(), placed.body, e, *coordinates));
   }
   return rows;
 }
@@ -440,7 +471,8 @@ ProbeRows ProbeReader::read_nodes(const Placed &placed, const State &state) cons
   for (const ProbedNode &node : placed.nodes) {
     std::vector<double> values;
     for (const ProbeQuantity &quantity : placed.probe().quantities)
-      append(quantity.kind, state.at_node(quantity.kind, node.dofs, node.position), values);
+      append(quantity.kind, state.at_node(quantity.kind, node.dofs, node.position), placed.probe().axes,
+             node.position, values);
     rows.add(node.key, 0, node.weight, values);
   }
   return rows;
@@ -451,7 +483,8 @@ ProbeRows ProbeReader::read_faces(const Placed &placed, const State &state) cons
   for (const ProbedFace &face : placed.faces) {
     std::vector<double> values;
     for (const ProbeQuantity &quantity : placed.probe().quantities)
-      state.append_of_element(quantity.kind, placed.body, face.element, values);
+      state.append_of_element(quantity.kind, placed.body, face.element, placed.probe().axes,
+                              discretization_.elements(placed.body)[face.element].cell->center(), values);
     rows.add(face.facet.key, 0, face.facet.area_vector().norm(), values);
   }
   return rows;

@@ -21,6 +21,7 @@ Probe make_path(const TypeInput &input) {
   for (double i = 0.; i < n; ++i)
     points.points.emplace_back((1. - i / (n - 1.)) * start + i / (n - 1.) * end);
   Probe probe{std::move(points)};
+  probe.axes = Axes(input);
   probe.quantities = read_quantities(input);
   probe.statistics = read_statistics(input, true);
   probe.names_sites = true;
@@ -30,16 +31,15 @@ Probe make_path(const TypeInput &input) {
 } // namespace
 
 ProbeType path_type() {
-  return {"path",
-          "quantities at points at equal distances on a line through a body",
-          {probed_body(),
-           {"Start", "", TypeParameter::Kind::text, "First point 'x, y, z'. [length]"},
-           {"End", "", TypeParameter::Kind::text, "Last point 'x, y, z'. [length]"},
-           {"Points", "11", TypeParameter::Kind::number,
-            "2 to 1000. Number of points, with both ends; columns number them from 1."},
-           probed_place(),
-           probed_quantities(),
-           probed_statistics()},
+  return {"path", "quantities at points at equal distances on a line through a body",
+          with_probed_axes({probed_body(),
+                            {"Start", "", TypeParameter::Kind::text, "First point 'x, y, z'. [length]"},
+                            {"End", "", TypeParameter::Kind::text, "Last point 'x, y, z'. [length]"},
+                            {"Points", "11", TypeParameter::Kind::number,
+                             "2 to 1000. Number of points, with both ends; columns number them from 1."},
+                            probed_place(),
+                            probed_quantities(),
+                            probed_statistics()}),
           make_path};
 }
 

@@ -182,7 +182,10 @@ TypeParameter probed_faces() {
           "Boundary ids or names of the faces, separated by commas."};
 }
 
-TypeParameter probed_point() { return {"Point", "", TypeParameter::Kind::text, "Point 'x, y, z'. [length]"}; }
+TypeParameter probed_point() {
+  return {"Point", "", TypeParameter::Kind::text,
+          "Point 'x, y, z'. Of a thickness: where it is measured; empty, at all faces. [length]"};
+}
 
 TypeParameter probed_place() {
   return {"Place", "material", TypeParameter::Kind::choice,
@@ -203,6 +206,12 @@ TypeParameter probed_statistics() {
   return {"Values", "least, largest, mean", TypeParameter::Kind::text,
           "List of least, largest, mean, sum and, for paths, each, separated by commas. Means over faces and "
           "their nodes have undeformed areas as weights."};
+}
+
+std::vector<TypeParameter> with_probed_axes(std::vector<TypeParameter> parameters) {
+  for (const TypeParameter &parameter : Axes::parameters())
+    parameters.push_back(parameter);
+  return parameters;
 }
 
 ProbedPoints::Place read_place(const TypeInput &input) {

@@ -8,9 +8,10 @@ ProbeType set_type();
 ProbeType set_type() {
   return {"set",
           "quantities at the nodes of faces and, of stress and strains, in the elements of these faces",
-          {probed_body(), probed_faces(), probed_quantities(), probed_statistics()},
+          with_probed_axes({probed_body(), probed_faces(), probed_quantities(), probed_statistics()}),
           [](const TypeInput &input) {
             Probe probe{ProbedFaces{}};
+            probe.axes = Axes(input);
             probe.quantities = read_quantities(input);
             for (const ProbeQuantity &quantity : probe.quantities)
               if (quantity.is_nodal() != probe.quantities.front().is_nodal())

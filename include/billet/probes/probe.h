@@ -2,6 +2,7 @@
 #ifndef BILLET_PROBES_PROBE_H
 #define BILLET_PROBES_PROBE_H
 
+#include "billet/geometry/axes.h"
 #include "billet/registered_type.h"
 
 #include <deal.II/base/point.h>
@@ -83,7 +84,8 @@ struct Probe {
   std::variant<ProbedPoints, ProbedFaces, ProbedThickness, ProbedTravel, ProbedEnergies> where;
   std::vector<ProbeQuantity> quantities = {};  ///< only of points and faces
   std::vector<ProbeStatistic> statistics = {}; ///< without energies
-  bool names_sites = false;                    ///< whether `each` numbers its columns
+  Axes axes = {};           ///< of the components of displacement, velocity, stress and strain
+  bool names_sites = false; ///< whether `each` numbers its columns
 
   bool reads(ProbeQuantity::Kind kind) const;
   /// Whether it reads the faces of 'Boundary ids'.
@@ -113,6 +115,8 @@ TypeParameter probed_point();
 TypeParameter probed_place();
 TypeParameter probed_quantities();
 TypeParameter probed_statistics();
+/// Adds the parameters of Axes.
+std::vector<TypeParameter> with_probed_axes(std::vector<TypeParameter> parameters);
 
 /// Return the values of these parameters.
 ProbedPoints::Place read_place(const TypeInput &input);
