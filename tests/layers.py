@@ -19,11 +19,11 @@ import tempfile
 from pathlib import Path
 
 LAYERS = (
-    "mesh geometry material friction integration mechanics loads algebra parameters scene discretization"
-    " forces contact solve output run"
+    "mesh geometry material friction integration mechanics loads probes algebra parameters scene"
+    " discretization forces contact solve output run"
 ).split()
 # Layers without meshes, and those without MPI: algebra/ distributes vectors.
-WITHOUT_MESH = set("mesh geometry material friction integration mechanics loads algebra".split())
+WITHOUT_MESH = set("mesh geometry material friction integration mechanics loads probes algebra".split())
 WITHOUT_MPI = WITHOUT_MESH - {"algebra"}
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every layer

@@ -74,12 +74,14 @@ void HistoryFile::begin(const Scene &scene) {
 
 HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<std::uintmax_t>(stream_.tellp())}; }
 
-void HistoryFile::write(const StepReport &report, const Solution &solution) {
-  write({solution.state(), report.step, report.length, &report, solution.reactions()});
+void HistoryFile::write(const StepReport &report, const Solution &solution,
+                        const std::vector<double> &probes) {
+  write({solution.state(), report.step, report.length, &report, solution.reactions(), probes});
 }
 
-void HistoryFile::write(const unsigned int step, const double length, const Solution &solution) {
-  write({solution.state(), step, length, nullptr, solution.reactions()});
+void HistoryFile::write(const unsigned int step, const double length, const Solution &solution,
+                        const std::vector<double> &probes) {
+  write({solution.state(), step, length, nullptr, solution.reactions(), probes});
 }
 
 void HistoryFile::write(const HistorySample &sample) {

@@ -15,6 +15,7 @@ HistoryQuantity support_reactions_quantity();
 HistoryQuantity tool_pair_loads_quantity();
 HistoryQuantity force_balance_quantity();
 HistoryQuantity energy_ratio_quantity();
+HistoryQuantity probes_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -40,6 +41,7 @@ HistoryQuantities &history_quantities() {
     all.add(tool_pair_loads_quantity());
     all.add(force_balance_quantity());
     all.add(energy_ratio_quantity());
+    all.add(probes_quantity());
     return all;
   }();
   return quantities;

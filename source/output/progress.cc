@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <ostream>
 #include <sstream>
 
@@ -71,6 +72,23 @@ void Progress::make_columns() {
     add_energy("plastic work", &EnergyLedger::plastic);
   if (capabilities.friction)
     add_energy("friction work", &EnergyLedger::friction);
+  add_probes();
+}
+
+void Progress::add_probes() {
+  constexpr int least_width = 14;
+  std::size_t place = 0;
+  for (const auto &probe : scene_.parameters().probes)
+    for (const std::string &column : probe.probe.columns()) {
+      if (std::find(probe.console.begin(), probe.console.end(), column) != probe.console.end()) {
+        const std::string name = probe.full_name(column);
+        columns_.push_back(
+            {name, std::max(least_width, static_cast<int>(name.size()) + 2), [this, place](const Solution &) {
+               return place < probes_.size() ? probes_[place] : std::numeric_limits<double>::quiet_NaN();
+             }});
+      }
+      ++place;
+    }
 }
 
 void Progress::show_headers() const {

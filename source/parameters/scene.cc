@@ -64,6 +64,7 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
   });
   declare_named(prm, "Contact pairs", names_below({"Contact pairs"}),
                 [&](const std::string &) { ContactPair::declare(prm); });
+  declare_named(prm, "Probes", names_below({"Probes"}), [&](const std::string &) { Probe::declare(prm); });
   prm.enter_subsection("Time stepping");
   TimeStepping::declare(prm);
   prm.leave_subsection();
@@ -179,6 +180,29 @@ std::string default_folder(const std::string &file_name) {
   return holds_scene ? name + ".results" : name;
 }
 
+/// Refuses what the scene does not have, or a body that it does not name.
+void check_probe(const Scene &scene, const Probe &probe) {
+  if (probe.probe.has_body() && probe.body.value.empty() && scene.bodies.size() > 1)
+    throw InputError(probe.body.origin + " is ''; allowed is the name of a body, since there are several");
+  const std::size_t body = scene.body_index(probe);
+  const std::string is_static = "'Scheme' in 'Time stepping' is " + name_of(scene.time_stepping.scheme);
+  if (!scene.is_dynamic() && probe.probe.reads(ProbeQuantity::Kind::velocity))
+    throw InputError(probe.origin_of_quantities + " names 'velocity'; allowed are other quantities, since " +
+                     is_static + ", without velocities");
+  const auto *energies = std::get_if<ProbedEnergies>(&probe.probe.where);
+  if (!scene.is_dynamic() && energies != nullptr && energies->numerator == ProbedEnergies::Numerator::kinetic)
+    throw InputError(probe.origin_of_energy + " is 'kinetic'; allowed are other energies, since " +
+                     is_static + ", without kinetic energy");
+  const bool has_pair = std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const ContactPair &pair) {
+    return scene.body_index(pair) == body ||
+           (pair.is_between_bodies() && scene.second_body_index(pair) == body);
+  });
+  if (probe.probe.reads(ProbeQuantity::Kind::contact_pressure) && !has_pair)
+    throw InputError(probe.origin_of_quantities +
+                     " names 'contact pressure'; allowed are other quantities, " +
+                     "since no contact pair has faces of body '" + scene.bodies[body].name + "'");
+}
+
 /// Refuses parameters of one scheme in scenes of another: a forgotten switch is the usual reason.
 class SchemeCheck {
 public:
@@ -284,6 +308,10 @@ std::size_t Scene::second_body_index(const ContactPair &pair) const {
 
 std::size_t Scene::tool_index(const ContactPair &pair) const { return index_of(tools, pair.tool); }
 
+std::size_t Scene::body_index(const Probe &probe) const {
+  return probe.body.value.empty() ? 0 : index_of(bodies, probe.body);
+}
+
 void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool names_are_known) {
   const auto is_known = [&](const ContactPair &pair) {
     return names_are_known || (pair.boundary_ids.names.empty() && pair.second_boundary_ids.names.empty());
@@ -327,6 +355,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
   scene.bodies = parse_named<Body>(reader, "Bodies");
   scene.tools = parse_named<Tool>(reader, "Tools");
   scene.pairs = parse_named<ContactPair>(reader, "Contact pairs");
+  scene.probes = parse_named<Probe>(reader, "Probes");
   reader.in("Time stepping", [&] { scene.time_stepping.parse(reader); });
   reader.in("Explicit dynamics", [&] { scene.explicit_dynamics.parse(reader); });
   reader.in("Implicit dynamics", [&] {
@@ -353,6 +382,8 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
       scene.tool_index(pair);
   }
   check_repeated_pairs(scene.pairs, false);
+  for (const auto &probe : scene.probes)
+    check_probe(scene, probe);
   SchemeCheck(scene, file).check();
   if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
     scene.output.every_steps = 0;
@@ -379,6 +410,7 @@ void declare_every_parameter(ParameterHandler &prm) {
             : path.back() == "Supports" ? "(name of a support)"
             : path.back() == "Loads"    ? "(name of a load)"
             : path.back() == "Tools"    ? "(name of a tool)"
+            : path.back() == "Probes"   ? "(name of a probe)"
                                         : "(name of a contact pair)"};
   };
   declare_all(prm, {names_below, [&prefix](const SceneFile::Path &path) {

@@ -6,6 +6,7 @@
 #include "billet/discretization/inverted_corners.h"
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
+#include "billet/output/probe_reader.h"
 #include "billet/run/output_folder.h"
 #include "billet/scene/plausibility.h"
 #include "billet/solve/explicit/explicit_dynamics.h"
@@ -29,6 +30,7 @@ DiagnosticList check_start(const Scene &scene, MPI_Comm communicator) {
   const Discretization discretization(scene, communicator);
   DiagnosticList messages =
       check_plausibility(scene, discretization.dof_handler().get_triangulation(), communicator);
+  const ProbeReader probes(scene, discretization); // refuses points outside bodies
   if (scene.parameters().restart.is_wanted())
     return messages;
   if (scene.parameters().is_explicit())

@@ -151,9 +151,15 @@ void ExplicitRun::show_number_of_steps(RunOutput &output) const {
 }
 
 void ExplicitRun::write_row(RunOutput &output) {
-  problem_.update_ledger();
-  output.write_row(
-      [&](HistoryFile &history) { history.write(problem_.n_steps(), problem_.step_length(), problem_); });
+  if (probes_.empty())
+    problem_.update_ledger();
+  else
+    problem_.update_state(); // probes read the fields, too
+  const std::vector<double> probes = probes_.read(problem_);
+  output.write_row([&](HistoryFile &history) {
+    history.write(problem_.n_steps(), problem_.step_length(), problem_, probes);
+  });
+  output.progress().set_probes(probes);
   output.progress().show(problem_.n_steps(), problem_.step_length(), problem_);
   output.report(
       check_force_balance(problem_.reactions().balance, problem_.time(),

@@ -145,7 +145,9 @@ void ImplicitRun::after_step(RunOutput &output) {
   control_errors(output);
   continued_ = report_.length;
   report_.step = control_.n_steps();
-  output.write_row([&](HistoryFile &history) { history.write(report_, problem_); });
+  const std::vector<double> probes = probes_.read(problem_);
+  output.write_row([&](HistoryFile &history) { history.write(report_, problem_, probes); });
+  output.progress().set_probes(probes);
   output.progress().accept(report_, problem_);
   output.report(check_force_balance(problem_.reactions().balance, problem_.state().time, false));
   output.report(review_.after_step(problem_, control_.is_finished()));

@@ -14,6 +14,7 @@
 #include "billet/output/field_quantity.h"
 #include "billet/output/history_quantity.h"
 #include "billet/parameters/primitives.h"
+#include "billet/probes/probe.h"
 
 #include <nlohmann/json.hpp>
 
@@ -129,6 +130,7 @@ const std::vector<TypeList> &type_lists() {
       {"friction", "friction laws: 'Contact pairs / NAME'", types_of(&friction_law_types, "Friction law")},
       {"integrators", "time integrators: 'Implicit dynamics'",
        types_of(&time_integrator_types, "Time integrator")},
+      {"probes", "quantities at points, paths and sets: 'Probes / NAME'", types_of(&probe_types, "Type")},
       {"fields", "quantities of field output", &list_fields},
       {"history", "quantities of the history", &list_history}};
   return lists;

@@ -124,6 +124,11 @@ parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<Bounda
     const std::size_t second = scene.second_body_index(pair);
     resolve(pair.second_boundary_ids, names[second], scene.bodies[second].name);
   }
+  for (auto &probe : scene.probes) {
+    const std::size_t body = scene.body_index(probe);
+    resolve(probe.boundary_ids, names[body], scene.bodies[body].name);
+    resolve(probe.opposite_ids, names[body], scene.bodies[body].name);
+  }
   // Ids of pairs without names and groups have been compared when the scene was read.
   const bool has_names = std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const auto &pair) {
     return !pair.boundary_ids.names.empty() || !pair.second_boundary_ids.names.empty();

@@ -93,6 +93,11 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
     const std::size_t second = parameters_.second_body_index(pair);
     check_ids(pair.second_boundary_ids, present[second], bodies_[second]);
   }
+  for (const auto &probe : parameters_.probes) {
+    const std::size_t body = parameters_.body_index(probe);
+    check_ids(probe.boundary_ids, present[body], bodies_[body]);
+    check_ids(probe.opposite_ids, present[body], bodies_[body]);
+  }
 }
 
 namespace {

@@ -605,6 +605,9 @@ void Scene::describe(std::ostream &stream) const {
            << (pair.is_self_contact ? "itself" : bodies_[pair.bodies[1]].name) << ", "
            << describe_facets(pair.facets) << " facets, " << (pair.two_passes ? "two passes, " : "one pass, ")
            << (pair.edges ? "edges, " : "") << describe_friction(pair.friction) << describe_penalties(pair);
+  for (const auto &probe : parameters_.probes)
+    stream << "Probe          " << probe.name << ": " << probe.type << ", " << probe.probe.columns().size()
+           << " columns of the history\n";
   const auto &stepping = parameters_.time_stepping;
   stream << "Time           0 to " << stepping.end_time;
   if (parameters_.is_explicit())
@@ -689,6 +692,10 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
     add_pair(pair, bodies_[pair.body].name, tools_[pair.tool].name(), "");
   for (const auto &pair : body_pairs_)
     add_pair(pair, bodies_[pair.bodies[0]].name, bodies_[pair.bodies[1]].name, describe_facets(pair.facets));
+  scene["probes"] = Json::array();
+  for (const auto &probe : parameters_.probes)
+    scene["probes"].push_back(
+        {{"name", probe.name}, {"type", probe.type}, {"columns", probe.probe.columns().size()}});
   scene["end time"] = parameters_.time_stepping.end_time;
   scene["scheme"] = parameters::name_of(parameters_.time_stepping.scheme);
   scene["elements"] = n_elements;

@@ -17,7 +17,7 @@ from checks import SHIPPED, Checks, enter_folder, equal, near, read_text, requir
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
 PARTS = {"drawing": 0.1, "rolling": 0.1, "bending": 0.2, "impact": 0.25}  # of the time
 MAX_LINES = 90
-LISTS = "primitives materials elements loads surfaces friction integrators fields history".split()
+LISTS = "primitives materials elements loads surfaces friction integrators probes fields history".split()
 
 program = sys.argv[1]
 check = Checks()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A run that ends half-way, with its mesh and all that knows it, and another one that continues its files:
-// the history is that of one run without interruption, bit by bit. A change of the mesh during a run is to
-// take this way.
+// the history, with columns of probes, is that of one run without interruption, bit by bit. A change of the
+// mesh during a run is to take this way.
 #include "implicit_run.h"
 
 #include "billet/run/run.h"
@@ -32,6 +32,41 @@ void take_steps(Run &run, RunOutput &output, const unsigned int n_steps) {
 struct Result {
   bool is_half_way, has_same_history;
 };
+
+/// Adds probes of each place to the first body, whose top has the boundary id 5.
+void add_probes(parameters::Scene &parameters) {
+  const auto add = [&](const std::string &name, const Probe &probe) {
+    parameters::Probe input;
+    input.name = name;
+    input.probe = probe;
+    input.body.value = parameters.bodies[0].name;
+    input.boundary_ids.value = {5};
+    input.opposite_ids.value = {4};
+    parameters.probes.push_back(input);
+  };
+  const dealii::Point<3> point(1.3, 0.9, -0.1);
+  const std::vector<ProbeStatistic> all{ProbeStatistic::least, ProbeStatistic::largest, ProbeStatistic::mean,
+                                        ProbeStatistic::sum};
+  Probe fixed{ProbedPoints{{point, point + dealii::Point<3>(0., 0., 0.3)}, ProbedPoints::Place::space}};
+  Probe carried{ProbedPoints{{point}, ProbedPoints::Place::nearest_node}}, nodes{ProbedFaces{}};
+  for (const ProbeQuantity &quantity : probe_quantities()) {
+    if (quantity.kind == ProbeQuantity::Kind::velocity && !parameters.is_dynamic())
+      continue;
+    carried.quantities.push_back(quantity);
+    if (quantity.is_nodal())
+      nodes.quantities.push_back(quantity);
+  }
+  fixed.quantities = carried.quantities;
+  fixed.statistics = carried.statistics = {ProbeStatistic::each};
+  fixed.names_sites = true;
+  nodes.statistics = all;
+  Probe thickness{ProbedThickness{}};
+  thickness.statistics = all;
+  add("fixed", fixed);
+  add("carried", carried);
+  add("nodes", nodes);
+  add("thickness", thickness);
+}
 
 /// Hands over after so many steps.
 Result hand_over(const std::string &name, parameters::Scene parameters, const unsigned int n_steps) {
@@ -68,6 +103,8 @@ int main(int argc, char *argv[]) {
   impact.time_stepping.end_time = 0.02e-3;
   for (parameters::Scene *scene : {&press, &impact})
     scene->output.format = parameters::Output::Format::none;
+  add_probes(press);
+  add_probes(impact);
 
   std::ostringstream console; // of the runs
   std::streambuf *const standard_output = std::cout.rdbuf(console.rdbuf());

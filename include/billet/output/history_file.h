@@ -27,9 +27,11 @@ public:
   /// is renamed with the `time` at which it ends, and a new one begins.
   HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, double time);
 
-  void write(const StepReport &report, const Solution &solution);
+  /// `probes`: values of probe_columns().
+  void write(const StepReport &report, const Solution &solution, const std::vector<double> &probes = {});
   /// Writes a line of an explicit scene: number of steps, and length of the next.
-  void write(unsigned int step, double length, const Solution &solution);
+  void write(unsigned int step, double length, const Solution &solution,
+             const std::vector<double> &probes = {});
 
 private:
   void begin(const Scene &scene);

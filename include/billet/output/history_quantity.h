@@ -27,6 +27,7 @@ struct HistorySample {
   double length;            ///< explicit scenes: of the next step [time]
   const StepReport *report; ///< null in explicit scenes
   const Reactions &reactions;
+  const std::vector<double> &probes; ///< values of probe_columns()
 };
 
 /// Columns of the history that belong together.

@@ -19,6 +19,8 @@ namespace billet {
 class Progress {
 public:
   Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
+  Progress(const Progress &) = delete; // columns refer to it
+  Progress &operator=(const Progress &) = delete;
 
   void start(const Discretization &discretization, const Solution &solution);
   /// Shows the estimated number of steps of an explicit scene, from the length of the first step.
@@ -27,6 +29,8 @@ public:
   void show(unsigned int step, double length, const Solution &solution);
   /// Shows a warning at any verbosity, a note unless the verbosity is quiet.
   void show_diagnostic(Severity severity, const std::string &text);
+  /// Sets the values of probe_columns() for the next line.
+  void set_probes(const std::vector<double> &values) { probes_ = values; }
   void accept(const StepReport &report, const Solution &solution);
   void reject(const StepReport &report, double from, double to);
   /// Shows wall-clock and CPU time of the steps of an explicit scene, without output.
@@ -44,6 +48,7 @@ private:
     std::function<double(const Solution &)> value;
   };
   void make_columns();
+  void add_probes();
   void add_forces(const std::string &name, const std::function<double(const Solution &)> &value);
   void show_headers() const;
   void show_values(const Solution &solution) const;
@@ -63,6 +68,7 @@ private:
   std::optional<double> begin_; ///< time before the first step shown
   double last_line_ = 0.;       ///< when the last line of progress was shown [s]
   std::vector<Column> columns_;
+  std::vector<double> probes_;
   parameters::Output::Verbosity verbosity_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -6,6 +6,7 @@
 #include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
 #include "billet/parameters/implicit_dynamics.h"
+#include "billet/parameters/probe.h"
 #include "billet/parameters/profile.h"
 #include "billet/parameters/tool.h"
 
@@ -27,6 +28,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Tool> tools;
   std::vector<ContactPair> pairs;
+  std::vector<Probe> probes;
   TimeStepping time_stepping;
   ExplicitDynamics explicit_dynamics;
   ImplicitDynamics implicit_dynamics;
@@ -45,6 +47,7 @@ struct Scene {
   std::size_t body_index(const ContactPair &pair) const;
   std::size_t second_body_index(const ContactPair &pair) const;
   std::size_t tool_index(const ContactPair &pair) const;
+  std::size_t body_index(const Probe &probe) const;
 };
 
 /// Refuses pairs that would apply contact forces twice between the same faces, or a face and a tool. Pairs

@@ -2,6 +2,7 @@
 #ifndef BILLET_RUN_RUN_H
 #define BILLET_RUN_RUN_H
 
+#include "billet/output/probe_reader.h"
 #include "billet/run/resumption.h"
 #include "billet/run/run_output.h"
 #include "billet/solve/run_review.h"
@@ -19,7 +20,8 @@ class Run {
 public:
   Run(const Scene &scene, MPI_Comm communicator)
       : scene_(scene), parameters_(scene.parameters()), discretization_(scene, communicator),
-        review_(scene, discretization_), stability_(scene, discretization_) {}
+        review_(scene, discretization_), stability_(scene, discretization_), probes_(scene, discretization_) {
+  }
   virtual ~Run() = default;
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
@@ -58,6 +60,7 @@ protected:
   const Discretization discretization_;
   RunReview review_;
   StabilityWatch stability_;
+  const ProbeReader probes_;
 };
 
 /// Makes the method that the scene selects. `resumption`: null at time 0. Collective.

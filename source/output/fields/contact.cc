@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/contact_fields.h"
 #include "billet/output/field_quantity.h"
 
 namespace billet {
 
 NodalQuantity contact_quantity();
 
-namespace {
-
-/// Nodal contact fields, three in each vector of displacement dofs. Nodes without a contact pair have gap 0
-/// and status −1.
 std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution) {
   std::array<Vector, 3> owned;
   for (auto &vector : owned)
@@ -49,8 +46,6 @@ std::array<Vector, 3> collect_contact_fields(const Discretization &discretizatio
   }
   return ghosted;
 }
-
-} // namespace
 
 NodalQuantity contact_quantity() {
   return {"contact", "",

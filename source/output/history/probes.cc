@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_quantity.h"
+#include "billet/output/probe_reader.h"
+
+namespace billet {
+
+HistoryQuantity probes_quantity();
+
+HistoryQuantity probes_quantity() {
+  return {"probes", [](const Scene &scene) { return probe_columns(scene); },
+          [](const HistorySample &sample) { return sample.probes; }};
+}
+
+} // namespace billet

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/probe_geometry.h"
+
+#include <deal.II/base/geometry_info.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+using Unit = dealii::GeometryInfo<3>;
+
+namespace {
+
+struct Limits {
+  static constexpr unsigned int iterations = 30;
+  static constexpr double converged = 1e-10; ///< last step of Newton's method, in reference coordinates
+  static constexpr double diverged = 100.;   ///< step of Newton's method, in reference coordinates
+  static constexpr double outside = 1e-6;    ///< of the unit cube or square, as round-off
+};
+
+/// Returns A⁻¹ b; none if A is singular.
+std::optional<Tensor<1, 3>> solve(const Tensor<2, 3> &A, const Tensor<1, 3> &b) {
+  const double det = dealii::determinant(A);
+  if (det == 0. || !std::isfinite(det))
+    return {};
+  return dealii::invert(A) * b;
+}
+
+std::array<double, 4> shape_functions(const std::array<double, 2> &at) {
+  return {(1. - at[0]) * (1. - at[1]), at[0] * (1. - at[1]), (1. - at[0]) * at[1], at[0] * at[1]};
+}
+
+std::array<Tensor<1, 3>, 2> tangents(const FacetCorners &c, const std::array<double, 2> &at) {
+  return {(1. - at[1]) * (c[1] - c[0]) + at[1] * (c[3] - c[2]),
+          (1. - at[0]) * (c[2] - c[0]) + at[0] * (c[3] - c[1])};
+}
+
+} // namespace
+
+Hexahedron::Hexahedron(const ElementVectors &corners) : corners_(corners) {
+  for (unsigned int i = 0; i < 3; ++i) {
+    double low = corners[i], high = corners[i];
+    for (unsigned int a = 1; a < n_element_nodes; ++a) {
+      low = std::min(low, corners[3 * a + i]);
+      high = std::max(high, corners[3 * a + i]);
+    }
+    const double margin = Limits::outside * (high - low);
+    low_[i] = low - margin;
+    high_[i] = high + margin;
+  }
+}
+
+std::optional<dealii::Point<3>> Hexahedron::find(const Tensor<1, 3> &point) const {
+  for (unsigned int i = 0; i < 3; ++i)
+    if (!(point[i] >= low_[i] && point[i] <= high_[i]))
+      return {};
+  dealii::Point<3> xi(0.5, 0.5, 0.5);
+  for (unsigned int i = 0; i < Limits::iterations; ++i) {
+    Tensor<1, 3> x;
+    Tensor<2, 3> jacobian;
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const double value = Unit::d_linear_shape_function(xi, a);
+      const auto gradient = Unit::d_linear_shape_function_gradient(xi, a);
+      for (unsigned int k = 0; k < 3; ++k) {
+        x[k] += corners_[3 * a + k] * value;
+        for (unsigned int j = 0; j < 3; ++j)
+          jacobian[k][j] += corners_[3 * a + k] * gradient[j];
+      }
+    }
+    const auto step = solve(jacobian, point - x);
+    if (!step || !(step->norm() < Limits::diverged))
+      return {};
+    xi += *step;
+    if (step->norm() < Limits::converged) {
+      if (Unit::distance_to_unit_cell(xi) > Limits::outside)
+        return {};
+      return Unit::project_to_unit_cell(xi);
+    }
+  }
+  return {};
+}
+
+Tensor<1, 3> point_of_facet(const FacetCorners &corners, const std::array<double, 2> &at) {
+  const std::array<double, 4> N = shape_functions(at);
+  return N[0] * corners[0] + N[1] * corners[1] + N[2] * corners[2] + N[3] * corners[3];
+}
+
+Tensor<1, 3> normal_of_facet(const FacetCorners &corners, const std::array<double, 2> &at) {
+  const auto [g_1, g_2] = tangents(corners, at);
+  const Tensor<1, 3> area = dealii::cross_product_3d(g_1, g_2);
+  const double norm = area.norm();
+  if (!(norm > 0.))
+    return {};
+  return area / norm;
+}
+
+bool FacetCrossing::is_on_facet() const {
+  return std::all_of(at.begin(), at.end(),
+                     [](const double s) { return s >= -Limits::outside && s <= 1. + Limits::outside; });
+}
+
+std::optional<FacetCrossing> cross_facet(const FacetCorners &corners, const Tensor<1, 3> &x,
+                                         const Tensor<1, 3> &d) {
+  FacetCrossing crossing{{0.5, 0.5}, 0.};
+  crossing.distance = (point_of_facet(corners, crossing.at) - x) * d;
+  for (unsigned int i = 0; i < Limits::iterations; ++i) {
+    const auto [g_1, g_2] = tangents(corners, crossing.at);
+    Tensor<2, 3> A;
+    for (unsigned int k = 0; k < 3; ++k) {
+      A[k][0] = g_1[k];
+      A[k][1] = g_2[k];
+      A[k][2] = -d[k];
+    }
+    const auto step = solve(A, x + crossing.distance * d - point_of_facet(corners, crossing.at));
+    if (!step || !(std::abs((*step)[0]) + std::abs((*step)[1]) < Limits::diverged))
+      return {};
+    crossing.at[0] += (*step)[0];
+    crossing.at[1] += (*step)[1];
+    crossing.distance += (*step)[2];
+    if (std::abs((*step)[0]) + std::abs((*step)[1]) < Limits::converged)
+      return crossing;
+  }
+  return {};
+}
+
+} // namespace billet

@@ -1,0 +1,599 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/probe_reader.h"
+
+#include "billet/discretization/node_keys.h"
+#include "billet/errors.h"
+#include "billet/output/contact_fields.h"
+#include "billet/output/element_fields.h"
+#include "billet/output/probe_geometry.h"
+
+#include <deal.II/base/geometry_info.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+namespace billet {
+
+using dealii::Tensor;
+using Kind = ProbeQuantity::Kind;
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<double, 2> middle{0.5, 0.5};
+
+/// Material point in an owned element.
+struct MaterialPoint {
+  std::uint64_t number; ///< in the probe
+  std::uint64_t key;    ///< of the element
+  std::size_t element;
+  dealii::Point<3> coordinates;
+};
+
+/// Node of an owned element.
+struct ProbedNode {
+  std::array<DofIndex, 3> dofs;
+  std::uint64_t key;
+  double weight; ///< share of the undeformed faces [length²]
+  Tensor<1, 3> position;
+};
+
+/// Face of an owned element.
+struct ProbedFace {
+  BoundaryFacet facet;
+  std::size_t element;
+  std::array<double, 2> at; ///< where the thickness is measured
+};
+
+std::array<DofIndex, 3> dofs_of(const Element &element, const unsigned int node) {
+  return {element.dofs[std::size_t{3} * node], element.dofs[std::size_t{3} * node + 1],
+          element.dofs[std::size_t{3} * node + 2]};
+}
+
+FacetCorners undeformed_corners(const BoundaryFacet &facet) {
+  FacetCorners corners;
+  for (unsigned int a = 0; a < 4; ++a)
+    corners[a] = facet.corners[a];
+  return corners;
+}
+
+/// Returns the integrals of the shape functions over the undeformed facet [length²].
+std::array<double, 4> corner_areas(const BoundaryFacet &facet) {
+  std::array<double, 4> areas{};
+  for (const auto &point : facet_points()) {
+    const Tensor<1, 3> area =
+        point.area_vector([&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); });
+    for (unsigned int a = 0; a < 4; ++a)
+      areas[a] += point.N[a] * area.norm();
+  }
+  return areas;
+}
+
+/// Returns the components along the axes at an undeformed position.
+Tensor<1, 3> along(const Axes &axes, const Tensor<1, 3> &position, const Tensor<1, 3> &vector) {
+  if (axes.are_global())
+    return vector;
+  const auto directions = axes.at(position);
+  return Tensor<1, 3>({directions[0] * vector, directions[1] * vector, directions[2] * vector});
+}
+
+dealii::SymmetricTensor<2, 3> along(const Axes &axes, const Tensor<1, 3> &position,
+                                    const dealii::SymmetricTensor<2, 3> &tensor) {
+  if (axes.are_global())
+    return tensor;
+  const auto directions = axes.at(position);
+  dealii::SymmetricTensor<2, 3> result;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j)
+      result[i][j] = directions[i] * (tensor * directions[j]);
+  return result;
+}
+
+/// Appends six components.
+void append(const dealii::SymmetricTensor<2, 3> &tensor, std::vector<double> &values) {
+  values.insert(values.end(),
+                {tensor[0][0], tensor[1][1], tensor[2][2], tensor[0][1], tensor[0][2], tensor[1][2]});
+}
+
+/// Appends what a quantity of nodes writes of its vector at this undeformed position.
+void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const Tensor<1, 3> &position,
+            std::vector<double> &values) {
+  if (kind == Kind::contact_pressure) {
+    values.push_back(vector[0]);
+    return;
+  }
+  if (kind == Kind::position) {
+    values.insert(values.end(), {vector[0], vector[1], vector[2]});
+    return;
+  }
+  const Tensor<1, 3> components = along(axes, position, vector);
+  values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
+}
+
+double energy_ratio(const ProbedEnergies &of, const EnergyLedger &energies) {
+  using Numerator = ProbedEnergies::Numerator;
+  using Denominator = ProbedEnergies::Denominator;
+  const double below = of.denominator == Denominator::internal   ? energies.of_elements()
+                       : of.denominator == Denominator::external ? energies.external
+                                                                 : energies.total();
+  if (!(below > 0.))
+    return 0.;
+  switch (of.numerator) {
+  case Numerator::kinetic:
+    return energies.kinetic / below;
+  case Numerator::hourglass:
+    return energies.hourglass / below;
+  case Numerator::contact:
+    return energies.contact / below;
+  case Numerator::friction:
+    return energies.friction / below;
+  case Numerator::plastic:
+    return energies.plastic / below;
+  case Numerator::drift:
+    break;
+  }
+  return energies.drift() / below;
+}
+
+} // namespace
+
+/// A probe with what this rank has of its sites.
+struct ProbeReader::Placed {
+  const parameters::Probe &input;
+  std::size_t body;
+  std::vector<MaterialPoint> points = {};
+  std::vector<ProbedNode> nodes = {};
+  std::vector<ProbedFace> faces = {};
+  std::vector<BoundaryFacet> opposite = {};
+
+  const Probe &probe() const { return input.probe; }
+};
+
+/// State that is read: what several probes need of it is computed once.
+class ProbeReader::State {
+public:
+  /// Collective.
+  State(const Scene &scene, const Solution &solution)
+      : solution_(solution), discretization_(solution.discretization()),
+        summaries_(discretization_.n_bodies()) {
+    const auto &probes = scene.parameters().probes;
+    if (std::any_of(probes.begin(), probes.end(),
+                    [](const parameters::Probe &probe) { return probe.probe.reads(Kind::contact_pressure); }))
+      pressures_ = collect_contact_fields(discretization_, solution)[0];
+    std::set<std::size_t> bodies;
+    for (const parameters::Probe &probe : probes)
+      if (probe.probe.reads(Kind::stress) || probe.probe.reads(Kind::plastic_strain))
+        bodies.insert(scene.parameters().body_index(probe));
+    for (const std::size_t body : bodies)
+      summaries_[body] = solution.summarize(body);
+  }
+
+  const EnergyLedger &energies() const { return solution_.state().energies; }
+
+  Tensor<1, 3> displacement(const std::array<DofIndex, 3> &dofs) const {
+    return get(solution_.state().displacements, dofs);
+  }
+
+  ElementVectors deformed_corners(const Element &element) const {
+    ElementVectors corners = nodal_positions(element.cell);
+    const ElementVectors displacements = gather(solution_.state().displacements, element.dofs);
+    for (unsigned int i = 0; i < n_element_dofs; ++i)
+      corners[i] += displacements[i];
+    return corners;
+  }
+
+  FacetCorners deformed_corners(const BoundaryFacet &facet) const {
+    FacetCorners corners = undeformed_corners(facet);
+    for (unsigned int a = 0; a < 4; ++a)
+      corners[a] += displacement(facet.dofs[a]);
+    return corners;
+  }
+
+  /// Returns the vector of a quantity of nodes; of scalars in its first component.
+  Tensor<1, 3> at_node(const Kind kind, const std::array<DofIndex, 3> &dofs,
+                       const Tensor<1, 3> &position) const {
+    switch (kind) {
+    case Kind::velocity:
+      return get(solution_.state().velocities, dofs);
+    case Kind::position:
+      return position + displacement(dofs);
+    case Kind::contact_pressure:
+      return Tensor<1, 3>({pressures_(dofs[0]), 0., 0.});
+    case Kind::displacement:
+    case Kind::stress:
+    case Kind::strain:
+    case Kind::plastic_strain:
+      break;
+    }
+    return displacement(dofs);
+  }
+
+  /// Appends the values of a quantity of elements, in the axes at an undeformed position.
+  void append_of_element(const Kind kind, const std::size_t body, const std::size_t e, const Axes &axes,
+                         const Tensor<1, 3> &position, std::vector<double> &values) const {
+    if (kind == Kind::strain) {
+      const Element &element = discretization_.elements(body)[e];
+      const auto strain = logarithmic_strain(mean_deformation_gradient(
+          nodal_positions(element.cell), gather(solution_.state().displacements, element.dofs)));
+      append(along(axes, position, strain), values);
+      return;
+    }
+    const ElementSummary &summary = summaries_[body][e];
+    if (kind == Kind::plastic_strain) {
+      values.push_back(summary.equivalent_plastic_strain);
+      return;
+    }
+    append(along(axes, position, summary.cauchy_stress), values);
+    values.push_back(std::sqrt(1.5) * dealii::deviator(summary.cauchy_stress).norm());
+    values.push_back(-dealii::trace(summary.cauchy_stress) / 3.);
+  }
+
+  /// Returns the values of all quantities at a point of an element.
+  std::vector<double> at_point(const Probe &probe, const std::size_t body, const std::size_t e,
+                               const dealii::Point<3> &coordinates) const {
+    const Element &element = discretization_.elements(body)[e];
+    const auto interpolate = [&](const auto &value) {
+      Tensor<1, 3> sum;
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        sum += dealii::GeometryInfo<3>::d_linear_shape_function(coordinates, a) * value(a);
+      return sum;
+    };
+    const Tensor<1, 3> position =
+        interpolate([&](const unsigned int a) { return Tensor<1, 3>(element.cell->vertex(a)); });
+    std::vector<double> values;
+    for (const ProbeQuantity &quantity : probe.quantities) {
+      if (!quantity.is_nodal()) {
+        append_of_element(quantity.kind, body, e, probe.axes, position, values);
+        continue;
+      }
+      const Tensor<1, 3> vector = interpolate([&](const unsigned int a) {
+        return at_node(quantity.kind, dofs_of(element, a), element.cell->vertex(a));
+      });
+      append(quantity.kind, vector, probe.axes, position, values);
+    }
+    return values;
+  }
+
+private:
+  static Tensor<1, 3> get(const Vector &vector, const std::array<DofIndex, 3> &dofs) {
+    return Tensor<1, 3>({vector(dofs[0]), vector(dofs[1]), vector(dofs[2])});
+  }
+
+  const Solution &solution_;
+  const Discretization &discretization_;
+  std::vector<std::vector<ElementSummary>> summaries_; ///< of bodies whose stresses are read
+  Vector pressures_;                                   ///< only if they are read
+};
+
+ProbeReader::ProbeReader(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), discretization_(discretization) {
+  for (const auto &probe : scene.parameters().probes) {
+    probes_.push_back(std::make_unique<Placed>(Placed{probe, scene.parameters().body_index(probe)}));
+    Placed &placed = *probes_.back();
+    const auto *points = std::get_if<ProbedPoints>(&probe.probe.where);
+    if (points != nullptr && points->place != ProbedPoints::Place::space)
+      place_points(placed);
+    if (probe.probe.has_faces())
+      place_faces(placed);
+    if (std::holds_alternative<ProbedThickness>(probe.probe.where))
+      place_thickness(placed);
+  }
+}
+
+ProbeReader::~ProbeReader() = default;
+
+namespace {
+
+/// Returns the bits of a number >= 0, which ascend as numbers do.
+std::uint64_t bits_of(const double number) {
+  std::uint64_t bits = 0;
+  static_assert(sizeof(bits) == sizeof(number));
+  std::memcpy(&bits, &number, sizeof(bits));
+  return bits;
+}
+
+/// Material point that may be read, and which of several is: that of the least rank.
+struct Candidate {
+  MaterialPoint point;
+  std::uint64_t rank; ///< key of the element, or bits of the distance
+};
+
+/// Returns for every point the elements of this rank that have it.
+std::vector<Candidate> find_elements(const std::vector<Element> &elements,
+                                     const std::vector<dealii::Point<3>> &points) {
+  std::vector<Candidate> found;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const Hexahedron hexahedron(nodal_positions(elements[e].cell));
+    const std::uint64_t key = element_key(elements[e].cell);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (const auto coordinates = hexahedron.find(points[p]))
+        found.push_back({{p, key, e, *coordinates}, key});
+  }
+  return found;
+}
+
+/// Returns for every point the nearest nodes of this rank, if they are not further than `max_distance`.
+std::vector<Candidate> find_nodes(const std::vector<Element> &elements,
+                                  const std::vector<dealii::Point<3>> &points, const double max_distance) {
+  std::vector<Candidate> found;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    double least = max_distance;
+    for (const Element &element : elements)
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        least = std::min(least, element.cell->vertex(a).distance(points[p]));
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        if (elements[e].cell->vertex(a).distance(points[p]) <= least)
+          found.push_back(
+              {{p, element_key(elements[e].cell), e, dealii::GeometryInfo<3>::unit_cell_vertex(a)},
+               bits_of(elements[e].cell->vertex(a).distance(points[p]))});
+  }
+  return found;
+}
+
+/// Returns the corners of the bounding box of the undeformed elements of all ranks. Collective.
+std::array<Tensor<1, 3>, 2> bounding_box(const Discretization &discretization, const std::size_t body) {
+  std::array<double, 6> box; // upper ends, and lower ones with another sign
+  box.fill(-std::numeric_limits<double>::max());
+  for (const Element &element : discretization.elements(body)) {
+    const ElementVectors corners = nodal_positions(element.cell);
+    for (unsigned int i = 0; i < n_element_dofs; ++i) {
+      box[i % 3] = std::max(box[i % 3], corners[i]);
+      box[3 + i % 3] = std::max(box[3 + i % 3], -corners[i]);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, box.data(), 6, MPI_DOUBLE, MPI_MAX, discretization.communicator());
+  return {Tensor<1, 3>({-box[3], -box[4], -box[5]}), Tensor<1, 3>({box[0], box[1], box[2]})};
+}
+
+} // namespace
+
+void ProbeReader::place_points(Placed &placed) const {
+  const auto &[points, place] = std::get<ProbedPoints>(placed.probe().where);
+  const auto &elements = discretization_.elements(placed.body);
+  constexpr double near = 0.1; // of the scene's radius
+  const bool takes_nodes = place == ProbedPoints::Place::nearest_node;
+  const std::vector<Candidate> found = takes_nodes
+                                           ? find_nodes(elements, points, near * discretization_.radius())
+                                           : find_elements(elements, points);
+  ProbeRows rows(0);
+  for (const Candidate &candidate : found)
+    rows.add(candidate.point.number, candidate.rank, 1., {});
+  std::unordered_map<std::uint64_t, std::uint64_t> least;
+  for (const auto &row : rows.gather(discretization_.communicator()))
+    least[row.site] = row.owner;
+  const auto [low, high] = bounding_box(discretization_, placed.body);
+  for (std::size_t p = 0; p < points.size(); ++p)
+    if (least.count(p) == 0) {
+      std::ostringstream message;
+      message << placed.input.origin << ": the point (" << points[p] << ") is not in the undeformed body '"
+              << scene_.bodies()[placed.body].name << "', which reaches from (" << low << ") to (" << high
+              << "); allowed "
+              << (takes_nodes ? "is a distance from the nearest node of at most a tenth of the scene's radius"
+                              : "are points of the body, or 'Place = nearest node' or 'space'");
+      throw InputError(message.str());
+    }
+  for (const Candidate &candidate : found)
+    if (least.at(candidate.point.number) == candidate.rank)
+      placed.points.push_back(candidate.point);
+}
+
+void ProbeReader::place_faces(Placed &placed) const {
+  const auto &elements = discretization_.elements(placed.body);
+  std::unordered_map<std::uint64_t, std::size_t> element_of_key;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    element_of_key[element_key(elements[e].cell)] = e;
+  ProbeRows rows(0);
+  std::unordered_map<std::uint64_t, ProbedNode> nodes;
+  const NodeKeys keys(discretization_);
+  for (const BoundaryFacet &facet :
+       collect_boundary_facets(discretization_, placed.body, placed.input.boundary_ids.value)) {
+    placed.faces.push_back(
+        {facet, element_of_key.at(facet.key / dealii::GeometryInfo<3>::faces_per_cell), middle});
+    const std::array<double, 4> areas = corner_areas(facet);
+    for (unsigned int a = 0; a < 4; ++a) {
+      const std::uint64_t key = keys(facet.dofs[a][0]);
+      nodes[key] = {facet.dofs[a], key, 0., facet.corners[a]};
+      rows.add(key, facet.key, areas[a], {});
+    }
+  }
+  for (const auto &row : rows.gather(discretization_.communicator(), ProbeRows::Weights::added)) {
+    const auto node = nodes.find(row.site);
+    if (node == nodes.end())
+      continue;
+    node->second.weight = row.weight;
+    placed.nodes.push_back(node->second);
+  }
+}
+
+void ProbeReader::place_thickness(Placed &placed) const {
+  placed.opposite = collect_boundary_facets(discretization_, placed.body, placed.input.opposite_ids.value);
+  const auto &point = std::get<ProbedThickness>(placed.probe().where).point;
+  if (!point)
+    return;
+  // Of all faces the nearest stays, with its point that is nearest.
+  ProbeRows rows(1);
+  for (ProbedFace &face : placed.faces) {
+    const FacetCorners corners = undeformed_corners(face.facet);
+    if (const auto crossing = cross_facet(corners, *point, normal_of_facet(corners, middle)))
+      for (unsigned int i = 0; i < 2; ++i)
+        face.at[i] = std::clamp(crossing->at[i], 0., 1.);
+    rows.add(face.facet.key, 0, 1., {(point_of_facet(corners, face.at) - *point).norm()});
+  }
+  const auto all = rows.gather(discretization_.communicator());
+  const auto nearest = std::min_element(
+      all.begin(), all.end(), [](const auto &a, const auto &b) { return a.values[0] < b.values[0]; });
+  constexpr double near = 0.1; // of the scene's radius
+  if (nearest == all.end() || nearest->values[0] > near * discretization_.radius()) {
+    std::ostringstream message;
+    message << placed.input.origin << ": the point (" << *point << ") is at a distance of "
+            << (nearest == all.end() ? 0. : nearest->values[0])
+            << " from the faces of 'Boundary ids'; allowed is at most a tenth of the scene's radius, "
+            << near * discretization_.radius();
+    throw InputError(message.str());
+  }
+  const std::uint64_t key = nearest->site;
+  placed.faces.erase(std::remove_if(placed.faces.begin(), placed.faces.end(),
+                                    [key](const ProbedFace &face) { return face.facet.key != key; }),
+                     placed.faces.end());
+}
+
+ProbeRows ProbeReader::read_points(const Placed &placed, const State &state) const {
+  ProbeRows rows(placed.probe().components().size());
+  for (const MaterialPoint &point : placed.points)
+    rows.add(point.number, point.key, 1.,
+             state.at_point(placed.probe(), placed.body, point.element, point.coordinates));
+  return rows;
+}
+
+ProbeRows ProbeReader::read_space(const Placed &placed, const State &state) const {
+  const auto &points = std::get<ProbedPoints>(placed.probe().where).points;
+  const auto &elements = discretization_.elements(placed.body);
+  ProbeRows rows(placed.probe().components().size());
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const Hexahedron hexahedron(state.deformed_corners(elements[e]));
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (const auto coordinates = hexahedron.find(points[p]))
+        rows.add(p, element_key(elements[e].cell), 1.,
+                 state.at_point(placed.probe(), placed.body, e, *coordinates));
+  }
+  return rows;
+}
+
+ProbeRows ProbeReader::read_nodes(const Placed &placed, const State &state) const {
+  ProbeRows rows(placed.probe().components().size());
+  for (const ProbedNode &node : placed.nodes) {
+    std::vector<double> values;
+    for (const ProbeQuantity &quantity : placed.probe().quantities)
+      append(quantity.kind, state.at_node(quantity.kind, node.dofs, node.position), placed.probe().axes,
+             node.position, values);
+    rows.add(node.key, 0, node.weight, values);
+  }
+  return rows;
+}
+
+ProbeRows ProbeReader::read_faces(const Placed &placed, const State &state) const {
+  ProbeRows rows(placed.probe().components().size());
+  for (const ProbedFace &face : placed.faces) {
+    std::vector<double> values;
+    for (const ProbeQuantity &quantity : placed.probe().quantities)
+      state.append_of_element(quantity.kind, placed.body, face.element, placed.probe().axes,
+                              discretization_.elements(placed.body)[face.element].cell->center(), values);
+    rows.add(face.facet.key, 0, face.facet.area_vector().norm(), values);
+  }
+  return rows;
+}
+
+ProbeRows ProbeReader::read_thickness(const Placed &placed, const State &state) const {
+  std::vector<double> own;
+  for (const BoundaryFacet &facet : placed.opposite)
+    for (const Tensor<1, 3> &corner : state.deformed_corners(facet))
+      own.insert(own.end(), {corner[0], corner[1], corner[2]});
+  struct Opposite {
+    FacetCorners corners;
+    Tensor<1, 3> centre;
+    double square; ///< of the radius
+  };
+  constexpr std::size_t n_numbers = 12;
+  std::vector<Opposite> opposite;
+  for (const auto &numbers : dealii::Utilities::MPI::all_gather(discretization_.communicator(), own))
+    for (std::size_t first = 0; first + n_numbers <= numbers.size(); first += n_numbers) {
+      Opposite facet{};
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int i = 0; i < 3; ++i)
+          facet.corners[a][i] = numbers[first + 3 * a + i];
+      facet.centre = point_of_facet(facet.corners, middle);
+      for (const Tensor<1, 3> &corner : facet.corners)
+        facet.square = std::max(facet.square, (corner - facet.centre).norm_square());
+      opposite.push_back(facet);
+    }
+  constexpr double margin = 1.001; // for round-off
+  ProbeRows rows(1);
+  for (const ProbedFace &face : placed.faces) {
+    const FacetCorners corners = state.deformed_corners(face.facet);
+    const Tensor<1, 3> x = point_of_facet(corners, face.at), inward = -normal_of_facet(corners, face.at);
+    double least = nan;
+    for (const Opposite &facet : opposite) {
+      const Tensor<1, 3> to_centre = facet.centre - x;
+      const double along = to_centre * inward;
+      if (to_centre.norm_square() - along * along > margin * facet.square)
+        continue;
+      const auto crossing = cross_facet(facet.corners, x, inward);
+      if (crossing && crossing->is_on_facet() && crossing->distance > 0. &&
+          (std::isnan(least) || crossing->distance < least))
+        least = crossing->distance;
+    }
+    rows.add(face.facet.key, 0, face.facet.area_vector().norm(), {least});
+  }
+  return rows;
+}
+
+ProbeRows ProbeReader::read_travel(const Placed &placed, const State &state) const {
+  const auto &travel = std::get<ProbedTravel>(placed.probe().where);
+  ProbeRows rows(1);
+  for (const ProbedNode &node : placed.nodes)
+    rows.add(node.key, 0, node.weight,
+             {travel.travel(node.position, node.position + state.displacement(node.dofs))});
+  return rows;
+}
+
+ProbeRows ProbeReader::read_rows(const Placed &placed, const State &state) const {
+  const Probe &probe = placed.probe();
+  if (const auto *points = std::get_if<ProbedPoints>(&probe.where))
+    return points->place == ProbedPoints::Place::space ? read_space(placed, state)
+                                                       : read_points(placed, state);
+  if (std::holds_alternative<ProbedThickness>(probe.where))
+    return read_thickness(placed, state);
+  if (std::holds_alternative<ProbedTravel>(probe.where))
+    return read_travel(placed, state);
+  return probe.quantities.front().is_nodal() ? read_nodes(placed, state) : read_faces(placed, state);
+}
+
+std::vector<double> ProbeReader::read(const Placed &placed, const State &state) const {
+  const Probe &probe = placed.probe();
+  if (const auto *energies = std::get_if<ProbedEnergies>(&probe.where))
+    return {energy_ratio(*energies, state.energies())};
+  std::vector<std::vector<double>> values;
+  std::vector<double> weights;
+  // A point in space at which there is nothing has no row.
+  if (const auto *points = std::get_if<ProbedPoints>(&probe.where)) {
+    values.assign(points->points.size(), std::vector<double>(probe.components().size(), nan));
+    weights.assign(points->points.size(), 1.);
+  }
+  for (auto &row : read_rows(placed, state).gather(discretization_.communicator())) {
+    if (std::holds_alternative<ProbedPoints>(probe.where)) {
+      values[row.site] = std::move(row.values);
+      continue;
+    }
+    values.push_back(std::move(row.values));
+    weights.push_back(row.weight);
+  }
+  return evaluate_columns(probe, values, weights);
+}
+
+std::vector<double> ProbeReader::read(const Solution &solution) const {
+  std::vector<double> values;
+  if (empty())
+    return values;
+  const State state(scene_, solution);
+  for (const auto &placed : probes_)
+    for (const double value : read(*placed, state))
+      values.push_back(value);
+  return values;
+}
+
+std::vector<std::string> probe_columns(const Scene &scene) {
+  std::vector<std::string> columns;
+  for (const auto &probe : scene.parameters().probes)
+    for (const std::string &column : probe.probe.columns())
+      columns.push_back(probe.full_name(column));
+  return columns;
+}
+
+} // namespace billet
