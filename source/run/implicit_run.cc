@@ -108,7 +108,7 @@ bool ImplicitRun::step(RunOutput &output) {
     reject_step(from, to, output);
     return false;
   }
-  control_.accept(static_cast<unsigned int>(report_.newton.hardest), problem_.time_error());
+  control_.accept(static_cast<unsigned int>(report_.newton.hardest), problem_.balance().time_error());
   n_failed_ = 0;
   return true;
 }
@@ -164,7 +164,8 @@ void ImplicitRun::control_errors(RunOutput &output) {
   if (errors_) {
     const double factor = errors_->step_factor();
     errors_->add(control_.time(), problem_.state().energies,
-                 carried_energy(scene_.free_directions(), problem_.state().momentum, problem_.mass()));
+                 carried_energy(scene_.free_directions(), problem_.state().momentum,
+                                problem_.equation().scheme().mass()));
     if (errors_->step_factor() < factor)
       control_.limit(errors_->step_factor() * report_.length);
   }
@@ -175,9 +176,9 @@ EnergyWatch::Cause ImplicitRun::find_cause_of_imbalance() const {
          : problem_.has_low_penalties()   ? EnergyWatch::Cause::low_penalties
          : has_inexact_dissipation(scene_, discretization_, problem_)
              ? EnergyWatch::Cause::inexact_dissipation
-         : has_sticking_overlaps(scene_)   ? EnergyWatch::Cause::sticking_overlaps
-         : problem_.contact_makes_energy() ? EnergyWatch::Cause::contact_edges
-                                           : EnergyWatch::Cause::steps;
+         : has_sticking_overlaps(scene_)             ? EnergyWatch::Cause::sticking_overlaps
+         : problem_.balance().contact_makes_energy() ? EnergyWatch::Cause::contact_edges
+                                                     : EnergyWatch::Cause::steps;
 }
 
 void ImplicitRun::check_energies(RunOutput &output) {

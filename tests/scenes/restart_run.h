@@ -94,7 +94,7 @@ public:
           throw SolutionFailure(report.failure);
         continue;
       }
-      control.accept(static_cast<unsigned int>(report.hardest), problem.time_error());
+      control.accept(static_cast<unsigned int>(report.hardest), problem.balance().time_error());
       previous = to - from;
       history.push_back(numbers_of(problem.state()));
     }

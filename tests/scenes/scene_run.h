@@ -38,7 +38,7 @@ public:
       const NewtonReport report = problem.step(to, previous_);
       n_iterations += static_cast<unsigned int>(report.iterations.size());
       if (report.converged) {
-        control.accept(static_cast<unsigned int>(report.hardest), problem.time_error());
+        control.accept(static_cast<unsigned int>(report.hardest), problem.balance().time_error());
         previous_ = to - from;
         return report;
       }

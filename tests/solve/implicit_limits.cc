@@ -267,7 +267,7 @@ void check_motion() {
     parameters.time_stepping.min_step = step; // no other errors count
     SceneRun run(parameters);
     run.problem.step(step, 0.);
-    return std::array<double, 2>{{run.problem.time_error(), run.discretization.radius()}};
+    return std::array<double, 2>{{run.problem.balance().time_error(), run.discretization.radius()}};
   };
   const auto [by_default, radius] = error(0.);
   check("displacements below a millionth of the scene count as that much",

@@ -66,7 +66,7 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   if (is_own)
     load_own(reader, nodes, report.is_exact);
   if (!report.is_exact)
-    balance(report);
+    compute_forces(report);
   rules_->finish_load(reader, release_time, report);
   report.release_end = problem_.released().are_there() ? problem_.released().end() : state.time;
   return report;
@@ -90,7 +90,7 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
   problem_.released().load(reader, nodes, problem_.discretization());
 }
 
-void ImplicitSolution::balance(RestartReport &report) {
+void ImplicitSolution::compute_forces(RestartReport &report) {
   problem_.start_at_rest();
   problem_.released().clear();
   problem_.tools().choose_unknown({});

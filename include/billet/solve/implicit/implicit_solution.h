@@ -66,11 +66,8 @@ public:
   /// false if they already could, or the scheme does without.
   bool take_low_penalties() { return rules_->may_continue_penalties() && continuation_.permit_low(); }
 
-  /// Returns the time error of the last step that was tried, in dynamic scenes; see
-  /// ImplicitMotion::step_error().
-  double time_error() const { return rules_->balance().time_error(); }
-  /// Returns the mass of all bodies, in dynamic scenes.
-  double mass() const { return problem_.scheme().mass(); }
+  /// Returns the time error of the last step that was tried, and where the energies do not balance.
+  const EnergyBalance &balance() const { return rules_->balance(); }
 
   const SolutionState &state() const override { return problem_.state(); }
   const Discretization &discretization() const override { return problem_.discretization(); }
@@ -101,8 +98,6 @@ public:
   const ImplicitProblem &equation() const { return problem_; }
   /// Returns PenaltyWatch::has_low_penalties().
   bool has_low_penalties() const { return books_.has_low_penalties(); }
-  /// Whether contact between bodies causes most of the imbalance of the energies of a dynamic scene.
-  bool contact_makes_energy() const { return rules_->balance().contact_makes_energy(); }
 
   /// Saves the state at the end of the last accepted step.
   void save(StateWriter &writer) const;
@@ -131,7 +126,7 @@ private:
   // Parts of save() and load(), in implicit_solution_state.cc:
   void load_own(StateReader &reader, const OwnedNodes &nodes, bool is_exact);
   /// Computes all forces at the present state: those of supports and tools, and the imbalance.
-  void balance(RestartReport &report);
+  void compute_forces(RestartReport &report);
 
   ImplicitProblem problem_;
   EquilibriumSolver solver_;
