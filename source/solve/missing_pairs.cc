@@ -123,18 +123,18 @@ Corners corners_of(const Element &element, const Vector *displacements) {
 }
 
 /// Position, and whether a pair names it.
-using Probe = std::array<double, 4>;
+using TestedPoint = std::array<double, 4>;
 
-std::vector<Probe> gather(const std::vector<Probe> &own, const MPI_Comm communicator) {
-  std::vector<Probe> all;
+std::vector<TestedPoint> gather(const std::vector<TestedPoint> &own, const MPI_Comm communicator) {
+  std::vector<TestedPoint> all;
   for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
     all.insert(all.end(), of_rank.begin(), of_rank.end());
   return all;
 }
 
-std::vector<Tensor<1, 3>> positions_of(const std::vector<Probe> &probes) {
+std::vector<Tensor<1, 3>> positions_of(const std::vector<TestedPoint> &tested) {
   std::vector<Tensor<1, 3>> positions;
-  for (const auto &x : probes)
+  for (const auto &x : tested)
     positions.emplace_back(Tensor<1, 3>({x[0], x[1], x[2]}));
   return positions;
 }
@@ -275,14 +275,14 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
                     b = other_in_first ? couple.body : couple.other;
   const Named &named_a = couple.named[other_in_first ? 1 : 0],
               &named_b = couple.named[other_in_first ? 0 : 1];
-  std::vector<Probe> own;
+  std::vector<TestedPoint> own;
   for (std::size_t n = 0; n < positions[a].size(); ++n) {
     const Tensor<1, 3> &x = positions[a][n];
     if (contains(boxes[b], x))
       own.push_back({x[0], x[1], x[2], named_a.nodes[n] ? 1. : 0.});
   }
-  const std::vector<Probe> probes = gather(own, communicator);
-  if (probes.empty())
+  const std::vector<TestedPoint> tested = gather(own, communicator);
+  if (tested.empty())
     return {};
 
   std::vector<Corners> elements;
@@ -294,7 +294,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
     if (overlap(box, boxes[a]))
       elements.push_back(corners);
   }
-  const std::vector<Tensor<1, 3>> points = positions_of(probes);
+  const std::vector<Tensor<1, 3>> points = positions_of(tested);
   std::vector<unsigned int> counts = count_elements(elements, points, Limits::rounding);
   dealii::Utilities::MPI::sum(counts, communicator, counts);
   std::vector<Tensor<1, 3>> inside;
@@ -302,7 +302,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
   for (std::size_t p = 0; p < points.size(); ++p)
     if (counts[p] > 0) {
       inside.push_back(points[p]);
-      is_named.push_back(probes[p][3] > 0.);
+      is_named.push_back(tested[p][3] > 0.);
     }
   if (inside.empty())
     return {};
@@ -365,7 +365,7 @@ std::optional<MissingPairs::Deepest> MissingPairs::find_overlap(const Couple &co
 std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple,
                                                             const Vector *displacements) const {
   const MPI_Comm communicator = discretization_.communicator();
-  std::vector<Probe> own; // centres of facets: in a body one element thick no node is within an element
+  std::vector<TestedPoint> own; // centres of facets: in a body one element thick no node is within an element
   for (const BoundaryFacet &facet : facets_[couple.body]) {
     Tensor<1, 3> x;
     for (unsigned int v = 0; v < 4; ++v)
