@@ -3,9 +3,9 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/parameters/number_text.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/missing_end.h"
+#include "billet/parameters/number_text.h"
 #include "billet/parameters/renames.h"
 
 #include <deal.II/base/parameter_handler.h>

@@ -7,8 +7,8 @@
 #include "billet/run/output_folder.h"
 #include "billet/run/run.h"
 
-#include <memory>
 #include <iostream>
+#include <memory>
 
 namespace billet {
 

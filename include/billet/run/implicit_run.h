@@ -51,7 +51,7 @@ private:
   EnergyWatch energies_;
   StepReport report_;
   unsigned int n_failed_ = 0; ///< attempts in a row
-  double continued_ = 0.; ///< length of the last step, if its increment may be continued
+  double continued_ = 0.;     ///< length of the last step, if its increment may be continued
 };
 
 } // namespace billet
