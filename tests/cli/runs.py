@@ -125,7 +125,7 @@ def _() -> None:
 @check("the copy runs and gives the same")
 def _() -> None:
     before, scene = reference.text("history.csv"), reference.text("scene.prm")
-    equal("exit code", run(*program.on(1, f"{reference.folder}/scene.prm")).code, 0)
+    equal("exit code", run(*program.on(1, "--force", f"{reference.folder}/scene.prm")).code, 0)
     equal("history", reference.text("history.csv"), before)
     equal("scene.prm", reference.text("scene.prm"), scene)
 
@@ -675,7 +675,7 @@ for edits, times in (
 @check("no fields")
 def _() -> None:
     files = sorted(os.listdir(billet("Output: Format = none").folder))
-    equal("files", " ".join(files), "capabilities.csv diagnostics.jsonl history.csv scene.prm")
+    equal("files", " ".join(files), "billet.log capabilities.csv diagnostics.jsonl history.csv scene.prm")
 
 
 for ranks in (1, 2):
