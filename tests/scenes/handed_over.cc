@@ -33,8 +33,8 @@ struct Result {
   bool is_half_way, has_same_history;
 };
 
-/// Adds probes of each place to the first body, whose top has the boundary id 5.
-void add_probes(parameters::Scene &parameters) {
+/// Adds probes of each place to the first body, which has this point, and whose top has the boundary id 5.
+void add_probes(parameters::Scene &parameters, const dealii::Point<3> &point) {
   const auto add = [&](const std::string &name, const Probe &probe) {
     parameters::Probe input;
     input.name = name;
@@ -44,7 +44,6 @@ void add_probes(parameters::Scene &parameters) {
     input.opposite_ids.value = {4};
     parameters.probes.push_back(input);
   };
-  const dealii::Point<3> point(1.3, 0.9, -0.1);
   const std::vector<ProbeStatistic> all{ProbeStatistic::least, ProbeStatistic::largest, ProbeStatistic::mean,
                                         ProbeStatistic::sum};
   Probe fixed{ProbedPoints{{point, point + dealii::Point<3>(0., 0., 0.3)}, ProbedPoints::Place::space}};
@@ -103,8 +102,8 @@ int main(int argc, char *argv[]) {
   impact.time_stepping.end_time = 0.02e-3;
   for (parameters::Scene *scene : {&press, &impact})
     scene->output.format = parameters::Output::Format::none;
-  add_probes(press);
-  add_probes(impact);
+  add_probes(press, {1.3, 0.9, 2.9});
+  add_probes(impact, {1.3, 0.9, -0.1});
 
   std::ostringstream console; // of the runs
   std::streambuf *const standard_output = std::cout.rdbuf(console.rdbuf());
