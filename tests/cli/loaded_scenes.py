@@ -70,7 +70,9 @@ def _() -> None:
         near("force on the floor", row["floor.force_z"], t * (lower + middle + upper), tolerance)
         near("force on the lower block", row["middle on lower.force_z"], t * (middle + upper), tolerance)
         near("force on the middle block", row["upper on middle.force_z"], t * upper, tolerance)
-    require(rows[-1]["viscous_dissipation"] < 1e-6 * rows[-1]["elastic_energy"], "viscous forces bear the stack")
+    require(
+        rows[-1]["viscous_dissipation"] < 1e-6 * rows[-1]["elastic_energy"], "viscous forces bear the stack"
+    )
 
 
 A, B, E, NU, YIELD = 10.0, 20.0, 210e3, 0.3, 240.0  # of the cylinder
@@ -119,7 +121,12 @@ def _() -> None:
     near("limit pressure", 200 * last["time"], limit, 1e-2)
     # The walls are thinner by then; with these radii the law holds closer.
     a, b = A + last["bore.displacement_x"], B + last["outside.displacement_x"]
-    near("limit pressure of the widened tube", 200 * last["time"], limit * math.log(b / a) / math.log(B / A), 4e-3)
+    near(
+        "limit pressure of the widened tube",
+        200 * last["time"],
+        limit * math.log(b / a) / math.log(B / A),
+        4e-3,
+    )
 
 
 @check("the ball bounces as Hertz and gravity have it")
@@ -137,9 +144,7 @@ def _() -> None:
     depth = (15 * mass * speed**2 / (16 * math.sqrt(radius) * modulus)) ** 0.4
     near("largest force", max(forces), 4 / 3 * modulus * math.sqrt(radius) * depth**1.5, 0.09)
     near("time of contact", touching[-1] - touching[0], 2.9432 * depth / speed, 0.05)
-    impulse = sum(
-        0.5 * (f0 + f1) * (t1 - t0) for t0, t1, f0, f1 in zip(times, times[1:], forces, forces[1:])
-    )
+    impulse = sum(0.5 * (f0 + f1) * (t1 - t0) for t0, t1, f0, f1 in zip(times, times[1:], forces, forces[1:]))
     momentum = 2 * (rows[-1]["momentum_z"] - rows[0]["momentum_z"])
     near("momentum", impulse - mass * g * (times[-1] - times[0]), momentum, 2e-3)
     rebound = 2 * rows[-1]["momentum_z"] / mass + g * (times[-1] - touching[-1])
