@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: loaded_scenes.py BILLET
 
-Runs the shipped scenes with loads, supports and gravity in an empty current folder, and compares them with closed
-forms and with CalculiX. Each scene has at most 60 lines, and its forces balance.
+Runs the shipped scenes with loads, supports and gravity in an empty current folder, and compares them with
+closed forms and with CalculiX. Each scene has at most 60 lines, and its forces balance.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ A, B, E, NU, YIELD = 10.0, 20.0, 210e3, 0.3, 240.0  # of the cylinder
 
 
 def elastoplastic_radius(pressure: float) -> float:
-    """Returns the radius c up to which the cylinder yields: p = k (1 - c^2/b^2 + 2 ln c/a), k = yield / sqrt 3."""
+    """Returns the radius c up to which it yields: p = k (1 - c^2/b^2 + 2 ln c/a), k = yield / sqrt 3."""
     low, high = A, B
     for _ in range(60):
         c = 0.5 * (low + high)
@@ -97,7 +97,7 @@ def _() -> None:
     near("bore", stop["bore.displacement_x"], factor * ((1 - 2 * NU) * A + B * B / A), 2e-3)
     near("outside", stop["outside.displacement_x"], factor * 2 * (1 - NU) * B, 2e-3)
     equal("plastic work", stop["plastic_work"], 0.0)
-    # In plane strain the law between the radii holds for nu = 0.5; while c stays well inside, nu hardly matters.
+    # In plane strain the law between the radii holds for nu = 0.5; well before the limit nu hardly matters.
     for row in rows:
         if 0.6 < row["time"] < 0.85:
             c = elastoplastic_radius(190 * row["time"])
@@ -139,7 +139,7 @@ def _() -> None:
     speed = math.sqrt(v0 * v0 + 2 * g * gap)  # where it touches
     touching = [t for t, f in zip(times, forces) if f > 0]
     require(abs(touching[0] - (speed - v0) / g) < 3e-5, f"it touches at {touching[0]}")
-    # Hertz (Johnson, Contact Mechanics, 1985, ch. 11): 4/3 E* R^(1/2) d^(5/2) 2/5 = m v^2 / 2, and 2.94 d / v.
+    # Hertz (Johnson, Contact Mechanics, 1985, ch. 11): 8/15 E* R^(1/2) d^(5/2) = m v^2 / 2; 2.94 d / v.
     # Facets are chords of 1 mm for a contact of radius 3 mm.
     depth = (15 * mass * speed**2 / (16 * math.sqrt(radius) * modulus)) ** 0.4
     near("largest force", max(forces), 4 / 3 * modulus * math.sqrt(radius) * depth**1.5, 0.09)
