@@ -101,7 +101,9 @@ void check_free_modes(const ImplicitProblem &problem) {
           ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
           "bodies in contact constrain its rigid-body mode with " +
           print(*motion) +
-          ". A static scene allows no free mode. Add a support, or let the body touch at the start");
+          ". A static scene allows no free mode. Add a support, or let the body touch at the start. If only "
+          "loads, such as its weight, hold it on what it touches, set 'Contact stabilisation = until "
+          "contact'");
 }
 
 std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t body,
