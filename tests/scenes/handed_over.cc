@@ -102,7 +102,7 @@ int main(int argc, char *argv[]) {
   impact.time_stepping.end_time = 0.02e-3;
   for (parameters::Scene *scene : {&press, &impact})
     scene->output.format = parameters::Output::Format::none;
-  add_probes(press, {1.3, 0.9, 2.9});
+  add_probes(press, {1.1, 0.95, 2.95});
   add_probes(impact, {1.3, 0.9, -0.1});
 
   std::ostringstream console; // of the runs
