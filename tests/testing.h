@@ -2,6 +2,8 @@
 #ifndef BILLET_TESTS_TESTING_H
 #define BILLET_TESTS_TESTING_H
 
+#include "checks.h"
+
 #include <deal.II/base/tensor.h>
 
 #include <deal.II/physics/transformations.h>
@@ -16,13 +18,6 @@
 /// t`, so that its .output holds names only, and ends with `return billet::testing::exit_code();`.
 namespace billet::testing {
 
-inline unsigned int &n_failures() {
-  static unsigned int n = 0;
-  return n;
-}
-
-inline int exit_code() { return n_failures() == 0 ? 0 : 1; }
-
 /// An error that is not a number fails.
 inline void check(const std::string &name, const double error, const double tolerance) {
   std::cout << name << ": ";
@@ -32,11 +27,6 @@ inline void check(const std::string &name, const double error, const double tole
     std::cout << "FAILED: error " << error << " > " << tolerance << std::endl;
     ++n_failures();
   }
-}
-
-inline void check(const std::string &name, const bool holds) {
-  std::cout << name << ": " << (holds ? "ok" : "FAILED") << std::endl;
-  n_failures() += holds ? 0 : 1;
 }
 
 /// Whether a is b but for this part of it.

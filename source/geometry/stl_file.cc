@@ -119,8 +119,18 @@ private:
   }
   [[noreturn]] void fail(const std::string &expected) const {
     throw std::invalid_argument("line " + std::to_string(line_) + " of it has " +
-                                (word_.empty() ? "the end of the file" : "'" + word_ + "'") + " where " +
-                                expected + " should be");
+                                (word_.empty() ? "the end of the file" : "'" + printable(word_) + "'") +
+                                " where " + expected + " should be");
+  }
+  /// Returns a word without what a terminal would take for a command, and not longer than a message should
+  /// be.
+  static std::string printable(std::string word) {
+    constexpr std::size_t max_length = 40;
+    if (word.size() > max_length)
+      word = word.substr(0, max_length) + "...";
+    for (char &c : word)
+      c = c >= ' ' && c <= '~' ? c : '?';
+    return word;
   }
 
   const char *next_, *end_;

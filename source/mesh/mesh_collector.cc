@@ -74,7 +74,8 @@ void MeshCollector::check_kinds() const {
     throw std::invalid_argument(
         "it has " + others + " beside " + std::to_string(count(CellKind::hexahedron)) +
         " hexahedra; allowed are hexahedra only. Gmsh divides all elements into hexahedra with "
-        "Mesh.SubdivisionAlgorithm = 2 (All Hexas), set before the mesh is generated");
+        "Mesh.SubdivisionAlgorithm = 2 (All Hexas), set before the mesh is generated; a swept mesh "
+        "(Extrude with Recombine) is more accurate in bending");
   if (count(CellKind::hexahedron) == 0)
     throw std::invalid_argument(
         "it has no hexahedra" +

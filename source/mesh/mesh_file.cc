@@ -46,7 +46,8 @@ MeshFile parse(const std::string &bytes, const FileAccess &access) {
   std::string known;
   for (const MeshFormat &format : mesh_formats())
     known += (known.empty() ? "" : ", ") + format.meaning;
-  throw std::invalid_argument("its content is in none of these formats: " + known);
+  throw std::invalid_argument("its content is in none of these formats: " + known +
+                              "; Gmsh converts many others: 'gmsh -save -format msh41 -o part.msh part.unv'");
 }
 
 /// Returns a text without what a terminal would take for a command, and not longer than a message should be.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The same block of 2 x 1 x 2 in all formats: volume, and areas of faces by the names and numbers of groups.
+#include "mesh_measures.h"
 #include "samples.h"
 
-#include <array>
 #include <map>
 
 using namespace billet;
@@ -10,70 +10,13 @@ using namespace billet::testing;
 
 namespace {
 
-using Position = std::array<double, 3>;
-
-Position cross(const Position &a, const Position &b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Position minus(const Position &a, const Position &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double dot(const Position &a, const Position &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-constexpr unsigned int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                      {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
-/// Returns the volume of parallelepipeds.
-double volume(const MeshFile &mesh) {
-  double sum = 0.;
-  for (const auto &hexahedron : mesh.hexahedra) {
-    const auto edge = [&](const unsigned int corner) {
-      return minus(mesh.positions[hexahedron.nodes[corner]], mesh.positions[hexahedron.nodes[0]]);
-    };
-    sum += dot(cross(edge(1), edge(3)), edge(4));
-  }
-  return sum;
-}
-
-/// Returns the area of all faces with one of these ids.
-double area(const MeshFile &mesh, const BoundaryGroups &groups, const std::vector<unsigned int> &ids) {
-  std::map<BoundaryGroups::Face, unsigned int> n_elements;
-  double sum = 0.;
-  for (const bool adds : {false, true})
-    for (const auto &hexahedron : mesh.hexahedra)
-      for (const auto &face : faces) {
-        BoundaryGroups::Face nodes{};
-        std::array<Position, 4> x{};
-        for (unsigned int i = 0; i < 4; ++i) {
-          nodes[i] = hexahedron.nodes[face[i]];
-          x[i] = mesh.positions[nodes[i]];
-        }
-        std::sort(nodes.begin(), nodes.end());
-        if (!adds)
-          ++n_elements[nodes];
-        else if (n_elements[nodes] == 1 && std::count(ids.begin(), ids.end(), groups.id(nodes)) > 0) {
-          const Position normal = cross(minus(x[2], x[0]), minus(x[3], x[1]));
-          sum += 0.5 * std::sqrt(dot(normal, normal));
-        }
-      }
-  return sum;
-}
-
 bool near(const double a, const double b) { return std::abs(a - b) < 1e-9; }
 
 void check_areas(const std::string &sample, const std::map<std::string, double> &areas) {
   const MeshFile mesh = load(read_text(sample));
   const BoundaryGroups groups(mesh);
   for (const auto &[name, expected] : areas) {
-    const auto &names = groups.names().ids_of_name;
-    const auto &numbers = groups.names().ids_of_number;
-    const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
-    std::vector<unsigned int> ids;
-    if (is_number && numbers.count(static_cast<unsigned int>(std::stoul(name))) > 0)
-      ids = numbers.at(static_cast<unsigned int>(std::stoul(name)));
-    else if (!is_number && names.count(name) > 0)
-      ids = names.at(name);
-    check(sample + " area of " + name, near(area(mesh, groups, ids), expected));
+    check(sample + " area of " + name, near(area(mesh, groups, ids_of(groups, name)), expected));
   }
 }
 

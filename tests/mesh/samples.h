@@ -2,6 +2,8 @@
 #ifndef BILLET_TESTS_SAMPLES_H
 #define BILLET_TESTS_SAMPLES_H
 
+#include "../checks.h"
+
 #include "billet/mesh/boundary_groups.h"
 #include "billet/mesh/mesh_checks.h"
 #include "billet/mesh/mesh_file.h"
@@ -17,19 +19,6 @@
 #include <vector>
 
 namespace billet::testing {
-
-inline unsigned int &n_failures() {
-  static unsigned int n = 0;
-  return n;
-}
-
-/// Prints one line per case, as in testing.h, which needs deal.II.
-inline void check(const std::string &name, const bool holds) {
-  std::cout << name << ": " << (holds ? "ok" : "FAILED") << std::endl;
-  n_failures() += holds ? 0 : 1;
-}
-
-inline int exit_code() { return n_failures() == 0 ? 0 : 1; }
 
 inline const std::vector<std::string> &samples() {
   static const std::vector<std::string> names{
