@@ -100,6 +100,10 @@ struct ContactPair {
   bool is_between_bodies() const { return tool.value.empty(); }
 
   static void declare(dealii::ParameterHandler &prm);
+  /// Declares the parameters beside those of faces and their true surface.
+  static void declare_values(dealii::ParameterHandler &prm);
+  /// Declares those of them that are for pairs of bodies only.
+  static void declare_values_of_bodies(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 
 private:
