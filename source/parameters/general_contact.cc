@@ -209,16 +209,16 @@ void declare_general_contact(dealii::ParameterHandler &prm) {
   prm.leave_subsection();
 }
 
-void add_general_contact(SceneFile &file) {
+std::vector<std::string> add_general_contact(SceneFile &file) {
   if (file.value({}, switch_key, "pairs") != "all")
-    return;
+    return {};
   const std::vector<std::string> keys = keys_of(&ContactPair::declare_values);
   std::vector<SceneFile::Entry> values;
   for (const auto &entry : file.entries())
     if (entry.path == Path{section} && contains(keys, entry.key))
       values.push_back(entry);
 
-  std::vector<std::string> names = file.names_below({pairs_section});
+  std::vector<std::string> names = file.names_below({pairs_section}), added;
   std::vector<Partners> of_scene;
   for (const auto &name : names) {
     of_scene.push_back(partners_of(file, name));
@@ -233,12 +233,14 @@ void add_general_contact(SceneFile &file) {
     for (unsigned int i = 2; contains(names, name); ++i)
       name = base + " " + std::to_string(i);
     names.push_back(name);
+    added.push_back(name);
     const Path path = {pairs_section, name};
     file.add_subsection(path, where);
     file.add_entry(path, "Body", partners.body, where);
     file.add_entry(path, partners.is_with_tool ? "Tool" : "Second body", partners.other, where);
     complete(file, name, values);
   }
+  return added;
 }
 
 void check_general_contact(Reader &reader, const SceneFile &file) {

@@ -338,7 +338,7 @@ void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool name
 Scene Scene::read(const std::string &file_name, const std::string &restart_file,
                   const std::vector<SceneFile::Setting> &settings) {
   SceneFile file = SceneFile::read(file_name, settings);
-  add_general_contact(file);
+  const std::vector<std::string> generated = add_general_contact(file);
   ParameterHandler prm;
   declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
                     [&file](const SceneFile::Path &path) { return file.value(path, "Shape", "plane"); }});
@@ -360,6 +360,8 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
   scene.tools = parse_named<Tool>(reader, "Tools");
   check_general_contact(reader, file);
   scene.pairs = parse_named<ContactPair>(reader, "Contact pairs");
+  for (auto &pair : scene.pairs)
+    pair.is_generated = std::count(generated.begin(), generated.end(), pair.name) > 0;
   scene.probes = parse_named<Probe>(reader, "Probes");
   reader.in("Time stepping", [&] { scene.time_stepping.parse(reader); });
   reader.in("Explicit dynamics", [&] { scene.explicit_dynamics.parse(reader); });

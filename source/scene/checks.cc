@@ -241,7 +241,10 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
               << " facet sizes) in tool '" << tool.name() << "', deepest at " << print(where)
               << "; allowed are " << allowed.value
               << " facet sizes ('Allowed initial penetration'). Check whether the tool's normal points "
-                 "towards the body";
+                 "towards the body"
+              << (pair.input->is_generated ? ", or exclude '" + bodies_[pair.body].name + " : " +
+                                                 tool.name() + "' in 'General contact'"
+                                           : "");
       throw InputError(message.str());
     }
   }

@@ -54,7 +54,7 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     added.name = pair.name;
     added.bodies = bodies;
     added.tool = tool;
-    added.is_self_contact = is_self_contact;
+    added.may_stay_open = is_self_contact || pair.input->is_generated;
     added.is_augmented = pair.is_augmented();
     added.is_softer_tangentially = pair.tangential_penalty < pair.normal_penalty;
     pairs_.push_back(added);
@@ -246,7 +246,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
         pair.tool != none && std::none_of(pairs_.begin(), pairs_.end(), [&](const Pair &other) {
           return other.tool == pair.tool && other.has_touched;
         });
-    if (!pair.has_touched && !pair.is_self_contact && !has_idle_tool)
+    if (!pair.has_touched && !pair.may_stay_open && !has_idle_tool)
       diagnostics.push_back(
           Diagnostic(diagnostic::pair_never_touched, "The pair has no contact in the whole run")
               .pair(pair.name));

@@ -63,6 +63,7 @@ struct ContactPair {
 
   std::string name;
   std::string origin;
+  bool is_generated = false; ///< by 'Contact = all'
   Located<std::string> body;
   BoundaryIds boundary_ids;
   Located<std::string> tool;        ///< empty for a pair of two bodies
