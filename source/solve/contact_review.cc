@@ -196,6 +196,10 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
     if (!(part > notable_softness))
       continue;
     std::string names;
+    std::size_t first = none;
+    for (const std::size_t pair : paths_[i].pairs)
+      if (pairs_[pair].has_touched)
+        first = std::min(first, pair);
     for (const std::size_t pair : paths_[i].pairs)
       if (pairs_[pair].has_touched)
         names += (names.empty() ? "'" : ", '") + pairs_[pair].name + "'";
@@ -211,7 +215,7 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
               "given loads "
            << 1. / (1. - part) << " times too large";
     Diagnostic message(diagnostic::contact_too_soft, text.str());
-    message.pair(pairs_[paths_[i].pairs.front()].name).measure("part", part);
+    message.pair(pairs_[first != none ? first : paths_[i].pairs.front()].name).measure("part", part);
     if (part <= all)
       message.value("factor", 1. / (1. - part));
     diagnostics.push_back(message);
