@@ -52,7 +52,7 @@ std::vector<Exclusion> parse_exclusions(const std::string &text, std::vector<std
     if (part.empty())
       continue;
     const auto names = dealii::Utilities::split_string_list(part, ':');
-    if (names.size() > 2 || std::count(names.begin(), names.end(), "") > 0)
+    if (names.size() > 2 || part.back() == ':' || std::count(names.begin(), names.end(), "") > 0)
       faulty.push_back(part);
     else
       exclusions.push_back({names[0], names.size() > 1 ? names[1] : ""});
