@@ -71,7 +71,7 @@ def same_history(ran: Run, expected: Run, tolerance: float = 1e-8) -> None:
     for name in expected.history:
         found, wanted = ran.column(name), expected.column(name)
         equal(f"the number of lines of {name}", len(found), len(wanted))
-        size = max([0.0, *map(abs, wanted)])
+        size = max(abs(number) for number in wanted)
         for one, other in zip(found, wanted):
             require(abs(one - other) <= tolerance * size, f"{name} is {one}, not {other}")
 
