@@ -144,7 +144,7 @@ void complete(SceneFile &file, const std::string &pair, const std::vector<SceneF
   for (const auto &entry : values) {
     const std::vector<std::string> group = group_of(entry.key);
     const bool is_of_no_use = (partners.is_with_tool && contains(of_bodies, entry.key)) ||
-                              (partners.is_with_itself() && entry.key == "Passes");
+                              (partners.is_with_itself() && entry.key == "Passes" && entry.value == "one");
     if (!is_of_no_use && std::none_of(group.begin(), group.end(),
                                       [&](const std::string &key) { return file.is_set(path, key); }))
       taken.push_back(entry);

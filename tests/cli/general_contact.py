@@ -118,6 +118,15 @@ def _() -> None:
     same_history(billet(BLOCK, STATIC.replace(SIDES, "Boundary ids = all")), billet(BLOCK, STATIC))
 
 
+@check("faces of a mesh file, in groups")
+def _() -> None:
+    mesh = (
+        "Mesh: - Primitive & Mesh: - Arguments & Mesh: - Boundary ids & Mesh: Source = file"
+        " & Mesh: File = named.msh & floor: Boundary ids = bottom & "
+    )
+    same_history(billet(BLOCK, mesh + NO_PAIRS + general(*VALUES)), billet(BLOCK, mesh + STATIC))
+
+
 @check("--check names all pairs")
 def _() -> None:
     found = described(BOLT, NO_PAIRS + general("Exclusions = bolt : press"))
