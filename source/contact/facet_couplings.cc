@@ -14,16 +14,20 @@ std::vector<unsigned int> FacetCouplings::facets_of(const std::size_t s) const {
   const SlaveState &state = parts_.touching[s];
   std::vector<unsigned int> facets;
   const auto add = [&](const unsigned int f) { facets.push_back(f); };
-  search.visit_candidates(s, add);
   if (parts_.overlaps)
-    search.visit_around(parts_.slaves.node(s),
-                        [&](const unsigned int own) { parts_.overlaps->pairs().visit_candidates(own, add); });
-  else if (state.presses()) { // where it may slide next
-    add(state.touched.facet);
-    search.visit_ring(state.touched.facet, add);
+    search.visit_around(parts_.slaves.node(s), [&](const unsigned int own) {
+      parts_.overlaps->pairs().visit_facing(search, parts_.surfaces.positions_n(), own, add);
+    });
+  else {
+    search.visit_candidates(s, add);
+    if (state.presses()) { // where it may slide next
+      add(state.touched.facet);
+      search.visit_ring(state.touched.facet, add);
+    }
+  }
+  if (state.presses())
     for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
       add(parts_.touching.shares()[i].facet);
-  }
   return facets;
 }
 

@@ -20,7 +20,31 @@ double facing_part(const Tensor<1, 3> &area_vector, const Tensor<1, 3> &other) {
   return z * z * (3. - 2. * z);
 }
 
+/// How two facets lie to each other at the start of a step.
+struct StartOfPair {
+  double within_step, at_start; ///< limits of penetration [length]
+  bool was_behind;
+  double facing; ///< from 0 to 1
+
+  StartOfPair(const SurfaceFacet &slave, const SurfaceFacet &target,
+              const FacetSearch::Positions &positions_n) {
+    const facet::Expansion slave_n = corners_of(slave, positions_n),
+                           target_n = corners_of(target, positions_n);
+    const Tensor<1, 3> area_vector = target_n.mean_area_vector();
+    within_step = FacetOverlaps::penetration * target.reach;
+    at_start = 0.5 * std::min(within_step, target.wall);
+    was_behind = (slave_n.e_0 - target_n.e_0) * area_vector < -at_start * area_vector.norm();
+    facing = facing_part(slave_n.mean_area_vector(), area_vector);
+  }
+};
+
 } // namespace
+
+bool FacetOverlaps::is_facing(const SurfaceFacet &slave, const SurfaceFacet &target,
+                              const Positions &positions_n) {
+  const StartOfPair start(slave, target, positions_n);
+  return start.facing > 0. && !start.was_behind;
+}
 
 void FacetOverlaps::rebuild(const FacetSearch &search, const Positions &positions_n,
                             const Positions &positions, const double margin, const bool with_self,
@@ -81,14 +105,8 @@ void FacetOverlaps::update(const FacetSearch &search, const Positions &positions
                                 raise = corners_of(facets[f], augmentation);
     for (std::size_t i = first_candidate_[f]; i < first_candidate_[f + 1]; ++i) {
       const unsigned int target = candidates_[i];
-      const facet::Expansion slave_n = corners_of(facets[f], positions_n),
-                             target_n = corners_of(facets[target], positions_n);
-      const Tensor<1, 3> area_vector = target_n.mean_area_vector();
-      const double within_step = penetration * facets[target].reach,
-                   at_start = 0.5 * std::min(within_step, facets[target].wall);
-      const bool was_behind = (slave_n.e_0 - target_n.e_0) * area_vector < -at_start * area_vector.norm();
-      const double facing = facing_part(slave_n.mean_area_vector(), area_vector);
-      const double limit = facing * (was_behind ? at_start : within_step);
+      const StartOfPair start(facets[f], facets[target], positions_n);
+      const double limit = start.facing * (start.was_behind ? start.at_start : start.within_step);
       if (!(limit > 0.))
         continue;
       const auto overlap = compute_overlap(slave, corners_of(facets[target], positions), limit, gap_offset,

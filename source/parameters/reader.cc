@@ -37,8 +37,17 @@ void Reader::leave() {
   path_.pop_back();
 }
 
+/// Notes errors that are not noted yet: subsections that take the same value repeat its error.
+void Reader::note(const DiagnosticList &errors) {
+  for (const Diagnostic &error : errors)
+    if (std::none_of(errors_.begin(), errors_.end(),
+                     [&](const Diagnostic &noted) { return noted.text() == error.text(); }))
+      errors_.push_back(error);
+}
+
 std::string Reader::origin(const std::string &key) const {
-  return file_.where(path_, key) + ": '" + key + "'" + (path_.empty() ? "" : " in '" + join(path_) + "'");
+  const SceneFile::Path &path = file_.written_path(path_, key);
+  return file_.where(path_, key) + ": '" + key + "'" + (path.empty() ? "" : " in '" + join(path) + "'");
 }
 
 std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }

@@ -5,6 +5,7 @@
 #include "billet/geometry/surface_type.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/declaration.h"
+#include "billet/parameters/general_contact.h"
 #include "billet/parameters/scene_update.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -62,6 +63,7 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
       shapes.emplace_back(part, outline.shape({"Tools", name, "Surfaces", part}));
     Tool::declare(prm, shapes);
   });
+  declare_general_contact(prm);
   declare_named(prm, "Contact pairs", names_below({"Contact pairs"}),
                 [&](const std::string &) { ContactPair::declare(prm); });
   declare_named(prm, "Probes", names_below({"Probes"}), [&](const std::string &) { Probe::declare(prm); });
@@ -276,9 +278,9 @@ private:
       refuse_entry(path, entry->key);
   }
   [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
-    throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + " is '" +
-                     file_.value(path, key, "") + "'; allowed is no value: 'Scheme' in 'Time stepping' is " +
-                     name_of_scheme());
+    throw InputError(file_.where(path, key) + ": '" + key + "'" + in(file_.written_path(path, key)) +
+                     " is '" + file_.value(path, key, "") +
+                     "'; allowed is no value: 'Scheme' in 'Time stepping' is " + name_of_scheme());
   }
   const std::string &name_of_scheme() const { return name_of(scene_.time_stepping.scheme); }
   static std::string in(const SceneFile::Path &path) {
@@ -314,7 +316,8 @@ std::size_t Scene::body_index(const Probe &probe) const {
 
 void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool names_are_known) {
   const auto is_known = [&](const ContactPair &pair) {
-    return names_are_known || (pair.boundary_ids.names.empty() && pair.second_boundary_ids.names.empty());
+    const auto has_ids = [](const BoundaryIds &ids) { return ids.names.empty() && !ids.are_all; };
+    return names_are_known || (has_ids(pair.boundary_ids) && has_ids(pair.second_boundary_ids));
   };
   for (auto second = pairs.begin(); second != pairs.end(); ++second)
     for (auto first = pairs.begin(); first != second; ++first) {
@@ -334,7 +337,8 @@ void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool name
 
 Scene Scene::read(const std::string &file_name, const std::string &restart_file,
                   const std::vector<SceneFile::Setting> &settings) {
-  const SceneFile file = SceneFile::read(file_name, settings);
+  SceneFile file = SceneFile::read(file_name, settings);
+  const std::vector<std::string> generated = add_general_contact(file);
   ParameterHandler prm;
   declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
                     [&file](const SceneFile::Path &path) { return file.value(path, "Shape", "plane"); }});
@@ -354,7 +358,10 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
   scene.amplitudes = parse_named<Amplitude>(reader, "Amplitudes");
   scene.bodies = parse_named<Body>(reader, "Bodies");
   scene.tools = parse_named<Tool>(reader, "Tools");
+  check_general_contact(reader, file);
   scene.pairs = parse_named<ContactPair>(reader, "Contact pairs");
+  for (auto &pair : scene.pairs)
+    pair.is_generated = std::count(generated.begin(), generated.end(), pair.name) > 0;
   scene.probes = parse_named<Probe>(reader, "Probes");
   reader.in("Time stepping", [&] { scene.time_stepping.parse(reader); });
   reader.in("Explicit dynamics", [&] { scene.explicit_dynamics.parse(reader); });

@@ -324,6 +324,29 @@ std::string SceneFile::value(const Path &path, const std::string &key, const std
   return entry != nullptr ? entry->value : otherwise;
 }
 
+void SceneFile::add_subsection(const Path &path, const std::string &where) {
+  subsections_.push_back({path, where});
+}
+
+void SceneFile::add_entry(const Path &path, const std::string &key, const std::string &value,
+                          const std::string &where) {
+  entries_.push_back({path, key, value, where, key, value, 0, false, {}, folder_of(file_name_)});
+}
+
+void SceneFile::copy_entry(const Entry &entry, const Path &path) {
+  Entry copy = entry;
+  copy.path = path;
+  copy.written_key = copy.key; // the entry itself warns of old names
+  copy.written_value = copy.value;
+  copy.source = entry.path;
+  entries_.push_back(std::move(copy));
+}
+
+const SceneFile::Path &SceneFile::written_path(const Path &path, const std::string &key) const {
+  const Entry *entry = find(path, key);
+  return entry == nullptr || entry->source.empty() ? path : entry->source;
+}
+
 bool SceneFile::is_set(const Path &path, const std::string &key) const { return find(path, key) != nullptr; }
 
 std::string SceneFile::where(const Path &path) const {
@@ -470,6 +493,8 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
       continue;
     }
     const auto [is_declared, wrong_value] = try_to_set(prm, entry);
+    if (!entry.source.empty()) // what is wrong with it is told of the entry that it copies
+      continue;
     const std::string place = entry.path.empty() ? "" : " in '" + join(entry.path) + "'";
     if (!is_declared && has_unknown_shape(entry.path))
       continue; // the shape decides which parameters there are

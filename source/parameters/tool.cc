@@ -196,15 +196,24 @@ void ContactPair::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Boundary ids", "", Patterns::Anything(),
       "Boundary ids or names of the body's faces that may touch the tool or the second body, separated by "
-      "commas.");
+      "commas; or all: all exterior faces, except those on symmetry planes.");
   prm.declare_entry("Tool", "", Patterns::Anything(),
                     "Name of the tool; a pair has a tool or a second body.");
   prm.declare_entry("Second body", "", Patterns::Anything(),
                     "Name of another body, or of the same body for self-contact.");
+  prm.declare_entry("Second boundary ids", "", Patterns::Anything(),
+                    "Boundary ids or names of the second body's faces, or all. Empty, where it is the same "
+                    "body: the faces of "
+                    "'Boundary ids' among themselves.");
+  declare_values(prm);
   prm.declare_entry(
-      "Second boundary ids", "", Patterns::Anything(),
-      "Boundary ids or names of the second body's faces. Empty, where it is the same body: the faces of "
-      "'Boundary ids' among themselves.");
+      "Surface correction", "none", Patterns::Anything(),
+      "True surface of the faces of two bodies: none; 'cylinder : x, y, z ; a, b, c', a point and the "
+      "direction of the axis, also of cones; or 'sphere : x, y, z', the centre. The nodes of both faces lie "
+      "on it, and gaps are those of the true surfaces instead of the chords of facets.");
+}
+
+void ContactPair::declare_values_of_bodies(ParameterHandler &prm) {
   prm.declare_entry(
       "Facets", "automatic", Patterns::Selection(selection(facet_methods())),
       "Contact formulation of pairs of bodies. planed: planed contact element without iterations "
@@ -233,6 +242,10 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Reference stiffness", "automatic", Patterns::Selection(selection(reference_stiffnesses)),
       "Pairs of bodies, penalty as a factor: E/h for this factor. stiffer: that of the stiffer body; series: "
       "both in series; automatic: stiffer in explicit scenes, series in implicit ones.");
+}
+
+void ContactPair::declare_values(ParameterHandler &prm) {
+  declare_values_of_bodies(prm);
   declare_selection(prm, "Friction law", "Coulomb", friction_law_types(),
                     "Shear stress at which nodes slide under a pressure p.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection(selection(penalty_units)),
@@ -266,11 +279,6 @@ void ContactPair::declare(ParameterHandler &prm) {
       "Initial gap", "open", Patterns::Anything(),
       "open; or 'close within D', D > 0: faces with an initial gap of up to D are in contact without stress, "
       "and gaps count from there. For assemblies with small clearances. [length]");
-  prm.declare_entry(
-      "Surface correction", "none", Patterns::Anything(),
-      "True surface of the faces of two bodies: none; 'cylinder : x, y, z ; a, b, c', a point and the "
-      "direction of the axis, also of cones; or 'sphere : x, y, z', the centre. The nodes of both faces lie "
-      "on it, and gaps are those of the true surfaces instead of the chords of facets.");
 }
 
 namespace {
@@ -282,6 +290,18 @@ FrictionPointer read_friction(const Reader &reader) {
   join_parameters(friction_law_types())
       .reject_unused(reader, type->parameters, "'" + type->name + "' friction does not use it");
   return type->make(reader);
+}
+
+/// Returns ids and names of boundaries, or 'all'.
+BoundaryIds read_boundaries(const Reader &reader, const std::string &key) {
+  BoundaryIds boundaries = reader.boundaries(key);
+  auto &names = boundaries.names;
+  boundaries.are_all = std::find(names.begin(), names.end(), "all") != names.end();
+  if (boundaries.are_all && names.size() + boundaries.value.size() > 1)
+    reader.reject(key, "'all' alone, or ids and names");
+  if (boundaries.are_all)
+    names.clear();
+  return boundaries;
 }
 
 void refuse_twice(const Reader &reader, const std::string &key, const BoundaryIds &boundaries) {
@@ -315,7 +335,7 @@ void ContactPair::parse(Reader &reader) {
   origin = reader.origin();
   body = reader.located("Body", reader.text("Body"));
   parse_bodies(reader);
-  boundary_ids = reader.boundaries("Boundary ids");
+  boundary_ids = read_boundaries(reader, "Boundary ids");
   if (boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
   refuse_twice(reader, "Boundary ids", boundary_ids);
@@ -398,7 +418,7 @@ void ContactPair::parse_bodies(Reader &reader) {
   if (tool.value.empty() == second_body.value.empty())
     reader.reject(tool.value.empty() ? "Tool" : "Second body",
                   "either a 'Tool' or a 'Second body' for each pair");
-  second_boundary_ids = reader.boundaries("Second boundary ids");
+  second_boundary_ids = read_boundaries(reader, "Second boundary ids");
   refuse_twice(reader, "Second boundary ids", second_boundary_ids);
   if (!is_between_bodies())
     for (const std::string key : {"Second boundary ids", "Facets", "Passes", "Edge contact",

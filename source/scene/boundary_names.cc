@@ -6,7 +6,10 @@
 #include "billet/nearest_name.h"
 #include "billet/scene/mesh_builder.h"
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace billet {
 
@@ -97,6 +100,45 @@ BoundaryNames read_boundary_names(parameters::Mesh &mesh) {
   return names;
 }
 
+/// Returns all boundary ids that the body's faces can have, except those of which all faces are on its
+/// symmetry planes. Faces of the full mesh descend from those of its outline, and may get ids by conditions.
+std::vector<unsigned int> exterior_ids(const parameters::Body &body) {
+  parameters::Body before_conditions = body;
+  for (auto &renamed : before_conditions.mesh.boundary_ids.value)
+    renamed.second = "0";
+  dealii::Triangulation<3> outline;
+  build_body_mesh(before_conditions, MeshDetail::outline, outline);
+  const double size = dealii::GridTools::diameter(outline);
+  std::vector<unsigned int> ids;
+  for (const auto &face : outline.active_face_iterators()) {
+    if (!face->at_boundary())
+      continue;
+    const auto &planes = body.symmetry_planes.value;
+    const bool is_on_plane =
+        std::any_of(planes.begin(), planes.end(), [&](const parameters::SymmetryPlane &plane) {
+          constexpr double rounding = 1e-8;
+          const auto vertices = face->vertex_indices();
+          return std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
+            return std::abs(face->vertex(v) * plane.normal - plane.offset) <= rounding * size;
+          });
+        });
+    if (!is_on_plane)
+      add_once(ids, face->boundary_id());
+  }
+  for (const auto &renamed : body.mesh.boundary_ids.value)
+    add_once(ids, renamed.first);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// Chooses the ids of all exterior faces where the scene asks for these, otherwise those of names.
+void resolve_of_pair(BoundaryIds &boundaries, const BoundaryNames &known, const parameters::Body &body) {
+  if (boundaries.are_all)
+    boundaries.value = exterior_ids(body);
+  else
+    resolve(boundaries, known, body.name);
+}
+
 } // namespace
 
 unsigned int least_new_id(const parameters::Mesh &mesh) {
@@ -118,11 +160,11 @@ parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<Bounda
   }
   for (auto &pair : scene.pairs) {
     const std::size_t body = scene.body_index(pair);
-    resolve(pair.boundary_ids, names[body], scene.bodies[body].name);
+    resolve_of_pair(pair.boundary_ids, names[body], scene.bodies[body]);
     if (!pair.is_between_bodies())
       continue;
     const std::size_t second = scene.second_body_index(pair);
-    resolve(pair.second_boundary_ids, names[second], scene.bodies[second].name);
+    resolve_of_pair(pair.second_boundary_ids, names[second], scene.bodies[second]);
   }
   for (auto &probe : scene.probes) {
     const std::size_t body = scene.body_index(probe);
@@ -131,7 +173,8 @@ parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<Bounda
   }
   // Ids of pairs without names and groups have been compared when the scene was read.
   const bool has_names = std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const auto &pair) {
-    return !pair.boundary_ids.names.empty() || !pair.second_boundary_ids.names.empty();
+    return !pair.boundary_ids.names.empty() || !pair.second_boundary_ids.names.empty() ||
+           pair.boundary_ids.are_all || pair.second_boundary_ids.are_all;
   });
   const bool has_groups = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
     return body.mesh.source == parameters::Mesh::Source::file;

@@ -38,6 +38,8 @@ template <class Function> void for_each_boundary_face(const Triangulation<3> &me
 }
 
 void check_ids(const BoundaryIds &asked, const std::set<unsigned int> &present, const Body &body) {
+  if (asked.are_all) // ids of conditions may be without faces
+    return;
   for (const unsigned int id : asked.value)
     if (present.count(id) == 0) {
       std::string allowed;
@@ -239,7 +241,10 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
               << " facet sizes) in tool '" << tool.name() << "', deepest at " << print(where)
               << "; allowed are " << allowed.value
               << " facet sizes ('Allowed initial penetration'). Check whether the tool's normal points "
-                 "towards the body";
+                 "towards the body"
+              << (pair.input->is_generated ? ", or exclude '" + bodies_[pair.body].name + " : " +
+                                                 tool.name() + "' in 'General contact'"
+                                           : "");
       throw InputError(message.str());
     }
   }

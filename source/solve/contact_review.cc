@@ -54,7 +54,7 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
     added.name = pair.name;
     added.bodies = bodies;
     added.tool = tool;
-    added.is_self_contact = is_self_contact;
+    added.may_stay_open = is_self_contact || pair.input->is_generated;
     added.is_augmented = pair.is_augmented();
     added.is_softer_tangentially = pair.tangential_penalty < pair.normal_penalty;
     pairs_.push_back(added);
@@ -196,6 +196,10 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
     if (!(part > notable_softness))
       continue;
     std::string names;
+    std::size_t first = none;
+    for (const std::size_t pair : paths_[i].pairs)
+      if (pairs_[pair].has_touched)
+        first = std::min(first, pair);
     for (const std::size_t pair : paths_[i].pairs)
       if (pairs_[pair].has_touched)
         names += (names.empty() ? "'" : ", '") + pairs_[pair].name + "'";
@@ -211,7 +215,7 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
               "given loads "
            << 1. / (1. - part) << " times too large";
     Diagnostic message(diagnostic::contact_too_soft, text.str());
-    message.pair(pairs_[paths_[i].pairs.front()].name).measure("part", part);
+    message.pair(pairs_[first != none ? first : paths_[i].pairs.front()].name).measure("part", part);
     if (part <= all)
       message.value("factor", 1. / (1. - part));
     diagnostics.push_back(message);
@@ -246,7 +250,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
         pair.tool != none && std::none_of(pairs_.begin(), pairs_.end(), [&](const Pair &other) {
           return other.tool == pair.tool && other.has_touched;
         });
-    if (!pair.has_touched && !pair.is_self_contact && !has_idle_tool)
+    if (!pair.has_touched && !pair.may_stay_open && !has_idle_tool)
       diagnostics.push_back(
           Diagnostic(diagnostic::pair_never_touched, "The pair has no contact in the whole run")
               .pair(pair.name));

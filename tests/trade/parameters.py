@@ -124,6 +124,16 @@ class TestParameters(unittest.TestCase):
             parameters.make_penalty(shipped("ironing"), "3"), {"Contact pairs/face/Normal penalty": "30"}
         )
 
+    def test_contact_of_everything(self) -> None:
+        scene = shipped("ironing").changed(
+            {"Contact": "all", "General contact/Normal penalty": 5, "Contact pairs/face/Normal penalty": None}
+        )
+        self.assertEqual(
+            parameters.make_penalty(scene, "3"),
+            {"Contact pairs/face/Normal penalty": "15", "General contact/Normal penalty": "15"},
+        )
+        self.assertIn("General contact/", parameters.pairs(scene, True))
+
     def test_only_what_a_scene_can_use(self) -> None:
         cannot = {
             "billet_upsetting": ["facets", "safety factor", "mass", "error tolerance"],

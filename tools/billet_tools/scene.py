@@ -167,7 +167,27 @@ class Scene:
 
     def get(self, path: str) -> str:
         """Returns the value that holds."""
-        return self.entries.get(path, self.presets.get(path, self.default(path)))
+        first, *_, key = path.split("/")
+        inherited = self._of_all.get(key) if first == "Contact pairs" and self.has_general_contact else None
+        otherwise = self.presets.get(path, self.default(path)) if inherited is None else inherited
+        return self.entries.get(path, otherwise)
+
+    @property
+    def has_general_contact(self) -> bool:
+        """Whether everything touches everything."""
+        return self.entries.get("Contact") == "all"
+
+    @property
+    def _of_all(self) -> dict[str, str]:
+        """Values of 'General contact', which pairs take."""
+        parts = {tuple(path.split("/")): value for path, value in self.entries.items()}
+        return {path[1]: value for path, value in parts.items() if path[0] == "General contact"}
+
+    @property
+    def pairs(self) -> list[str]:
+        """Beginnings of the paths of contact pairs; of all that 'Contact = all' makes there is one."""
+        named = [f"Contact pairs/{name}/" for name in self.names("Contact pairs")]
+        return named + (["General contact/"] if self.has_general_contact else [])
 
     def number(self, path: str) -> float:
         """Returns the number that holds, 0 without one."""

@@ -40,13 +40,19 @@ public:
     for (std::size_t i = first_[slave]; i < first_[slave + 1]; ++i)
       visit(overlaps_[i]);
   }
-  /// Calls visit(facet) for all facets that may overlap a slave facet.
-  template <class Visit> void visit_candidates(const unsigned int slave, const Visit &visit) const {
+  /// Calls visit(facet) for all facets near a slave facet which it faces and is not behind at the start of
+  /// the step. Others rarely overlap it: the sides of a box, and both faces of a wall, are near each other.
+  template <class Visit>
+  void visit_facing(const FacetSearch &search, const Positions &positions_n, const unsigned int slave,
+                    const Visit &visit) const {
     for (std::size_t i = first_candidate_[slave]; i < first_candidate_[slave + 1]; ++i)
-      visit(candidates_[i]);
+      if (is_facing(search.facets()[slave], search.facets()[candidates_[i]], positions_n))
+        visit(candidates_[i]);
   }
 
 private:
+  static bool is_facing(const SurfaceFacet &slave, const SurfaceFacet &target, const Positions &positions_n);
+
   std::vector<std::size_t> first_candidate_, first_; ///< by slave facet
   std::vector<unsigned int> candidates_;             ///< targets
   std::vector<Overlap> overlaps_;

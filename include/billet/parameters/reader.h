@@ -27,9 +27,10 @@ struct BoundaryIds : Located<std::vector<unsigned int>> {
   BoundaryIds(Located<std::vector<unsigned int>> ids) : Located(std::move(ids)) {}
 
   std::vector<std::string> names; ///< as the scene file has them
+  bool are_all = false;           ///< all exterior faces, except those on symmetry planes
 
   /// Whether the scene file has neither ids nor names.
-  bool is_empty() const { return value.empty() && names.empty(); }
+  bool is_empty() const { return value.empty() && names.empty() && !are_all; }
 };
 
 /// Range of input numbers. Powers and products of numbers outside it may leave the range of double.
@@ -73,7 +74,7 @@ public:
     try {
       read();
     } catch (const InputError &error) {
-      append(errors_, error.diagnostics());
+      note(error.diagnostics());
     }
   }
   /// Throws InputError with all errors noted so far.
@@ -117,6 +118,7 @@ public:
 private:
   void enter(const std::string &name);
   void leave();
+  void note(const DiagnosticList &errors);
 
   dealii::ParameterHandler &prm_;
   const SceneFile &file_;

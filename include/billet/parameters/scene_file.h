@@ -35,6 +35,7 @@ public:
     /// empty for the command line.
     std::vector<unsigned int> files;
     std::string folder; ///< of its file, with a final slash unless it is empty
+    Path source{};      ///< subsection of the entry that this one copies; empty if it is none
 
     bool has_old_name() const { return key != written_key || value != written_value; }
     /// Whether this entry overrides the other one: that is in a file which the file of this one includes.
@@ -79,6 +80,14 @@ public:
   /// Returns the paths of all subsections in the order of their appearance.
   std::vector<Path> paths() const;
 
+  /// Adds a subsection as if it stood at `where`.
+  void add_subsection(const Path &path, const std::string &where);
+  /// Sets a parameter as if that stood at `where`.
+  void add_entry(const Path &path, const std::string &key, const std::string &value,
+                 const std::string &where);
+  /// Sets what an entry sets, in another subsection. Messages name its own.
+  void copy_entry(const Entry &entry, const Path &path);
+
   /// Sets every entry in `prm`. Throws InputError with all unknown subsections and parameters, parameters
   /// that are set twice, and values of the wrong type, each with file and line.
   void set_all(dealii::ParameterHandler &prm) const;
@@ -87,6 +96,8 @@ public:
   /// of the subsection.
   std::string where(const Path &path, const std::string &key) const;
   bool is_set(const Path &path, const std::string &key) const;
+  /// Returns the subsection in which the user set an entry: `path`, unless it is a copy.
+  const Path &written_path(const Path &path, const std::string &key) const;
   /// Returns where a subsection was opened.
   std::string where(const Path &path) const;
 

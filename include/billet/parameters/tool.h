@@ -63,6 +63,7 @@ struct ContactPair {
 
   std::string name;
   std::string origin;
+  bool is_generated = false; ///< by 'Contact = all'
   Located<std::string> body;
   BoundaryIds boundary_ids;
   Located<std::string> tool;        ///< empty for a pair of two bodies
@@ -100,6 +101,10 @@ struct ContactPair {
   bool is_between_bodies() const { return tool.value.empty(); }
 
   static void declare(dealii::ParameterHandler &prm);
+  /// Declares the parameters beside those of faces and their true surface.
+  static void declare_values(dealii::ParameterHandler &prm);
+  /// Declares those of them that are for pairs of bodies only.
+  static void declare_values_of_bodies(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
 
 private:

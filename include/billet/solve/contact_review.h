@@ -59,8 +59,8 @@ private:
   struct Pair {
     std::string name;
     std::vector<std::size_t> bodies;
-    std::size_t tool = none; ///< or none
-    bool is_self_contact = false;
+    std::size_t tool = none;    ///< or none
+    bool may_stay_open = false; ///< self-contact, or a pair of 'Contact = all'
     bool is_augmented = false;
     bool is_softer_tangentially = false; ///< than in the normal direction
     bool has_touched = false;

@@ -232,7 +232,7 @@ def make_safety(scene: Scene, argument: str) -> Changes:
 )
 def make_resolution(scene: Scene, argument: str) -> Changes:
     explicit(scene)
-    need(scene.names("Contact pairs"), "there is no contact")
+    need(scene.pairs, "there is no contact")
     return {"Explicit dynamics/Contact resolution": argument}
 
 
@@ -283,12 +283,12 @@ def make_number_type(scene: Scene, argument: str) -> Changes:
 
 
 def pairs(scene: Scene, of_bodies: bool = False) -> list[str]:
-    names = scene.names("Contact pairs")
-    need(names, "there is no contact")
+    found = scene.pairs
+    need(found, "there is no contact")
     if of_bodies:
-        names = [n for n in names if scene.get(f"Contact pairs/{n}/Second body")]
-        need(names, "no bodies touch each other")
-    return [f"Contact pairs/{n}/" for n in names]
+        found = [pair for pair in found if pair == "General contact/" or scene.get(pair + "Second body")]
+        need(found, "no bodies touch each other")
+    return found
 
 
 def has_friction(scene: Scene) -> bool:

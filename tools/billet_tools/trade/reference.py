@@ -110,8 +110,8 @@ class Plan:
                     if base.get(pair + "Penetration tolerance") == "automatic"
                     else base.number(pair + "Penetration tolerance")
                 )
-                or (AUGMENTED if base.get(pair + "Second body") else 0.0)
-                for pair in (f"Contact pairs/{name}/" for name in scene.names("Contact pairs"))
+                or (AUGMENTED if pair == "General contact/" or base.get(pair + "Second body") else 0.0)
+                for pair in scene.pairs
             }
         )
         augmented: dict[str, object] = {
@@ -150,7 +150,7 @@ class Plan:
     def _add_penalty(self, scene: Scene) -> None:
         """By augmentation where the scene augments, or where bodies touch in an implicit scene, whose
         penalties and mesh errors do not add up well; else by the penalty."""
-        pairs = [f"Contact pairs/{name}/" for name in scene.names("Contact pairs")]
+        pairs = scene.pairs
         augmented = [pair for pair in pairs if self.centre.number(pair + "Penetration tolerance") > 0]
         if augmented:
             # The centre in the middle: what is left of the penetration scatters, and would blur the other

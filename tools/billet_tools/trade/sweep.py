@@ -27,7 +27,7 @@ def refuse_outputs(weights: Mapping[str, float], scene: Scene) -> None:
     """What the scene cannot have, before anything runs."""
     if "rebound" in weights and not scene.is_dynamic:
         raise UserError("--outputs: nothing rebounds in a static scene")
-    if "force" in weights and not scene.names("Tools") and not scene.names("Contact pairs"):
+    if "force" in weights and not scene.names("Tools") and not scene.pairs:
         raise UserError("--outputs: the scene has no tool and no pair of bodies, hence no force")
 
 
