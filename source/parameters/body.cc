@@ -257,7 +257,42 @@ void Support::declare(ParameterHandler &prm) {
       "z, the time t and the names of amplitudes. Other components have no effect. [length]");
   for (const TypeParameter &parameter : Axes::parameters())
     declare_parameter(prm, parameter, parameter.meaning);
+  prm.declare_entry("From", "0", Patterns::Double(),
+                    ">= 0. Time at which the support begins; a step ends there. From a later time than 0 on, "
+                    "it holds the nodes where they are then, and moves them by the change of 'Displacement' "
+                    "since. [time]");
+  prm.declare_entry("Until", "", Patterns::Anything(),
+                    "> 'From'. Time at which the support lets its nodes go; a step ends there. Empty: never. "
+                    "[time]");
+  prm.declare_entry(
+      "Fade time", "", Patterns::Anything(),
+      ">= 0. Time over which the force that the support exerted fades, linearly, after 'Until'. Empty: a "
+      "hundredth of the end time in static scenes, where a jump has no equilibrium path; 0, at once, in "
+      "dynamic ones. [time]");
 }
+
+namespace {
+
+/// Reads 'From', 'Until' and 'Fade time' of a support or a load. `never_fades`: reason if 'Until' is not set.
+template <class Timed> void parse_times(const Reader &reader, const std::string &never_fades, Timed &timed) {
+  timed.from = reader.not_negative("From");
+  if (!reader.text("Until").empty()) {
+    const auto times = reader.numbers("Until");
+    if (times.size() != 1 || !(times[0] > timed.from))
+      reader.reject("Until", "a number > 'From', or nothing");
+    timed.until = times[0];
+  }
+  if (reader.text("Fade time").empty())
+    return;
+  if (!std::isfinite(timed.until))
+    reader.reject("Fade time", "no value: 'Until' is not set, so that " + never_fades);
+  const auto times = reader.numbers("Fade time");
+  if (times.size() != 1 || !(times[0] >= 0.))
+    reader.reject("Fade time", "a number >= 0, or nothing");
+  timed.fade_time = times[0];
+}
+
+} // namespace
 
 void Support::parse(Reader &reader) {
   boundary_ids = reader.boundaries("Boundary ids");
@@ -276,6 +311,7 @@ void Support::parse(Reader &reader) {
     reader.reject("Displacement", "three expressions, separated by semicolons");
   displacement = reader.located("Displacement",
                                 std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+  parse_times(reader, "the support never lets go", *this);
 }
 
 void Load::declare(ParameterHandler &prm) {
@@ -304,21 +340,7 @@ void Load::parse(Reader &reader) {
   if (load.acts_on_faces() && boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
   origin = reader.origin();
-  from = reader.not_negative("From");
-  if (!reader.text("Until").empty()) {
-    const auto times = reader.numbers("Until");
-    if (times.size() != 1 || !(times[0] > from))
-      reader.reject("Until", "a number > 'From', or nothing");
-    until = times[0];
-  }
-  if (!reader.text("Fade time").empty()) {
-    if (!std::isfinite(until))
-      reader.reject("Fade time", "no value: 'Until' is not set, so that the load never fades");
-    const auto times = reader.numbers("Fade time");
-    if (times.size() != 1 || !(times[0] >= 0.))
-      reader.reject("Fade time", "a number >= 0, or nothing");
-    fade_time = times[0];
-  }
+  parse_times(reader, "the load never fades", *this);
   for (const LoadExpression &expression : load.expressions)
     origins.push_back(reader.origin(expression.key));
 }

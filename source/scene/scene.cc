@@ -111,7 +111,7 @@ AppliedLoad make_load(const parameters::Load &parameters,
   return applied;
 }
 
-/// `fade_time`: of loads that leave it open.
+/// `fade_time`: of loads and supports that leave it open.
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes,
                const double fade_time) {
   Body body;
@@ -152,6 +152,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
         hold.component = i;
+        hold.times = {support.from, support.until, support.fade_time.value_or(fade_time)};
         if (!support.axes.are_global())
           hold.axes = std::make_shared<const Axes>(support.axes);
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
@@ -394,11 +395,17 @@ std::vector<double> Scene::stops() const {
     for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
       if (time < parameters_.time_stepping.end_time)
         times.push_back(time);
-  for (const auto &body : bodies_)
+  const auto add_times = [&](const auto &of) {
+    for (const double time : {of.from, of.until, of.until + of.fade_time})
+      if (time > 0. && time < parameters_.time_stepping.end_time)
+        times.push_back(time);
+  };
+  for (const auto &body : bodies_) {
     for (const AppliedLoad &load : body.loads)
-      for (const double time : {load.times.from, load.times.until, load.times.until + load.times.fade_time})
-        if (time > 0. && time < parameters_.time_stepping.end_time)
-          times.push_back(time);
+      add_times(load.times);
+    for (const Hold &hold : body.holds)
+      add_times(hold.times);
+  }
   if (parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics)
     add_corners(times);
   return times;

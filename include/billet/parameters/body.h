@@ -67,6 +67,8 @@ struct Support {
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
   Axes axes;
+  double from = 0., until = std::numeric_limits<double>::infinity();
+  std::optional<double> fade_time; ///< none: automatic
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
@@ -78,7 +80,7 @@ struct Load {
   std::string type;
   billet::Load load;
   std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
-  BoundaryIds boundary_ids; ///< only for loads on faces
+  BoundaryIds boundary_ids;         ///< only for loads on faces
   double from = 0., until = std::numeric_limits<double>::infinity();
   std::optional<double> fade_time; ///< none: automatic
   std::string origin;
