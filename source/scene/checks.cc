@@ -186,12 +186,10 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
       for (std::size_t h = 0; h < used.size(); ++h)
         if (holds_face(bodies_[b].holds[h], face, 1e-8 * size)) {
           used[h] = true;
-          for (const unsigned int v : face->vertex_indices()) {
-            const Resistance resistance{face->vertex(v), bodies_[b].holds[h].direction(face->vertex(v)),
-                                        Resistance::Sense::both_ways};
-            if (bodies_[b].holds[h].times.holds_after(0.))
-              holding.push_back(resistance);
-          }
+          if (bodies_[b].holds[h].times.holds_after(0.))
+            for (const unsigned int v : face->vertex_indices())
+              holding.push_back({face->vertex(v), bodies_[b].holds[h].direction(face->vertex(v)),
+                                 Resistance::Sense::both_ways});
         }
       add_springs(bodies_[b], face, holding);
       for (const auto &pair : pairs_)

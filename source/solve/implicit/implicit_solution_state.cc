@@ -57,7 +57,8 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   step.ghosted = step.start.displacements;
   state.time = step.time = report.time = reader.number(is_implicit ? "time" : "time before");
   problem_.switched_supports().load(reader, nodes, state.time, state.displacements);
-  problem_.tangent().follow_supports();
+  if (problem_.supports().acting().may_change())
+    problem_.tangent().follow_supports();
   if (!problem_.scheme().has_inertia() && reader.has("kinetic energy"))
     report.kinetic_energy = reader.number("kinetic energy");
   checkpoint_.load_bodies(reader, report);
