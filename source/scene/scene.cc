@@ -198,6 +198,60 @@ std::pair<parameters::Scene, std::vector<BoundaryNames>> resolve(const parameter
   return {std::move(scene), std::move(names)};
 }
 
+/// Refuses an axisymmetric body beside one that is not, or is another wedge.
+void check_wedges(const std::vector<parameters::Body> &bodies) {
+  using Section = parameters::Mesh::Section;
+  constexpr double rounding = 1e-9;
+  const auto axis_of = [](const parameters::Mesh &mesh) {
+    return mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.}));
+  };
+  const auto side_of = [](const parameters::Mesh &mesh) {
+    return mesh.rotated(dealii::Tensor<1, 3>({0., 1., 0.}));
+  };
+  const auto first = std::find_if(bodies.begin(), bodies.end(), [](const parameters::Body &body) {
+    return body.mesh.section.value == Section::axisymmetric;
+  });
+  if (first == bodies.end())
+    return;
+  const parameters::Mesh &wedge = first->mesh;
+  for (const parameters::Body &body : bodies) {
+    const parameters::Mesh &mesh = body.mesh;
+    const auto shift = dealii::cross_product_3d(mesh.translation - wedge.translation, axis_of(wedge));
+    const double size = mesh.translation.norm() + wedge.translation.norm();
+    if (mesh.section.value != Section::axisymmetric || mesh.wedge_angle != wedge.wedge_angle ||
+        (axis_of(mesh) - axis_of(wedge)).norm() > rounding ||
+        (side_of(mesh) - side_of(wedge)).norm() > rounding || shift.norm() > rounding * size)
+      throw InputError(
+          mesh.section.origin + ": body '" + body.name + "' is not the same wedge as body '" + first->name +
+          "'; allowed is 'Section = axisymmetric' for all bodies or none, with one 'Wedge angle' "
+          "and the same axis and sides after rotation and translation");
+  }
+}
+
+WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
+  using Section = parameters::Mesh::Section;
+  check_wedges(bodies);
+  WholeSection whole;
+  if (bodies.empty())
+    return whole;
+  const parameters::Mesh &mesh = bodies.front().mesh;
+  whole.axis = mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.}));
+  if (mesh.section.value == Section::axisymmetric) {
+    whole.kind = WholeSection::Kind::full_circle;
+    whole.factor = 2. * M_PI / std::sin(mesh.wedge_angle); // by the area of the bricks' section
+    return whole;
+  }
+  const double width = mesh.scale * mesh.height;
+  if (width != 1. && std::all_of(bodies.begin(), bodies.end(), [&](const parameters::Body &body) {
+        return body.mesh.section.value == Section::plane_strain &&
+               body.mesh.scale * body.mesh.height == width;
+      })) {
+    whole.kind = WholeSection::Kind::per_width;
+    whole.factor = 1. / width;
+  }
+  return whole;
+}
+
 /// Returns element, unless it is the default one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
   const BrickElement element = body.element.value;
@@ -240,6 +294,7 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
     }
   });
   make_pairs();
+  whole_section_ = find_whole_section(parameters.bodies);
 
   capabilities_.contact = !pairs_.empty() || !body_pairs_.empty();
   capabilities_.body_contact = !body_pairs_.empty();

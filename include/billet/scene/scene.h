@@ -10,6 +10,7 @@
 #include "billet/parameters/scene.h"
 #include "billet/scene/mesh_builder.h"
 #include "billet/scene/tool.h"
+#include "billet/scene/whole_section.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -209,6 +210,8 @@ public:
   const std::vector<ContactPair> &pairs() const { return pairs_; }
   const std::vector<BodyPair> &body_pairs() const { return body_pairs_; }
   const Capabilities &capabilities() const { return capabilities_; }
+  /// Returns what forces on the model are in the whole.
+  const WholeSection &whole_section() const { return whole_section_; }
   /// Returns the scene's choice, with `automatic` resolved.
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
@@ -259,6 +262,7 @@ private:
   std::vector<ContactPair> pairs_;
   std::vector<BodyPair> body_pairs_;
   Capabilities capabilities_;
+  WholeSection whole_section_;
   parameters::ContactTangent contact_tangent_;
 };
 
