@@ -105,7 +105,7 @@ void Supports::release(const double t, const double fade_time) {
 
 void Supports::take(const double t, const Vector &displacements) {
   for (const double time : acting_.take(holding_after(t)))
-    starts_[time] = displacements;
+    starts_.insert_or_assign(time, Vector(displacements)); // a copy keeps the ghosts
   rebuild();
 }
 

@@ -22,7 +22,7 @@ constexpr double young = 1000., release = 0.2, size = 1e-4;
 const double period = 2. * M_PI / std::sqrt(2. * young);
 
 /// A cube that is held at z = 0 and cannot move sideways. Its top is pulled up, comes to rest at the height
-/// `size`, and is let go there; it is caught at the time `caught`, or never.
+/// `size` without an acceleration, and is let go there; it is caught at the time `caught`, or never.
 parameters::Scene read(const std::string &scheme, const double fade_time, const double caught) {
   const std::string file = "timed_supports_in_motion.prm";
   std::ofstream text(file);
@@ -35,7 +35,7 @@ parameters::Scene read(const std::string &scheme, const double fade_time, const 
           "      subsection foot\n        set Boundary ids = 4\n      end\n"
           "      subsection sides\n        set Boundary ids = 5\n        set Components = x, y\n      end\n"
           "      subsection grip\n        set Boundary ids = 5\n        set Components = z\n"
-          "        set Displacement = 0 ; 0 ; 0.5e-4*(1 - cos(pi*t/0.2))\n        set Until = "
+          "        set Displacement = 0 ; 0 ; 1e-4*(t/0.2 - sin(2*pi*t/0.2)/(2*pi))\n        set Until = "
        << release << "\n        set Fade time = " << fade_time << "\n      end\n";
   if (caught > 0.)
     text << "      subsection catch\n        set Boundary ids = 5\n        set Components = z\n        set "

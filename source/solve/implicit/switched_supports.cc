@@ -73,7 +73,7 @@ void SwitchedSupports::load(const StateReader &reader, const OwnedNodes &nodes, 
     starts[time] = start;
   };
   for (const double time : load_support_starts(reader, late_beginnings(scene_, holding_after(t)), load))
-    starts[time] = displacements;
+    starts.insert_or_assign(time, Vector(displacements)); // a copy keeps the ghosts
   if (supports_.acting().may_change())
     supports_.resume(t, std::move(starts));
   fading_.clear();
