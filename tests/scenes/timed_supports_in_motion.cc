@@ -77,7 +77,7 @@ Motion move_explicitly(const parameters::Scene &parameters, double &drift) {
   while (run.problem.time() < end * (1. - 1e-9)) {
     run.problem.prepare_step(stops.next(run.problem.time()));
     run.problem.update_state();
-    drift = std::max(drift, std::abs(run.problem.relative_drift()));
+    drift = std::max(drift, std::abs(run.state().energies.drift()) / (0.5 * young * size * size));
     motion.emplace_back(run.problem.time(), top(run.discretization, run.state().displacements));
     run.problem.finish_step();
   }
