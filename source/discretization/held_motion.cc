@@ -3,27 +3,46 @@
 
 #include "billet/discretization/hanging_nodes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace billet {
 
 using dealii::Tensor;
 
-HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
+HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes)
+    : scene_(scene), local_(nodes), acting_(scene, holding_at(0.)) {
   require_no_hanging_nodes(nodes.discretization().dof_handler(), "Explicit dynamics");
-  for (const auto &[dof, held] : collect_held_nodes(scene, nodes.discretization())) {
-    Node node{nodes.find(dof), held.position, {}};
+  rebuild();
+}
+
+double HeldMotion::start_of(const Hold &hold, const HeldNode &held, const unsigned int node) const {
+  if (!hold.times.is_late())
+    return 0.;
+  const double place = get_vector(starts_.at(hold.times.from).data(), node) * hold.direction(held.position);
+  return hold.value != nullptr ? place - hold.value->value(hold.times.from, held.position) : place;
+}
+
+void HeldMotion::rebuild() {
+  nodes_.clear();
+  held_.clear();
+  n_moving_ = 0;
+  const auto acts = [this](const Hold &hold) { return acting_(hold); };
+  for (const auto &[dof, held] : collect_held_nodes(scene_, local_.discretization(), acts)) {
+    Node node{local_.find(dof), held.position, {}};
     if (node.node == dealii::numbers::invalid_unsigned_int) // only at ghost cells
       continue;
     // Gram-Schmidt on the planes' normals. A dependent normal adds nothing.
     for (const Hold *hold : held.holds) {
       const Tensor<1, 3> normal = hold->direction(held.position);
-      Direction direction{normal, {}};
+      Direction direction{normal, {}, start_of(*hold, held, node.node)};
       if (hold->value != nullptr)
         direction.terms.push_back({hold, 1.});
       for (const auto &before : node.directions) {
         const double part = normal * before.e;
         direction.e -= part * before.e;
+        direction.start -= part * before.start;
         for (const auto &term : before.terms)
           direction.terms.push_back({term.hold, -part * term.weight});
       }
@@ -31,6 +50,7 @@ HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
       if (length < 1e-8) // unit normals
         continue;
       direction.e /= length;
+      direction.start /= length;
       for (auto &term : direction.terms)
         term.weight /= length;
       node.directions.push_back(direction);
@@ -44,8 +64,35 @@ HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes) {
   moving_memory_.set(n_moving_ * sizeof(Node));
 }
 
+void HeldMotion::release(const double t, const double fade_time, NodalVectors &forces) {
+  acting_.release(holding_at(t), fade_time);
+  const std::set<double> left = late_beginnings(scene_, [this](const Hold &hold) { return acting_(hold); });
+  for (auto start = starts_.begin(); start != starts_.end();)
+    start = left.count(start->first) > 0 ? std::next(start) : starts_.erase(start);
+  rebuild();
+  for (const Node &node : nodes_)
+    for (const Direction &direction : node.directions)
+      add_vector(forces.data(), node.node,
+                 -(get_vector(forces.data(), node.node) * direction.e) * direction.e);
+}
+
+void HeldMotion::take(const double t, const NodalVectors &displacements) {
+  for (const double time : acting_.take(holding_at(t)))
+    starts_[time] = displacements;
+  rebuild();
+}
+
+void HeldMotion::resume(const double t, std::map<double, NodalVectors> starts) {
+  starts_ = std::move(starts);
+  const HoldFilter acts = holding_at(t);
+  for (const double fade_time : acting_.fade_times(acts))
+    acting_.release(acts, fade_time);
+  acting_.take(acts);
+  rebuild();
+}
+
 double HeldMotion::value(const Direction &direction, const double t, const dealii::Point<3> &position) {
-  double sum = 0.;
+  double sum = direction.start; // 0 unless supports began within the run
   for (const auto &term : direction.terms)
     sum += term.weight * term.hold->value->value(t, position);
   return sum;

@@ -41,12 +41,13 @@ Tensor<1, 3> dual_vector(const std::vector<Tensor<1, 3>> &normals, const std::si
 }
 
 /// Returns which of the normals are independent of those before them.
-std::vector<std::size_t> find_independent(const std::vector<const Hold *> &holds) {
+std::vector<std::size_t> find_independent(const std::vector<const Hold *> &holds,
+                                          const dealii::Point<3> &position) {
   constexpr double independent = 1e-8; // as in collect_fixed_nodes()
   std::vector<std::size_t> indices;
   std::vector<Tensor<1, 3>> basis;
   for (std::size_t h = 0; h < holds.size(); ++h) {
-    Tensor<1, 3> left = holds[h]->normal;
+    Tensor<1, 3> left = holds[h]->direction(position);
     for (const auto &e : basis)
       left -= (left * e) * e;
     if (left.norm() <= independent)
@@ -72,33 +73,45 @@ std::vector<NamedSupport> named_supports(const Scene &scene) {
   return all;
 }
 
-SupportReactions::SupportReactions(const Scene &scene, const Discretization &discretization)
-    : discretization_(discretization), n_supports_(named_supports(scene).size()) {
-  std::map<const Hold *, std::size_t> support_of;
+SupportReactions::SupportReactions(const Scene &scene, const Discretization &discretization,
+                                   const ActingHolds &acting)
+    : scene_(scene), discretization_(discretization), n_supports_(named_supports(scene).size()) {
   std::size_t first = 0;
   for (const Body &body : scene.bodies()) {
     const std::vector<std::size_t> indices = support_indices(body, first);
     for (std::size_t h = 0; h < indices.size(); ++h) {
-      support_of[&body.holds[h]] = indices[h];
+      support_of_[&body.holds[h]] = indices[h];
       first = std::max(first, indices[h] + 1);
     }
   }
-  for (const auto &[dof, held] : collect_held_nodes(scene, discretization)) {
-    if (!discretization.owned_dofs().is_element(dof))
-      continue;
-    Node node{held.dofs, held.position, {}};
-    const std::vector<std::size_t> independent = find_independent(held.holds);
-    std::vector<Tensor<1, 3>> normals;
-    for (const std::size_t h : independent)
-      normals.push_back(held.holds[h]->normal);
-    for (std::size_t i = 0; i < normals.size(); ++i)
-      node.parts.push_back({support_of.at(held.holds[independent[i]]), normals[i], dual_vector(normals, i)});
-    nodes_.push_back(node);
-  }
+  collect_nodes(acting);
   const std::vector<ConstraintLine> links =
       collect_links(discretization.dof_handler(), discretization.relevant_dofs());
   links_ = build_constraints(discretization.owned_dofs(), discretization.relevant_dofs(), {{links, {}}});
   couples_ranks_ = couple_ranks(links_, discretization.owned_dofs(), discretization.communicator());
+}
+
+void SupportReactions::follow(const ActingHolds &acting) {
+  if (acting.n_changes() != n_changes_)
+    collect_nodes(acting);
+}
+
+void SupportReactions::collect_nodes(const ActingHolds &acting) {
+  nodes_.clear();
+  n_changes_ = acting.n_changes();
+  const auto acts = [&acting](const Hold &hold) { return acting(hold); };
+  for (const auto &[dof, held] : collect_held_nodes(scene_, discretization_, acts)) {
+    if (!discretization_.owned_dofs().is_element(dof))
+      continue;
+    Node node{held.dofs, held.position, {}};
+    const std::vector<std::size_t> independent = find_independent(held.holds, held.position);
+    std::vector<Tensor<1, 3>> normals;
+    for (const std::size_t h : independent)
+      normals.push_back(held.holds[h]->direction(held.position));
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      node.parts.push_back({support_of_.at(held.holds[independent[i]]), normals[i], dual_vector(normals, i)});
+    nodes_.push_back(node);
+  }
 }
 
 void SupportReactions::add(const Node &node, const Tensor<1, 3> &displacement, const Tensor<1, 3> &residual,

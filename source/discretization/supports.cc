@@ -26,7 +26,8 @@ void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vect
     constraints.distribute_local_to_global(local, dealii::Vector<double>(dofs.size()), dofs, matrix, *lift);
 }
 
-std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization) {
+std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization,
+                                                const HoldFilter &acts) {
   // Ghost cells are included: every rank knows all faces around the nodes of its own cells.
   std::map<DofIndex, HeldNode> nodes;
   const double tolerance = 1e-8 * discretization.radius();
@@ -37,7 +38,7 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
       if (!cell->face(f)->at_boundary())
         continue;
       for (const auto &hold : scene.bodies()[cell->material_id()].holds) {
-        if (!holds_face(hold, cell->face(f), tolerance))
+        if (!acts(hold) || !holds_face(hold, cell->face(f), tolerance))
           continue;
         for (const unsigned int v : cell->face(f)->vertex_indices()) {
           auto &node = nodes[cell->face(f)->vertex_dof_index(v, 0)];
@@ -58,7 +59,8 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
 std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization) {
   constexpr double independent = 1e-8; // as in eliminate()
   std::set<DofIndex> fixed;
-  for (const auto &[dof, node] : collect_held_nodes(scene, discretization)) {
+  const auto always = [](const Hold &hold) { return hold.times.always(); };
+  for (const auto &[dof, node] : collect_held_nodes(scene, discretization, always)) {
     std::vector<dealii::Tensor<1, 3>> basis;
     for (const Hold *hold : node.holds) {
       dealii::Tensor<1, 3> left = hold->direction(node.position);
@@ -74,16 +76,66 @@ std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization 
 }
 
 Supports::Supports(const Scene &scene, const Discretization &discretization)
-    : discretization_(discretization),
+    : scene_(scene), discretization_(discretization), acting_(scene, holding_after(0.)),
       links_(collect_links(discretization.dof_handler(), discretization.relevant_dofs())) {
-  for (const auto &entry : collect_held_nodes(scene, discretization))
-    eliminate(entry.second.holds, entry.second.dofs, entry.second.position);
-  homogeneous_ = build({});
-  couples_ranks_ = couple_ranks(homogeneous_, discretization.owned_dofs(), discretization.communicator());
+  rebuild();
 }
 
-void Supports::eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
-                         const dealii::Point<3> &position) {
+void Supports::rebuild() {
+  lines_.clear();
+  prescriptions_.clear();
+  redundancies_.clear();
+  const std::map<DofIndex, HeldNode> nodes =
+      collect_held_nodes(scene_, discretization_, [this](const Hold &hold) { return acting_(hold); });
+  fail_together(discretization_.communicator(), [&] {
+    for (const auto &entry : nodes)
+      eliminate(entry.second);
+  });
+  homogeneous_ = build({});
+  couples_ranks_ = couple_ranks(homogeneous_, discretization_.owned_dofs(), discretization_.communicator());
+}
+
+void Supports::release(const double t, const double fade_time) {
+  acting_.release(holding_after(t), fade_time);
+  const std::set<double> left = late_beginnings(scene_, [this](const Hold &hold) { return acting_(hold); });
+  for (auto start = starts_.begin(); start != starts_.end();)
+    start = left.count(start->first) > 0 ? std::next(start) : starts_.erase(start);
+  rebuild();
+}
+
+void Supports::take(const double t, const Vector &displacements) {
+  for (const double time : acting_.take(holding_after(t)))
+    starts_.insert_or_assign(time, Vector(displacements)); // a copy keeps the ghosts
+  rebuild();
+}
+
+void Supports::resume(const double t, std::map<double, Vector> starts) {
+  starts_ = std::move(starts);
+  const HoldFilter acts = holding_after(t);
+  for (const double fade_time : acting_.fade_times(acts))
+    acting_.release(acts, fade_time);
+  acting_.take(acts);
+  rebuild();
+}
+
+double Supports::start_of(const Hold &hold, const HeldNode &node) const {
+  if (!hold.times.is_late())
+    return 0.;
+  const Vector &start = starts_.at(hold.times.from);
+  const dealii::Tensor<1, 3> n = hold.direction(node.position);
+  double place = 0.;
+  for (unsigned int i = 0; i < 3; ++i)
+    place += n[i] * start(node.dofs[i]);
+  return hold.value != nullptr ? place - hold.value->value(hold.times.from, node.position) : place;
+}
+
+void Supports::eliminate(const HeldNode &node) {
+  const std::vector<const Hold *> &holds = node.holds;
+  const std::array<DofIndex, 3> &dofs = node.dofs;
+  const dealii::Point<3> &position = node.position;
+  std::vector<double> starts;
+  for (const Hold *hold : holds)
+    starts.push_back(start_of(*hold, node));
   // Gauss-Jordan on the rows (n | weights of the values), the largest component as pivot.
   struct Row {
     dealii::Tensor<1, 3> n;
@@ -125,12 +177,16 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
   };
   for (const auto &row : rows) {
     std::vector<Term> terms;
+    double start = 0.;
     for (std::size_t h = 0; h < holds.size(); ++h)
-      if (holds[h]->value != nullptr && std::abs(row.weights[h]) > 1e-14)
-        terms.push_back({holds[h], row.weights[h]});
+      if (std::abs(row.weights[h]) > 1e-14) {
+        if (holds[h]->value != nullptr)
+          terms.push_back({holds[h], row.weights[h]});
+        start += row.weights[h] * starts[h];
+      }
     if (row.pivot < 0) {
       if (!terms.empty())
-        redundancies_.push_back({terms, names(row.weights), position});
+        redundancies_.push_back({terms, names(row.weights), position, start});
       continue;
     }
     ConstraintLine line{dofs[static_cast<unsigned int>(row.pivot)], {}};
@@ -138,7 +194,7 @@ void Supports::eliminate(const std::vector<const Hold *> &holds, const std::arra
       if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > 1e-14)
         line.others.emplace_back(dofs[i], -row.n[i]);
     lines_.push_back(line);
-    prescriptions_.push_back({terms, position});
+    prescriptions_.push_back({terms, position, start});
   }
   std::size_t bytes = 0;
   for (const auto &prescription : prescriptions_)
@@ -154,7 +210,7 @@ Constraints Supports::build(std::vector<double> values) const {
 Constraints Supports::at_time(const double t) const {
   fail_together(discretization_.communicator(), [&] {
     for (const auto &redundancy : redundancies_) {
-      double sum = 0.;
+      double sum = redundancy.start;
       for (const auto &term : redundancy.terms)
         sum += term.weight * term.hold->value->value(t, redundancy.position);
       if (std::abs(sum) > 1e-8 * discretization_.radius()) {
@@ -195,7 +251,7 @@ Constraints Supports::change(const double t_n, const double t, bool &moves) cons
 }
 
 double Supports::Prescription::value(const double t) const {
-  double value = 0.;
+  double value = start; // 0 unless supports began within the run
   for (const auto &term : terms)
     value += term.weight * term.hold->value->value(t, position);
   return value;
@@ -223,6 +279,18 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
         all.back().parts_.push_back({term.hold, term.weight, n_lines});
     ++n_lines;
   }
+  // Supports that begin later, each by itself: which of them a node's motion will follow is not known yet.
+  const auto begins_later = [](const Hold &hold) {
+    return hold.value != nullptr && !hold.times.holds_after(0.);
+  };
+  if (acting_.may_change())
+    for (const auto &entry : collect_held_nodes(scene_, discretization_, begins_later)) {
+      all.emplace_back();
+      all.back().position_ = entry.second.position;
+      const std::vector<const Hold *> &holds = entry.second.holds;
+      for (unsigned int i = 0; i < std::min<std::size_t>(holds.size(), 3); ++i)
+        all.back().parts_.push_back({holds[i], 1., i});
+    }
   all.erase(std::remove_if(all.begin(), all.end(),
                            [](const SupportTrack &motion) { return motion.parts_.empty(); }),
             all.end());

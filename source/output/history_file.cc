@@ -32,13 +32,13 @@ std::string columns_of(const Scene &scene, const std::vector<HistoryQuantity> &q
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
     : name_(folder + "/history.csv"), quantities_(quantities_of(scene)),
-      columns_(columns_of(scene, quantities_)) {
+      columns_(columns_of(scene, quantities_)), whole_(scene.whole_section()) {
   begin(scene);
 }
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, const double time)
     : name_(folder + "/history.csv"), quantities_(quantities_of(scene)),
-      columns_(columns_of(scene, quantities_)) {
+      columns_(columns_of(scene, quantities_)), whole_(scene.whole_section()) {
   namespace fs = std::filesystem;
   std::error_code error;
   std::string first_line;
@@ -76,12 +76,12 @@ HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<std::uintm
 
 void HistoryFile::write(const StepReport &report, const Solution &solution,
                         const std::vector<double> &probes) {
-  write({solution.state(), report.step, report.length, &report, solution.reactions(), probes});
+  write({solution.state(), report.step, report.length, &report, solution.reactions(), probes, whole_});
 }
 
 void HistoryFile::write(const unsigned int step, const double length, const Solution &solution,
                         const std::vector<double> &probes) {
-  write({solution.state(), step, length, nullptr, solution.reactions(), probes});
+  write({solution.state(), step, length, nullptr, solution.reactions(), probes, whole_});
 }
 
 void HistoryFile::write(const HistorySample &sample) {

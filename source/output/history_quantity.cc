@@ -16,6 +16,7 @@ HistoryQuantity tool_pair_loads_quantity();
 HistoryQuantity force_balance_quantity();
 HistoryQuantity energy_ratio_quantity();
 HistoryQuantity probes_quantity();
+HistoryQuantity whole_section_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -42,6 +43,7 @@ HistoryQuantities &history_quantities() {
     all.add(force_balance_quantity());
     all.add(energy_ratio_quantity());
     all.add(probes_quantity());
+    all.add(whole_section_quantity());
     return all;
   }();
   return quantities;

@@ -36,8 +36,11 @@ Progress::Progress(const Scene &scene, std::ostream &stream, const bool is_termi
   make_columns();
 }
 
-void Progress::add_forces(const std::string &name, const std::function<double(const Solution &)> &value) {
-  columns_.push_back({("|F| " + name).substr(0, 13), 14, value});
+void Progress::add_forces(const std::string &name,
+                          const std::function<dealii::Tensor<1, 3>(const Solution &)> &force) {
+  columns_.push_back(
+      {("|F| " + name).substr(0, 13), 14,
+       [whole = scene_.whole_section(), force](const Solution &s) { return whole.size_of(force(s)); }});
 }
 
 void Progress::make_columns() {
@@ -46,17 +49,16 @@ void Progress::make_columns() {
     columns_.push_back({header, 15, [energy](const Solution &s) { return s.state().energies.*energy; }});
   };
   for (std::size_t i = 0; i < scene_.tools().size(); ++i)
-    add_forces(scene_.tools()[i].name(),
-               [i](const Solution &s) { return s.state().tool_loads[i].force.norm(); });
+    add_forces(scene_.tools()[i].name(), [i](const Solution &s) { return s.state().tool_loads[i].force; });
   for (std::size_t i = 0; i < scene_.body_pairs().size(); ++i)
     add_forces(scene_.body_pairs()[i].name,
-               [i](const Solution &s) { return s.state().body_pair_loads[i].force.norm(); });
+               [i](const Solution &s) { return s.state().body_pair_loads[i].force; });
   const auto has_room = [this] { return columns_.size() < max_force_columns; };
   for (std::size_t i = 0; i < scene_.pairs().size() && has_room(); ++i) {
     const auto is_of_tool = [&](const ContactPair &pair) { return pair.tool == scene_.pairs()[i].tool; };
     if (std::count_if(scene_.pairs().begin(), scene_.pairs().end(), is_of_tool) > 1) // else it is the tool's
       add_forces(scene_.pairs()[i].name,
-                 [i](const Solution &s) { return s.reactions().of_tool_pairs[i].force.norm(); });
+                 [i](const Solution &s) { return s.reactions().of_tool_pairs[i].force; });
   }
   const std::vector<NamedSupport> supports = named_supports(scene_);
   const std::string support = "support ", plane = "symmetry plane ";
@@ -66,7 +68,7 @@ void Progress::make_columns() {
     for (std::size_t i = 0; i < supports.size() && has_room(); ++i)
       if (supports[i].name.rfind(*kind, 0) == 0)
         add_forces(supports[i].name.substr(kind->size()),
-                   [i](const Solution &s) { return s.reactions().of_supports[i].force.norm(); });
+                   [i](const Solution &s) { return s.reactions().of_supports[i].force; });
   }
   if (capabilities.plasticity)
     add_energy("plastic work", &EnergyLedger::plastic);
@@ -127,6 +129,12 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   stream_ << discretization.n_global_elements() << " elements, " << discretization.dof_handler().n_dofs()
           << " unknowns, " << n_ranks << (n_ranks == 1 ? " process, " : " processes, ") << solution.method()
           << "\n";
+  const WholeSection &whole = scene_.whole_section();
+  if (whole.kind == WholeSection::Kind::full_circle)
+    stream_ << "Forces here are those of the full circle, along its axis: " << whole.factor
+            << " times those of the wedge\n";
+  if (whole.kind == WholeSection::Kind::per_width)
+    stream_ << "Forces here are those per unit of width: " << whole.factor << " times those of the layer\n";
 }
 
 void Progress::show_number_of_steps(const double n_steps, const double step) {

@@ -34,7 +34,9 @@ const NamedValues<Mesh::Source> mesh_sources = {{"primitive", Mesh::Source::prim
 const NamedValues<std::optional<bool>> laws = {
     {"automatic", std::nullopt}, {"elastic", false}, {"elastoplastic", true}};
 
-const std::string plane_strain = "plane strain"; // a value of 'Section'
+const NamedValues<Mesh::Section> sections = {{"solid", Mesh::Section::solid},
+                                             {"plane strain", Mesh::Section::plane_strain},
+                                             {"axisymmetric", Mesh::Section::axisymmetric}};
 
 /// Whether viscous forces stabilise the body until it is in contact.
 const NamedValues<bool> stabilisations = {{"none", false}, {"until contact", true}};
@@ -61,11 +63,19 @@ void Mesh::declare(ParameterHandler &prm) {
                     "Extruded primitives: area of the section after scaling about its origin, so that a "
                     "polygon has the volume of a circle. 0: no scaling. [length^2]");
   prm.declare_entry(
-      "Section", "solid", Patterns::Selection("solid|plane strain"),
+      "Section", "solid", Patterns::Selection(selection(sections)),
       "plane strain: one layer of the two-dimensional primitive, whose bottom z = 0 and top are "
       "symmetry planes (before rotation and translation). 'Source' then is extruded primitive. "
       "Forces, moments and energies are those of the width 'Height', so per unit of width "
-      "with its default, 1. solid: no such planes.");
+      "with its default, 1. axisymmetric: one layer of the two-dimensional primitive, turned about its axis "
+      "of y by 'Wedge angle'; x is the radius, > 0, and y becomes z. Both sides are symmetry planes through "
+      "the axis of z. Forces, moments, loads and energies are those of the wedge; history and console have "
+      "forces of the full circle. solid: no such planes.");
+  prm.declare_entry(
+      "Wedge angle", "5", Patterns::Double(),
+      "Axisymmetric sections: angle of the wedge, > 0, at most 30. The section of the bricks is a "
+      "polygon, which differs from the circle by a sixth of the square of the angle in rad. "
+      "[degrees]");
   prm.declare_entry("Height", "1", Patterns::Double(),
                     "Extruded primitives: extent along z, from z = 0; the width in plane strain. [length]");
   prm.declare_entry("Layers", "1", Patterns::Integer(0),
@@ -126,15 +136,41 @@ std::string read_arguments(const Reader &reader, const unsigned int dimension) {
 
 } // namespace
 
-void Mesh::parse(Reader &reader) {
-  source = chosen(mesh_sources, reader.text("Source"));
-  if (reader.text("Section") == plane_strain) {
+dealii::Tensor<1, 3> Mesh::rotated(const dealii::Tensor<1, 3> &vector) const {
+  return rotation_angle == 0. // keeps planes exact
+             ? vector
+             : dealii::Tensor<1, 3>(dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+                                        rotation_axis, rotation_angle) *
+                                    vector);
+}
+
+void Mesh::parse_section(const Reader &reader) {
+  section = reader.located("Section", chosen(sections, reader.text("Section")));
+  const std::string why = "since 'Section = " + reader.text("Section") + "'";
+  if (section.value != Section::solid) {
     if (reader.is_set("Source") && source != Source::extruded)
-      reader.reject("Source", "extruded primitive, since 'Section = plane strain'");
+      reader.reject("Source", "extruded primitive, " + why);
     if (reader.is_set("Layers") && reader.text("Layers") != "1")
-      reader.reject("Layers", "1, since 'Section = plane strain' makes one layer");
+      reader.reject("Layers", "1, " + why + " makes one layer");
     source = Source::extruded;
   }
+  const bool is_wedge = section.value == Section::axisymmetric;
+  if (is_wedge)
+    for (const std::string key : {"Height", "Section area"})
+      if (reader.is_set(key))
+        reader.reject(key, "no value, " + why + ": 'Wedge angle' gives the wedge its width");
+  if (!is_wedge && reader.is_set("Wedge angle"))
+    reader.reject("Wedge angle", "no value: only 'Section = axisymmetric' uses it");
+  const double degrees = reader.positive("Wedge angle");
+  constexpr double largest = 30.;
+  if (degrees > largest)
+    reader.reject("Wedge angle", "a number > 0, at most 30");
+  wedge_angle = degrees * dealii::numbers::PI / 180.;
+}
+
+void Mesh::parse(Reader &reader) {
+  source = chosen(mesh_sources, reader.text("Source"));
+  parse_section(reader);
   primitive = reader.located("Primitive", reader.text("Primitive"));
   refinements = reader.count("Refinements", 0, 10);
   section_area = reader.located("Section area", reader.not_negative("Section area"));
@@ -257,7 +293,42 @@ void Support::declare(ParameterHandler &prm) {
       "z, the time t and the names of amplitudes. Other components have no effect. [length]");
   for (const TypeParameter &parameter : Axes::parameters())
     declare_parameter(prm, parameter, parameter.meaning);
+  prm.declare_entry("From", "0", Patterns::Double(),
+                    ">= 0. Time at which the support begins; a step ends there. From a later time than 0 on, "
+                    "it holds the nodes where they are then, and moves them by the change of 'Displacement' "
+                    "since. [time]");
+  prm.declare_entry("Until", "", Patterns::Anything(),
+                    "> 'From'. Time at which the support lets its nodes go; a step ends there. Empty: never. "
+                    "[time]");
+  prm.declare_entry(
+      "Fade time", "", Patterns::Anything(),
+      ">= 0. Time over which the force that the support exerted fades, linearly, after 'Until'. Empty: a "
+      "hundredth of the end time in static scenes, where a jump has no equilibrium path; 0, at once, in "
+      "dynamic ones. [time]");
 }
+
+namespace {
+
+/// Reads 'From', 'Until' and 'Fade time' of a support or a load. `never_fades`: reason if 'Until' is not set.
+template <class Timed> void parse_times(const Reader &reader, const std::string &never_fades, Timed &timed) {
+  timed.from = reader.not_negative("From");
+  if (!reader.text("Until").empty()) {
+    const auto times = reader.numbers("Until");
+    if (times.size() != 1 || !(times[0] > timed.from))
+      reader.reject("Until", "a number > 'From', or nothing");
+    timed.until = times[0];
+  }
+  if (reader.text("Fade time").empty())
+    return;
+  if (!std::isfinite(timed.until))
+    reader.reject("Fade time", "no value: 'Until' is not set, so that " + never_fades);
+  const auto times = reader.numbers("Fade time");
+  if (times.size() != 1 || !(times[0] >= 0.))
+    reader.reject("Fade time", "a number >= 0, or nothing");
+  timed.fade_time = times[0];
+}
+
+} // namespace
 
 void Support::parse(Reader &reader) {
   boundary_ids = reader.boundaries("Boundary ids");
@@ -276,6 +347,7 @@ void Support::parse(Reader &reader) {
     reader.reject("Displacement", "three expressions, separated by semicolons");
   displacement = reader.located("Displacement",
                                 std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+  parse_times(reader, "the support never lets go", *this);
 }
 
 void Load::declare(ParameterHandler &prm) {
@@ -304,21 +376,7 @@ void Load::parse(Reader &reader) {
   if (load.acts_on_faces() && boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");
   origin = reader.origin();
-  from = reader.not_negative("From");
-  if (!reader.text("Until").empty()) {
-    const auto times = reader.numbers("Until");
-    if (times.size() != 1 || !(times[0] > from))
-      reader.reject("Until", "a number > 'From', or nothing");
-    until = times[0];
-  }
-  if (!reader.text("Fade time").empty()) {
-    if (!std::isfinite(until))
-      reader.reject("Fade time", "no value: 'Until' is not set, so that the load never fades");
-    const auto times = reader.numbers("Fade time");
-    if (times.size() != 1 || !(times[0] >= 0.))
-      reader.reject("Fade time", "a number >= 0, or nothing");
-    fade_time = times[0];
-  }
+  parse_times(reader, "the load never fades", *this);
   for (const LoadExpression &expression : load.expressions)
     origins.push_back(reader.origin(expression.key));
 }
@@ -398,15 +456,18 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
   return plane;
 }
 
-/// Returns the planes of both sides of a layer in plane strain, which moves with the mesh.
-std::array<SymmetryPlane, 2> sides_of_layer(const Mesh &mesh) {
-  const dealii::Tensor<1, 3> along({0., 0., 1.});
-  const dealii::Tensor<1, 3> normal =
-      mesh.rotation_angle == 0. // keeps the planes exact
-          ? along
-          : dealii::Tensor<1, 3>(dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
-                                     mesh.rotation_axis, mesh.rotation_angle) *
-                                 along);
+/// Returns the planes of both sides of a layer in plane strain or of a wedge, which moves with the mesh.
+std::vector<SymmetryPlane> sides_of_section(const Mesh &mesh) {
+  if (mesh.section.value == Mesh::Section::solid)
+    return {};
+  if (mesh.section.value == Mesh::Section::axisymmetric) {
+    const auto first = mesh.rotated(dealii::Tensor<1, 3>({0., 1., 0.}));
+    const auto second =
+        mesh.rotated(dealii::Tensor<1, 3>({-std::sin(mesh.wedge_angle), std::cos(mesh.wedge_angle), 0.}));
+    return {SymmetryPlane{first, first * mesh.translation, "first side of the wedge"},
+            SymmetryPlane{second, second * mesh.translation, "second side of the wedge"}};
+  }
+  const dealii::Tensor<1, 3> normal = mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.}));
   const double low = normal * mesh.translation;
   return {SymmetryPlane{normal, low, "bottom of the section"},
           SymmetryPlane{normal, low + mesh.scale * mesh.height, "top of the section"}};
@@ -466,11 +527,8 @@ void Body::parse(Reader &reader) {
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));
-  reader.in("Mesh", [&] {
-    if (reader.text("Section") == plane_strain)
-      for (const SymmetryPlane &plane : sides_of_layer(mesh))
-        symmetry_planes.value.push_back(plane);
-  });
+  for (const SymmetryPlane &plane : sides_of_section(mesh))
+    symmetry_planes.value.push_back(plane);
 }
 
 } // namespace billet::parameters

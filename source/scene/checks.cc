@@ -122,6 +122,52 @@ void add_springs(const Body &body, const Face &face, std::vector<Resistance> &re
 
 } // namespace
 
+bool Scene::check_support_times(const std::size_t b, const Triangulation<3> &mesh,
+                                const double last_removal) const {
+  const Body &body = bodies_[b];
+  std::set<double> times;
+  for (const Hold &hold : body.holds)
+    for (const double time : {hold.times.from, hold.times.until})
+      if (time > 0. && time < parameters_.time_stepping.end_time)
+        times.insert(time);
+  if (times.empty())
+    return false;
+  times.insert(last_removal);
+  for (const double time : times) {
+    if (time < last_removal || !std::isfinite(time)) // tools may hold it
+      continue;
+    std::vector<Resistance> holding;
+    std::vector<dealii::Point<3>> points;
+    for_each_boundary_face(mesh, [&](const std::size_t of, const auto &face) {
+      if (of != b)
+        return;
+      for (const unsigned int v : face->vertex_indices())
+        points.push_back(face->vertex(v));
+      for (const Hold &hold : body.holds)
+        if (hold.times.holds_after(time) && holds_face(hold, face, 1e-8 * face->diameter()))
+          for (const unsigned int v : face->vertex_indices())
+            holding.push_back(
+                {face->vertex(v), hold.direction(face->vertex(v)), Resistance::Sense::both_ways});
+      add_springs(body, face, holding);
+    });
+    const auto corners = dealii::BoundingBox<3>(points).get_boundary_points();
+    const auto motion =
+        find_free_motion(holding, dealii::Tensor<1, 3>(0.5 * (corners.first + corners.second)),
+                         (corners.second - corners.first).norm());
+    if (!motion)
+      continue;
+    std::ostringstream message;
+    message << parameters_.bodies[b].origin << ": the body has no support from time " << time
+            << " on: the supports that act then ('From', 'Until') and symmetry planes do not constrain its "
+               "rigid-body mode with "
+            << print(*motion)
+            << ", and no tool can. A static scene allows no free mode. Let another support begin at this "
+               "time, or use dynamics";
+    throw InputError(message.str());
+  }
+  return true;
+}
+
 void Scene::check_supports(const Triangulation<3> &mesh) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     std::vector<dealii::Point<3>> points;
@@ -142,9 +188,10 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
       for (std::size_t h = 0; h < used.size(); ++h)
         if (holds_face(bodies_[b].holds[h], face, 1e-8 * size)) {
           used[h] = true;
-          for (const unsigned int v : face->vertex_indices())
-            holding.push_back({face->vertex(v), bodies_[b].holds[h].direction(face->vertex(v)),
-                               Resistance::Sense::both_ways});
+          if (bodies_[b].holds[h].times.holds_after(0.))
+            for (const unsigned int v : face->vertex_indices())
+              holding.push_back({face->vertex(v), bodies_[b].holds[h].direction(face->vertex(v)),
+                                 Resistance::Sense::both_ways});
         }
       add_springs(bodies_[b], face, holding);
       for (const auto &pair : pairs_)
@@ -196,6 +243,8 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
     for (const auto &pair : pairs_)
       if (pair.body == b)
         last_removal = std::max(last_removal, tools_[pair.tool].removal_time());
+    if (check_support_times(b, mesh, last_removal))
+      continue;
     const auto motion = find_free_motion(holding, centre, size);
     if (motion && std::isfinite(last_removal)) {
       std::ostringstream message;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -71,6 +72,34 @@ template <int dim> void generate_primitive(const parameters::Mesh &parameters, T
     throw InputError(describe_refusal(parameters));
 }
 
+/// Turns the section, x the radius and y the height, about the axis of z.
+void turn_section(const parameters::Mesh &parameters, const Triangulation<2> &section,
+                  Triangulation<3> &mesh) {
+  double largest = 0., least = std::numeric_limits<double>::max();
+  for (const auto &cell : section.active_cell_iterators())
+    for (const unsigned int v : cell->vertex_indices()) {
+      least = std::min(least, cell->vertex(v)[0]);
+      largest = std::max(largest, cell->vertex(v).norm());
+    }
+  constexpr double too_near = 1e-6;
+  if (!(least > too_near * largest)) {
+    std::ostringstream message;
+    message << parameters.section.origin << " is 'axisymmetric', but the primitive '"
+            << parameters.primitive.value << "' begins at the radius x = " << least
+            << "; allowed are sections with x > 0, since bricks would collapse on the axis. Begin a solid "
+               "body at a small radius, a hundredth of the outer one, and hold that face by a support with "
+               "'Axes = cylindrical' and 'Components = x'";
+    throw InputError(message.str());
+  }
+  dealii::GridGenerator::extrude_triangulation(section, 2, 1., mesh);
+  dealii::GridTools::transform(
+      [&parameters](const dealii::Point<3> &x) {
+        const double angle = (1. - x[2]) * parameters.wedge_angle; // this way corners keep their order
+        return dealii::Point<3>(x[0] * std::cos(angle), x[0] * std::sin(angle), x[1]);
+      },
+      mesh);
+}
+
 void generate_extruded(const parameters::Mesh &parameters, const MeshDetail detail, Triangulation<3> &mesh) {
   Triangulation<2> refined, section;
   generate_primitive(parameters, refined);
@@ -81,6 +110,10 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
   if (parameters.section_area.value > 0.)
     dealii::GridTools::scale(std::sqrt(parameters.section_area.value / dealii::GridTools::volume(section)),
                              section);
+  if (parameters.section.value == parameters::Mesh::Section::axisymmetric) {
+    turn_section(parameters, section, mesh);
+    return;
+  }
   const unsigned int n_layers = detail == MeshDetail::full ? parameters.n_layers : 1;
   dealii::GridGenerator::extrude_triangulation(section, n_layers + 1, parameters.height, mesh);
 }

@@ -111,7 +111,7 @@ AppliedLoad make_load(const parameters::Load &parameters,
   return applied;
 }
 
-/// `fade_time`: of loads that leave it open.
+/// `fade_time`: of loads and supports that leave it open.
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes,
                const double fade_time) {
   Body body;
@@ -152,6 +152,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
         hold.component = i;
+        hold.times = {support.from, support.until, support.fade_time.value_or(fade_time)};
         if (!support.axes.are_global())
           hold.axes = std::make_shared<const Axes>(support.axes);
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
@@ -197,6 +198,60 @@ std::pair<parameters::Scene, std::vector<BoundaryNames>> resolve(const parameter
   return {std::move(scene), std::move(names)};
 }
 
+/// Refuses an axisymmetric body beside one that is not, or is another wedge.
+void check_wedges(const std::vector<parameters::Body> &bodies) {
+  using Section = parameters::Mesh::Section;
+  constexpr double rounding = 1e-9;
+  const auto axis_of = [](const parameters::Mesh &mesh) {
+    return mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.}));
+  };
+  const auto side_of = [](const parameters::Mesh &mesh) {
+    return mesh.rotated(dealii::Tensor<1, 3>({0., 1., 0.}));
+  };
+  const auto first = std::find_if(bodies.begin(), bodies.end(), [](const parameters::Body &body) {
+    return body.mesh.section.value == Section::axisymmetric;
+  });
+  if (first == bodies.end())
+    return;
+  const parameters::Mesh &wedge = first->mesh;
+  for (const parameters::Body &body : bodies) {
+    const parameters::Mesh &mesh = body.mesh;
+    const auto shift = dealii::cross_product_3d(mesh.translation - wedge.translation, axis_of(wedge));
+    const double size = mesh.translation.norm() + wedge.translation.norm();
+    if (mesh.section.value != Section::axisymmetric || mesh.wedge_angle != wedge.wedge_angle ||
+        (axis_of(mesh) - axis_of(wedge)).norm() > rounding ||
+        (side_of(mesh) - side_of(wedge)).norm() > rounding || shift.norm() > rounding * size)
+      throw InputError(
+          mesh.section.origin + ": body '" + body.name + "' is not the same wedge as body '" + first->name +
+          "'; allowed is 'Section = axisymmetric' for all bodies or none, with one 'Wedge angle' "
+          "and the same axis and sides after rotation and translation");
+  }
+}
+
+WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
+  using Section = parameters::Mesh::Section;
+  check_wedges(bodies);
+  WholeSection whole;
+  if (bodies.empty())
+    return whole;
+  const parameters::Mesh &mesh = bodies.front().mesh;
+  whole.axis = mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.}));
+  if (mesh.section.value == Section::axisymmetric) {
+    whole.kind = WholeSection::Kind::full_circle;
+    whole.factor = 2. * M_PI / std::sin(mesh.wedge_angle); // by the area of the bricks' section
+    return whole;
+  }
+  const double width = mesh.scale * mesh.height;
+  if (width != 1. && std::all_of(bodies.begin(), bodies.end(), [&](const parameters::Body &body) {
+        return body.mesh.section.value == Section::plane_strain &&
+               body.mesh.scale * body.mesh.height == width;
+      })) {
+    whole.kind = WholeSection::Kind::per_width;
+    whole.factor = 1. / width;
+  }
+  return whole;
+}
+
 /// Returns element, unless it is the default one, elasticity and law.
 std::string describe_law(const parameters::Body &body) {
   const BrickElement element = body.element.value;
@@ -239,6 +294,7 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
     }
   });
   make_pairs();
+  whole_section_ = find_whole_section(parameters.bodies);
 
   capabilities_.contact = !pairs_.empty() || !body_pairs_.empty();
   capabilities_.body_contact = !body_pairs_.empty();
@@ -394,11 +450,17 @@ std::vector<double> Scene::stops() const {
     for (const double time : {tool.removal_time(), tool.removal_time() + tool.release_time()})
       if (time < parameters_.time_stepping.end_time)
         times.push_back(time);
-  for (const auto &body : bodies_)
+  const auto add_times = [&](const auto &of) {
+    for (const double time : {of.from, of.until, of.until + of.fade_time})
+      if (time > 0. && time < parameters_.time_stepping.end_time)
+        times.push_back(time);
+  };
+  for (const auto &body : bodies_) {
     for (const AppliedLoad &load : body.loads)
-      for (const double time : {load.times.from, load.times.until, load.times.until + load.times.fade_time})
-        if (time > 0. && time < parameters_.time_stepping.end_time)
-          times.push_back(time);
+      add_times(load.times);
+    for (const Hold &hold : body.holds)
+      add_times(hold.times);
+  }
   if (parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics)
     add_corners(times);
   return times;

@@ -442,4 +442,49 @@ std::vector<double> load_sums(const StateReader &reader, const std::string &name
   return sums;
 }
 
+void save_support_starts(StateWriter &writer, const std::set<double> &times,
+                         const std::function<void(const std::string &name, double time)> &save) {
+  if (times.empty())
+    return;
+  writer.write("support starts", {times.begin(), times.end()});
+  std::size_t i = 0;
+  for (const double time : times)
+    save("support start " + std::to_string(i++), time);
+}
+
+std::set<double> load_support_starts(const StateReader &reader, const std::set<double> &times,
+                                     const std::function<void(const std::string &name, double time)> &load) {
+  std::set<double> unknown = times;
+  if (!times.empty() && reader.has("support starts")) {
+    const std::vector<double> known = reader.read("support starts");
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (unknown.erase(known[i]) > 0)
+        load("support start " + std::to_string(i), known[i]);
+  }
+  return unknown;
+}
+
+void save_support_fades(StateWriter &writer, const std::vector<FadeTimes> &times,
+                        const std::function<void(const std::string &name, std::size_t index)> &save) {
+  if (times.empty())
+    return;
+  std::vector<double> numbers;
+  for (const FadeTimes &fade : times) {
+    numbers.push_back(fade.begin);
+    numbers.push_back(fade.duration);
+  }
+  writer.write("support fades", numbers);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    save("support fade " + std::to_string(i), i);
+}
+
+void load_support_fades(const StateReader &reader,
+                        const std::function<void(const std::string &name, const FadeTimes &times)> &load) {
+  if (!reader.has("support fades"))
+    return;
+  const std::vector<double> numbers = reader.read("support fades");
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
+    load("support fade " + std::to_string(i / 2), {numbers[i], numbers[i + 1]});
+}
+
 } // namespace billet

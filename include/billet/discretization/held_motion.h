@@ -16,6 +16,19 @@ class HeldMotion {
 public:
   HeldMotion(const Scene &scene, const LocalNodes &nodes);
 
+  const Scene &scene() const { return scene_; }
+  /// Returns the constraints that act.
+  const ActingHolds &acting() const { return acting_; }
+  /// Lets those supports go that do not hold at t, and whose forces fade over this time. Takes from `forces`
+  /// what the constraints that are left bear.
+  void release(double t, double fade_time, NodalVectors &forces);
+  /// Takes the supports that hold at t. Those that begin hold the nodes where these `displacements` put them.
+  void take(double t, const NodalVectors &displacements);
+  /// Returns the displacements at the times at which supports that act began, if later than 0.
+  const std::map<double, NodalVectors> &starts() const { return starts_; }
+  /// Takes the supports that hold at t, with their starts().
+  void resume(double t, std::map<double, NodalVectors> starts);
+
   /// Returns the constrained nodes.
   const std::vector<unsigned int> &nodes() const { return held_; }
 
@@ -36,14 +49,23 @@ private:
   struct Direction {
     dealii::Tensor<1, 3> e;
     std::vector<Term> terms;
+    double start; ///< of supports that began within the run: the part that does not depend on time
   };
   struct Node {
     unsigned int node;
     dealii::Point<3> position;
     std::vector<Direction> directions;
   };
+  /// Makes the nodes of the constraints that act.
+  void rebuild();
+  /// Returns the position n · u less the value at the time when a late support began.
+  double start_of(const Hold &hold, const HeldNode &held, unsigned int node) const;
   static double value(const Direction &direction, double t, const dealii::Point<3> &position);
 
+  const Scene &scene_;
+  const LocalNodes &local_;
+  ActingHolds acting_;
+  std::map<double, NodalVectors> starts_;
   std::vector<Node> nodes_;
   std::vector<unsigned int> held_;
   std::size_t n_moving_ = 0; ///< nodes with a prescribed motion

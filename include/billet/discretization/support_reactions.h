@@ -32,7 +32,11 @@ std::vector<NamedSupport> named_supports(const Scene &scene);
 /// supports, and these in the order of the scene. The sum of all reactions is therefore that of the node.
 class SupportReactions {
 public:
-  SupportReactions(const Scene &scene, const Discretization &discretization);
+  /// For the supports and symmetry planes that act.
+  SupportReactions(const Scene &scene, const Discretization &discretization, const ActingHolds &acting);
+
+  /// Follows supports that have begun or ended since the last call.
+  void follow(const ActingHolds &acting);
 
   /// Reactions, and what the constraints leave of the residual.
   struct Forces {
@@ -58,11 +62,15 @@ private:
     dealii::Point<3> position; ///< undeformed
     std::vector<Part> parts;
   };
+  void collect_nodes(const ActingHolds &acting);
   Forces sum_over_ranks(const Forces &own) const;
   static void add(const Node &node, const dealii::Tensor<1, 3> &displacement,
                   const dealii::Tensor<1, 3> &residual, Forces &sums);
 
+  const Scene &scene_;
   const Discretization &discretization_;
+  std::map<const Hold *, std::size_t> support_of_; ///< indices in named_supports()
+  unsigned int n_changes_ = 0;                     ///< of the supports that nodes_ know
   std::size_t n_supports_;
   std::vector<Node> nodes_; ///< owned by this rank
   Constraints links_;       ///< of hanging nodes

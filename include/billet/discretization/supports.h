@@ -3,6 +3,7 @@
 #define BILLET_DISCRETIZATION_SUPPORTS_H
 
 #include "billet/algebra/matrix.h"
+#include "billet/discretization/acting_holds.h"
 #include "billet/discretization/constraint_lines.h"
 #include "billet/usage.h"
 
@@ -31,10 +32,11 @@ struct HeldNode {
   dealii::Point<3> position; ///< undeformed
 };
 
-/// Returns all constrained nodes of owned cells and their ghosts, by their first dof.
-std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization);
+/// Returns all nodes of owned cells and their ghosts that these constraints hold, by their first dof.
+std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization,
+                                                const HoldFilter &acts);
 
-/// Returns the first dofs of nodes that are constrained in all directions.
+/// Returns the first dofs of nodes that are constrained in all directions during the whole run.
 std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization);
 
 /// Prescribed displacements of a constrained node, as far as they change with time.
@@ -61,7 +63,7 @@ public:
   Supports(const Scene &scene, const Discretization &discretization);
 
   /// Returns the constraints with right-hand sides 0, for assembly and Newton's corrections. Their pattern
-  /// never changes.
+  /// changes when supports begin or end, and at no other time.
   const Constraints &homogeneous() const { return homogeneous_; }
 
   /// Returns the constraints with the values at time t. Throws SolutionFailure if constraints at a node
@@ -75,7 +77,22 @@ public:
   /// Transfers forces on constrained dofs to the dofs on which these depend, and sets them to 0. Collective.
   void condense(Vector &forces) const;
 
-  /// Returns the tracks of some of this rank's nodes with moving supports, evenly sampled.
+  /// Returns the constraints that act.
+  const ActingHolds &acting() const { return acting_; }
+  /// Lets those supports go that no step after t knows, and whose forces fade over this time. Collective.
+  void release(double t, double fade_time);
+  /// Takes the supports that act after t. Those that begin hold the nodes where these `displacements`
+  /// (relevant dofs) put them. Collective.
+  void take(double t, const Vector &displacements);
+
+  /// Returns the displacements of relevant dofs at the times at which supports that act began, if later
+  /// than 0.
+  const std::map<double, Vector> &starts() const { return starts_; }
+  /// Takes the supports that act after t, with their starts(). Collective.
+  void resume(double t, std::map<double, Vector> starts);
+
+  /// Returns the tracks of some of this rank's nodes with moving supports, evenly sampled. It knows those
+  /// that begin later, too.
   std::vector<SupportTrack> moving_nodes() const;
 
 private:
@@ -87,6 +104,7 @@ private:
   struct Prescription {
     std::vector<Term> terms;
     dealii::Point<3> position;
+    double start; ///< of supports that began within the run: their part that does not depend on time
     double value(double t) const;
   };
   /// Redundant constraint: Σ weight value(t) must vanish.
@@ -94,13 +112,20 @@ private:
     std::vector<Term> terms;
     std::string holds; ///< names of its constraints, for messages
     dealii::Point<3> position;
+    double start; ///< as of Prescription
   };
-  void eliminate(const std::vector<const Hold *> &holds, const std::array<DofIndex, 3> &dofs,
-                 const dealii::Point<3> &position);
+  /// Makes the lines of the supports that act. Collective.
+  void rebuild();
+  /// Returns the position n · u less the value at the time when a late support began.
+  double start_of(const Hold &hold, const HeldNode &node) const;
+  void eliminate(const HeldNode &node);
   /// Builds the constraints with these `values` of lines_; if empty, all are 0.
   Constraints build(std::vector<double> values) const;
 
+  const Scene &scene_;
   const Discretization &discretization_;
+  ActingHolds acting_;
+  std::map<double, Vector> starts_; ///< displacements of relevant dofs at the times when supports began
   std::vector<ConstraintLine> links_, lines_;
   std::vector<Prescription> prescriptions_; ///< of lines_
   std::vector<Redundancy> redundancies_;

@@ -40,6 +40,7 @@ private:
   std::string name_;
   std::vector<HistoryQuantity> quantities_; ///< those that the scene has
   std::string columns_;
+  WholeSection whole_;
   std::ofstream stream_;
 };
 

@@ -28,6 +28,7 @@ struct HistorySample {
   const StepReport *report; ///< null in explicit scenes
   const Reactions &reactions;
   const std::vector<double> &probes; ///< values of probe_columns()
+  const WholeSection &whole;
 };
 
 /// Columns of the history that belong together.

@@ -49,7 +49,9 @@ private:
   };
   void make_columns();
   void add_probes();
-  void add_forces(const std::string &name, const std::function<double(const Solution &)> &value);
+  /// Adds a column with the size of a force, in the whole of a section.
+  void add_forces(const std::string &name,
+                  const std::function<dealii::Tensor<1, 3>(const Solution &)> &force);
   void show_headers() const;
   void show_values(const Solution &solution) const;
   void show_iterations(const NewtonReport &newton);

@@ -19,8 +19,11 @@ namespace billet::parameters {
 /// Subsection Mesh: source of a body's hexahedra.
 struct Mesh {
   enum class Source { primitive, extruded, file };
+  enum class Section { solid, plane_strain, axisymmetric };
 
   Source source;
+  Located<Section> section{Section::solid, ""};
+  double wedge_angle = 0.;        ///< of an axisymmetric section [rad]
   Located<std::string> primitive; ///< function of dealii::GridGenerator
   std::string arguments;
   unsigned int refinements;
@@ -40,8 +43,14 @@ struct Mesh {
   Located<std::optional<double>>
       merged_distance; ///< of nodes in a file; 0: doubled nodes stay; none: refused
 
+  /// Returns a vector of the mesh before its rotation in the scene.
+  dealii::Tensor<1, 3> rotated(const dealii::Tensor<1, 3> &vector) const;
+
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);
+
+private:
+  void parse_section(const Reader &reader);
 };
 
 /// Whether a material has plasticity. `law`: value of 'Law', which is automatic by default; `is_set`: whether
@@ -67,6 +76,8 @@ struct Support {
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
   Axes axes;
+  double from = 0., until = std::numeric_limits<double>::infinity();
+  std::optional<double> fade_time; ///< none: automatic
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

@@ -10,6 +10,7 @@
 #include "billet/parameters/scene.h"
 #include "billet/scene/mesh_builder.h"
 #include "billet/scene/tool.h"
+#include "billet/scene/whole_section.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -24,6 +25,25 @@
 
 namespace billet {
 
+/// Times between which a support holds its nodes.
+struct SupportTimes {
+  static constexpr double rounding = 1e-9;
+
+  double from = 0.;
+  double until = std::numeric_limits<double>::infinity();
+  double fade_time = 0.; ///< over which its forces fade after `until`; 0: at once
+
+  /// Whether it begins within the run. Then it holds its nodes where they are at `from`.
+  bool is_late() const { return from > 0.; }
+  bool always() const { return !is_late() && !std::isfinite(until); }
+  /// Whether it holds at time t, both ends included.
+  bool holds_at(const double t) const { return t >= from * (1. - rounding) && t <= until * (1. + rounding); }
+  /// Whether it holds in a step that starts at t.
+  bool holds_after(const double t) const {
+    return t >= from * (1. - rounding) && t < until * (1. - rounding);
+  }
+};
+
 /// Constraint n · u = value on boundary nodes, from a symmetry plane or a support.
 struct Hold {
   std::string name;   ///< for messages and reports
@@ -37,6 +57,7 @@ struct Hold {
   const Expression *value = nullptr; ///< null: 0
   std::shared_ptr<const Axes> axes;  ///< of a support with axes of its own, or null
   unsigned int component = 0;        ///< of these axes
+  SupportTimes times;
 
   /// Returns the unit normal at an undeformed position.
   dealii::Tensor<1, 3> direction(const dealii::Tensor<1, 3> &position) const {
@@ -189,6 +210,8 @@ public:
   const std::vector<ContactPair> &pairs() const { return pairs_; }
   const std::vector<BodyPair> &body_pairs() const { return body_pairs_; }
   const Capabilities &capabilities() const { return capabilities_; }
+  /// Returns what forces on the model are in the whole.
+  const WholeSection &whole_section() const { return whole_section_; }
   /// Returns the scene's choice, with `automatic` resolved.
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
@@ -228,6 +251,9 @@ private:
   void check_axes(const dealii::Triangulation<3> &mesh) const;
   void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
   void check_supports(const dealii::Triangulation<3> &mesh) const;
+  /// Refuses a static body that supports which begin or end leave free, after the last of its tools is
+  /// removed. Returns false if it has no such supports.
+  bool check_support_times(std::size_t b, const dealii::Triangulation<3> &mesh, double last_removal) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;
 
   const parameters::Scene parameters_;
@@ -236,6 +262,7 @@ private:
   std::vector<ContactPair> pairs_;
   std::vector<BodyPair> body_pairs_;
   Capabilities capabilities_;
+  WholeSection whole_section_;
   parameters::ContactTangent contact_tangent_;
 };
 

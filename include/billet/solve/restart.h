@@ -102,6 +102,28 @@ std::vector<double> load_sums(const StateReader &reader, const std::string &name
 std::vector<double> load_part(const StateReader &reader, const std::string &name, unsigned int rank,
                               const std::vector<std::uint64_t> &keys);
 
+/// Saves where nodes were when supports began, at these times: `save` writes the displacements under a name.
+void save_support_starts(StateWriter &writer, const std::set<double> &times,
+                         const std::function<void(const std::string &name, double time)> &save);
+/// Calls `load` for those of the times that the state knows. Returns the others.
+std::set<double> load_support_starts(const StateReader &reader, const std::set<double> &times,
+                                     const std::function<void(const std::string &name, double time)> &load);
+
+/// Time from which the force of a support fades, and over which.
+struct FadeTimes {
+  double begin, duration;
+
+  double end() const { return begin + duration; }
+  /// Returns the part that is left at t; `duration` is > 0.
+  double left(const double t) const { return t >= end() ? 0. : 1. - (t - begin) / duration; }
+};
+/// Saves fading forces of supports: `save` writes those of an index under a name.
+void save_support_fades(StateWriter &writer, const std::vector<FadeTimes> &times,
+                        const std::function<void(const std::string &name, std::size_t index)> &save);
+/// Calls `load` for each of them.
+void load_support_fades(const StateReader &reader,
+                        const std::function<void(const std::string &name, const FadeTimes &times)> &load);
+
 } // namespace billet
 
 #endif

@@ -59,7 +59,9 @@ void ExplicitDynamics::finish_step() {
   parts_.motion.move(parts_.clock.step());
   parts_.tools.move(parts_.clock);
   ledger_.add_works(parts_.motion.velocities(), 0.5 * parts_.clock.step());
+  const double t_forces = time();
   parts_.clock.advance();
+  parts_.motion.switch_supports(t_forces, time());
 }
 
 void ExplicitDynamics::update_ledger() {
@@ -124,6 +126,7 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
     parts_.nodes.copy(parts_.motion.displacements(), state_.displacements);
     parts_.elements.load_stresses(reader, parts_.motion.displacements(), state_.displacements, time());
   }
+  parts_.motion.load_supports(reader, rows, time());
   parts_.tools.load(reader, rows, is_exact, time());
   load_contacts(reader, rows.keys());
   state_.energies = ledger_.load(reader, is_exact);

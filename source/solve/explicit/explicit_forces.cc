@@ -2,6 +2,7 @@
 #include "billet/solve/explicit/explicit_forces.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace billet {
 
@@ -42,14 +43,19 @@ ExplicitForces::ExplicitForces(const Scene &scene, const LocalNodes &nodes, cons
 void ExplicitForces::find_touched_nodes(const Scene &scene) {
   bool has_accelerations = false, has_loads = false;
   has_bounds_ = !scene.pairs().empty() || !scene.body_pairs().empty();
-  for (const auto &body : scene.bodies())
+  bool may_let_go = false;
+  for (const auto &body : scene.bodies()) {
+    for (const Hold &hold : body.holds)
+      may_let_go = may_let_go || std::isfinite(hold.times.until);
     for (const auto &load : body.loads) {
       has_loads = true;
       has_accelerations = has_accelerations || !load.load.acts_on_faces();
       has_bounds_ = has_bounds_ || load.load.limits_steps();
     }
+  }
   const NodalVectors is_touched = mark_boundaries(nodes_, scene.bodies().size()); // all else acts there
-  const bool may_be_loaded = has_loads || !scene.tools().empty(); // forces of removed tools fade
+  // Forces of removed tools and of supports fade.
+  const bool may_be_loaded = has_loads || may_let_go || !scene.tools().empty();
   for (unsigned int node = 0; node < nodes_.size(); ++node) {
     const bool touched = is_touched[std::size_t{nodal_stride} * node] > 0.;
     if (has_accelerations || (may_be_loaded && touched))
@@ -93,6 +99,7 @@ ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, cons
   try {
     motion.check();
     tools.remove_due(clock.time(), contacts, loaded_nodes_, external_, works.external);
+    motion.add_fading(clock.time(), external_);
     element_step_ = elements.add_forces({u.data(), v.data(), forces_.data()}, clock, works);
     loads_.add_forces(clock.time(), u, v, external_);
   } catch (const SolutionFailure &) { // of this rank

@@ -91,6 +91,88 @@ void ExplicitMotion::move(const double step) {
     u_[k] += step * v_[k];
 }
 
+void ExplicitMotion::switch_supports(const double t_forces, const double t) {
+  const HoldFilter acts = holding_at(t);
+  if (failure_ || !held_.acting().differ(acts))
+    return;
+  fading_.erase(std::remove_if(fading_.begin(), fading_.end(),
+                               [t](const Fading &fading) { return fading.times.end() <= t; }),
+                fading_.end());
+  const NodalVectors forces = supports_;
+  for (const unsigned int node : held_.nodes())
+    std::fill_n(&supports_[std::size_t{nodal_stride} * node], nodal_stride, 0.);
+  try {
+    NodalVectors released_before = nodes_.make_vectors();
+    for (const double fade_time : held_.acting().fade_times(acts)) {
+      NodalVectors released = forces;
+      held_.release(t, fade_time, released);
+      NodalVectors change = released;
+      for (std::size_t k = 0; k < change.size(); ++k)
+        change[k] -= released_before[k];
+      if (fade_time > 0.)
+        add_to_fading({t_forces, fade_time}, change);
+      released_before = released;
+    }
+    held_.take(t, u_);
+  } catch (const SolutionFailure &) { // as in kick()
+    failure_ = std::current_exception();
+  }
+}
+
+void ExplicitMotion::add_to_fading(const FadeTimes &times, const NodalVectors &forces) {
+  Fading fading{times, {}};
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    if (const dealii::Tensor<1, 3> force = get_vector(forces.data(), node); force.norm_square() > 0.)
+      fading.forces.emplace_back(node, force);
+  fading_.push_back(fading);
+}
+
+void ExplicitMotion::add_fading(const double t, NodalVectors &forces) const {
+  for (const Fading &fading : fading_) {
+    const double left = fading.times.left(t);
+    if (left > 0.)
+      for (const auto &[node, force] : fading.forces)
+        if (nodes_.is_owned(node)) // every rank that has the node knows its force
+          add_vector(forces.data(), node, left * force);
+  }
+}
+
+void ExplicitMotion::save_supports(StateWriter &writer, const NodalRows &rows) const {
+  std::set<double> starts;
+  for (const auto &start : held_.starts())
+    starts.insert(start.first);
+  save_support_starts(writer, starts, [&](const std::string &name, const double time) {
+    const NodalVectors &start = held_.starts().at(time);
+    rows.save(writer, name, [&start](const unsigned int node) { return get_vector(start.data(), node); });
+  });
+  std::vector<FadeTimes> times;
+  for (const Fading &fading : fading_)
+    times.push_back(fading.times);
+  save_support_fades(writer, times, [&](const std::string &name, const std::size_t i) {
+    NodalVectors forces = nodes_.make_vectors();
+    for (const auto &[node, force] : fading_[i].forces)
+      add_vector(forces.data(), node, force);
+    rows.save(writer, name, [&forces](const unsigned int node) { return get_vector(forces.data(), node); });
+  });
+}
+
+void ExplicitMotion::load_supports(const StateReader &reader, const NodalRows &rows, const double t) {
+  std::map<double, NodalVectors> starts;
+  const auto load = [&](const std::string &name, const double time) {
+    starts[time] = nodes_.make_vectors();
+    rows.load(reader, name, starts[time]);
+  };
+  for (const double time : load_support_starts(reader, late_beginnings(held_.scene(), holding_at(t)), load))
+    starts[time] = u_;
+  fail_together(nodes_.discretization().communicator(), [&] { held_.resume(t, std::move(starts)); });
+  fading_.clear();
+  load_support_fades(reader, [&](const std::string &name, const FadeTimes &times) {
+    NodalVectors forces = nodes_.make_vectors();
+    rows.load(reader, name, forces);
+    add_to_fading(times, forces);
+  });
+}
+
 void ExplicitMotion::save(StateWriter &writer, const NodalRows &rows, const double step) const {
   const auto vectors_of = [](const NodalVectors &values) {
     return [&values](const unsigned int node) { return get_vector(values.data(), node); };
@@ -98,6 +180,7 @@ void ExplicitMotion::save(StateWriter &writer, const NodalRows &rows, const doub
   rows.save(writer, "displacements", vectors_of(u_));
   rows.save(writer, "velocities after", vectors_of(v_));
   rows.save(writer, "velocities before", vectors_of(v_before_));
+  save_supports(writer, rows);
   // Histories belong to the last forces; another method resumes from the state of that time.
   rows.save(writer, "displacements before", [&](const unsigned int node) {
     return get_vector(u_.data(), node) - step * get_vector(v_.data(), node);

@@ -29,13 +29,15 @@ double l1_norm(const Tensor<1, 3> &v) { return std::abs(v[0]) + std::abs(v[1]) +
 } // namespace
 
 ExplicitReactions::ExplicitReactions(const ExplicitParts &parts)
-    : parts_(parts), supports_(parts.scene, parts.discretization), round_off_(find_round_off_force(parts)) {
+    : parts_(parts), supports_(parts.scene, parts.discretization, parts.motion.acting()),
+      round_off_(find_round_off_force(parts)) {
   values_.of_supports.resize(named_supports(parts.scene).size());
   values_.of_tool_pairs.resize(parts.scene.pairs().size());
 }
 
 void ExplicitReactions::update() {
   const ExplicitMotion &motion = parts_.motion;
+  supports_.follow(motion.acting());
   const SupportReactions::Forces forces =
       supports_.compute(parts_.nodes, motion.support_forces(), motion.displacements());
   values_.of_supports = forces.of_supports;

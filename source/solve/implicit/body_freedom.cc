@@ -56,7 +56,8 @@ void add_springs(const ImplicitProblem &problem, const std::size_t body,
 
 std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
   std::vector<Resistance> resistances;
-  for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization())) {
+  const auto acts = [&problem](const Hold &hold) { return problem.supports().acting()(hold); };
+  for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization(), acts)) {
     dealii::Tensor<1, 3> position = entry.second.position;
     for (unsigned int i = 0; i < 3; ++i)
       position[i] += problem.state().displacements(entry.second.dofs[i]);
@@ -107,15 +108,15 @@ void check_free_modes(const ImplicitProblem &problem) {
 }
 
 std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t body,
-                               const std::set<std::string> &removed) {
+                               const std::set<std::string> &removed, const std::string &what_happens) {
   const auto motion = find_free_mode(problem, body);
   if (!motion)
     return "";
   std::ostringstream message;
   message << problem.scene().parameters().file_name << ": without ";
   for (const auto &name : removed)
-    message << "tool '" << name << "', ";
-  message << "which " << (removed.size() == 1 ? "is" : "are") << " removed at this time, body '"
+    message << name << ", ";
+  message << "which " << (removed.size() == 1 ? "is " : "are ") << what_happens << " at this time, body '"
           << problem.scene().bodies()[body].name
           << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
              "rigid-body mode with "

@@ -32,7 +32,7 @@ void visit_springs(const Body &body, const Discretization &discretization, const
 
 } // namespace
 
-RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization) {
+RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts) {
   const std::size_t n_bodies = scene.bodies().size();
   const double far = 10. * discretization.radius();
   std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far); // about the scene's centre, negative
@@ -55,7 +55,7 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
     frames.push_back(frame);
   }
   RigidBodySupport support(discretization.communicator(), frames, 0);
-  for (const auto &entry : collect_held_nodes(scene, discretization))
+  for (const auto &entry : collect_held_nodes(scene, discretization, acts))
     for (std::size_t body = 0; body < n_bodies; ++body)
       for (const auto &hold : scene.bodies()[body].holds)
         if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0) {

@@ -196,6 +196,16 @@ void ImplicitMotion::commit(const Vector &displacements, const Vector &increment
   error_.commit(displacements);
 }
 
+double ImplicitMotion::follow_supports(const double t) {
+  const auto kinetic_energy = [this] { return 0.5 * (start_.velocity * mass_.times(start_.velocity)); };
+  const double before = kinetic_energy();
+  held_.start(t, step_.length > 0. ? step_.length : scene_.parameters().time_stepping.initial_step);
+  supports_.homogeneous().distribute(start_.velocity);
+  start_.velocity += held_.at_start().velocity;
+  trial_.velocity = start_.velocity;
+  return kinetic_energy() - before;
+}
+
 void ImplicitMotion::update_state(SolutionState &state) const {
   state.velocities = discretization_.make_ghosted_vector();
   state.velocities = start_.velocity;

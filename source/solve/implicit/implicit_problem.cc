@@ -56,10 +56,10 @@ double find_round_off_force(const Scene &scene, const Discretization &discretiza
 ImplicitParts::ImplicitParts(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), supports_(scene, discretization),
       internal_(scene, discretization), contacts_(scene, discretization),
-      statics_(make_statics(scene, discretization)), motion_(make_motion(scene, discretization, supports_)),
-      tools_(scene, discretization, supports_, contacts_, scheme()),
+      statics_(make_statics(scene, discretization)), motion_(make_motion(scene, discretization, supports())),
+      tools_(scene, discretization, supports(), contacts_, scheme()),
       removal_(scene, discretization, contacts_), stabilisation_(scene, discretization),
-      tangent_(scene, discretization, supports_, contacts_) {
+      tangent_(scene, discretization, supports(), contacts_) {
   if (contacts_.of_bodies().empty()) // else once the contacts are known
     tangent_.build();
 }
@@ -75,7 +75,7 @@ ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discr
   for (const auto &tool : scene.tools())
     state_.placements.push_back(tool.placement(0.));
   // Prescribed displacements hold at time 0, too.
-  supports_.at_time(0.).distribute(step_.start.displacements);
+  supports().at_time(0.).distribute(step_.start.displacements);
   state_.displacements = discretization.make_ghosted_vector();
   state_.displacements = step_.start.displacements;
 }
@@ -115,9 +115,10 @@ bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
   removal_.add_forces(step_.time, total);
   measure(scheme().add_loads(step_.time, trial.displacements, total));
   released_.add_forces(step_.time, total);
+  supports_.add_forces(step_.time, total);
   trial.supports = total;
   measure(scheme().complete(trial.contact, total));
-  supports_.condense(total);
+  supports().condense(total);
   std::copy(total.begin(), total.end(), residual.begin());
   tools_.add_residual(step_.time, total.locally_owned_size(), residual);
   status_changes_ = find_status_changes();
@@ -128,7 +129,7 @@ bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
 
 bool ImplicitProblem::compute_tangent(const Vector &x) {
   set_trial(x);
-  const bool success = assemble_tangent({supports_.homogeneous(), tangent_.matrix()});
+  const bool success = assemble_tangent({supports().homogeneous(), tangent_.matrix()});
   linearised_ = contacts_.slave_forces();
   return success;
 }
@@ -160,7 +161,7 @@ bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double
   tangent_.start_contact();
   for (const auto &contact : contacts_.of_bodies())
     contact.add_tangent(contact_system);
-  scheme().add_tangent(step_.time, {supports_.homogeneous(), system.matrix});
+  scheme().add_tangent(step_.time, {supports().homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
   tools_.assemble_tangent();
   tangent_.set_geometry(step_.trial.displacements);

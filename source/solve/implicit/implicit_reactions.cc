@@ -27,12 +27,13 @@ std::vector<Tensor<1, 3>> sum_nodes(const std::vector<const Vector *> &vectors, 
 } // namespace
 
 ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
-    : problem_(problem), supports_(problem.scene(), problem.discretization()) {
+    : problem_(problem), supports_(problem.scene(), problem.discretization(), problem.supports().acting()) {
   values_.of_supports.resize(named_supports(problem.scene()).size());
   values_.of_tool_pairs.resize(problem.scene().pairs().size());
 }
 
 void ImplicitReactions::start() {
+  supports_.follow(problem_.supports().acting());
   const ForceState &trial = problem_.step().trial;
   Vector residual = trial.supports;
   problem_.scheme().complete(trial.contact, residual);

@@ -220,6 +220,7 @@ void ImplicitSolution::commit_works(const double t) {
   const StepWorks works = problem_.contacts().compute_step_works(1. - before);
   state.energies.external -= problem_.removal().work(state.time, t, step.last_increment);
   state.energies.external += problem_.released().work(state.time, t, step.last_increment);
+  state.energies.external += problem_.switched_supports().work(state.time, t, step.last_increment);
   rules_->commit(t);
   step.start.displacements = step.trial.displacements;
   problem_.internal().commit();

@@ -35,6 +35,7 @@ void ImplicitSolution::save(StateWriter &writer) const {
   checkpoint_.save_tools(writer, nodes);
   checkpoint_.save_contacts(writer, keys);
   problem_.released().save(writer, nodes);
+  problem_.switched_supports().save(writer, nodes);
 }
 
 RestartReport ImplicitSolution::load(StateReader &reader, const double release_time) {
@@ -55,6 +56,9 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   step.trial.displacements = step.start.displacements;
   step.ghosted = step.start.displacements;
   state.time = step.time = report.time = reader.number(is_implicit ? "time" : "time before");
+  problem_.switched_supports().load(reader, nodes, state.time, state.displacements);
+  if (problem_.supports().acting().may_change())
+    problem_.tangent().follow_supports();
   if (!problem_.scheme().has_inertia() && reader.has("kinetic energy"))
     report.kinetic_energy = reader.number("kinetic energy");
   checkpoint_.load_bodies(reader, report);

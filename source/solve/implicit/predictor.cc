@@ -23,8 +23,8 @@ bool Predictor::stay_at_rest(const double t) {
   const auto &bodies = problem_.scene().bodies();
   if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))
     return false; // loads may change with time
-  if (has_lost_pace_ || problem_.released().left(t) != problem_.released().left(t_n) ||
-      problem_.removal().changes(t_n, t))
+  if (has_lost_pace_ || problem_.switched_supports().changes(t_n, t) ||
+      problem_.released().left(t) != problem_.released().left(t_n) || problem_.removal().changes(t_n, t))
     return false;
   const auto &tools = problem_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i) {

@@ -11,9 +11,25 @@
 namespace billet {
 
 RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
-    : problem_(problem), bodies_(problem.scene(), problem.discretization()),
+    : problem_(problem), bodies_(problem.scene(), problem.discretization(),
+                                 [&problem](const Hold &hold) { return problem.supports().acting()(hold); }),
       forces_n_(problem.scene().bodies().size(), 0.), max_forces_(forces_n_) {
-  problem.stabilisation().prepare(bodies_);
+  // Bodies that lose their supports within the run may need it.
+  if (problem.supports().acting().may_change())
+    problem.stabilisation().prepare(RigidBodies(problem.scene(), problem.discretization(),
+                                                [](const Hold &hold) { return hold.times.always(); }));
+  else
+    problem.stabilisation().prepare(bodies_);
+}
+
+void RigidBodyModes::find_bodies() {
+  bodies_ = RigidBodies(problem_.scene(), problem_.discretization(),
+                        [this](const Hold &hold) { return problem_.supports().acting()(hold); });
+}
+
+void RigidBodyModes::follow_supports() {
+  support_ = RigidBodySupport::Result();
+  begin();
 }
 
 void RigidBodyModes::add_supports(RigidBodySupport &support) const {
@@ -224,6 +240,8 @@ void RigidBodyModes::commit() {
 }
 
 void RigidBodyModes::begin() {
+  if (problem_.supports().acting().may_change())
+    find_bodies();
   if (!bodies_.are_held())
     support_ = find_support();
 }
@@ -251,6 +269,8 @@ void RigidBodyModes::save(StateWriter &writer) const {
 
 void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
   problem_.stabilisation().load(reader);
+  if (problem_.supports().acting().may_change())
+    find_bodies();
   if (!is_exact)
     return;
   if (reader.has("forces on bodies")) {

@@ -10,6 +10,18 @@
 
 namespace billet {
 
+namespace {
+
+/// Returns the names with their kind before them: "tool 'a'".
+std::set<std::string> name_all(const std::string &kind, const std::set<std::string> &names) {
+  std::set<std::string> all;
+  for (const std::string &name : names)
+    all.insert(kind + " '" + name + "'");
+  return all;
+}
+
+} // namespace
+
 std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathGuard &paths,
                                            SpringBooks &books) {
   if (problem.motion() != nullptr)
@@ -28,6 +40,25 @@ ToolRemoval::Removal StepRules::remove_tools(const double t) {
     problem_.step().start.contact -= problem_.removal().forces(tool); // it is no longer contact
   }
   return removal;
+}
+
+std::map<std::size_t, std::set<std::string>> StepRules::switch_supports(const double t,
+                                                                        const Vector &inertia) {
+  std::map<std::size_t, std::set<std::string>> ended;
+  const auto &bodies = problem_.scene().bodies();
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    for (const Hold &hold : bodies[body].holds)
+      if (problem_.supports().acting()(hold) && !hold.times.holds_after(t))
+        ended[body].insert(hold.name.substr(std::string("support ").size())); // planes hold always
+  ForceState &start = problem_.step().start;
+  Vector reactions = start.supports;
+  reactions += inertia;
+  start.supports -=
+      problem_.switched_supports().switch_supports(t, reactions, problem_.state().displacements);
+  problem_.tangent().follow_supports();
+  predictor().lose_pace();
+  predictor().drop_probe();
+  return ended;
 }
 
 void StaticRules::check_start() { check_free_modes(problem_); }
@@ -61,7 +92,13 @@ void StaticRules::close_step(const double t) {
   const ToolRemoval::Removal removal = remove_tools(t);
   for (const auto &[body, removed] : removal.let_go)
     if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
-      free_body_ = describe_free_mode(problem_, body, removed);
+      free_body_ = describe_free_mode(problem_, body, name_all("tool", removed), "removed");
+  if (!problem_.switched_supports().is_due(t))
+    return;
+  for (const auto &[body, ended] : switch_supports(t, problem_.discretization().make_owned_vector()))
+    if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
+      free_body_ = describe_free_mode(problem_, body, name_all("support", ended), "switched off");
+  modes_.follow_supports();
 }
 
 void StaticRules::save(StateWriter &writer) const {
@@ -111,7 +148,12 @@ void DynamicRules::close_step(const double t) {
     problem_.step().start.supports.add(-jump, problem_.removal().forces(tool));
     forces_jump = forces_jump || jump > 0.;
   }
-  if (forces_jump)
+  const bool supports_change = problem_.switched_supports().is_due(t);
+  if (supports_change) {
+    switch_supports(t, motion_.inertia());
+    problem_.state().energies.external += motion_.follow_supports(t);
+  }
+  if (forces_jump || supports_change)
     initial_.accelerate();
   motion_.update_state(problem_.state());
   balance_.update_largest_energy();

@@ -73,6 +73,14 @@ void TangentMatrix::follow_couplings() {
     build();
 }
 
+void TangentMatrix::follow_supports() {
+  if (!linear_) // it is built once the contacts are known
+    return;
+  build(true);
+  if (linear_->is_iterative())
+    undeformed_ = collect_geometry(discretization_, supports_.homogeneous());
+}
+
 bool TangentMatrix::take_exact() {
   if (kind_ == ContactTangent::exact || contacts_.empty())
     return false;

@@ -6,8 +6,10 @@
 #include "billet/solve/explicit/explicit_clock.h"
 #include "billet/solve/explicit/nodal_masses.h"
 #include "billet/solve/explicit/nodal_rows.h"
+#include "billet/solve/restart.h"
 
 #include <exception>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -49,18 +51,36 @@ public:
       std::rethrow_exception(failure_);
   }
   void move(double step);
+  /// Lets supports go and takes others as they are due at t, between steps; `t_forces`: time of the last
+  /// kick. The forces of those that let go fade from there on. Failures: as of kick().
+  void switch_supports(double t_forces, double t);
+  /// Returns the constraints that act.
+  const ActingHolds &acting() const { return held_.acting(); }
+  /// Adds the fading forces of supports at t that this rank owns.
+  void add_fading(double t, NodalVectors &forces) const;
 
   /// `step`: from the last forces to now.
   void save(StateWriter &writer, const NodalRows &rows, double step) const;
   void load(const StateReader &reader, const NodalRows &rows);
   /// Reads the displacements and, if there are some, the velocities of another method.
   void load_foreign(const StateReader &reader, const NodalRows &rows);
+  /// Takes the supports that hold at t, after displacements are loaded. Collective.
+  void load_supports(const StateReader &reader, const NodalRows &rows, double t);
 
 private:
+  /// Forces of supports that have let nodes of this rank go.
+  struct Fading {
+    FadeTimes times;
+    std::vector<std::pair<unsigned int, dealii::Tensor<1, 3>>> forces;
+  };
+  void add_to_fading(const FadeTimes &times, const NodalVectors &forces);
+  void save_supports(StateWriter &writer, const NodalRows &rows) const;
+
   const LocalNodes &nodes_;
   HeldMotion held_;
   NodalVectors u_, v_, v_before_;
   NodalVectors supports_;
+  std::vector<Fading> fading_;
   std::exception_ptr failure_; ///< of this rank, in the last kick
 };
 

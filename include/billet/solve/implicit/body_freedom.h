@@ -16,10 +16,10 @@ std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, std::s
 /// Throws InputError if a body without stabilisation has such a mode at the start.
 void check_free_modes(const ImplicitProblem &problem);
 
-/// Returns why the run ends if a body has such a mode without the tools of these names; else an empty text.
-/// Collective.
+/// Returns why the run ends if a body has such a mode without these tools or supports; else an empty text.
+/// `what_happens`: what they are at this time, such as "removed". Collective.
 std::string describe_free_mode(const ImplicitProblem &problem, std::size_t body,
-                               const std::set<std::string> &removed);
+                               const std::set<std::string> &removed, const std::string &what_happens);
 
 /// Whether the trial state moves farther, in the step or in the run, than tools and supports explain; then
 /// the step fails. For static scenes. Collective.

@@ -15,8 +15,8 @@ namespace billet {
 
 /// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports constrain.
 struct RigidBodies {
-  /// Collective.
-  RigidBodies(const Scene &scene, const Discretization &discretization);
+  /// For the supports that `acts` chooses. Collective.
+  RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts);
 
   /// Whether supports alone resist all rigid-body modes; then the other members are empty.
   bool are_held() const { return frames.empty(); }

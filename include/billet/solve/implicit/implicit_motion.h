@@ -66,6 +66,12 @@ public:
   /// without an 'Error tolerance'.
   double step_error(const Vector &displacements) const;
 
+  /// Returns the forces of inertia at the start of the step, with the sign of the residual.
+  Vector inertia() const { return mass_.times(start_.acceleration); }
+  /// Follows supports that have begun or ended at t: nodes of new ones take their velocities at once. Returns
+  /// the work that this does. The accelerations have to be computed anew. Collective.
+  double follow_supports(double t);
+
   HeavyTools &tools() { return tools_; }
   bool has_mass(const std::size_t tool) const override { return tools_.has_mass(tool); }
   double tool_inertia(const std::size_t tool, const double offset) const override {

@@ -7,6 +7,7 @@
 #include "billet/solve/implicit/driven_tools.h"
 #include "billet/solve/implicit/implicit_motion.h"
 #include "billet/solve/implicit/step_state.h"
+#include "billet/solve/implicit/switched_supports.h"
 #include "billet/solve/implicit/tangent_matrix.h"
 #include "billet/solve/implicit/tool_removal.h"
 #include "billet/solve/newton.h"
@@ -27,7 +28,9 @@ public:
   const Discretization &discretization() const { return discretization_; }
   MPI_Comm communicator() const { return discretization_.communicator(); }
 
-  const Supports &supports() const { return supports_; }
+  const Supports &supports() const { return supports_.get(); }
+  SwitchedSupports &switched_supports() { return supports_; }
+  const SwitchedSupports &switched_supports() const { return supports_; }
   InternalForces &internal() { return internal_; }
   const InternalForces &internal() const { return internal_; }
   ContactSet &contacts() { return contacts_; }
@@ -50,7 +53,7 @@ public:
 protected:
   const Scene &scene_;
   const Discretization &discretization_;
-  Supports supports_;
+  SwitchedSupports supports_;
   InternalForces internal_;
   ContactSet contacts_;
   std::unique_ptr<ImplicitScheme> statics_; ///< null in dynamics

@@ -24,6 +24,8 @@ public:
   void commit();
   /// Finds the support after a restart with other contacts. Collective.
   void begin();
+  /// Follows supports that have begun or ended after the step. Collective.
+  void follow_supports();
 
   /// Returns a text about the body that slid on all its contacts at the end of the last step, for a failed
   /// step.
@@ -45,6 +47,7 @@ private:
     /// body without a force.
     static constexpr double little = 0.01, unloaded = 1e-5;
   };
+  void find_bodies();
   struct Loss {
     double time = -1.;
     Explanation why;

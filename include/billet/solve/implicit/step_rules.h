@@ -8,7 +8,9 @@
 #include "billet/solve/implicit/predictor.h"
 #include "billet/solve/implicit/rigid_body_modes.h"
 
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace billet {
@@ -70,6 +72,9 @@ public:
 protected:
   /// Removes tools that are due at t. Collective.
   ToolRemoval::Removal remove_tools(double t);
+  /// Switches the supports that are due at t. Returns the names of those that each body loses. `inertia`: its
+  /// forces. Collective.
+  std::map<std::size_t, std::set<std::string>> switch_supports(double t, const Vector &inertia);
 
   ImplicitProblem &problem_;
   const PathGuard &paths_;
@@ -113,7 +118,7 @@ private:
   StaticBalance balance_;
   RigidBodyModes modes_;
   PenaltyRaises raises_;
-  std::string free_body_; ///< why no step can follow: removed tools supported this body
+  std::string free_body_; ///< why no step can follow: removed tools or supports held this body
 };
 
 class DynamicRules final : public StepRules {

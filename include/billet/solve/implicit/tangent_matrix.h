@@ -24,6 +24,8 @@ public:
   void build(bool couplings_are_known = false);
   /// Builds them anew if contact has new couplings. Collective.
   void follow_couplings();
+  /// Builds them anew after supports have begun or ended, with the contacts at the last build. Collective.
+  void follow_supports();
 
   Matrix &matrix() { return matrix_; }
   TangentSolver &solver() { return *linear_; }

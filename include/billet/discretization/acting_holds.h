@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_DISCRETIZATION_ACTING_HOLDS_H
+#define BILLET_DISCRETIZATION_ACTING_HOLDS_H
+
+#include "billet/scene/scene.h"
+
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace billet {
+
+/// Chooses constraints.
+using HoldFilter = std::function<bool(const Hold &)>;
+
+/// Chooses those that hold in a step that starts at t, as SupportTimes::holds_after() says.
+inline HoldFilter holding_after(const double t) {
+  return [t](const Hold &hold) { return hold.times.holds_after(t); };
+}
+/// Chooses those that hold at t, as SupportTimes::holds_at() says.
+inline HoldFilter holding_at(const double t) {
+  return [t](const Hold &hold) { return hold.times.holds_at(t); };
+}
+
+/// Supports and symmetry planes that hold nodes now. It changes between steps only, on all ranks alike.
+class ActingHolds {
+public:
+  /// Begins with those that `acts` chooses.
+  ActingHolds(const Scene &scene, const HoldFilter &acts);
+
+  bool operator()(const Hold &hold) const { return resting_.count(&hold) == 0; }
+  /// Returns how often they have changed.
+  unsigned int n_changes() const { return n_changes_; }
+
+  /// Whether supports of the scene begin or end within the run.
+  bool may_change() const { return may_change_; }
+  /// Whether `acts` chooses others than act now.
+  bool differ(const HoldFilter &acts) const;
+  /// Returns the times over which forces fade, in ascending order, of those that act and that `acts` omits.
+  std::vector<double> fade_times(const HoldFilter &acts) const;
+  /// Lets those of them go whose forces fade over this time.
+  void release(const HoldFilter &acts, double fade_time);
+  /// Adds those that `acts` chooses. Returns the times later than 0 at which those begin that did not act.
+  std::set<double> take(const HoldFilter &acts);
+
+private:
+  template <class Visit> void visit(const Visit &visit) const {
+    for (const Body &body : scene_.bodies())
+      for (const Hold &hold : body.holds)
+        visit(hold);
+  }
+
+  const Scene &scene_;
+  std::set<const Hold *> resting_; ///< those that do not act
+  bool may_change_ = false;
+  unsigned int n_changes_ = 0;
+};
+
+/// Returns the times later than 0 at which supports of this choice begin.
+std::set<double> late_beginnings(const Scene &scene, const HoldFilter &acts);
+
+} // namespace billet
+
+#endif

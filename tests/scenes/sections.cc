@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Models in two dimensions. An axisymmetric ring: its volume, its widening under pressure (Lamé: u(a) =
+// p a/E ((a² + b²)/(b² − a²) + ν), free along the axis), and the force on the full circle that presses it
+// together, turned and moved, too. A layer in plane strain, pressed together: force per width E/(1 − ν²) ε h.
+#include "scene_run.h"
+
+#include "billet/output/history_quantity.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <fstream>
+
+using namespace billet;
+using billet::testing::check;
+using billet::testing::SceneRun;
+
+namespace {
+
+using dealii::Tensor;
+
+constexpr double young = 1000., poisson = 0.3, inner = 10., outer = 20., height = 4., shortening = 4e-4;
+
+parameters::Scene read(const std::string &mesh, const std::string &body) {
+  const std::string file = "sections.prm";
+  std::ofstream(file)
+      << "subsection Bodies\n  subsection body\n    subsection Mesh\n"
+         "      set Primitive = subdivided_hyper_rectangle\n"
+      << mesh
+      << "    end\n    subsection Material\n      set Law = elastic\n"
+         "      set Young modulus = 1000\n      set Poisson ratio = 0.3\n    end\n"
+      << body
+      << "  end\nend\nsubsection Time stepping\n  set End time = 1\n  set Step control = fixed\n"
+         "  set Initial step = 1\nend\nsubsection Output\n  set Format = none\nend\n";
+  return parameters::Scene::read(file);
+}
+
+// The section's edges are 0 to 3: inner, outer, bottom, top.
+const std::string ring =
+    "      set Arguments = 20, 2 : 10, 0 : 20, 4 : true\n      set Section = axisymmetric\n"
+    "      set Wedge angle = 3\n";
+
+std::string press(const std::string &axes, const std::string &component) {
+  std::string text = "    subsection Supports\n";
+  for (const bool is_top : {false, true}) {
+    text += std::string("      subsection ") + (is_top ? "top" : "bottom") +
+            "\n        set Boundary ids = " + (is_top ? "3" : "2") +
+            "\n        set Components = " + component + "\n" + axes;
+    if (is_top)
+      text += std::string("        set Displacement = ") +
+              (component == "y" ? "0 ; -4e-4*t ; 0" : "0 ; 0 ; -4e-4*t") + "\n";
+    text += "      end\n";
+  }
+  return text + "    end\n";
+}
+
+/// Forces in the whole on the first support, from the history.
+Tensor<1, 3> whole_force(const SceneRun &run, const std::string &column) {
+  const std::vector<double> probes;
+  const HistorySample sample{run.problem.state(),      1, 1., nullptr, run.problem.reactions(), probes,
+                             run.scene.whole_section()};
+  for (const HistoryQuantity &quantity : history_quantities()) {
+    if (quantity.name != "forces in the whole of a section")
+      continue;
+    const std::vector<std::string> columns = quantity.columns(run.scene);
+    const std::vector<double> values = quantity.evaluate(sample);
+    for (std::size_t i = 0; i + 2 < columns.size() && columns.size() == values.size(); ++i)
+      if (columns[i] == column)
+        return Tensor<1, 3>({values[i], values[i + 1], values[i + 2]});
+  }
+  return Tensor<1, 3>({std::nan(""), 0., 0.});
+}
+
+void check_ring() {
+  const double pressure = 0.01;
+  SceneRun run(read(ring, "    set Symmetry planes = z = 0\n    subsection Loads\n      subsection gas\n"
+                          "        set Boundary ids = 0\n        set Pressure = 0.01\n      end\n    end\n"));
+  double volume = 0.;
+  testing::WorstError widening, side;
+  run.finish();
+  const double exact = pressure * inner / young *
+                       ((inner * inner + outer * outer) / (outer * outer - inner * inner) + poisson);
+  for (const auto &element : run.discretization.elements(0)) {
+    volume += element.cell->measure();
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const auto &x = element.cell->vertex(a);
+      Tensor<1, 3> u;
+      for (unsigned int i = 0; i < 3; ++i)
+        u[i] = run.problem.state().displacements(element.dofs[3 * a + i]);
+      const double radius = std::hypot(x[0], x[1]);
+      if (radius < inner * (1. + 1e-6))
+        widening.add(std::abs((u[0] * x[0] + u[1] * x[1]) / radius / exact - 1.));
+      side.add(std::abs(u[1] * x[0] - u[0] * x[1]) / radius / exact);
+    }
+  }
+  check(
+      "ring: volume of the full circle",
+      std::abs(run.scene.whole_section().factor * volume / (M_PI * (outer * outer - inner * inner) * height) -
+               1.),
+      1e-12);
+  check("ring: widening", widening.value(), 3e-3);
+  check("ring: no displacement around the axis", side.value(), 1e-8);
+}
+
+void check_pressed_ring(const std::string &name, const std::string &motion, const std::string &axes,
+                        const Tensor<1, 3> &axis) {
+  SceneRun run(read(ring + motion, press(axes, "z")));
+  run.finish();
+  const double exact = young * shortening / height * M_PI * (outer * outer - inner * inner);
+  const Tensor<1, 3> force = whole_force(run, "body.support top.full_circle_force_x");
+  check(name + ": force on the full circle", (force / exact + axis).norm(), 1e-3);
+}
+
+void check_layer() {
+  SceneRun run(read("      set Arguments = 2, 2 : 0, 0 : 5, 4 : true\n      set Section = plane strain\n"
+                    "      set Height = 2\n",
+                    "    set Symmetry planes = x = 0\n" + press("", "y")));
+  run.finish();
+  const double exact = young / (1. - poisson * poisson) * shortening / height * 5.;
+  const Tensor<1, 3> force = whole_force(run, "body.support top.force_per_width_x");
+  check("layer: force per width", (force / exact + Tensor<1, 3>({0., 1., 0.})).norm(), 1e-3);
+}
+
+void check_refusal(const std::string &name, const std::string &mesh, const std::string &expected) {
+  std::string message;
+  try {
+    const parameters::Scene scene = read(mesh, press("", "z"));
+    const SceneRun run(scene);
+  } catch (const InputError &error) {
+    message = error.what();
+  }
+  check(name, message.find(expected) != std::string::npos);
+}
+
+} // namespace
+
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_ring();
+  check_pressed_ring("pressed ring", "", "", Tensor<1, 3>({0., 0., 1.}));
+  check_pressed_ring(
+      "turned ring",
+      "      set Rotation axis = 0, 1, 0\n      set Rotation angle = 90\n"
+      "      set Translation = 1, 2, 3\n",
+      "        set Axes = local\n        set First axis = 0, 1, 0\n        set Second axis = 0, "
+      "0, 1\n",
+      Tensor<1, 3>({1., 0., 0.}));
+  check_layer();
+  check_refusal("a section on the axis is refused",
+                "      set Arguments = 4, 2 : 0, 0 : 20, 4 : true\n      set Section = axisymmetric\n",
+                "begins at the radius x = 0; allowed are sections with x > 0");
+  return testing::exit_code();
+}
