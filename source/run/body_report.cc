@@ -47,8 +47,8 @@ private:
   std::vector<std::size_t> parents_;
 };
 
-/// Returns this rank's separate sets of elements as a message: their number, then pairs of a node that other ranks
-/// may have, by its first dof, and the set it is in.
+/// Returns this rank's separate sets of elements as a message: their number, then pairs of a node that other
+/// ranks may have, by its first dof, and the set it is in.
 std::vector<std::uint64_t> find_own_parts(const Discretization &discretization, const std::size_t body) {
   std::unordered_map<DofIndex, std::size_t> nodes;
   DisjointSets sets;
@@ -113,8 +113,9 @@ double unit_volume(const std::array<Tensor<1, 3>, 3> &edges) {
 /// Measures the elements of a body, over all ranks.
 void measure_elements(const Discretization &discretization, const std::size_t body, BodyReport &report) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> sums(4, 0.);        // elements, volume, edges, nodes
-  std::vector<double> minima(8, infinity); // low corner, minus the high one, least edge, minus the largest one
+  std::vector<double> sums(4, 0.); // elements, volume, edges, nodes
+  std::vector<double> minima(8,
+                             infinity); // low corner, minus the high one, least edge, minus the largest one
   std::array<double, 4> worst{infinity, 0., 0., 0.};
   std::set<DofIndex> nodes;
   for (const Element &element : discretization.elements(body)) {
@@ -168,8 +169,8 @@ struct FacetIntegrals {
 };
 
 FacetIntegrals integrate(const BoundaryFacet &facet) {
-  const facet::Expansion x(FacetCorners{{facet.corners[0], facet.corners[1], facet.corners[2],
-                                         facet.corners[3]}});
+  const facet::Expansion x(
+      FacetCorners{{facet.corners[0], facet.corners[1], facet.corners[2], facet.corners[3]}});
   const double gauss = 1. / std::sqrt(3.);
   FacetIntegrals integrals;
   for (const auto &sign : facet::signs) {
@@ -230,9 +231,8 @@ BoundaryReport measure_boundary(const Discretization &discretization, const std:
 double scaled_jacobian(const CellIterator &cell) {
   std::array<Tensor<1, 3>, 3> axes;
   for (unsigned int i = 0; i < 3; ++i)
-    for_each_edge(i, [&](const unsigned int a, const unsigned int b) {
-      axes[i] += cell->vertex(b) - cell->vertex(a);
-    });
+    for_each_edge(
+        i, [&](const unsigned int a, const unsigned int b) { axes[i] += cell->vertex(b) - cell->vertex(a); });
   double least = unit_volume(axes);
   for (unsigned int v = 0; v < n_element_nodes; ++v) {
     std::array<Tensor<1, 3>, 3> edges;

@@ -18,8 +18,9 @@ struct BoundaryReport {
   std::size_t n_faces = 0;
   double area = 0.;
   dealii::Tensor<1, 3> centre; ///< of the area
-  dealii::Tensor<1, 3> normal; ///< unit vector along the sum of all area vectors, out of the body; 0 if that is 0
-  double flatness = 0.;        ///< length of that sum over the area: 1 for a plane, 0 for a closed surface
+  dealii::Tensor<1, 3>
+      normal;           ///< unit vector along the sum of all area vectors, out of the body; 0 if that is 0
+  double flatness = 0.; ///< length of that sum over the area: 1 for a plane, 0 for a closed surface
 };
 
 /// A body, undeformed.
@@ -32,17 +33,18 @@ struct BodyReport {
   double mass = 0.; ///< 0 without a density
   /// Edges of the elements [length]; in the mean, each element counts its twelve.
   double least_edge = 0., mean_edge = 0., largest_edge = 0.;
-  /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three axes through the
-  /// centre. 1 for a box, <= 0 if inverted.
+  /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three axes
+  /// through the centre. 1 for a box, <= 0 if inverted.
   double least_quality = 0.;
-  dealii::Tensor<1, 3> worst_element; ///< centre of the element that has it
+  dealii::Tensor<1, 3> worst_element;     ///< centre of the element that has it
   std::vector<BoundaryReport> boundaries; ///< by ascending id
 };
 
 /// Gaps at time 0 between nodes and what they may touch.
 struct GapReport {
-  std::size_t n_nodes = 0;  ///< of the pair's surfaces
-  std::size_t n_facing = 0; ///< of these, in front of the other surface or behind it; if 0, all below is unset
+  std::size_t n_nodes = 0; ///< of the pair's surfaces
+  std::size_t n_facing =
+      0; ///< of these, in front of the other surface or behind it; if 0, all below is unset
   double least = 0., mean = 0.; ///< [length]; a penetration is negative
   dealii::Tensor<1, 3> nearest; ///< node of the least gap
 };
@@ -66,8 +68,8 @@ struct PairReport {
 
 /// Stable step of an explicit scene at its start.
 struct StableStepReport {
-  double of_elements = 0.; ///< undeformed and at rest [time]
-  std::string body;        ///< of the element that sets it
+  double of_elements = 0.;      ///< undeformed and at rest [time]
+  std::string body;             ///< of the element that sets it
   dealii::Tensor<1, 3> element; ///< its centre
   double least_edge = 0.;       ///< of this element [length]
   double step = 0.;             ///< with contact, loads and 'Safety factor' [time]
@@ -76,8 +78,8 @@ struct StableStepReport {
 /// What the run will be like.
 struct RunReport {
   std::size_t n_dofs = 0;
-  double memory = 0.;     ///< estimate for all ranks [bytes]
-  double n_steps = 0.;    ///< explicit and fixed steps: about; automatic: at least
+  double memory = 0.;      ///< estimate for all ranks [bytes]
+  double n_steps = 0.;     ///< explicit and fixed steps: about; automatic: at least
   bool is_minimum = false; ///< whether there may be many more steps
   std::optional<StableStepReport> stable_step;
 };
