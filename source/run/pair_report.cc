@@ -30,13 +30,15 @@ public:
     constexpr double rounding = 1e-12;
     const Body &of_scene = scene.bodies()[body];
     for (const Hold &hold : of_scene.holds) {
+      const bool is_known = hold.value == nullptr || hold.value->is_uniform();
+      is_rigid_ = is_rigid_ && is_known;
       bool has_axis = false;
       for (unsigned int i = 0; i < 3 && !hold.axes; ++i)
         if (std::abs(hold.normal[i]) > 1. - rounding) {
-          values_[i].push_back({hold.value, hold.normal[i]});
+          values_[i].push_back({is_known ? hold.value : nullptr, hold.normal[i]});
           has_axis = true;
         }
-      if (hold.value != nullptr && !(has_axis && hold.value->is_uniform()))
+      if (hold.value != nullptr && !has_axis)
         is_rigid_ = false;
     }
     if (scene.parameters().is_dynamic())
@@ -91,12 +93,15 @@ private:
     const auto at = [&body](const unsigned int i, const Tensor<1, 3> &x) {
       return body.initial_velocity[i].value(0., dealii::Point<3>(x));
     };
-    for (unsigned int i = 0; i < 3; ++i) {
-      velocity_[i] = at(i, 0.5 * (extent.low + extent.high));
-      for (const Tensor<1, 3> &corner : {extent.low, extent.high})
-        if (std::abs(at(i, corner) - velocity_[i]) > rounding * std::abs(velocity_[i]))
-          is_rigid_ = false;
-    }
+    for (unsigned int i = 0; i < 3; ++i)
+      try {
+        const double velocity = at(i, 0.5 * (extent.low + extent.high));
+        for (const Tensor<1, 3> &corner : {extent.low, extent.high})
+          is_rigid_ = is_rigid_ && std::abs(at(i, corner) - velocity) <= rounding * std::abs(velocity);
+        velocity_[i] = velocity;
+      } catch (const SolutionFailure &) { // these points may lie outside the body
+        is_rigid_ = false;
+      }
   }
 
   std::array<std::vector<Value>, 3> values_; ///< of the supports, by component

@@ -87,7 +87,7 @@ void print(const PairReport &pair, const double size, std::ostream &stream) {
   const GapReport &gap = pair.gap;
   if (gap.n_facing > 0)
     stream << "least " << number(gap.least, size) << " at " << vector(gap.nearest, size) << ", mean "
-           << number(gap.mean, size) << " of " << gap.n_facing << " of " << count(gap.n_nodes, "node");
+           << number(gap.mean, size) << " over " << gap.n_facing << " of " << count(gap.n_nodes, "node");
   else
     stream << "none of " << count(gap.n_nodes, "node") << " is in front of the other surface";
   const char *motions = "by the prescribed motions";
