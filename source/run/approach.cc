@@ -20,7 +20,7 @@ namespace {
 
 /// Settings of the search for contact.
 struct Search {
-  static constexpr unsigned int min_samples = 200, max_samples = 4000;
+  static constexpr unsigned int min_samples = 200, max_samples = 1000;
   /// Motion between samples [facet sizes]: less than the penetration at which a point no longer faces a
   /// facet.
   static constexpr double motion = 0.25;
@@ -56,7 +56,8 @@ class TrackedSide {
 public:
   TrackedSide(const GapSide &side, const MPI_Comm communicator)
       : side_(side), box_(box_of(side.points)), first_(mpi::this_mpi_process(communicator)),
-        stride_(mpi::n_mpi_processes(communicator)), bounds_(side.points.size(), 0.) {}
+        stride_(mpi::n_mpi_processes(communicator)), bounds_(side.points.size(), 0.),
+        patches_(side.points.size(), 0) {}
 
   /// Moves on to the placement, and measures the points that may be within `tolerance` there. Returns whether
   /// one is.
@@ -70,7 +71,8 @@ public:
       if (bounds_[i] > path_ + tolerance)
         continue;
       near_.push_back(i);
-      const PointGap point = side_.measure(placement.to_tool(side_.points[i]));
+      const PointGap point = side_.gap_of(i, placement, patches_[i]);
+      patches_[i] = point.patch;
       bounds_[i] = path_ + point.distance;
       touches = touches || (point.faces && point.gap <= tolerance);
     }
@@ -82,7 +84,7 @@ public:
   template <class Visit>
   void visit_touching(const Placement &placement, const double tolerance, const Visit &visit) const {
     for (const std::size_t i : near_) {
-      const PointGap point = side_.measure(placement.to_tool(side_.points[i]));
+      const PointGap point = side_.gap_of(i, placement, patches_[i]);
       if (point.faces && point.gap <= tolerance)
         visit(i);
     }
@@ -95,7 +97,8 @@ private:
   const GapSide &side_;
   BoundingBox box_;
   std::size_t first_, stride_;
-  std::vector<double> bounds_; ///< path at which the point may touch, at the earliest [length]
+  std::vector<double> bounds_;        ///< path at which the point may touch, at the earliest [length]
+  std::vector<unsigned int> patches_; ///< see PointGap
   std::vector<std::size_t> near_;
   Placement before_;
   bool is_placed_ = false;
@@ -200,6 +203,13 @@ private:
 
 } // namespace
 
+PointGap GapSide::gap_of(const std::size_t i, const Placement &placement, const unsigned int patch) const {
+  constexpr double away = 0.1; // cosine; 0 along the surface
+  PointGap point = measure(placement.to_tool(points[i]), patch);
+  point.faces = point.faces && normals[i] * (placement.rotation * point.outward) <= away;
+  return point;
+}
+
 GapReport measure_gaps(const std::vector<GapSide> &sides, const double t, const MPI_Comm communicator) {
   GapReport report;
   const std::size_t first = mpi::this_mpi_process(communicator), stride = mpi::n_mpi_processes(communicator);
@@ -211,7 +221,7 @@ GapReport measure_gaps(const std::vector<GapSide> &sides, const double t, const 
     const Placement placement = side.placement(t);
     for (std::size_t i = first; i < side.points.size(); i += stride) {
       const Tensor<1, 3> &x = side.points[i];
-      const PointGap point = side.measure(placement.to_tool(x));
+      const PointGap point = side.gap_of(i, placement);
       if (!point.faces)
         continue;
       sums[0] += 1.;

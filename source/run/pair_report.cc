@@ -112,7 +112,8 @@ private:
 /// One surface of a pair, undeformed, from all ranks.
 struct PairSurface {
   std::vector<Tensor<1, 3>> nodes;                 ///< by ascending keys
-  std::vector<std::array<Tensor<1, 3>, 4>> facets; ///< likewise
+  std::vector<Tensor<1, 3>> normals;               ///< of the nodes: unit vectors along the areas around
+  std::vector<std::array<Tensor<1, 3>, 4>> facets; ///< by ascending keys
   double size = 0.;                                ///< square root of the facets' mean area [length]
 };
 
@@ -132,22 +133,32 @@ PairSurface gather_surface(const Discretization &discretization, const NodeKeys 
   const auto all_corners = mpi::all_gather(discretization.communicator(), own_corners);
   std::map<std::uint64_t, Tensor<1, 3>> nodes;
   std::map<std::uint64_t, std::array<Tensor<1, 3>, 4>> facets;
+  std::map<std::uint64_t, std::array<std::uint64_t, 4>> nodes_of; // of facets
   for (std::size_t rank = 0; rank < all_keys.size(); ++rank)
     for (std::size_t f = 0; 5 * f < all_keys[rank].size(); ++f) {
       std::array<Tensor<1, 3>, 4> &facet = facets[all_keys[rank][5 * f]];
       for (unsigned int v = 0; v < 4; ++v) {
         for (unsigned int i = 0; i < 3; ++i)
           facet[v][i] = all_corners[rank][12 * f + 3 * v + i];
-        nodes[all_keys[rank][5 * f + 1 + v]] = facet[v];
+        const std::uint64_t node = all_keys[rank][5 * f + 1 + v];
+        nodes[node] = facet[v];
+        nodes_of[all_keys[rank][5 * f]][v] = node;
       }
     }
   PairSurface surface;
-  for (const auto &node : nodes)
-    surface.nodes.push_back(node.second);
+  std::map<std::uint64_t, Tensor<1, 3>> sums;
   double area = 0.;
   for (const auto &[key, x] : facets) {
     surface.facets.push_back(x);
-    area += 0.5 * dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]).norm();
+    const Tensor<1, 3> vector = 0.5 * dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]);
+    area += vector.norm();
+    for (const std::uint64_t node : nodes_of[key])
+      sums[node] += vector;
+  }
+  for (const auto &[key, x] : nodes) {
+    surface.nodes.push_back(x);
+    const Tensor<1, 3> &sum = sums[key];
+    surface.normals.push_back(sum.norm() > 0. ? sum / sum.norm() : sum);
   }
   if (!facets.empty())
     surface.size = std::sqrt(area / static_cast<double>(facets.size()));
@@ -173,6 +184,7 @@ public:
     point.distance = std::sqrt(foot.square);
     if (point.distance <= touching_gap * reach_) { // on it: there is no direction
       point.faces = true;
+      point.outward = normals_[foot.facet];
       return point;
     }
     // Triangles that meet at the nearest point. Over an edge between them, the direction to x is between
@@ -194,6 +206,7 @@ public:
     for (const unsigned int facet : around)
       point.faces = point.faces && is_between(direction, facet, around);
     point.gap = side * point.distance;
+    point.outward = direction;
     return point;
   }
 
@@ -253,14 +266,16 @@ public:
     const PairSurface surface = gather_surface(discretization_, keys_, pair.body, pair.boundary_ids);
     GapSide side;
     side.points = surface.nodes;
+    side.normals = surface.normals;
     side.placement = [&tool, &course](const double t) {
       Placement placement = tool.placement(t);
       placement.translation -= course.displacement(t);
       return placement;
     };
-    side.measure = [&tool](const Tensor<1, 3> &x) {
-      const RigidSurface::Projection projection = tool.surface().project(x);
-      return PointGap{projection.exists, projection.gap, std::abs(projection.gap)};
+    side.measure = [&tool](const Tensor<1, 3> &x, const unsigned int patch) {
+      const RigidSurface::Projection projection = tool.surface().project(x, patch);
+      return PointGap{projection.exists, projection.gap, std::abs(projection.gap), projection.normal,
+                      projection.patch};
     };
     PairReport report = measure(pair.name, {side}, std::min(tool.removal_time(), end()), surface.size);
     report.depends_on_forces =
@@ -287,12 +302,13 @@ public:
       const auto faceted = std::make_shared<const FacetedSurface>(surfaces[1 - k]);
       GapSide side;
       side.points = surfaces[k].nodes;
+      side.normals = surfaces[k].normals;
       side.placement = [&own, &other](const double t) {
         Placement placement;
         placement.translation = other.displacement(t) - own.displacement(t);
         return placement;
       };
-      side.measure = [faceted](const Tensor<1, 3> &x) { return faceted->measure(x); };
+      side.measure = [faceted](const Tensor<1, 3> &x, unsigned int /*patch*/) { return faceted->measure(x); };
       sides.push_back(std::move(side));
       size = std::min(size, surfaces[1 - k].size);
     }

@@ -95,9 +95,11 @@ void check_pairs(const std::vector<PairReport> &pairs) {
   check_pair(pairs.at(2), 15, 15, 1., -1., 0);
   check_pair(pairs.at(3), 15, 15, 1., std::atan(0.25), 3);
   check("on turning: x of the first node", std::abs(pairs[3].meeting->first[0] - 4.), tolerance);
-  check_pair(pairs.at(4), 5, 19, 0.75, 0.25, 5);
+  check("away: no node faces the die", pairs.at(4).gap.n_facing == 0 && pairs[4].gap.n_nodes == 15);
+  check("away: never", !pairs[4].meeting);
+  check_pair(pairs.at(5), 5, 19, 0.75, 0.25, 5);
   check("on turning: nothing else moves", !pairs[3].depends_on_forces);
-  const PairReport &apart = pairs.at(5);
+  const PairReport &apart = pairs.at(6);
   check("apart: no node is in front", apart.gap.n_facing == 0 && apart.gap.n_nodes == 12);
   check("apart: never", !apart.meeting);
 }

@@ -43,8 +43,9 @@ struct BodyReport {
 /// Gaps at time 0 between nodes and what they may touch.
 struct GapReport {
   std::size_t n_nodes = 0; ///< of the pair's surfaces
-  std::size_t n_facing =
-      0; ///< of these, in front of the other surface or behind it; if 0, all below is unset
+  /// Number of these that are in front of the other surface or behind it, and do not look away. If 0, the
+  /// rest is unset.
+  std::size_t n_facing = 0;
   double least = 0., mean = 0.; ///< [length]; a penetration is negative
   dealii::Tensor<1, 3> nearest; ///< node of the least gap
 };
