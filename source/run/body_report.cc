@@ -138,9 +138,9 @@ void measure_elements(const Discretization &discretization, const std::size_t bo
       if (discretization.owned_dofs().is_element(dof))
         nodes.insert(dof);
     }
-    const double quality = scaled_jacobian(cell);
-    if (quality < worst[0])
-      worst = {quality, cell->center()[0], cell->center()[1], cell->center()[2]};
+    const dealii::Point<3> centre =
+        cell->center(); // among equal elements it chooses one, on any number of ranks
+    worst = std::min(worst, {scaled_jacobian(cell), centre[0], centre[1], centre[2]});
   }
   sums[3] = static_cast<double>(nodes.size());
   const MPI_Comm communicator = discretization.communicator();

@@ -1172,6 +1172,35 @@ def _() -> None:
     says("; never meets by the prescribed motions$", checked("Plane: Point = 0, 0, 3"))
 
 
+@check("--check on two ranks measures the same")
+def _() -> None:
+    measured = [
+        re.findall(
+            r"^(?:Geometry|Boundary|Gap| ) .*", checked("Plane: Point = 0, 0, 2.05", ranks), re.MULTILINE
+        )
+        for ranks in (1, 2)
+    ]
+    require(len(measured[0]) > 4, "there are no lines to compare")
+    equal("what two ranks measure", measured[1], measured[0])
+
+
+@check("--check of an explicit scene tells the element that sets the stable step")
+def _() -> None:
+    write_text("scene.prm", IMPACT)
+    ended = run(*program.on(1, "--check", "scene.prm"))
+    equal("exit code", ended.code, 0)
+    said = says(
+        r"^Stable step    (\S+) of the elements, set by that of '\w+' at \(.*\) with its least edge \S+;"
+        r" first steps (\S+)$",
+        ended.output,
+    )
+    step = float(said[2])
+    require(0.0 < step < float(said[1]), f"steps of {step} are not below the stable one")
+    steps = float(says(r"^Run .* memory, about (\S+) steps$", ended.output)[1])
+    end = float(says(r"^Time +0 to (\S+), ", ended.output)[1])
+    require(abs(steps - end / step) <= 1.0, f"{steps} steps of {step} do not end at {end}")
+
+
 @check("--check --json tells the same in numbers")
 def _() -> None:
     write_text("scene.prm", edit(BLOCK, "Material: + set Density = 0.25").text)
