@@ -164,7 +164,7 @@ LoadArrows find_load_arrows(const Scene &scene, const Discretization &discretiza
                   [](const Body &body) { return body.loads.empty(); }))
     return result;
   const LocalNodes nodes(discretization);
-  const ExternalLoads loads(scene, nodes, Inertia(scene, discretization, true).nodal_masses(nodes));
+  const ExternalLoads loads(scene, nodes, Inertia(scene, discretization, false).nodal_masses(nodes));
   const NodalVectors at_rest = nodes.make_vectors();
   NodalVectors largest = nodes.make_vectors();
   double largest_sum = 0.;

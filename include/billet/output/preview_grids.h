@@ -13,6 +13,7 @@ namespace billet {
 /// Groups of blocks that a preview has beside those of a snapshot.
 namespace preview_group {
 const std::string tools_at_end = "Tools at end", supports = "Supports", loads = "Loads";
+const std::vector<std::string> all{tools_at_end, supports, loads};
 } // namespace preview_group
 
 /// Arrow from one point to another, with the vector that it shows.
