@@ -110,7 +110,7 @@ def show_boundaries(part, view):
 
 
 def show_preview(results, view):
-    """Shows what a run would begin with: supports green, loads red, tools at the end of their motion orange."""
+    """Shows supports in green, loads in red, tools at the end of their motion in orange."""
     for group, colour, opacity in (
         ("Tools at end", TOOL_AT_END, 0.2),
         ("Supports", SUPPORT, 1.0),

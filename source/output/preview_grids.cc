@@ -49,8 +49,7 @@ void add_arrow(Grid &grid, const Arrow &arrow) {
   const std::uint64_t first = grid.n_points();
   const auto add_square = [&](const Tensor<1, 3> &centre, const double width) {
     for (const auto &sign : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}}) {
-      const Tensor<1, 3> corner =
-          centre + width * length * (sign[0] * normals[0] + sign[1] * normals[1]);
+      const Tensor<1, 3> corner = centre + width * length * (sign[0] * normals[0] + sign[1] * normals[1]);
       for (unsigned int i = 0; i < 3; ++i)
         grid.points.push_back(corner[i]);
     }
@@ -141,10 +140,10 @@ std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization 
       if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
         continue;
       const Tensor<1, 3> direction = hold.direction(node.position);
-      const double value = hold.value != nullptr
-                               ? hold.value->value(scene.parameters().time_stepping.end_time,
-                                                   dealii::Point<3>(node.position))
-                               : 0.;
+      const double value =
+          hold.value != nullptr
+              ? hold.value->value(scene.parameters().time_stepping.end_time, dealii::Point<3>(node.position))
+              : 0.;
       const Tensor<1, 3> motion = value * direction;
       if (value != 0.)
         arrows.push_back({node.position, node.position + motion, motion});
@@ -209,16 +208,16 @@ std::vector<Grid> make_preview_grids(const Scene &scene, const Discretization &d
   const MPI_Comm communicator = discretization.communicator();
   std::vector<Grid> grids;
   for (std::size_t t = 0; t < scene.tools().size(); ++t)
-    grids.push_back(make_tool_grid(
-        discretization, scene.tools()[t], t,
-        placement_at_end(scene.tools()[t], scene.parameters().time_stepping.end_time),
-        preview_group::tools_at_end));
+    grids.push_back(
+        make_tool_grid(discretization, scene.tools()[t], t,
+                       placement_at_end(scene.tools()[t], scene.parameters().time_stepping.end_time),
+                       preview_group::tools_at_end));
   for (std::size_t body = 0; body < scene.bodies().size(); ++body)
     if (!scene.bodies()[body].holds.empty()) {
       std::vector<Arrow> arrows;
       fail_together(communicator, [&] { arrows = find_support_arrows(scene, discretization, body); });
-      grids.push_back(make_arrow_grid(preview_group::supports, scene.bodies()[body].name, "displacement_at_end",
-                                      arrows, communicator));
+      grids.push_back(make_arrow_grid(preview_group::supports, scene.bodies()[body].name,
+                                      "displacement_at_end", arrows, communicator));
     }
   const LoadArrows loads = find_load_arrows(scene, discretization);
   for (std::size_t body = 0; body < scene.bodies().size(); ++body)

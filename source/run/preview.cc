@@ -6,7 +6,9 @@
 #include "billet/output/paraview_script.h"
 #include "billet/output/preview_grids.h"
 #include "billet/output/snapshot_grids.h"
+#include "billet/run/check.h"
 #include "billet/run/output_folder.h"
+#include "billet/scene/plausibility.h"
 #include "billet/solve/explicit/explicit_dynamics.h"
 #include "billet/solve/implicit/implicit_solution.h"
 
@@ -121,6 +123,9 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
   fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
   const Scene &scene = *built;
   const Discretization discretization(scene, communicator);
+  DiagnosticList messages = parameters.warnings;
+  append(messages, check_plausibility(scene, discretization.dof_handler().get_triangulation(), communicator));
+  append(messages, check_meshes(scene, discretization));
   const auto prepare = [&] {
     fail_together(communicator, [&] {
       if (is_first)
@@ -129,6 +134,7 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
   };
   if (parameters.is_explicit()) {
     ExplicitDynamics problem(scene, discretization);
+    append(messages, problem.initial_diagnostics());
     prepare();
     try {
       problem.prepare_step(parameters.time_stepping.end_time);
@@ -138,13 +144,18 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
     write_start(scene, problem);
   } else {
     const ImplicitSolution problem(scene, discretization);
+    append(messages, problem.initial_diagnostics());
     prepare();
     write_start(scene, problem);
   }
   if (!is_first)
     return;
+  for (const auto &message : messages)
+    stream << message.text() << "\n";
   const std::string &folder = parameters.output.folder.value;
   const Picture picture = draw_picture(folder + "/" + paraview_script_name, folder + "/scene.png");
+  if (parameters.output.verbosity == parameters::Output::Verbosity::quiet)
+    return;
   stream << parameters.file_name << ": open in ParaView: " << folder << "/scene.pvd (or run " << folder << "/"
          << paraview_script_name << ")\n"
          << (picture.file.empty() ? "No picture: " + picture.reason : "Picture: " + picture.file) << "\n";
