@@ -7,6 +7,7 @@
 #include "billet/run/check.h"
 #include "billet/run/launch.h"
 #include "billet/run/new_scene.h"
+#include "billet/run/preview.h"
 #include "billet/run/simulation.h"
 #include "billet/run/type_lists.h"
 #include "billet/version.h"
@@ -31,6 +32,8 @@ const char help[] =
        billet --ranks N SCENE.prm       run it on N processes; on several machines: mpirun -n N billet SCENE.prm
        billet --restart FILE SCENE.prm  resume from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
+       billet --preview SCENE.prm...    check scenes, write them undeformed for ParaView and as a picture, to
+                                        the folder 'preview' in the output folder
        billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or print it
        billet --new KIND [FILE]         write a scene to begin with to KIND.prm or FILE: forging, drawing, ...
        billet --list [LIST [NAME...]]   what scenes can name: primitives, materials, surfaces, loads, ...
@@ -38,7 +41,7 @@ const char help[] =
        billet --print-diagnostics       every message by its key, with meaning and remedy
        billet --version | --help
 
-Options of runs and checks:
+Options of runs, checks and previews:
        --set PATH=VALUE   override a parameter of the scene, such as --set "Time stepping/End time=2"
        --output FOLDER    write results to FOLDER; without it, and without 'Folder' in the scene, they go to
                           a folder with the name of the scene
@@ -79,6 +82,7 @@ void print_help(std::ostream &stream) {
 enum class Task {
   run,
   check,
+  preview,
   update_scene,
   new_scene,
   list,
@@ -106,6 +110,7 @@ const std::vector<std::string> options = {"--check",
                                           "--list",
                                           "--new",
                                           "--output",
+                                          "--preview",
                                           "--print-diagnostics",
                                           "--print-parameters",
                                           "--quiet",
@@ -176,6 +181,7 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
                                                            {"--print-diagnostics", Task::print_diagnostics},
                                                            {"--check", Task::check},
                                                            {"--list", Task::list},
+                                                           {"--preview", Task::preview},
                                                            {"--new", Task::new_scene},
                                                            {"--update-scene", Task::update_scene}};
   for (std::size_t next = 0; next < arguments.size(); ++next) {
@@ -210,6 +216,11 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     return command;
   if (command.json)
     refuse("--json");
+  if (command.task == Task::preview) {
+    if (!command.restart_file.empty()) // a resumed run begins deformed
+      refuse("--restart");
+    return command;
+  }
   if (command.task != Task::update_scene)
     command.task = Task::run;
   else if (!command.option_of_runs.empty())
@@ -326,6 +337,15 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
           print_refusal(file, error, is_first);
         else
           print_errors(error.diagnostics(), is_first);
+        code = ExitCode::bad_input;
+      }
+    break;
+  case Task::preview:
+    for (const auto &file : command.scenes)
+      try {
+        billet::preview_simulation(read_scene(file, command), MPI_COMM_WORLD, std::cout);
+      } catch (const billet::InputError &error) { // the other scenes are still shown
+        print_errors(error.diagnostics(), is_first);
         code = ExitCode::bad_input;
       }
     break;

@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/output/hdf5_grids.h"
 #include "billet/output/paraview_script.h"
+#include "billet/output/preview_grids.h"
 #include "billet/output/snapshot_grids.h"
 #include "billet/output/vtu_file.h"
 
@@ -53,22 +54,36 @@ std::string FieldWriter::index() const {
   return "";
 }
 
+std::vector<std::string> FieldWriter::groups() const {
+  std::vector<std::string> names = block_group::all;
+  if (is_preview_)
+    names.insert(names.end(), preview_group::all.begin(), preview_group::all.end());
+  return names;
+}
+
 std::string FieldWriter::file_to_open() const {
   return index().empty() ? ""
                          : folder_ + "/" + index() + " (or run " + folder_ + "/" + paraview_script_name + ")";
 }
 
 void FieldWriter::write(const Solution &solution) {
+  if (scene_.parameters().output.format != Format::none)
+    write(solution, make_snapshot_grids(scene_, solution));
+}
+
+void FieldWriter::write_preview(const Solution &solution, const std::vector<Grid> &grids) {
+  is_preview_ = true;
+  write(solution, grids);
+}
+
+void FieldWriter::write(const Solution &solution, const std::vector<Grid> &grids) {
   const Format format = scene_.parameters().output.format;
-  if (format == Format::none)
-    return;
-  const std::vector<Grid> grids = make_snapshot_grids(scene_, solution);
   const double time = solution.state().time;
   if (format == Format::vtu)
     write_blocks(grids, time);
   else {
     const std::string file = numbered("fields", n_written_, ".h5");
-    xdmf_grids_.push_back(write_hdf5(communicator_, folder_, file, time, block_group::all, grids));
+    xdmf_grids_.push_back(write_hdf5(communicator_, folder_, file, time, groups(), grids));
     if (xdmf_grids_.back().empty())
       throw SolutionFailure(cannot_write(folder_ + "/" + file));
     snapshots_.push_back({time, file});
@@ -91,7 +106,7 @@ void FieldWriter::write_blocks(const std::vector<Grid> &grids, const double time
   snapshots_.push_back({time, numbered("fields", n_written_, ".vtm")});
   fail_together(communicator_, [&] {
     if (is_first_rank_)
-      write_text(folder_ + "/" + snapshots_.back().file, multiblock_index(block_group::all, files));
+      write_text(folder_ + "/" + snapshots_.back().file, multiblock_index(groups(), files));
   });
 }
 
@@ -121,7 +136,7 @@ void FieldWriter::load(const StateReader &reader) {
 }
 
 void FieldWriter::write_index() const {
-  write_text(folder_ + "/" + paraview_script_name, paraview_script(index()));
+  write_text(folder_ + "/" + paraview_script_name, paraview_script(index(), is_preview_));
   std::ostringstream out;
   if (scene_.parameters().output.format == Format::hdf5) {
     for (const std::string &grid : xdmf_grids_)

@@ -25,6 +25,7 @@ from paraview import simple
 
 const std::string body = R"py(
 TOOL, EDGE = [0.42, 0.48, 0.57], [0.12, 0.12, 0.12]
+TOOL_AT_END, SUPPORT, LOAD = [0.80, 0.55, 0.30], [0.10, 0.45, 0.20], [0.75, 0.10, 0.10]
 
 
 def folder():
@@ -88,12 +89,36 @@ def show_bodies(part, view):
     shown.SetScalarBarVisibility(view, True)
 
 
-def show_tools(part, view):
+def show_plain(part, view, colour, opacity):
     shown = simple.Show(part, view)
     shown.Representation = "Surface"
     shown.ColorArrayName = [None, ""]
-    shown.DiffuseColor = shown.AmbientColor = TOOL
-    shown.Opacity = 0.3
+    shown.DiffuseColor = shown.AmbientColor = colour
+    shown.Opacity = opacity
+
+
+def show_boundaries(part, view):
+    shown = simple.Show(part, view)
+    shown.Representation = "Surface With Edges"
+    shown.EdgeColor = EDGE
+    simple.ColorBy(shown, ("CELLS", "boundary_id"))
+    shown.RescaleTransferFunctionToDataRange(False, True)
+    bar = simple.GetScalarBar(simple.GetColorTransferFunction("boundary_id"), view)
+    bar.Title, bar.ComponentTitle = "Boundary id", ""
+    bar.TitleColor = bar.LabelColor = EDGE
+    shown.SetScalarBarVisibility(view, True)
+
+
+def show_preview(results, view):
+    """Shows supports in green, loads in red, tools at the end of their motion in orange."""
+    for group, colour, opacity in (
+        ("Tools at end", TOOL_AT_END, 0.2),
+        ("Supports", SUPPORT, 1.0),
+        ("Loads", LOAD, 1.0),
+    ):
+        part = extract(results, group)
+        if part:
+            show_plain(part, view, colour, opacity)
 
 
 def show_hidden(part, view, name):
@@ -121,11 +146,15 @@ def main():
     surfaces, outsides = extract(results, "Contact surfaces"), extract(results, "Boundaries")
     if surfaces:
         show_hidden(surfaces, view, "contact_pressure")
-    if outsides:
+    if outsides and PREVIEW:
+        show_boundaries(outsides, view)
+    elif outsides:
         show_hidden(outsides, view, "boundary_id")
     if tools:
-        show_tools(tools, view)
-    if bodies:
+        show_plain(tools, view, TOOL, 0.3)
+    if PREVIEW:
+        show_preview(results, view)
+    elif bodies:
         show_bodies(bodies, view)
         simple.SetActiveSource(bodies)
     view.CameraPosition, view.CameraFocalPoint = [3.0, -4.0, 2.2], [0.0, 0.0, 0.0]
@@ -142,6 +171,8 @@ main()
 
 } // namespace
 
-std::string paraview_script(const std::string &index) { return head + "INDEX = \"" + index + "\"" + body; }
+std::string paraview_script(const std::string &index, const bool is_preview) {
+  return head + "INDEX = \"" + index + "\"\nPREVIEW = " + (is_preview ? "True" : "False") + body;
+}
 
 } // namespace billet

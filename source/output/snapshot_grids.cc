@@ -208,15 +208,17 @@ private:
   std::vector<NodalAverage> averages_;
 };
 
-/// Returns the block of a tool, whose points and facets the first rank has.
-Grid make_tool_grid(const Scene &scene, const Solution &solution, const std::size_t t) {
-  const Discretization &discretization = solution.discretization();
-  const Tool &tool = scene.tools()[t];
-  Grid grid{block_group::tools, tool.name()};
+std::set<unsigned int> to_set(const std::vector<unsigned int> &ids) { return {ids.begin(), ids.end()}; }
+
+} // namespace
+
+Grid make_tool_grid(const Discretization &discretization, const Tool &tool, const std::size_t t,
+                    const Placement &now, const std::string &group) {
+  Grid grid{group, tool.name()};
   GridField displacement{"displacement", 3}, undeformed{"undeformed_coordinates", 3},
       number{"tool", 1, FileNumber::int32};
   if (dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) {
-    const Placement now = solution.state().placements[t], start = tool.placement(0.);
+    const Placement start = tool.placement(0.);
     const SurfaceMesh mesh =
         tool.surface().surface_mesh({now.to_tool(discretization.centre()), 1.5 * discretization.radius()});
     for (const auto &point : mesh.points) {
@@ -237,10 +239,6 @@ Grid make_tool_grid(const Scene &scene, const Solution &solution, const std::siz
   grid.cell_fields = {number};
   return grid;
 }
-
-std::set<unsigned int> to_set(const std::vector<unsigned int> &ids) { return {ids.begin(), ids.end()}; }
-
-} // namespace
 
 std::vector<Grid> make_snapshot_grids(const Scene &scene, const Solution &solution) {
   const MeshBlocks blocks(scene, solution);
@@ -269,7 +267,8 @@ std::vector<Grid> make_snapshot_grids(const Scene &scene, const Solution &soluti
     ++number;
   }
   for (std::size_t t = 0; t < scene.tools().size(); ++t)
-    grids.push_back(make_tool_grid(scene, solution, t));
+    grids.push_back(make_tool_grid(solution.discretization(), scene.tools()[t], t,
+                                   solution.state().placements[t], block_group::tools));
   return grids;
 }
 

@@ -7,12 +7,19 @@
 #include "billet/errors.h"
 #include "billet/output/checkpoint.h"
 #include "billet/output/probe_reader.h"
+#include "billet/run/body_report.h"
 #include "billet/run/output_folder.h"
+#include "billet/run/pair_report.h"
+#include "billet/run/run_forecast.h"
+#include "billet/run/scene_report_text.h"
 #include "billet/scene/plausibility.h"
 #include "billet/solve/explicit/explicit_dynamics.h"
 #include "billet/solve/implicit/implicit_solution.h"
 
+#include <nlohmann/json.hpp>
+
 #include <memory>
+#include <optional>
 #include <ostream>
 
 namespace billet {
@@ -25,18 +32,26 @@ DiagnosticList check_meshes(const Scene &scene, const Discretization &discretiza
 
 namespace {
 
-/// Sets up the solution as a run would. Returns the warnings of a run before its first step. Collective.
-DiagnosticList check_start(const Scene &scene, MPI_Comm communicator) {
+/// Sets up the solution as a run would. Returns the warnings of a run before its first step, and fills the
+/// report. Collective.
+DiagnosticList check_start(const Scene &scene, MPI_Comm communicator, SceneReport &report) {
   const Discretization discretization(scene, communicator);
   DiagnosticList messages =
       check_plausibility(scene, discretization.dof_handler().get_triangulation(), communicator);
   const ProbeReader probes(scene, discretization); // refuses points outside bodies
+  report.bodies = report_bodies(scene, discretization);
   if (scene.parameters().restart.is_wanted())
     return messages;
-  if (scene.parameters().is_explicit())
-    append(messages, ExplicitDynamics(scene, discretization).initial_diagnostics());
-  else
-    append(messages, ImplicitSolution(scene, discretization).initial_diagnostics());
+  if (scene.parameters().is_explicit()) {
+    ExplicitDynamics problem(scene, discretization);
+    append(messages, problem.initial_diagnostics());
+    report.run = forecast_run(scene, problem);
+  } else {
+    const ImplicitSolution problem(scene, discretization);
+    append(messages, problem.initial_diagnostics());
+    report.run = forecast_run(scene, problem);
+  }
+  report.pairs = report_pairs(scene, discretization, report.bodies);
   append(messages, check_meshes(scene, discretization));
   return messages;
 }
@@ -67,16 +82,24 @@ void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator
   const Scene &scene = *built;
   constexpr std::size_t max_elements = 500000; // takes a minute and some GB on one rank
   DiagnosticList messages = parameters.warnings;
-  append(messages, scene.count_elements() <= max_elements ? check_start(scene, communicator)
-                                                          : check_outline(scene, communicator));
+  std::optional<SceneReport> report; // none of outlines
+  if (scene.count_elements() <= max_elements)
+    append(messages, check_start(scene, communicator, report.emplace()));
+  else
+    append(messages, check_outline(scene, communicator));
   append(messages, check_bricks(scene));
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
     return;
   if (as_json) {
-    stream << scene.describe_as_json(messages) << "\n";
+    nlohmann::ordered_json object = nlohmann::ordered_json::parse(scene.describe_as_json(messages));
+    if (report)
+      object["report"] = nlohmann::ordered_json::parse(describe_as_json(*report));
+    stream << object.dump() << "\n";
     return;
   }
   scene.describe(stream);
+  if (report)
+    print(*report, stream);
   for (const auto &message : messages)
     stream << message.text() << "\n";
 }

@@ -14,14 +14,11 @@
 
 namespace billet {
 
-namespace {
-
-/// Returns the memory of a direct solver on one rank [bytes]; many ranks need more. It was measured with
-/// MUMPS for two blocks of 50 000 to 500 000 dofs: doc/results/linear-solvers.md. The fill of solids grows as
-/// n^(4/3).
 double direct_memory(const double n_dofs, const bool symmetric) {
   return (symmetric ? 220. : 410.) * std::pow(n_dofs, 4. / 3.);
 }
+
+namespace {
 
 double machine_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));

@@ -353,6 +353,39 @@ def _() -> None:
     says(rf"subsection 'Tools' has no 'end'; .* before line {motion_end + 1}\b", said)
 
 
+# --- --preview -------------------------------------------------------------------------------------
+
+
+@check("--preview writes the scene, and leaves results where they are")
+def _() -> None:
+    write_text("shown.prm", UNNAMED)
+    Path("shown").mkdir()
+    write_text("shown/history.csv", "time\n")
+    for ranks in RANKS:
+        output = billet("--preview", "shown.prm", ranks=ranks).output
+        says("^shown.prm: open in ParaView: shown/preview/scene.pvd ", output)
+        index = read_text("shown/preview/fields_00000.vtm")
+        for name in ("Bodies", "Tools", "Tools at end", "Supports", "Loads", "block", "die"):
+            require(f'"{name}"' in index, f"no '{name}' in {index}")
+        says("^PREVIEW = True$", read_text("shown/preview/show_in_paraview.py"))
+        if picture := re.search(r"^Picture: (\S+)$", output, re.MULTILINE):
+            require(Path(picture[1]).read_bytes()[:4] == b"\x89PNG", "no picture")
+        else:
+            says("^No picture: .*pvbatch", output)
+    equal("results", sorted(os.listdir("shown")), ["history.csv", "preview"])
+    require(not Path("shown.1").exists(), "results were moved")
+
+
+@check("--preview says what is wrong with a scene, and refuses what it has no use for")
+def _() -> None:
+    write_text("refused.prm", UNNAMED.replace("Young modulus     = 1000", "Young modulus     = -1000"))
+    says("Young modulus", billet("--preview", "refused.prm", code=2).errors)
+    require(not Path("refused/preview").exists(), "something was written")
+    for option in (("--json",), ("--restart", "ends/checkpoint_00000.h5")):
+        said = billet("--preview", *option, "shown.prm", code=2).errors
+        says(f"'{option[0]}' is not allowed here", said)
+
+
 # --- what shells know ----------------------------------------------------------------------------
 
 

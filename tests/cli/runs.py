@@ -1156,6 +1156,66 @@ def _() -> None:
     says("block: 536870912 hexahedra", ended.output)
 
 
+@check("--check tells sizes of bodies and boundaries, gaps, when they close, and what the run will be like")
+def _() -> None:
+    output = checked("Plane: Point = 0, 0, 2.05")
+    for line in (
+        r"Geometry       block: x 0 to 2, y 0 to 1, z 0 to 2; volume 4, no mass without 'Density'",
+        r"               4 elements, 18 nodes, 1 part; edges 1 to 1, mean 1; least scaled Jacobian 1, at ",
+        r"Boundary       block 7: 2 faces, area 2, centre \(1, 0\.5, 2\), normal \(0, 0, 1\)$",
+        r"Gap            top on die: least 0\.05 at \(0, 0, 2\), mean 0\.05 over 6 of 6 nodes; 6 nodes meet"
+        r" at time 0\.5 by the prescribed motions, first \(0, 0, 2\)$",
+        r"Run            54 dofs, about \d+ MB of memory, at least 2 steps$",
+    ):
+        says(f"^{line}", output)
+    says("6 nodes touch at the start, first", checked(""))
+    says("; never meets by the prescribed motions$", checked("Plane: Point = 0, 0, 3"))
+
+
+@check("--check on two ranks measures the same")
+def _() -> None:
+    measured = [
+        re.findall(
+            r"^(?:Geometry|Boundary|Gap| ) .*", checked("Plane: Point = 0, 0, 2.05", ranks), re.MULTILINE
+        )
+        for ranks in (1, 2)
+    ]
+    require(len(measured[0]) > 4, "there are no lines to compare")
+    equal("what two ranks measure", measured[1], measured[0])
+
+
+@check("--check of an explicit scene tells the element that sets the stable step")
+def _() -> None:
+    write_text("scene.prm", IMPACT)
+    ended = run(*program.on(1, "--check", "scene.prm"))
+    equal("exit code", ended.code, 0)
+    said = says(
+        r"^Stable step    (\S+) of the elements, set by that of '\w+' at \(.*\) with its least edge \S+;"
+        r" first steps (\S+)$",
+        ended.output,
+    )
+    step = float(said[2])
+    require(0.0 < step < float(said[1]), f"steps of {step} are not below the stable one")
+    steps = float(says(r"^Run .* memory, about (\S+) steps$", ended.output)[1])
+    end = float(says(r"^Time +0 to (\S+), ", ended.output)[1])
+    require(abs(steps - end / step) <= 1.0, f"{steps} steps of {step} do not end at {end}")
+
+
+@check("--check --json tells the same in numbers")
+def _() -> None:
+    write_text("scene.prm", edit(BLOCK, "Material: + set Density = 0.25").text)
+    report = json.loads(run(*program.on(1, "--check", "--json", "scene.prm")).output)["report"]
+    body = report["bodies"][0]
+    near("volume", body["volume"], 4.0)
+    near("mass", body["mass"], 1.0)
+    top = next(boundary for boundary in body["boundaries"] if boundary["id"] == 7)
+    near("area", top["area"], 2.0)
+    equal("pair", report["pairs"][0]["name"], "top on die")
+    near("gap", report["pairs"][0]["gap"]["least"] + 1.0, 1.0)
+    equal("time", report["pairs"][0]["meeting"]["time"], 0.0)
+    equal("dofs", report["run"]["dofs"], 54)
+
+
 @check("--check tells what a profile sets, and what the scene requires")
 def _() -> None:
     output = checked(

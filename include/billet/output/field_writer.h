@@ -20,6 +20,8 @@ public:
 
   /// Writes a snapshot. Collective.
   void write(const Solution &solution);
+  /// Writes these blocks as a preview, which the script beside them shows with its groups. Collective.
+  void write_preview(const Solution &solution, const std::vector<Grid> &grids);
 
   /// Saves and restores the list of snapshots, so that a resumed run continues the files in the same folder.
   void save(StateWriter &writer) const;
@@ -29,8 +31,11 @@ public:
   std::string file_to_open() const;
 
 private:
+  void write(const Solution &solution, const std::vector<Grid> &grids);
   /// Returns the name of the index file.
   std::string index() const;
+  /// Returns the groups of blocks.
+  std::vector<std::string> groups() const;
   /// Writes a file for each block. Collective.
   void write_blocks(const std::vector<Grid> &grids, double time);
   void write_index() const;
@@ -39,6 +44,7 @@ private:
   MPI_Comm communicator_;
   std::string folder_;
   bool is_first_rank_;
+  bool is_preview_ = false;
   unsigned int n_written_ = 0;
   struct Snapshot {
     double time;

@@ -10,7 +10,9 @@ namespace billet {
 const std::string paraview_script_name = "show_in_paraview.py";
 
 /// Returns a Python script that opens the results beside it in ParaView. `index`: the file that lists them.
-std::string paraview_script(const std::string &index);
+/// A preview is shown with its supports, loads and tools at the end, and bodies in the colours of their
+/// boundary ids.
+std::string paraview_script(const std::string &index, bool is_preview = false);
 
 } // namespace billet
 

@@ -22,6 +22,11 @@ const std::vector<std::string> all{bodies, boundaries, contact_surfaces, tools};
 /// across ranks. Collective.
 std::vector<Grid> make_snapshot_grids(const Scene &scene, const Solution &solution);
 
+/// Returns the block of a tool, the scene's tool `t`, at a placement. The first rank has its points and
+/// facets.
+Grid make_tool_grid(const Discretization &discretization, const Tool &tool, std::size_t t,
+                    const Placement &now, const std::string &group);
+
 } // namespace billet
 
 #endif

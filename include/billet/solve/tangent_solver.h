@@ -14,6 +14,11 @@
 
 namespace billet {
 
+/// Returns an estimate of the memory of a direct solver on one rank [bytes]; many ranks need more. It was
+/// measured with MUMPS for two blocks of 50 000 to 500 000 dofs: doc/results/linear-solvers.md. The fill of
+/// solids grows as n^(4/3).
+double direct_memory(double n_dofs, bool symmetric);
+
 /// Linear solver of a scene: a direct one, or an iterative one that a direct one replaces for every matrix
 /// with which it stagnates.
 class TangentSolver {

@@ -76,6 +76,50 @@ double ExplicitElements::scale_mass(const double min_step) {
   return added;
 }
 
+double ExplicitElements::stable_step_of(const std::size_t body, const std::size_t begin,
+                                        const std::size_t end, const double min_step) const {
+  const Body &of_scene = scene_.bodies()[body];
+  const std::unique_ptr<ExplicitBlock> block =
+      make_explicit_block(of_scene.law, of_scene.density,
+                          formulation_of(scene_.parameters(), scene_.parameters().bodies[body]));
+  const auto &elements = nodes_.elements(body);
+  std::size_t offender = 0;
+  block->initialize({elements.begin() + static_cast<std::ptrdiff_t>(begin),
+                     elements.begin() + static_cast<std::ptrdiff_t>(end)},
+                    nodes_.positions().data(), offender); // make_blocks() has refused elements that offend
+  if (min_step > 0.)
+    block->scale_mass(min_step);
+  if (of_scene.temperature)
+    block->set_temperature(of_scene.temperature->value(0.));
+  const NodalVectors at_rest = nodes_.make_vectors();
+  NodalVectors forces = nodes_.make_vectors();
+  return block->advance({at_rest.data(), at_rest.data(), forces.data()}, 0.).stable_step;
+}
+
+LimitingElement ExplicitElements::find_limiting_element(const double min_step) const {
+  LimitingElement limiting;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (blocks_[b]->size() > 0) {
+      const double step = stable_step_of(b, 0, blocks_[b]->size(), min_step);
+      if (step < limiting.step)
+        limiting = {b, 0, step};
+    }
+  if (!std::isfinite(limiting.step))
+    return limiting;
+  // Kernels return the shortest step of all their elements: halve these until one is left.
+  std::size_t begin = 0, end = blocks_[limiting.body]->size();
+  while (end - begin > 1) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    const double first = stable_step_of(limiting.body, begin, middle, min_step);
+    if (first <= stable_step_of(limiting.body, middle, end, min_step))
+      end = middle;
+    else
+      begin = middle;
+  }
+  limiting.element = begin;
+  return limiting;
+}
+
 SolutionFailure ExplicitElements::describe_inverted(const std::size_t body, const std::size_t element,
                                                     const double *displacements,
                                                     const ExplicitClock &clock) const {

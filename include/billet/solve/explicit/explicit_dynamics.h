@@ -34,6 +34,11 @@ public:
   /// Returns the maximum step while no node comes through a surface.
   double usual_step() const { return std::max(step_length(), stable_step_.usual()); }
   unsigned int n_steps() const { return parts_.clock.n_steps(); }
+  /// Returns this rank's element with the shortest stable step at the start.
+  LimitingElement find_limiting_element() const {
+    return parts_.elements.find_limiting_element(parts_.settings().scaled_step /
+                                                parts_.settings().safety_factor);
+  }
   /// Returns the mass that mass scaling adds, on all ranks [mass].
   double added_mass() const { return parts_.masses.added(); }
   /// Returns the mass of the bodies without added mass, on all ranks [mass].

@@ -9,6 +9,7 @@
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ namespace billet {
 /// Works since time 0 on one rank [energy].
 struct ExplicitWorks {
   double external = 0., plastic = 0., friction = 0., viscous = 0.;
+};
+
+/// Element of a rank with its stable step, undeformed and at rest.
+struct LimitingElement {
+  std::size_t body = 0, element = 0;                      ///< index of Discretization::elements(body)
+  double step = std::numeric_limits<double>::infinity(); ///< infinite if the rank has no elements [time]
 };
 
 /// Elements of all bodies on a rank, for central differences.
@@ -31,6 +38,11 @@ public:
   /// Multiplies densities so that no element has a shorter stable step than `min_step` [time]. Returns the
   /// mass that this adds on this rank.
   double scale_mass(double min_step);
+
+  /// Returns this rank's element that has the shortest stable step, undeformed and at rest, with the masses
+  /// that scale_mass(`min_step`) adds if `min_step` > 0. It leaves the elements as they are, and costs three
+  /// evaluations of them.
+  LimitingElement find_limiting_element(double min_step) const;
 
   /// Subtracts internal and viscous forces from those of `nodes`, advances histories by the time since the
   /// last forces, and adds to `works`. Returns the stable step of this rank's elements [time]. Throws
@@ -57,6 +69,7 @@ public:
 private:
   void make_blocks();
   void set_temperatures(double t);
+  double stable_step_of(std::size_t body, std::size_t begin, std::size_t end, double min_step) const;
   void count_memory();
   std::string describe_formulation(std::size_t body) const;
   SolutionFailure describe_inverted(std::size_t body, std::size_t element, const double *displacements,

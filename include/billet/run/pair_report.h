@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_PAIR_REPORT_H
+#define BILLET_RUN_PAIR_REPORT_H
+
+#include "billet/discretization/discretization.h"
+#include "billet/run/scene_report.h"
+
+namespace billet {
+
+/// Returns the gaps of all pairs at time 0, and when they close by the prescribed motions of tools and
+/// supports and, in dynamic scenes, the initial velocities, while bodies move as rigid ones. `bodies`: their
+/// reports. Between bodies, the nodes of each surface are measured from the facets of the other. Collective.
+std::vector<PairReport> report_pairs(const Scene &scene, const Discretization &discretization,
+                                     const std::vector<BodyReport> &bodies);
+
+} // namespace billet
+
+#endif

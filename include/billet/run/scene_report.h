@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_SCENE_REPORT_H
+#define BILLET_RUN_SCENE_REPORT_H
+
+#include <deal.II/base/tensor.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Faces of a body that share a boundary id, undeformed.
+struct BoundaryReport {
+  unsigned int id = 0;
+  std::vector<std::string> names; ///< groups of the mesh file that contain them
+  std::size_t n_faces = 0;
+  double area = 0.;
+  dealii::Tensor<1, 3> centre; ///< of the area
+  dealii::Tensor<1, 3>
+      normal;           ///< unit vector along the sum of all area vectors, out of the body; 0 if that is 0
+  double flatness = 0.; ///< length of that sum over the area: 1 for a plane, 0 for a closed surface
+};
+
+/// A body, undeformed.
+struct BodyReport {
+  std::string name;
+  std::size_t n_elements = 0, n_nodes = 0;
+  std::size_t n_parts = 0; ///< separate sets of elements, without a common node
+  dealii::Tensor<1, 3> low, high;
+  double volume = 0.;
+  double mass = 0.; ///< 0 without a density
+  /// Edges of the elements [length]; in the mean, each element counts its twelve.
+  double least_edge = 0., mean_edge = 0., largest_edge = 0.;
+  /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three axes
+  /// through the centre. 1 for a box, <= 0 if inverted.
+  double least_quality = 0.;
+  dealii::Tensor<1, 3> worst_element;     ///< centre of the element that has it
+  std::vector<BoundaryReport> boundaries; ///< by ascending id
+};
+
+/// Gaps at time 0 between nodes and what they may touch.
+struct GapReport {
+  std::size_t n_nodes = 0; ///< of the pair's surfaces
+  /// Number of these that are in front of the other surface or behind it, and do not look away. If 0, the
+  /// rest is unset.
+  std::size_t n_facing = 0;
+  double least = 0., mean = 0.; ///< [length]; a penetration is negative
+  dealii::Tensor<1, 3> nearest; ///< node of the least gap
+};
+
+/// First contact of a pair.
+struct MeetingReport {
+  double time = 0.;
+  std::size_t n_nodes = 0;    ///< that meet at this time
+  dealii::Tensor<1, 3> first; ///< undeformed position of one of them
+};
+
+/// A contact pair, undeformed.
+struct PairReport {
+  std::string name;
+  bool is_self_contact = false;         ///< then there are no gaps
+  GapReport gap;                        ///< at time 0
+  std::optional<MeetingReport> meeting; ///< by the prescribed motions; none: never
+  /// Whether loads, forces on tools or the deformation by supports may change that.
+  bool depends_on_forces = false;
+};
+
+/// Stable step of an explicit scene at its start.
+struct StableStepReport {
+  double of_elements = 0.;      ///< undeformed and at rest [time]
+  std::string body;             ///< of the element that sets it
+  dealii::Tensor<1, 3> element; ///< its centre
+  double least_edge = 0.;       ///< of this element [length]
+  double step = 0.;             ///< with contact, loads and 'Safety factor' [time]
+};
+
+/// What the run will be like.
+struct RunReport {
+  std::size_t n_dofs = 0;
+  double memory = 0.;      ///< estimate for all ranks [bytes]
+  double n_steps = 0.;     ///< explicit and fixed steps: about; automatic: at least
+  bool is_minimum = false; ///< whether there may be many more steps
+  std::optional<StableStepReport> stable_step;
+};
+
+/// The physics of a scene at its start, for --check. The same on all ranks.
+struct SceneReport {
+  std::vector<BodyReport> bodies;
+  std::vector<PairReport> pairs; ///< those with tools first; none for a restart, which begins deformed
+  std::optional<RunReport> run;  ///< none for a restart
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/preview_grids.h"
+
+#include "billet/discretization/supports.h"
+#include "billet/errors.h"
+#include "billet/forces/external_loads.h"
+#include "billet/forces/inertia.h"
+#include "billet/output/snapshot_grids.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Tensor;
+namespace mpi = dealii::Utilities::MPI;
+
+namespace {
+
+/// Dimensions of arrows, relative to their length, and lengths relative to half the diagonal of the scene.
+struct Sizes {
+  static constexpr double shaft = 0.03, head = 0.09, head_length = 0.3;
+  static constexpr double support = 0.06; ///< of a support that does not move
+  static constexpr double longest_load = 0.25;
+};
+
+/// Returns two unit vectors that are normal to this one and to each other.
+std::array<Tensor<1, 3>, 2> find_normals(const Tensor<1, 3> &direction) {
+  unsigned int least = 0;
+  for (unsigned int i = 1; i < 3; ++i)
+    if (std::abs(direction[i]) < std::abs(direction[least]))
+      least = i;
+  Tensor<1, 3> axis;
+  axis[least] = 1.;
+  Tensor<1, 3> first = dealii::cross_product_3d(direction, axis);
+  first /= first.norm();
+  return {first, dealii::cross_product_3d(direction, first)};
+}
+
+/// Adds a square shaft and a pyramid.
+void add_arrow(Grid &grid, const Arrow &arrow) {
+  const double length = (arrow.to - arrow.from).norm();
+  if (!(length > 0.))
+    return;
+  const Tensor<1, 3> direction = (arrow.to - arrow.from) / length;
+  const auto normals = find_normals(direction);
+  const Tensor<1, 3> neck = arrow.to - Sizes::head_length * length * direction;
+  const std::uint64_t first = grid.n_points();
+  const auto add_square = [&](const Tensor<1, 3> &centre, const double width) {
+    for (const auto &sign : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}}) {
+      const Tensor<1, 3> corner = centre + width * length * (sign[0] * normals[0] + sign[1] * normals[1]);
+      for (unsigned int i = 0; i < 3; ++i)
+        grid.points.push_back(corner[i]);
+    }
+  };
+  add_square(arrow.from, Sizes::shaft); // points 0 to 3
+  add_square(neck, Sizes::shaft);       // 4 to 7
+  add_square(neck, Sizes::head);        // 8 to 11
+  for (unsigned int i = 0; i < 3; ++i)  // 12
+    grid.points.push_back(arrow.to[i]);
+  const auto add_cell = [&](const std::vector<std::uint64_t> &points) {
+    for (const std::uint64_t point : points)
+      grid.connectivity.push_back(first + point);
+    grid.sizes.push_back(static_cast<unsigned int>(points.size()));
+    for (unsigned int i = 0; i < 3; ++i)
+      grid.cell_fields.front().values.push_back(arrow.value[i]);
+  };
+  for (std::uint64_t side = 0; side < 4; ++side) {
+    const std::uint64_t next = (side + 1) % 4;
+    add_cell({side, next, 4 + next, 4 + side});
+    add_cell({8 + side, 8 + next, 12});
+  }
+  add_cell({8, 11, 10, 9});
+}
+
+/// Placements of the tools at the end of their prescribed motions.
+Placement placement_at_end(const Tool &tool, const double end) {
+  constexpr unsigned int n_samples = 100;
+  const double last = std::min(end, tool.removal_time());
+  for (unsigned int i = 0; i < n_samples; ++i)
+    try {
+      return tool.placement(last * (n_samples - i) / n_samples);
+    } catch (const SolutionFailure &) { // the motion is not defined there; the run will report it
+    }
+  return tool.placement(0.);
+}
+
+/// Returns whether arrows of this body come from outside at a node, by the centre of the bodies.
+double outward_sign(const Tensor<1, 3> &direction, const Tensor<1, 3> &position, const Tensor<1, 3> &centre) {
+  return direction * (position - centre) < 0. ? -1. : 1.;
+}
+
+/// Returns the nodes on this rank of the elements of a body.
+std::vector<bool> find_nodes(const LocalNodes &nodes, const std::size_t body) {
+  std::vector<bool> has(nodes.size(), false);
+  for (const auto &element : nodes.elements(body))
+    for (const unsigned int node : element)
+      has[node] = true;
+  return has;
+}
+
+/// Returns the sum of the absolute forces at the nodes of all ranks. Collective.
+double sum_of_norms(const LocalNodes &nodes, const NodalVectors &forces) {
+  double sum = 0.;
+  for (unsigned int node = 0; node < nodes.size(); ++node)
+    if (nodes.is_owned(node))
+      sum += get_vector(forces.data(), node).norm();
+  return mpi::sum(sum, nodes.discretization().communicator());
+}
+
+} // namespace
+
+Grid make_arrow_grid(const std::string &group, const std::string &name, const std::string &value_name,
+                     const std::vector<Arrow> &arrows, const MPI_Comm communicator) {
+  std::vector<double> own;
+  for (const Arrow &arrow : arrows)
+    for (const Tensor<1, 3> &part : {arrow.from, arrow.to, arrow.value})
+      for (unsigned int i = 0; i < 3; ++i)
+        own.push_back(part[i]);
+  Grid grid{group, name};
+  grid.cell_fields.push_back({value_name, 3});
+  for (const auto &of_rank : mpi::gather(communicator, own)) // empty but on the first rank
+    for (std::size_t i = 0; i + 9 <= of_rank.size(); i += 9) {
+      const double *x = &of_rank[i];
+      add_arrow(grid, {Tensor<1, 3>({x[0], x[1], x[2]}), Tensor<1, 3>({x[3], x[4], x[5]}),
+                       Tensor<1, 3>({x[6], x[7], x[8]})});
+    }
+  return grid;
+}
+
+std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization &discretization,
+                                       const std::size_t body) {
+  const auto &holds = scene.bodies()[body].holds;
+  std::vector<Arrow> arrows;
+  for (const auto &[dof, node] : collect_held_nodes(scene, discretization)) {
+    if (!discretization.owned_dofs().is_element(dof))
+      continue;
+    for (const Hold &hold : holds) {
+      if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
+        continue;
+      const Tensor<1, 3> direction = hold.direction(node.position);
+      const double value =
+          hold.value != nullptr
+              ? hold.value->value(scene.parameters().time_stepping.end_time, dealii::Point<3>(node.position))
+              : 0.;
+      const Tensor<1, 3> motion = value * direction;
+      if (value != 0.)
+        arrows.push_back({node.position, node.position + motion, motion});
+      else
+        arrows.push_back({node.position + outward_sign(direction, node.position, discretization.centre()) *
+                                              Sizes::support * discretization.radius() * direction,
+                          node.position, motion});
+    }
+  }
+  return arrows;
+}
+
+LoadArrows find_load_arrows(const Scene &scene, const Discretization &discretization) {
+  LoadArrows result;
+  result.of_bodies.resize(scene.bodies().size());
+  if (std::all_of(scene.bodies().begin(), scene.bodies().end(),
+                  [](const Body &body) { return body.loads.empty(); }))
+    return result;
+  const LocalNodes nodes(discretization);
+  const ExternalLoads loads(scene, nodes, Inertia(scene, discretization, false).nodal_masses(nodes));
+  const NodalVectors at_rest = nodes.make_vectors();
+  NodalVectors largest = nodes.make_vectors();
+  double largest_sum = 0.;
+  constexpr unsigned int n_samples = 50;
+  for (unsigned int i = 1; i <= n_samples; ++i) {
+    const double t = scene.parameters().time_stepping.end_time * i / n_samples;
+    NodalVectors forces = nodes.make_vectors();
+    try {
+      fail_together(discretization.communicator(), [&] { loads.add_forces(t, at_rest, at_rest, forces); });
+    } catch (const SolutionFailure &) { // a load is not defined there; the run will report it
+      continue;
+    }
+    nodes.sum_shared(forces);
+    const double sum = sum_of_norms(nodes, forces);
+    constexpr double rounding = 1e-9;
+    if (sum > largest_sum * (1. + rounding)) {
+      largest_sum = sum;
+      largest = forces;
+      result.time = t;
+    }
+  }
+  double most = 0.;
+  for (unsigned int node = 0; node < nodes.size(); ++node)
+    most = std::max(most, get_vector(largest.data(), node).norm());
+  most = mpi::max(most, discretization.communicator());
+  for (std::size_t body = 0; body < scene.bodies().size() && most > 0.; ++body) {
+    const std::vector<bool> is_in_body = find_nodes(nodes, body);
+    for (unsigned int node = 0; node < nodes.size(); ++node) {
+      const Tensor<1, 3> force = get_vector(largest.data(), node);
+      constexpr double negligible = 1e-6; // of the largest: round-off, such as that of balanced parts
+      if (!is_in_body[node] || !nodes.is_owned(node) || !(force.norm() > negligible * most))
+        continue;
+      const Tensor<1, 3> position = get_vector(nodes.positions().data(), node);
+      const Tensor<1, 3> shown = Sizes::longest_load * discretization.radius() / most * force;
+      result.of_bodies[body].push_back({position - shown, position, force});
+    }
+  }
+  return result;
+}
+
+std::vector<Grid> make_preview_grids(const Scene &scene, const Discretization &discretization) {
+  const MPI_Comm communicator = discretization.communicator();
+  std::vector<Grid> grids;
+  for (std::size_t t = 0; t < scene.tools().size(); ++t)
+    grids.push_back(
+        make_tool_grid(discretization, scene.tools()[t], t,
+                       placement_at_end(scene.tools()[t], scene.parameters().time_stepping.end_time),
+                       preview_group::tools_at_end));
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    if (!scene.bodies()[body].holds.empty()) {
+      std::vector<Arrow> arrows;
+      fail_together(communicator, [&] { arrows = find_support_arrows(scene, discretization, body); });
+      grids.push_back(make_arrow_grid(preview_group::supports, scene.bodies()[body].name,
+                                      "displacement_at_end", arrows, communicator));
+    }
+  const LoadArrows loads = find_load_arrows(scene, discretization);
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    if (!scene.bodies()[body].loads.empty())
+      grids.push_back(make_arrow_grid(preview_group::loads, scene.bodies()[body].name, "force",
+                                      loads.of_bodies[body], communicator));
+  return grids;
+}
+
+} // namespace billet

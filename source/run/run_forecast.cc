@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/run_forecast.h"
+
+#include "billet/errors.h"
+#include "billet/run/body_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace billet {
+
+namespace mpi = dealii::Utilities::MPI;
+
+namespace {
+
+/// Memory in bytes, from the resident memory of --check and of runs. Blocks of 8000 to 216000 elements were
+/// checked; multigrid is that of doc/results/linear-solvers.md.
+struct Memory {
+  static constexpr double process = 185e6; ///< the program and its libraries, for each rank
+  static constexpr double explicit_element = 2.4e3;
+  static constexpr double implicit_element = 3.5e3;     ///< without the matrix
+  static constexpr double matrix_dof = 81. * (8. + 4.); ///< of 27 nodes around each
+  static constexpr double multigrid_dof = 2.2e3;
+};
+
+double memory_of_process(const Discretization &discretization) {
+  return Memory::process * mpi::n_mpi_processes(discretization.communicator());
+}
+
+double count_steps(const double end, const double length) {
+  constexpr double rounding = 1e-9;
+  return std::max(1., std::ceil(end / length * (1. - rounding)));
+}
+
+/// Finds the element of all ranks that sets the stable step of the elements.
+StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamics &problem) {
+  const Discretization &discretization = problem.discretization();
+  LimitingElement own;
+  fail_together(discretization.communicator(), [&] { own = problem.find_limiting_element(); });
+  std::array<double, 6> least{own.step, 0., 0., 0., 0., 0.}; // step, body, centre, edge
+  if (std::isfinite(own.step)) {
+    const CellIterator &cell = discretization.elements(own.body)[own.element].cell;
+    least = {own.step,          static_cast<double>(own.body),
+             cell->center()[0], cell->center()[1],
+             cell->center()[2], least_edge(cell)};
+  }
+  for (const auto &of_rank : mpi::all_gather(discretization.communicator(), least))
+    least = std::min(least, of_rank);
+  StableStepReport report;
+  report.of_elements = least[0];
+  report.body = scene.bodies()[static_cast<std::size_t>(least[1])].name;
+  report.element = dealii::Tensor<1, 3>({least[2], least[3], least[4]});
+  report.least_edge = least[5];
+  return report;
+}
+
+} // namespace
+
+RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem) {
+  const Discretization &discretization = problem.discretization();
+  const double end = scene.parameters().time_stepping.end_time;
+  RunReport report;
+  report.n_dofs = discretization.dof_handler().n_dofs();
+  report.memory = memory_of_process(discretization) +
+                  Memory::explicit_element * static_cast<double>(discretization.n_global_elements());
+  try {
+    StableStepReport stable = find_limiting_element(scene, problem);
+    problem.prepare_step(end);
+    stable.step = problem.usual_step();
+    report.n_steps = count_steps(end, stable.step);
+    report.stable_step = stable;
+  } catch (const SolutionFailure &) { // on all ranks
+    report.is_minimum = true;
+  }
+  return report;
+}
+
+RunReport forecast_run(const Scene &scene, const ImplicitSolution &problem) {
+  using Control = parameters::TimeStepping::Control;
+  const Discretization &discretization = problem.discretization();
+  const parameters::TimeStepping &steps = scene.parameters().time_stepping;
+  RunReport report;
+  report.n_dofs = discretization.dof_handler().n_dofs();
+  const auto n_dofs = static_cast<double>(report.n_dofs);
+  report.memory =
+      memory_of_process(discretization) +
+      Memory::implicit_element * static_cast<double>(discretization.n_global_elements()) +
+      Memory::matrix_dof * n_dofs +
+      (problem.solves_iteratively() ? Memory::multigrid_dof * n_dofs
+                                    : direct_memory(n_dofs, !scene.capabilities().unsymmetric_matrix));
+  report.is_minimum = steps.control == Control::automatic;
+  report.n_steps = count_steps(steps.end_time, report.is_minimum ? steps.max_step : steps.initial_step);
+  return report;
+}
+
+} // namespace billet
