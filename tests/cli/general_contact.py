@@ -106,9 +106,11 @@ for ranks in (1, 2):
 
     @check(f"a block falls on a slab, {ranks} ranks")
     def _() -> None:
-        by_hand = billet(IMPACT, EXPLICIT, ranks)
+        # Ranks wait for each other where others use the processors, too.
+        until = "Time stepping: End time = 0.08e-3 & " if ranks > 1 else ""
+        by_hand = billet(IMPACT, until + EXPLICIT, ranks)
         require(max(by_hand.column("slab on block.contact_area")) > 0, "the block does not touch the slab")
-        ran = billet(IMPACT, NO_PAIRS + general(SOFT), ranks)
+        ran = billet(IMPACT, until + NO_PAIRS + general(SOFT), ranks)
         same_history(ran, by_hand)
         require("pair-never-touched" not in ran.said, f"warns of a pair that nobody wrote: {ran.said}")
 
