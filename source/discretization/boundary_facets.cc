@@ -38,6 +38,17 @@ std::vector<BoundaryFacet> collect(const Discretization &discretization, const s
 
 } // namespace
 
+std::array<double, 4> BoundaryFacet::corner_areas() const {
+  std::array<double, 4> areas{};
+  for (const auto &point : facet_points()) {
+    const auto area =
+        point.area_vector([&](const unsigned int a) { return dealii::Tensor<1, 3>(corners[a]); });
+    for (unsigned int a = 0; a < 4; ++a)
+      areas[a] += point.N[a] * area.norm();
+  }
+  return areas;
+}
+
 std::vector<BoundaryFacet> collect_boundary_facets(const Discretization &discretization,
                                                    const std::size_t body,
                                                    const std::vector<unsigned int> &boundary_ids) {

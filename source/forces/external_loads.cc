@@ -193,13 +193,7 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
   auto surface = measure_surface(facets);
   std::vector<LoadedNode> nodes;
   for (const auto &facet : facets) {
-    std::array<double, 4> areas{};
-    for (const auto &point : facet_points()) {
-      const Tensor<1, 3> area =
-          point.area_vector([&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); });
-      for (unsigned int a = 0; a < 4; ++a)
-        areas[a] += point.N[a] * area.norm();
-    }
+    const std::array<double, 4> areas = facet.corner_areas();
     const auto corners = local_corners(facet, nodes_);
     const Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
     for (unsigned int a = 0; a < 4; ++a)

@@ -73,4 +73,23 @@ Tensor<1, 3> Axes::to_global(const double *components, const Tensor<1, 3> &posit
   return components[0] * axes[0] + components[1] * axes[1] + components[2] * axes[2];
 }
 
+Tensor<1, 3> Axes::from_global(const Tensor<1, 3> &vector, const Tensor<1, 3> &position) const {
+  if (kind_ == Kind::global)
+    return vector;
+  const auto axes = at(position);
+  return Tensor<1, 3>({axes[0] * vector, axes[1] * vector, axes[2] * vector});
+}
+
+dealii::SymmetricTensor<2, 3> Axes::from_global(const dealii::SymmetricTensor<2, 3> &tensor,
+                                                const Tensor<1, 3> &position) const {
+  if (kind_ == Kind::global)
+    return tensor;
+  const auto axes = at(position);
+  dealii::SymmetricTensor<2, 3> components;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j)
+      components[i][j] = axes[i] * (tensor * axes[j]);
+  return components;
+}
+
 } // namespace billet

@@ -212,6 +212,18 @@ dealii::Tensor<2, 3> mean_deformation_gradient(const ElementVectors &positions,
   return sum / volume;
 }
 
+std::vector<double> list_components(const dealii::SymmetricTensor<2, 3> &tensor) {
+  return {tensor[0][0], tensor[1][1], tensor[2][2], tensor[0][1], tensor[0][2], tensor[1][2]};
+}
+
+std::vector<double> list_stress(const dealii::SymmetricTensor<2, 3> &stress,
+                                const dealii::SymmetricTensor<2, 3> &in_axes) {
+  std::vector<double> values = list_components(in_axes);
+  values.push_back(std::sqrt(1.5) * dealii::deviator(stress).norm());
+  values.push_back(-dealii::trace(stress) / 3.);
+  return values;
+}
+
 dealii::SymmetricTensor<2, 3> logarithmic_strain(const dealii::Tensor<2, 3> &F) {
   const auto pairs = dealii::eigenvectors(dealii::symmetrize(F * dealii::transpose(F)),
                                           dealii::SymmetricTensorEigenvectorMethod::jacobi);

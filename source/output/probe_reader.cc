@@ -3,6 +3,7 @@
 
 #include "billet/discretization/node_keys.h"
 #include "billet/errors.h"
+#include "billet/geometry/surface_patch.h"
 #include "billet/output/contact_fields.h"
 #include "billet/output/element_fields.h"
 #include "billet/output/probe_geometry.h"
@@ -27,6 +28,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 2> middle{0.5, 0.5};
+constexpr double near = 0.1; ///< distance from nodes and faces that counts as near them [scene's radius]
 
 /// Material point in an owned element.
 struct MaterialPoint {
@@ -63,42 +65,8 @@ FacetCorners undeformed_corners(const BoundaryFacet &facet) {
   return corners;
 }
 
-/// Returns the integrals of the shape functions over the undeformed facet [length²].
-std::array<double, 4> corner_areas(const BoundaryFacet &facet) {
-  std::array<double, 4> areas{};
-  for (const auto &point : facet_points()) {
-    const Tensor<1, 3> area =
-        point.area_vector([&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); });
-    for (unsigned int a = 0; a < 4; ++a)
-      areas[a] += point.N[a] * area.norm();
-  }
-  return areas;
-}
-
-/// Returns the components along the axes at an undeformed position.
-Tensor<1, 3> along(const Axes &axes, const Tensor<1, 3> &position, const Tensor<1, 3> &vector) {
-  if (axes.are_global())
-    return vector;
-  const auto directions = axes.at(position);
-  return Tensor<1, 3>({directions[0] * vector, directions[1] * vector, directions[2] * vector});
-}
-
-dealii::SymmetricTensor<2, 3> along(const Axes &axes, const Tensor<1, 3> &position,
-                                    const dealii::SymmetricTensor<2, 3> &tensor) {
-  if (axes.are_global())
-    return tensor;
-  const auto directions = axes.at(position);
-  dealii::SymmetricTensor<2, 3> result;
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = i; j < 3; ++j)
-      result[i][j] = directions[i] * (tensor * directions[j]);
-  return result;
-}
-
-/// Appends six components.
-void append(const dealii::SymmetricTensor<2, 3> &tensor, std::vector<double> &values) {
-  values.insert(values.end(),
-                {tensor[0][0], tensor[1][1], tensor[2][2], tensor[0][1], tensor[0][2], tensor[1][2]});
+void append(const std::vector<double> &more, std::vector<double> &values) {
+  values.insert(values.end(), more.begin(), more.end());
 }
 
 /// Appends what a quantity of nodes writes of its vector at this undeformed position.
@@ -112,7 +80,7 @@ void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const
     values.insert(values.end(), {vector[0], vector[1], vector[2]});
     return;
   }
-  const Tensor<1, 3> components = along(axes, position, vector);
+  const Tensor<1, 3> components = axes.from_global(vector, position);
   values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
 }
 
@@ -221,7 +189,7 @@ public:
       const Element &element = discretization_.elements(body)[e];
       const auto strain = logarithmic_strain(mean_deformation_gradient(
           nodal_positions(element.cell), gather(solution_.state().displacements, element.dofs)));
-      append(along(axes, position, strain), values);
+      append(list_components(axes.from_global(strain, position)), values);
       return;
     }
     const ElementSummary &summary = summaries_[body][e];
@@ -229,9 +197,8 @@ public:
       values.push_back(summary.equivalent_plastic_strain);
       return;
     }
-    append(along(axes, position, summary.cauchy_stress), values);
-    values.push_back(std::sqrt(1.5) * dealii::deviator(summary.cauchy_stress).norm());
-    values.push_back(-dealii::trace(summary.cauchy_stress) / 3.);
+    const auto &stress = summary.cauchy_stress;
+    append(list_stress(stress, axes.from_global(stress, position)), values);
   }
 
   /// Returns the values of all quantities at a point of an element.
@@ -337,19 +304,17 @@ std::vector<Candidate> find_nodes(const std::vector<Element> &elements,
   return found;
 }
 
-/// Returns the corners of the bounding box of the undeformed elements of all ranks. Collective.
-std::array<Tensor<1, 3>, 2> bounding_box(const Discretization &discretization, const std::size_t body) {
-  std::array<double, 6> box; // upper ends, and lower ones with another sign
-  box.fill(-std::numeric_limits<double>::max());
-  for (const Element &element : discretization.elements(body)) {
-    const ElementVectors corners = nodal_positions(element.cell);
-    for (unsigned int i = 0; i < n_element_dofs; ++i) {
-      box[i % 3] = std::max(box[i % 3], corners[i]);
-      box[3 + i % 3] = std::max(box[3 + i % 3], -corners[i]);
-    }
+/// Returns the bounding box of the undeformed elements of all ranks. Collective.
+BoundingBox bounding_box(const Discretization &discretization, const std::size_t body) {
+  BoundingBox box = BoundingBox::empty();
+  for (const Element &element : discretization.elements(body))
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      box.add(element.cell->vertex(a));
+  for (unsigned int i = 0; i < 3; ++i) {
+    box.low[i] = dealii::Utilities::MPI::min(box.low[i], discretization.communicator());
+    box.high[i] = dealii::Utilities::MPI::max(box.high[i], discretization.communicator());
   }
-  MPI_Allreduce(MPI_IN_PLACE, box.data(), 6, MPI_DOUBLE, MPI_MAX, discretization.communicator());
-  return {Tensor<1, 3>({-box[3], -box[4], -box[5]}), Tensor<1, 3>({box[0], box[1], box[2]})};
+  return box;
 }
 
 } // namespace
@@ -357,7 +322,6 @@ std::array<Tensor<1, 3>, 2> bounding_box(const Discretization &discretization, c
 void ProbeReader::place_points(Placed &placed) const {
   const auto &[points, place] = std::get<ProbedPoints>(placed.probe().where);
   const auto &elements = discretization_.elements(placed.body);
-  constexpr double near = 0.1; // of the scene's radius
   const bool takes_nodes = place == ProbedPoints::Place::nearest_node;
   const std::vector<Candidate> found = takes_nodes
                                            ? find_nodes(elements, points, near * discretization_.radius())
@@ -368,13 +332,13 @@ void ProbeReader::place_points(Placed &placed) const {
   std::unordered_map<std::uint64_t, std::uint64_t> least;
   for (const auto &row : rows.gather(discretization_.communicator()))
     least[row.site] = row.owner;
-  const auto [low, high] = bounding_box(discretization_, placed.body);
+  const BoundingBox box = bounding_box(discretization_, placed.body);
   for (std::size_t p = 0; p < points.size(); ++p)
     if (least.count(p) == 0) {
       std::ostringstream message;
       message << placed.input.origin << ": the point (" << points[p] << ") is not in the undeformed body '"
-              << scene_.bodies()[placed.body].name << "', which reaches from (" << low << ") to (" << high
-              << "); allowed "
+              << scene_.bodies()[placed.body].name << "', which reaches from (" << box.low << ") to ("
+              << box.high << "); allowed "
               << (takes_nodes ? "is a distance from the nearest node of at most a tenth of the scene's radius"
                               : "are points of the body, or 'Place = nearest node' or 'space'");
       throw InputError(message.str());
@@ -396,7 +360,7 @@ void ProbeReader::place_faces(Placed &placed) const {
        collect_boundary_facets(discretization_, placed.body, placed.input.boundary_ids.value)) {
     placed.faces.push_back(
         {facet, element_of_key.at(facet.key / dealii::GeometryInfo<3>::faces_per_cell), middle});
-    const std::array<double, 4> areas = corner_areas(facet);
+    const std::array<double, 4> areas = facet.corner_areas();
     for (unsigned int a = 0; a < 4; ++a) {
       const std::uint64_t key = keys(facet.dofs[a][0]);
       nodes[key] = {facet.dofs[a], key, 0., facet.corners[a]};
@@ -429,7 +393,6 @@ void ProbeReader::place_thickness(Placed &placed) const {
   const auto all = rows.gather(discretization_.communicator());
   const auto nearest = std::min_element(
       all.begin(), all.end(), [](const auto &a, const auto &b) { return a.values[0] < b.values[0]; });
-  constexpr double near = 0.1; // of the scene's radius
   if (nearest == all.end() || nearest->values[0] > near * discretization_.radius()) {
     std::ostringstream message;
     message << placed.input.origin << ": the point (" << *point << ") is at a distance of "

@@ -24,6 +24,8 @@ struct BoundaryFacet {
   dealii::Tensor<1, 3> area_vector() const {
     return 0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]);
   }
+  /// Returns the integrals of the shape functions over the undeformed facet [length²].
+  std::array<double, 4> corner_areas() const;
 };
 
 /// Returns the facets of a body on this rank whose boundary id is among `boundary_ids`.

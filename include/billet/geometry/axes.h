@@ -4,6 +4,8 @@
 
 #include "billet/registered_type.h"
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <array>
 #include <vector>
 
@@ -28,6 +30,11 @@ public:
   std::array<dealii::Tensor<1, 3>, 3> at(const dealii::Tensor<1, 3> &position) const;
   /// Returns the vector with these components.
   dealii::Tensor<1, 3> to_global(const double *components, const dealii::Tensor<1, 3> &position) const;
+  /// Return the components of a vector or tensor of space along these axes.
+  dealii::Tensor<1, 3> from_global(const dealii::Tensor<1, 3> &vector,
+                                   const dealii::Tensor<1, 3> &position) const;
+  dealii::SymmetricTensor<2, 3> from_global(const dealii::SymmetricTensor<2, 3> &tensor,
+                                            const dealii::Tensor<1, 3> &position) const;
 
 private:
   enum class Kind { global, local, cylindrical };

@@ -36,6 +36,13 @@ std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
 dealii::Tensor<2, 3> mean_deformation_gradient(const ElementVectors &positions,
                                                const ElementVectors &displacements);
 
+/// Returns the components xx, yy, zz, xy, xz and yz.
+std::vector<double> list_components(const dealii::SymmetricTensor<2, 3> &tensor);
+
+/// Returns the components of the Cauchy stress, those `in_axes`, with von Mises' stress and the pressure.
+std::vector<double> list_stress(const dealii::SymmetricTensor<2, 3> &stress,
+                                const dealii::SymmetricTensor<2, 3> &in_axes);
+
 /// Returns ln V = ½ ln(F Fᵀ), the logarithmic strain in space. Zero if F is singular or not finite.
 dealii::SymmetricTensor<2, 3> logarithmic_strain(const dealii::Tensor<2, 3> &F);
 

@@ -14,8 +14,7 @@ ElementQuantity strain_quantity() {
           false,
           [](const Scene &scene) { return scene.parameters().output.strain; },
           [](const ElementAverage &average) -> std::vector<double> {
-            const auto strain = logarithmic_strain(average.deformation_gradient);
-            return {strain[0][0], strain[1][1], strain[2][2], strain[0][1], strain[0][2], strain[1][2]};
+            return list_components(logarithmic_strain(average.deformation_gradient));
           }};
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/element_fields.h"
 #include "billet/output/field_quantity.h"
-
-#include <cmath>
 
 namespace billet {
 
@@ -15,15 +14,7 @@ ElementQuantity stress_quantity() {
           true,
           [](const Scene &scene) { return scene.parameters().output.stress; },
           [](const ElementAverage &average) -> std::vector<double> {
-            const auto &sigma = average.cauchy_stress;
-            return {sigma[0][0],
-                    sigma[1][1],
-                    sigma[2][2],
-                    sigma[0][1],
-                    sigma[0][2],
-                    sigma[1][2],
-                    std::sqrt(1.5) * dealii::deviator(sigma).norm(),
-                    -dealii::trace(sigma) / 3.};
+            return list_stress(average.cauchy_stress, average.cauchy_stress);
           }};
 }
 
