@@ -79,9 +79,8 @@ double ExplicitElements::scale_mass(const double min_step) {
 double ExplicitElements::stable_step_of(const std::size_t body, const std::size_t begin,
                                         const std::size_t end, const double min_step) const {
   const Body &of_scene = scene_.bodies()[body];
-  const std::unique_ptr<ExplicitBlock> block =
-      make_explicit_block(of_scene.law, of_scene.density,
-                          formulation_of(scene_.parameters(), scene_.parameters().bodies[body]));
+  const std::unique_ptr<ExplicitBlock> block = make_explicit_block(
+      of_scene.law, of_scene.density, formulation_of(scene_.parameters(), scene_.parameters().bodies[body]));
   const auto &elements = nodes_.elements(body);
   std::size_t offender = 0;
   block->initialize({elements.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -37,7 +37,7 @@ public:
   /// Returns this rank's element with the shortest stable step at the start.
   LimitingElement find_limiting_element() const {
     return parts_.elements.find_limiting_element(parts_.settings().scaled_step /
-                                                parts_.settings().safety_factor);
+                                                 parts_.settings().safety_factor);
   }
   /// Returns the mass that mass scaling adds, on all ranks [mass].
   double added_mass() const { return parts_.masses.added(); }

@@ -23,7 +23,7 @@ struct ExplicitWorks {
 
 /// Element of a rank with its stable step, undeformed and at rest.
 struct LimitingElement {
-  std::size_t body = 0, element = 0;                      ///< index of Discretization::elements(body)
+  std::size_t body = 0, element = 0;                     ///< index of Discretization::elements(body)
   double step = std::numeric_limits<double>::infinity(); ///< infinite if the rank has no elements [time]
 };
 
