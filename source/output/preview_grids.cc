@@ -133,7 +133,8 @@ std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization 
                                        const std::size_t body) {
   const auto &holds = scene.bodies()[body].holds;
   std::vector<Arrow> arrows;
-  for (const auto &[dof, node] : collect_held_nodes(scene, discretization)) {
+  const auto all = [](const Hold &) { return true; }; // also those that begin later
+  for (const auto &[dof, node] : collect_held_nodes(scene, discretization, all)) {
     if (!discretization.owned_dofs().is_element(dof))
       continue;
     for (const Hold &hold : holds) {

@@ -101,7 +101,8 @@ std::vector<std::string> keys_of(void (*declare)(dealii::ParameterHandler &)) {
   prm.print_parameters(printed, dealii::ParameterHandler::ShortPRM);
   std::istringstream text(printed.str());
   std::vector<std::string> keys;
-  for (const auto &entry : SceneFile::scan(text, "").entries())
+  const SceneFile file = SceneFile::scan(text, "");
+  for (const auto &entry : file.entries())
     keys.push_back(entry.key);
   return keys;
 }
