@@ -49,7 +49,7 @@ void check_messages() {
   const Scene scene(parameters);
   const Discretization discretization(scene, MPI_COMM_WORLD);
   BodyStabilisation stabilisation(scene, discretization);
-  stabilisation.prepare(RigidBodies(scene, discretization));
+  stabilisation.prepare(RigidBodies(scene, discretization, holding_after(0.)));
   stabilisation.start_step(1.);
   StepState step(discretization);
   step.trial.displacements = 1.;
