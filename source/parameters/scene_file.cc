@@ -74,6 +74,23 @@ bool read_statement(std::istream &text, const std::string &name, std::string &li
   return true;
 }
 
+/// Replaces control characters by blanks, since messages quote a statement. Returns what is wrong with the
+/// first one, or nothing.
+std::string remove_control_characters(std::string &statement) {
+  std::string error;
+  for (char &c : statement) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\t' || (code >= ' ' && code != 0x7F))
+      continue;
+    if (error.empty())
+      error = ": a control character, of code " + std::to_string(code) +
+              ", stands in the statement; allowed is text. Write the line anew";
+    c = ' ';
+  }
+  statement = trim(statement);
+  return error;
+}
+
 std::string single_spaced(const std::string &text) {
   std::string result;
   for (const char c : text) {
@@ -176,6 +193,9 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
        first_line = number + 1) {
     const std::string where = name + ":" + std::to_string(first_line);
     std::string statement = trim(line.substr(0, line.find('#')));
+    const std::string error = remove_control_characters(statement);
+    if (!error.empty())
+      note(where + error);
     if (take_keyword(statement, "include")) {
       include(statement, where, name, path, files);
       continue;

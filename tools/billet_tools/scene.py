@@ -167,8 +167,9 @@ class Scene:
 
     def get(self, path: str) -> str:
         """Returns the value that holds."""
-        first, *_, key = path.split("/")
-        inherited = self._of_all.get(key) if first == "Contact pairs" and self.has_general_contact else None
+        section, _, key = path.rpartition("/")
+        is_of_all = section.startswith("Contact pairs/") and self.has_general_contact
+        inherited = self._of_all.get(key) if is_of_all else None
         otherwise = self.presets.get(path, self.default(path)) if inherited is None else inherited
         return self.entries.get(path, otherwise)
 
