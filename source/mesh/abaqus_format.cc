@@ -40,11 +40,11 @@ CellShape abaqus_shape(const std::string &type) {
       {"m3d4", {CellKind::quadrilateral, 4}},   {"r3d4", {CellKind::quadrilateral, 4}},
       {"sfm3d4", {CellKind::quadrilateral, 4}}, {"cps4", {CellKind::quadrilateral, 4}},
       {"cpe4", {CellKind::quadrilateral, 4}},   {"cax4", {CellKind::quadrilateral, 4}},
-      {"s3", {CellKind::ignored, 3}},           {"ds3", {CellKind::ignored, 3}},
-      {"m3d3", {CellKind::ignored, 3}},         {"r3d3", {CellKind::ignored, 3}},
-      {"sfm3d3", {CellKind::ignored, 3}},       {"cps3", {CellKind::ignored, 3}},
-      {"cpe3", {CellKind::ignored, 3}},         {"cax3", {CellKind::ignored, 3}},
-      {"stri3", {CellKind::ignored, 3}},        {"t3d2", {CellKind::ignored, 2}},
+      {"s3", {CellKind::triangle, 3}},          {"ds3", {CellKind::triangle, 3}},
+      {"m3d3", {CellKind::triangle, 3}},        {"r3d3", {CellKind::triangle, 3}},
+      {"sfm3d3", {CellKind::triangle, 3}},      {"cps3", {CellKind::triangle, 3}},
+      {"cpe3", {CellKind::triangle, 3}},        {"cax3", {CellKind::triangle, 3}},
+      {"stri3", {CellKind::triangle, 3}},       {"t3d2", {CellKind::ignored, 2}},
       {"t2d2", {CellKind::ignored, 2}},         {"b31", {CellKind::ignored, 2}},
       {"b33", {CellKind::ignored, 2}},          {"t3d3", {CellKind::ignored, 3}},
       {"b32", {CellKind::ignored, 3}},          {"s6", {CellKind::ignored, 6}},
@@ -471,6 +471,8 @@ private:
                                   std::to_string(number) + ", which is missing");
     count_member();
     const Element &element = found->second;
+    if (element.kind == CellKind::quadrilateral && n_hexahedra_ == 0)
+      return add_edges(surface, label, number, element, whole.group);
     const bool is_side =
         label.empty() || label == "spos" || label == "sneg" || label == "s1" || label == "s2";
     if (element.kind == CellKind::quadrilateral && is_side)
@@ -487,6 +489,21 @@ private:
       throw std::invalid_argument("its surface '" + surface.name + "' names the side '" + label.substr(0, 9) +
                                   "' of element " + std::to_string(number) +
                                   "; allowed are S1 to S6 of hexahedra, SPOS and SNEG of shells");
+  }
+
+  /// Adds an edge of an element of a two-dimensional mesh; without a label all of them.
+  void add_edges(const Surface &surface, const std::string &label, const long long number,
+                 const Element &element, const std::size_t group) {
+    const bool has_side =
+        label.size() == 2 && (label[0] == 's' || label[0] == 'e') && label[1] >= '1' && label[1] <= '4';
+    if (!has_side && !label.empty())
+      throw std::invalid_argument("its surface '" + surface.name + "' names the side '" + label.substr(0, 9) +
+                                  "' of element " + std::to_string(number) +
+                                  "; allowed are S1 to S4 of two-dimensional elements");
+    const FaceGroup of_edge = mesh_.mesh().groups[group];
+    for (std::size_t side = 0; side < 4; ++side)
+      if (!has_side || label[1] == static_cast<char>('1' + side))
+        mesh_.add_edge({element.nodes[side], element.nodes[(side + 1) % 4]}, of_edge);
   }
 
   /// Sets with shells are groups of faces.
