@@ -88,8 +88,11 @@ void MeshCollector::check_kinds() const {
         "Mesh.SubdivisionAlgorithm = 2 (All Hexas), set before the mesh is generated; a swept mesh "
         "(Extrude with Recombine) is more accurate in bending");
   if (count(CellKind::hexahedron) == 0 && count(CellKind::quadrilateral) == 0)
-    throw std::invalid_argument("it has no hexahedra, nor quadrilaterals with four nodes as a "
-                                "two-dimensional mesh has (in Gmsh: Mesh.ElementOrder = 1)");
+    throw std::invalid_argument(
+        "it has no hexahedra, nor quadrilaterals with four nodes as a two-dimensional mesh has" +
+        (count(CellKind::triangle) > 0 ? ", but " + std::to_string(count(CellKind::triangle)) +
+                                             " triangles; Gmsh joins them with 'Recombine Surface {:};'"
+                                       : " (in Gmsh: Mesh.ElementOrder = 1)"));
 }
 
 void MeshCollector::finish_plane() {

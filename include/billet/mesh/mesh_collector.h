@@ -17,9 +17,9 @@ namespace billet {
 enum class CellKind {
   hexahedron,
   quadrilateral,
-  line,        ///< an edge of a two-dimensional mesh
+  line,        ///< counts in a two-dimensional mesh only
   triangle,    ///< refused in a two-dimensional mesh, else no face of a hexahedron
-  ignored,     ///< points, lines, triangles: no face of a hexahedron
+  ignored,     ///< others that are no face of a hexahedron
   tetrahedron, ///< this and those below are refused
   wedge,
   pyramid,
