@@ -91,8 +91,8 @@ int main() {
       const std::string text = text_of(expected.name);
       MeshFile mesh = is_section ? parse_plane_mesh(text, &text_of) : parse_mesh(text, &text_of);
       mend_and_check(mesh, DoubledNodes::refused, 0.);
-      holds = expected.message.empty() && (is_section ? is_as_expected_of_section(mesh, expected)
-                                                      : is_as_expected(mesh, expected));
+      holds = expected.message.empty() &&
+              (is_section ? is_as_expected_of_section(mesh, expected) : is_as_expected(mesh, expected));
     } catch (const std::invalid_argument &error) {
       message = error.what();
       holds = !expected.message.empty() && message.find(expected.message) != std::string::npos;
