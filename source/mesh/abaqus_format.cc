@@ -29,34 +29,59 @@ CellShape abaqus_shape(const std::string &type) {
     CellShape shape;
   };
   // The first that fits counts. Letters that follow a name say how it is integrated.
-  static const std::vector<Family> families{
-      {"c3d8", {CellKind::hexahedron, 8}},      {"dc3d8", {CellKind::hexahedron, 8}},
-      {"sc8r", {CellKind::hexahedron, 8}},      {"css8", {CellKind::hexahedron, 8}},
-      {"c3d20", {CellKind::second_order, 20}},  {"c3d27", {CellKind::second_order, 27}},
-      {"c3d10", {CellKind::second_order, 10}},  {"c3d15", {CellKind::second_order, 15}},
-      {"c3d4", {CellKind::tetrahedron, 4}},     {"c3d6", {CellKind::wedge, 6}},
-      {"sc6r", {CellKind::wedge, 6}},           {"c3d5", {CellKind::pyramid, 5}},
-      {"s4", {CellKind::quadrilateral, 4}},     {"ds4", {CellKind::quadrilateral, 4}},
-      {"m3d4", {CellKind::quadrilateral, 4}},   {"r3d4", {CellKind::quadrilateral, 4}},
-      {"sfm3d4", {CellKind::quadrilateral, 4}}, {"cps4", {CellKind::quadrilateral, 4}},
-      {"cpe4", {CellKind::quadrilateral, 4}},   {"cax4", {CellKind::quadrilateral, 4}},
-      {"s3", {CellKind::ignored, 3}},           {"ds3", {CellKind::ignored, 3}},
-      {"m3d3", {CellKind::ignored, 3}},         {"r3d3", {CellKind::ignored, 3}},
-      {"sfm3d3", {CellKind::ignored, 3}},       {"cps3", {CellKind::ignored, 3}},
-      {"cpe3", {CellKind::ignored, 3}},         {"cax3", {CellKind::ignored, 3}},
-      {"stri3", {CellKind::ignored, 3}},        {"t3d2", {CellKind::ignored, 2}},
-      {"t2d2", {CellKind::ignored, 2}},         {"b31", {CellKind::ignored, 2}},
-      {"b33", {CellKind::ignored, 2}},          {"t3d3", {CellKind::ignored, 3}},
-      {"b32", {CellKind::ignored, 3}},          {"s6", {CellKind::ignored, 6}},
-      {"stri65", {CellKind::ignored, 6}},       {"m3d6", {CellKind::ignored, 6}},
-      {"cps6", {CellKind::ignored, 6}},         {"cpe6", {CellKind::ignored, 6}},
-      {"s8r", {CellKind::ignored, 8}},          {"m3d8", {CellKind::ignored, 8}},
-      {"cps8", {CellKind::ignored, 8}},         {"cpe8", {CellKind::ignored, 8}},
-      {"mass", {CellKind::ignored, 1}},         {"rotaryi", {CellKind::ignored, 1}},
-      {"dcoup3d", {CellKind::ignored, 1}},      {"spring1", {CellKind::ignored, 1}},
-      {"spring", {CellKind::ignored, 2}},       {"dashpot1", {CellKind::ignored, 1}},
-      {"dashpot", {CellKind::ignored, 2}},      {"gapuni", {CellKind::ignored, 2}},
-      {"conn3d2", {CellKind::ignored, 2}}};
+  static const std::vector<Family> families{{"c3d8", {CellKind::hexahedron, 8}},
+                                            {"dc3d8", {CellKind::hexahedron, 8}},
+                                            {"sc8r", {CellKind::hexahedron, 8}},
+                                            {"css8", {CellKind::hexahedron, 8}},
+                                            {"c3d20", {CellKind::second_order, 20}},
+                                            {"c3d27", {CellKind::second_order, 27}},
+                                            {"c3d10", {CellKind::second_order, 10}},
+                                            {"c3d15", {CellKind::second_order, 15}},
+                                            {"c3d4", {CellKind::tetrahedron, 4}},
+                                            {"c3d6", {CellKind::wedge, 6}},
+                                            {"sc6r", {CellKind::wedge, 6}},
+                                            {"c3d5", {CellKind::pyramid, 5}},
+                                            {"s4", {CellKind::quadrilateral, 4}},
+                                            {"ds4", {CellKind::quadrilateral, 4}},
+                                            {"m3d4", {CellKind::quadrilateral, 4}},
+                                            {"r3d4", {CellKind::quadrilateral, 4}},
+                                            {"sfm3d4", {CellKind::quadrilateral, 4}},
+                                            {"cps4", {CellKind::quadrilateral, 4}},
+                                            {"cpe4", {CellKind::quadrilateral, 4}},
+                                            {"cax4", {CellKind::quadrilateral, 4}},
+                                            {"s3", {CellKind::triangle, 3}},
+                                            {"ds3", {CellKind::triangle, 3}},
+                                            {"m3d3", {CellKind::triangle, 3}},
+                                            {"r3d3", {CellKind::triangle, 3}},
+                                            {"sfm3d3", {CellKind::triangle, 3}},
+                                            {"cps3", {CellKind::triangle, 3}},
+                                            {"cpe3", {CellKind::triangle, 3}},
+                                            {"cax3", {CellKind::triangle, 3}},
+                                            {"stri3", {CellKind::triangle, 3}},
+                                            {"t3d2", {CellKind::line, 2}},
+                                            {"t2d2", {CellKind::line, 2}},
+                                            {"b31", {CellKind::line, 2}},
+                                            {"b33", {CellKind::line, 2}},
+                                            {"t3d3", {CellKind::ignored, 3}},
+                                            {"b32", {CellKind::ignored, 3}},
+                                            {"s6", {CellKind::ignored, 6}},
+                                            {"stri65", {CellKind::ignored, 6}},
+                                            {"m3d6", {CellKind::ignored, 6}},
+                                            {"cps6", {CellKind::ignored, 6}},
+                                            {"cpe6", {CellKind::ignored, 6}},
+                                            {"s8r", {CellKind::ignored, 8}},
+                                            {"m3d8", {CellKind::ignored, 8}},
+                                            {"cps8", {CellKind::ignored, 8}},
+                                            {"cpe8", {CellKind::ignored, 8}},
+                                            {"mass", {CellKind::ignored, 1}},
+                                            {"rotaryi", {CellKind::ignored, 1}},
+                                            {"dcoup3d", {CellKind::ignored, 1}},
+                                            {"spring1", {CellKind::ignored, 1}},
+                                            {"spring", {CellKind::ignored, 2}},
+                                            {"dashpot1", {CellKind::ignored, 1}},
+                                            {"dashpot", {CellKind::ignored, 2}},
+                                            {"gapuni", {CellKind::ignored, 2}},
+                                            {"conn3d2", {CellKind::ignored, 2}}};
   for (const Family &family : families) {
     const std::string beginning = family.beginning;
     if (type.compare(0, beginning.size(), beginning) == 0 &&
@@ -471,6 +496,8 @@ private:
                                   std::to_string(number) + ", which is missing");
     count_member();
     const Element &element = found->second;
+    if (element.kind == CellKind::quadrilateral && n_hexahedra_ == 0)
+      return add_edges(surface, label, number, element, whole.group);
     const bool is_side =
         label.empty() || label == "spos" || label == "sneg" || label == "s1" || label == "s2";
     if (element.kind == CellKind::quadrilateral && is_side)
@@ -489,22 +516,43 @@ private:
                                   "; allowed are S1 to S6 of hexahedra, SPOS and SNEG of shells");
   }
 
-  /// Sets with shells are groups of faces.
+  /// Adds an edge of an element of a two-dimensional mesh; without a label all of them.
+  void add_edges(const Surface &surface, const std::string &label, const long long number,
+                 const Element &element, const std::size_t group) {
+    const bool has_side =
+        label.size() == 2 && (label[0] == 's' || label[0] == 'e') && label[1] >= '1' && label[1] <= '4';
+    if (!has_side && !label.empty())
+      throw std::invalid_argument("its surface '" + surface.name + "' names the side '" + label.substr(0, 9) +
+                                  "' of element " + std::to_string(number) +
+                                  "; allowed are S1 to S4 of two-dimensional elements");
+    const FaceGroup of_edge = mesh_.mesh().groups[group];
+    for (std::size_t side = 0; side < 4; ++side)
+      if (!has_side || label[1] == static_cast<char>('1' + side))
+        mesh_.add_edge({element.nodes[side], element.nodes[(side + 1) % 4]}, of_edge);
+  }
+
+  /// Sets with shells are groups of faces; in a two-dimensional mesh sets with trusses or beams are groups of
+  /// edges.
   void add_shells() {
     for (const std::string &name : element_sets_.names()) {
       if (numbers_.count(lower_case(name)) > 0)
         continue; // a surface has this name
-      std::vector<const Element *> shells;
+      std::vector<const Element *> shells, lines;
       for (const long long number : elements_of(name)) {
         const Element &element = elements_.at(number);
         if (element.kind == CellKind::quadrilateral)
           shells.push_back(&element);
+        if (element.kind == CellKind::line && n_hexahedra_ == 0)
+          lines.push_back(&element);
       }
-      if (shells.empty())
+      if (shells.empty() && lines.empty())
         continue;
       const std::size_t index = group(name);
       for (const Element *const shell : shells)
         mesh_.add_face({shell->nodes[0], shell->nodes[1], shell->nodes[2], shell->nodes[3]}, index);
+      const FaceGroup of_edge = mesh_.mesh().groups[index];
+      for (const Element *const line : lines)
+        mesh_.add_edge({line->nodes[0], line->nodes[1]}, of_edge);
     }
   }
 

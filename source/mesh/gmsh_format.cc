@@ -30,7 +30,7 @@ bool is_gmsh(const std::string &bytes) {
 /// Types of elements by their numbers in Gmsh.
 CellShape gmsh_shape(const long long type) {
   static const std::map<long long, CellShape> shapes{
-      {1, {CellKind::ignored, 2}},        {2, {CellKind::ignored, 3}},
+      {1, {CellKind::line, 2}},           {2, {CellKind::triangle, 3}},
       {3, {CellKind::quadrilateral, 4}},  {4, {CellKind::tetrahedron, 4}},
       {5, {CellKind::hexahedron, 8}},     {6, {CellKind::wedge, 6}},
       {7, {CellKind::pyramid, 5}},        {8, {CellKind::ignored, 3}},
@@ -172,6 +172,8 @@ private:
         cursor_.refuse("the name of a physical group should stand in quotation marks");
       if (dimension == 2)
         names_[magnitude(group)] = std::string(rest.substr(1, rest.size() - 2));
+      else if (dimension == 1)
+        edge_names_[magnitude(group)] = std::string(rest.substr(1, rest.size() - 2));
     }
   }
 
@@ -193,6 +195,8 @@ private:
             number("the number of an entity");
         if (dimension == 2)
           physical_[entity] = groups;
+        else if (dimension == 1)
+          edge_physical_[entity] = groups;
       }
     has_entities_ = true;
   }
@@ -214,9 +218,34 @@ private:
     return groups;
   }
 
+  /// Returns the groups of an edge, likewise.
+  std::vector<FaceGroup> edge_groups(const std::vector<long long> &physical, const long long entity) const {
+    std::vector<FaceGroup> groups;
+    for (const long long number : physical) {
+      const auto name = edge_names_.find(number);
+      groups.push_back({name == edge_names_.end() ? "" : name->second, group_number(number)});
+    }
+    if (groups.empty()) {
+      groups.push_back({"", 0});
+      if (entity > 0)
+        groups.push_back({"curve " + std::to_string(entity), FaceGroup::no_number});
+    }
+    return groups;
+  }
+  /// Returns the number as MeshCollector takes it, which refuses those that are too large.
+  static unsigned int group_number(const long long number) {
+    return static_cast<unsigned int>(std::min(number, 2147483648LL));
+  }
+
+  /// Groups of a quadrilateral or of an edge.
+  struct CellGroups {
+    std::vector<std::size_t> of_face;
+    std::vector<FaceGroup> of_edge;
+  };
+
   /// `physical`: the physical group in formats before 4, which repeat an element for each of its groups.
   void add_element(const long long type, const CellShape &shape, const long long element,
-                   const long long physical, const std::vector<std::size_t> &groups) {
+                   const long long physical, const CellGroups &groups) {
     if (shape.n_nodes == 0)
       refuse_type(type);
     std::array<long long, max_nodes> nodes{};
@@ -226,7 +255,9 @@ private:
       hexahedra_.push_back({{}, physical, element});
       std::copy_n(nodes.begin(), 8, hexahedra_.back().nodes.begin());
     } else
-      mesh_.add_cell(shape, element, nodes.data(), groups);
+      mesh_.add_cell(shape, element, nodes.data(), groups.of_face);
+    for (const FaceGroup &group : groups.of_edge)
+      mesh_.add_edge({nodes[0], nodes[1]}, group);
   }
 
   /// Adds each hexahedron of formats before 4 once, whatever the number of its physical groups.
@@ -284,11 +315,14 @@ private:
     }
   }
 
-  std::vector<std::size_t> groups_of(const CellShape &shape, const long long physical,
-                                     const long long entity) {
-    if (shape.kind != CellKind::quadrilateral)
-      return {};
-    return face_groups(physical == 0 ? std::vector<long long>() : std::vector<long long>{physical}, entity);
+  CellGroups groups_of(const CellShape &shape, const long long physical, const long long entity) {
+    const std::vector<long long> all =
+        physical == 0 ? std::vector<long long>() : std::vector<long long>{physical};
+    if (shape.kind == CellKind::quadrilateral)
+      return {face_groups(all, entity), {}};
+    if (shape.kind == CellKind::line)
+      return {{}, edge_groups(all, entity)};
+    return {};
   }
 
   void read_elements() {
@@ -393,14 +427,19 @@ private:
       if (shape.n_nodes == 0)
         refuse_type(type);
       const std::size_t n = count("the number of elements of a block", 4, 8);
-      std::vector<std::size_t> groups;
-      if (shape.kind == CellKind::quadrilateral) {
+      CellGroups groups;
+      if (shape.kind == CellKind::line) {
+        const auto found = edge_physical_.find(entity);
+        groups.of_edge =
+            edge_groups(found == edge_physical_.end() ? std::vector<long long>() : found->second, entity);
+      } else if (shape.kind == CellKind::quadrilateral) {
         const auto found = physical_.find(entity);
         if (has_entities_ && (found == physical_.end() || dimension != 2))
           throw std::invalid_argument("block " + std::to_string(block + 1) +
                                       " of its elements is on surface " + std::to_string(entity) +
                                       ", which $Entities does not have");
-        groups = face_groups(found == physical_.end() ? std::vector<long long>() : found->second, entity);
+        groups.of_face =
+            face_groups(found == physical_.end() ? std::vector<long long>() : found->second, entity);
       }
       for (std::size_t i = 0; i < n; ++i) {
         const long long element = tag("the number of an element");
@@ -417,10 +456,11 @@ private:
   std::set<std::string> sections_;
   int version_ = 0; ///< 1, 2, 40 or 41; 0: unknown
   bool is_binary_ = false, has_entities_ = false;
-  std::int32_t last_ = 0;                                ///< the last number of four bytes
-  std::map<long long, std::string> names_;               ///< of physical surfaces
-  std::map<long long, std::vector<long long>> physical_; ///< groups of the geometry's surfaces
-  std::vector<Hexahedron> hexahedra_;                    ///< of formats before 4
+  std::int32_t last_ = 0;                                     ///< the last number of four bytes
+  std::map<long long, std::string> names_, edge_names_;       ///< of physical surfaces and curves
+  std::map<long long, std::vector<long long>> physical_;      ///< groups of the geometry's surfaces
+  std::map<long long, std::vector<long long>> edge_physical_; ///< groups of its curves
+  std::vector<Hexahedron> hexahedra_;                         ///< of formats before 4
 };
 
 } // namespace

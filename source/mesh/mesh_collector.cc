@@ -19,13 +19,19 @@ void MeshCollector::add_cell(const CellShape &shape, const long long number, con
   if (shape.kind == CellKind::hexahedron) {
     hexahedra_.push_back({number, {}});
     std::copy_n(nodes, 8, hexahedra_.back().nodes.begin());
-  } else if (shape.kind == CellKind::quadrilateral)
+  } else if (shape.kind == CellKind::quadrilateral) {
+    quadrilaterals_.push_back({number, {nodes[0], nodes[1], nodes[2], nodes[3]}});
     for (const std::size_t group : groups)
       add_face({nodes[0], nodes[1], nodes[2], nodes[3]}, group);
+  }
 }
 
 void MeshCollector::add_face(const std::array<long long, 4> &nodes, const std::size_t group) {
   faces_.push_back({nodes, group});
+}
+
+void MeshCollector::add_edge(const std::array<long long, 2> &nodes, const FaceGroup &group) {
+  edges_.push_back({nodes, group});
 }
 
 std::size_t MeshCollector::group(const std::string &name, const unsigned int number) {
@@ -38,11 +44,15 @@ std::size_t MeshCollector::group(const std::string &name, const unsigned int num
   return found->second;
 }
 
-std::size_t MeshCollector::numbered_group(const long long number) {
+void MeshCollector::check_number(const long long number) {
   constexpr long long max_number = 999999999; // as in scenes
   if (number < 0 || number > max_number)
     throw std::invalid_argument("a group of faces of it has the number " + std::to_string(number) +
                                 ", which is no boundary id from 0 to 999999999");
+}
+
+std::size_t MeshCollector::numbered_group(const long long number) {
+  check_number(number);
   return group("", static_cast<unsigned int>(number));
 }
 
@@ -55,11 +65,12 @@ unsigned int MeshCollector::node_index(const long long number, const char *const
   return found->second;
 }
 
+std::size_t MeshCollector::count(const CellKind kind) const {
+  const auto found = n_cells_.find(kind);
+  return found == n_cells_.end() ? std::size_t{0} : found->second;
+}
+
 void MeshCollector::check_kinds() const {
-  const auto count = [&](const CellKind kind) {
-    const auto found = n_cells_.find(kind);
-    return found == n_cells_.end() ? std::size_t{0} : found->second;
-  };
   if (count(CellKind::second_order) > 0)
     throw std::invalid_argument(
         "it has " + std::to_string(count(CellKind::second_order)) +
@@ -76,18 +87,39 @@ void MeshCollector::check_kinds() const {
         " hexahedra; allowed are hexahedra only. Gmsh divides all elements into hexahedra with "
         "Mesh.SubdivisionAlgorithm = 2 (All Hexas), set before the mesh is generated; a swept mesh "
         "(Extrude with Recombine) is more accurate in bending");
-  if (count(CellKind::hexahedron) == 0)
+  if (count(CellKind::hexahedron) == 0 && count(CellKind::quadrilateral) == 0)
     throw std::invalid_argument(
-        "it has no hexahedra" +
-        (count(CellKind::quadrilateral) > 0
-             ? " but " + std::to_string(count(CellKind::quadrilateral)) +
-                   " quadrilaterals: a surface, which has no volume (in Gmsh: 'Mesh 3', with the volume in a "
-                   "physical group if there are any)"
-             : ""));
+        "it has no hexahedra, nor quadrilaterals with four nodes as a two-dimensional mesh has" +
+        (count(CellKind::triangle) > 0 ? ", but " + std::to_string(count(CellKind::triangle)) +
+                                             " triangles; Gmsh joins them with 'Recombine Surface {:};'"
+                                       : " (in Gmsh: Mesh.ElementOrder = 1)"));
+}
+
+void MeshCollector::finish_plane() {
+  std::unordered_map<long long, std::size_t> numbers;
+  for (const Quadrilateral &quadrilateral : quadrilaterals_) {
+    if (!numbers.emplace(quadrilateral.number, 0).second)
+      throw std::invalid_argument("element " + std::to_string(quadrilateral.number) +
+                                  " of it is given twice");
+    mesh_.plane.quadrilaterals.push_back({quadrilateral.number, {}});
+    std::transform(quadrilateral.nodes.begin(), quadrilateral.nodes.end(),
+                   mesh_.plane.quadrilaterals.back().nodes.begin(),
+                   [&](const long long node) { return node_index(node, "element", quadrilateral.number); });
+  }
+  for (const Edge &edge : edges_) {
+    if (edge.group.number != FaceGroup::no_number)
+      check_number(edge.group.number);
+    mesh_.plane.edges.push_back({{node_index(edge.nodes[0], "an edge at node", edge.nodes[0]),
+                                  node_index(edge.nodes[1], "an edge at node", edge.nodes[0])},
+                                 group(edge.group.name, edge.group.number)});
+  }
+  mesh_.plane.n_triangles = count(CellKind::triangle);
 }
 
 MeshFile MeshCollector::finish() {
   check_kinds();
+  if (hexahedra_.empty())
+    finish_plane();
   std::unordered_map<long long, std::size_t> numbers;
   for (const Hexahedron &hexahedron : hexahedra_) {
     if (!numbers.emplace(hexahedron.number, 0).second)

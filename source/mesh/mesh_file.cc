@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mesh/mesh_file.h"
 
+#include "billet/mesh/plane_mesh.h"
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -64,16 +66,43 @@ std::string printable(std::string text) {
 
 MeshFile parse_mesh(const std::string &bytes, const FileAccess &access) {
   try {
-    return parse(bytes, access);
+    MeshFile mesh = parse(bytes, access);
+    if (mesh.hexahedra.empty())
+      throw std::invalid_argument(
+          "it has no hexahedra but " + std::to_string(mesh.plane.quadrilaterals.size()) +
+          " quadrilaterals: a surface, which has no volume (in Gmsh: 'Mesh 3', with the volume in a "
+          "physical group if there are any). 'Section = plane strain' or 'axisymmetric' takes a "
+          "two-dimensional mesh");
+    return mesh;
   } catch (const std::invalid_argument &error) {
     throw std::invalid_argument(printable(error.what()));
   }
 }
 
-MeshFile read_mesh_file(const std::string &file_name) {
-  const std::filesystem::path folder = std::filesystem::path(file_name).parent_path();
-  return parse_mesh(read_bytes(file_name),
-                    [&folder](const std::string &name) { return read_bytes((folder / name).string()); });
+MeshFile parse_plane_mesh(const std::string &bytes, const FileAccess &access) {
+  try {
+    MeshFile mesh = parse(bytes, access);
+    extrude_plane(mesh);
+    return mesh;
+  } catch (const std::invalid_argument &error) {
+    throw std::invalid_argument(printable(error.what()));
+  }
 }
+
+namespace {
+
+/// Reads a file by one of these functions.
+MeshFile read_by(MeshFile (*const parse_bytes)(const std::string &bytes, const FileAccess &access),
+                 const std::string &file_name) {
+  const std::filesystem::path folder = std::filesystem::path(file_name).parent_path();
+  return parse_bytes(read_bytes(file_name),
+                     [&folder](const std::string &name) { return read_bytes((folder / name).string()); });
+}
+
+} // namespace
+
+MeshFile read_mesh_file(const std::string &file_name) { return read_by(&parse_mesh, file_name); }
+
+MeshFile read_plane_mesh_file(const std::string &file_name) { return read_by(&parse_plane_mesh, file_name); }
 
 } // namespace billet

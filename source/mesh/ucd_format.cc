@@ -3,6 +3,7 @@
 #include "billet/mesh/mesh_collector.h"
 #include "billet/mesh/mesh_cursor.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -28,8 +29,8 @@ bool is_ucd(const std::string &bytes) {
 
 CellShape ucd_shape(const std::string_view name) {
   static const std::map<std::string_view, CellShape> shapes{
-      {"pt", {CellKind::ignored, 1}},      {"line", {CellKind::ignored, 2}},
-      {"tri", {CellKind::ignored, 3}},     {"quad", {CellKind::quadrilateral, 4}},
+      {"pt", {CellKind::ignored, 1}},      {"line", {CellKind::line, 2}},
+      {"tri", {CellKind::triangle, 3}},    {"quad", {CellKind::quadrilateral, 4}},
       {"tet", {CellKind::tetrahedron, 4}}, {"pyr", {CellKind::pyramid, 5}},
       {"prism", {CellKind::wedge, 6}},     {"hex", {CellKind::hexahedron, 8}}};
   const auto found = shapes.find(name);
@@ -68,6 +69,8 @@ MeshFile read_ucd(const std::string &bytes, const FileAccess & /*access*/) {
                   shape.kind == CellKind::quadrilateral
                       ? std::vector<std::size_t>{mesh.numbered_group(material)}
                       : std::vector<std::size_t>());
+    if (shape.kind == CellKind::line && material >= 0)
+      mesh.add_edge({nodes[0], nodes[1]}, {"", static_cast<unsigned int>(std::min(material, 2147483648LL))});
   }
   if (!has_data && !cursor.at_end()) {
     cursor.word();

@@ -3,6 +3,7 @@
 #include "billet/mesh/mesh_collector.h"
 #include "billet/mesh/mesh_cursor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -17,8 +18,8 @@ bool is_vtk(const std::string &bytes) { return bytes.compare(0, 14, "# vtk DataF
 /// Types of cells by their numbers in VTK.
 CellShape vtk_shape(const long long type) {
   static const std::map<long long, CellShape> shapes{
-      {1, {CellKind::ignored, 1}},        {3, {CellKind::ignored, 2}},
-      {5, {CellKind::ignored, 3}},        {8, {CellKind::quadrilateral, 4}},
+      {1, {CellKind::ignored, 1}},        {3, {CellKind::line, 2}},
+      {5, {CellKind::triangle, 3}},       {8, {CellKind::quadrilateral, 4}},
       {9, {CellKind::quadrilateral, 4}},  {10, {CellKind::tetrahedron, 4}},
       {11, {CellKind::hexahedron, 8}},    {12, {CellKind::hexahedron, 8}},
       {13, {CellKind::wedge, 6}},         {14, {CellKind::pyramid, 5}},
@@ -337,6 +338,9 @@ private:
       mesh_.add_cell(shape, static_cast<long long>(i), nodes.data(),
                      is_grouped ? std::vector<std::size_t>{mesh_.numbered_group(groups_[i])}
                                 : std::vector<std::size_t>());
+      if (shape.kind == CellKind::line && !groups_.empty() && groups_[i] >= 0)
+        mesh_.add_edge({nodes[0], nodes[1]},
+                       {"", static_cast<unsigned int>(std::min(groups_[i], 2147483648LL))});
     }
     mesh_.mesh().corners = {0, 1, 3, 2, 4, 5, 7, 6};
     return mesh_.finish();

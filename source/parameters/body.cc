@@ -65,10 +65,11 @@ void Mesh::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "Section", "solid", Patterns::Selection(selection(sections)),
       "plane strain: one layer of the two-dimensional primitive, whose bottom z = 0 and top are "
-      "symmetry planes (before rotation and translation). 'Source' then is extruded primitive. "
+      "symmetry planes (before rotation and translation). 'Source' then is extruded primitive, or file with "
+      "quadrilaterals in a plane z = constant. "
       "Forces, moments and energies are those of the width 'Height', so per unit of width "
       "with its default, 1. axisymmetric: one layer of the two-dimensional primitive, turned about its axis "
-      "of y by 'Wedge angle'; x is the radius, > 0, and y becomes z. Both sides are symmetry planes through "
+      "of y by 'Wedge angle'; x is the radius, >= 0, and y becomes z. Both sides are symmetry planes through "
       "the axis of z. Forces, moments, loads and energies are those of the wedge; history and console have "
       "forces of the full circle. solid: no such planes.");
   prm.declare_entry(
@@ -81,7 +82,8 @@ void Mesh::declare(ParameterHandler &prm) {
   prm.declare_entry("Layers", "1", Patterns::Integer(0),
                     "Extruded primitives: number of layers of elements along z.");
   prm.declare_entry("File", "", Patterns::Anything(),
-                    "Mesh file of hexahedra, relative to the scene file: Gmsh's .msh, .vtk, Abaqus's or "
+                    "Mesh file of hexahedra, or of quadrilaterals for a 'Section', relative to the scene "
+                    "file: Gmsh's .msh, .vtk, Abaqus's or "
                     "CalculiX's .inp, UCD. "
                     "The content tells the format. Groups of faces give boundary ids and names.");
   prm.declare_entry(
@@ -148,11 +150,12 @@ void Mesh::parse_section(const Reader &reader) {
   section = reader.located("Section", chosen(sections, reader.text("Section")));
   const std::string why = "since 'Section = " + reader.text("Section") + "'";
   if (section.value != Section::solid) {
-    if (reader.is_set("Source") && source != Source::extruded)
-      reader.reject("Source", "extruded primitive, " + why);
+    if (reader.is_set("Source") && source == Source::primitive)
+      reader.reject("Source", "extruded primitive or file, " + why);
     if (reader.is_set("Layers") && reader.text("Layers") != "1")
       reader.reject("Layers", "1, " + why + " makes one layer");
-    source = Source::extruded;
+    if (source != Source::file)
+      source = Source::extruded;
   }
   const bool is_wedge = section.value == Section::axisymmetric;
   if (is_wedge)
@@ -202,7 +205,7 @@ void Mesh::parse(Reader &reader) {
           "with a letter and without a comma");
     }
   }
-  const bool is_extruded = source == Source::extruded;
+  const bool is_extruded = source == Source::extruded || section.value != Section::solid;
   for (const std::string key : {"Section area", "Height", "Layers"})
     if (reader.is_set(key) && !is_extruded)
       reader.reject(key, "no value: only 'Source = extruded primitive' uses it");

@@ -95,6 +95,8 @@ BoundaryNames read_boundary_names(parameters::Mesh &mesh) {
     const BoundaryGroups groups = load_mesh_file(mesh).groups;
     names = groups.names();
     new_id = groups.new_id();
+    if (mesh.section.value != parameters::Mesh::Section::solid)
+      new_id += 2; // both sides of the section
   }
   name_conditions(mesh, names, new_id);
   return names;

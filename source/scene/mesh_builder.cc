@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -72,37 +73,99 @@ template <int dim> void generate_primitive(const parameters::Mesh &parameters, T
     throw InputError(describe_refusal(parameters));
 }
 
-/// Turns the section, x the radius and y the height, about the axis of z.
+/// Turns the section, x the radius and y the height, about the axis of z. Bricks on the axis become prisms:
+/// the sides of the wedge hold the two nodes at one place there, and Gauss points see no zero.
 void turn_section(const parameters::Mesh &parameters, const Triangulation<2> &section,
                   Triangulation<3> &mesh) {
+  constexpr double rounding = 1e-9;
   double largest = 0., least = std::numeric_limits<double>::max();
   for (const auto &cell : section.active_cell_iterators())
     for (const unsigned int v : cell->vertex_indices()) {
       least = std::min(least, cell->vertex(v)[0]);
       largest = std::max(largest, cell->vertex(v).norm());
     }
-  constexpr double too_near = 1e-6;
-  if (!(least > too_near * largest)) {
+  if (!(least >= -rounding * largest)) {
     std::ostringstream message;
-    message << parameters.section.origin << " is 'axisymmetric', but the primitive '"
-            << parameters.primitive.value << "' begins at the radius x = " << least
-            << "; allowed are sections with x > 0, since bricks would collapse on the axis. Begin a solid "
-               "body at a small radius, a hundredth of the outer one, and hold that face by a support with "
-               "'Axes = cylindrical' and 'Components = x'";
+    message << parameters.section.origin
+            << " is 'axisymmetric', but the section begins at the radius x = " << least
+            << "; allowed are sections with x >= 0, on one side of the axis x = 0. Move it along x";
     throw InputError(message.str());
   }
   dealii::GridGenerator::extrude_triangulation(section, 2, 1., mesh);
   dealii::GridTools::transform(
-      [&parameters](const dealii::Point<3> &x) {
+      [&](const dealii::Point<3> &x) {
         const double angle = (1. - x[2]) * parameters.wedge_angle; // this way corners keep their order
-        return dealii::Point<3>(x[0] * std::cos(angle), x[0] * std::sin(angle), x[1]);
+        const double radius = x[0] > rounding * largest ? x[0] : 0.;
+        return dealii::Point<3>(radius * std::cos(angle), radius * std::sin(angle), x[1]);
       },
       mesh);
 }
 
+/// Returns the message for a file with cells that do not fit each other.
+InputError misfit(const parameters::Mesh &parameters, const char *const cells, const std::exception &error) {
+  return InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
+                    "'; allowed is a mesh of " + cells + " that fit each other. " + essence(error));
+}
+
+/// Makes the section of a file, which has been checked as a layer of hexahedra.
+void make_section(const parameters::Mesh &parameters, const LoadedMesh &loaded, Triangulation<2> &section) {
+  constexpr auto unknown = static_cast<unsigned int>(-1);
+  const std::size_t n_nodes = loaded.mesh.positions.size();
+  std::vector<unsigned int> vertex_of(n_nodes, unknown), node_of;
+  std::vector<unsigned int> above(n_nodes, unknown);
+  std::vector<dealii::Point<2>> vertices;
+  std::vector<dealii::CellData<2>> cells;
+  constexpr std::array<unsigned int, 4> corners{0, 1, 3, 2}; // deal.II's places of corners in turn
+  for (const FileHexahedron &hexahedron : loaded.mesh.hexahedra) {
+    cells.emplace_back();
+    for (unsigned int i = 0; i < 4; ++i) {
+      const unsigned int node = hexahedron.nodes[i];
+      if (vertex_of[node] == unknown) {
+        vertex_of[node] = static_cast<unsigned int>(vertices.size());
+        vertices.emplace_back(loaded.mesh.positions[node][0], loaded.mesh.positions[node][1]);
+        node_of.push_back(node);
+      }
+      above[node] = hexahedron.nodes[i + 4];
+      cells.back().vertices[corners[i]] = vertex_of[node];
+    }
+  }
+  try {
+    const AssertionsThrow refusals_are_errors;
+    dealii::GridTools::consistently_order_cells(cells);
+    section.create_triangulation(vertices, cells, dealii::SubCellData());
+  } catch (const std::exception &error) {
+    throw misfit(parameters, "quadrilaterals", error);
+  }
+  for (const auto &cell : section.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary()) {
+        const unsigned int a = node_of[cell->face(f)->vertex_index(0)],
+                           b = node_of[cell->face(f)->vertex_index(1)];
+        BoundaryGroups::Face nodes{a, b, above[a], above[b]};
+        std::sort(nodes.begin(), nodes.end());
+        cell->face(f)->set_boundary_id(loaded.groups.id(nodes));
+      }
+}
+
+/// Gives both sides of a section from a file ids above those of its groups, as load_mesh_file() announces.
+void name_sides(const LoadedMesh &loaded, const Triangulation<2> &section, Triangulation<3> &mesh) {
+  unsigned int largest = 0;
+  for (const unsigned int id : section.get_boundary_ids())
+    largest = std::max(largest, id);
+  // deal.II has given them the next two ids.
+  for (const auto &face : mesh.active_face_iterators())
+    if (face->at_boundary() && face->boundary_id() > largest)
+      face->set_boundary_id(loaded.groups.new_id() + face->boundary_id() - largest - 1);
+}
+
 void generate_extruded(const parameters::Mesh &parameters, const MeshDetail detail, Triangulation<3> &mesh) {
   Triangulation<2> refined, section;
-  generate_primitive(parameters, refined);
+  std::unique_ptr<const LoadedMesh> loaded;
+  if (parameters.source == parameters::Mesh::Source::file) {
+    loaded = std::make_unique<const LoadedMesh>(load_mesh_file(parameters));
+    make_section(parameters, *loaded, refined);
+  } else
+    generate_primitive(parameters, refined);
   if (detail == MeshDetail::full)
     refined.refine_global(parameters.refinements);
   dealii::GridGenerator::flatten_triangulation(refined, section);
@@ -112,10 +175,12 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
                              section);
   if (parameters.section.value == parameters::Mesh::Section::axisymmetric) {
     turn_section(parameters, section, mesh);
-    return;
+  } else {
+    const unsigned int n_layers = detail == MeshDetail::full ? parameters.n_layers : 1;
+    dealii::GridGenerator::extrude_triangulation(section, n_layers + 1, parameters.height, mesh);
   }
-  const unsigned int n_layers = detail == MeshDetail::full ? parameters.n_layers : 1;
-  dealii::GridGenerator::extrude_triangulation(section, n_layers + 1, parameters.height, mesh);
+  if (loaded)
+    name_sides(*loaded, section, mesh);
 }
 
 void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
@@ -136,8 +201,7 @@ void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
     dealii::GridTools::consistently_order_cells(cells);
     mesh.create_triangulation(vertices, cells, dealii::SubCellData());
   } catch (const std::exception &error) {
-    throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
-                     "'; allowed is a mesh of hexahedra that fit each other. " + essence(error));
+    throw misfit(parameters, "hexahedra", error);
   }
   for (const auto &cell : mesh.active_cell_iterators())
     for (const unsigned int f : cell->face_indices())
@@ -191,8 +255,10 @@ void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mes
 } // namespace
 
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
+  const bool is_plane = parameters.section.value != parameters::Mesh::Section::solid;
   try {
-    MeshFile mesh = read_mesh_file(parameters.file_name.value);
+    MeshFile mesh = is_plane ? read_plane_mesh_file(parameters.file_name.value)
+                             : read_mesh_file(parameters.file_name.value);
     const auto &distance = parameters.merged_distance.value;
     mend_and_check(mesh,
                    !distance        ? DoubledNodes::refused
@@ -202,9 +268,9 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
     BoundaryGroups groups(mesh, least_new_id(parameters));
     return {std::move(mesh), std::move(groups)};
   } catch (const std::invalid_argument &error) {
-    throw InputError(
-        parameters.file_name.origin + " is '" + parameters.file_name.value +
-        "'; allowed is a mesh of hexahedra in one of the formats .msh, .vtk, .inp, .ucd: " + error.what());
+    throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
+                     "'; allowed is a mesh of " + (is_plane ? "quadrilaterals" : "hexahedra") +
+                     " in one of the formats .msh, .vtk, .inp, .ucd: " + error.what());
   }
 }
 
@@ -220,6 +286,10 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
       mesh.refine_global(parameters.refinements);
     break;
   case parameters::Mesh::Source::file:
+    if (parameters.section.value != parameters::Mesh::Section::solid) {
+      generate_extruded(parameters, detail, mesh);
+      break;
+    }
     read_file(parameters, mesh);
     if (detail == MeshDetail::full)
       mesh.refine_global(parameters.refinements);
@@ -238,7 +308,8 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
 }
 
 std::size_t count_full_elements(const parameters::Mesh &parameters, const Triangulation<3> &outline) {
-  const bool is_extruded = parameters.source == parameters::Mesh::Source::extruded;
+  const bool is_extruded = parameters.source == parameters::Mesh::Source::extruded ||
+                           parameters.section.value != parameters::Mesh::Section::solid;
   const unsigned int per_refinement = is_extruded ? 4 : 8;
   std::size_t count = outline.n_active_cells();
   count *= is_extruded ? parameters.n_layers : 1;

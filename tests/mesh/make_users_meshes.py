@@ -80,6 +80,16 @@ APART = BOXES.format(height=5) + (
     'Physical Surface("feet", 1) = {5, 11}; Physical Volume("all", 1) = {1, 2};\n'
 )
 DOUBLED = BOXES.format(height=1)
+# Two-dimensional: a plate with a notch, by free quadrilaterals, with named edges, and one with triangles.
+SECTION = (
+    'SetFactory("OpenCASCADE");\nRectangle(1) = {0, 0, 0, 4, 3}; Disk(2) = {4, 3, 0, 1};\n'
+    "BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };\n"
+    "Mesh.CharacteristicLengthMin = 1; Mesh.CharacteristicLengthMax = 1; Mesh.RecombinationAlgorithm = 1;\n"
+    'Physical Curve("axis", 11) = Curve In BoundingBox {-0.1, -0.1, -0.1, 0.1, 3.1, 0.1};\n'
+    'Physical Curve("notch", 12) = Curve In BoundingBox {2.9, 1.9, -0.1, 4.1, 3.1, 0.1};\n'
+    'Physical Surface("section", 1) = {3};\n'
+)
+QUADRILATERALS = SECTION + "Recombine Surface {3};\n"
 MIXED = BLOCK + ("up[] = Extrude {0, 0, 1} { Surface{out[0]}; };\nPhysical Volume(1) = {out[1], up[1]};\n")
 
 ALL: dict[str, tuple[str, str, list[str]]] = {
@@ -126,6 +136,17 @@ REFUSED: dict[str, tuple[str, str, list[str], str]] = {
     "lsdyna": (BLOCK, "key", [], "in none of these formats"),
 }
 
+#: two-dimensional meshes
+SECTIONS = ["msh1", "msh22", "msh22_binary", "msh40", "msh41", "msh41_binary", "vtk", "inp"]
+SECTIONS_REFUSED: dict[str, tuple[str, str]] = {
+    "triangles": (SECTION, "triangles; Gmsh joins them"),
+    "solid": (BLOCK, "it has 8 hexahedra; allowed are quadrilaterals in a plane"),
+    "tilted": (
+        SECTION + "Rotate {{1, 0, 0}, {0, 0, 0}, 0.1} { Surface{3}; }\nRecombine Surface {3};\n",
+        "reach from z = ",
+    ),
+}
+
 #: decks: a beam of 4 x 1.5 x 2 of three elements, with areas by names, or part of the message
 DECKS: dict[str, dict[str, float] | str] = {
     "plain": {"LEFT": 3, "RIGHT": 3, "NALL": 34},
@@ -164,6 +185,8 @@ def gmsh(geometry: str, kind: str, arguments: list[str], output: pathlib.Path) -
             str(geo),
         ]
         subprocess.run(command, check=True)
+        if kind in ("inp", "key"):  # their heads name the file with its folder
+            output.write_text(output.read_text().replace(str(output), output.name))
 
 
 def cross_volume(points: numpy.ndarray, cells: numpy.ndarray) -> float:
@@ -293,6 +316,37 @@ def make_refused(texts: list[str]) -> None:
     texts.append("wrong.msh refused inverted\n")
 
 
+def section_oracle(file: pathlib.Path) -> Expected:
+    """What meshio reads of a two-dimensional mesh: area, and lengths by names and numbers of groups."""
+    mesh = meshio.read(file)
+    cells = numpy.concatenate([block.data for block in mesh.cells if block.type == "quad"])
+    x = mesh.points[cells]
+    total = 0.5 * numpy.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1])[:, 2].sum()
+    names = {int(v[0]): name for name, v in mesh.field_data.items() if v[1] == 1}
+    lengths: Counter[str] = Counter()
+    for block, numbers in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+        if block.type == "line":
+            for (a, b), number in zip(block.data, numbers):
+                for name in (str(number), names[int(number)]):
+                    lengths[name] += float(numpy.linalg.norm(mesh.points[b] - mesh.points[a]))
+    return len(cells), len(numpy.unique(cells)), abs(float(total)), dict(lengths)
+
+
+def make_sections(texts: list[str]) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        twin = pathlib.Path(folder) / "twin.msh"
+        gmsh(QUADRILATERALS, "msh22", [], twin)
+        base = section_oracle(twin)
+    for form in SECTIONS:
+        kind, suffix, binary = ALL[form]
+        name = f"section_{form}.{suffix}"
+        gmsh(QUADRILATERALS, kind, binary, FOLDER / name)
+        texts.append(line(name, expected_of(form, base)))
+    for name, (geometry, message) in SECTIONS_REFUSED.items():
+        gmsh(geometry, "msh41", [], FOLDER / f"section_{name}.msh")
+        texts.append(f"section_{name}.msh refused {message}\n")
+
+
 def add_decks(texts: list[str]) -> None:
     for name, wanted in DECKS.items():
         if isinstance(wanted, str):
@@ -309,6 +363,7 @@ def main() -> None:
     texts: list[str] = []
     make_read(texts)
     make_refused(texts)
+    make_sections(texts)
     add_decks(texts)
     (FOLDER / "expected.txt").write_text("".join(texts))
     print(f"{len(texts)} meshes")

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Meshes as users have them, by Gmsh in all formats that it writes, and of decks for CalculiX: read alike
-// (elements, nodes, volume, areas of named faces) or refused with the reason. make_users_meshes.py makes
-// them, and what is expected, by Gmsh and meshio.
+// (elements, nodes, volume, areas of named faces) or refused with the reason. Two-dimensional meshes
+// (section_*) are read as a layer; area and lengths are expected. make_users_meshes.py makes them, and what
+// is expected, by Gmsh and meshio.
 #include "mesh_measures.h"
 #include "samples.h"
 
@@ -54,8 +55,10 @@ std::vector<Expected> expected_meshes() {
 /// Files have 9 digits at least, from which areas and volumes have some less.
 bool near(const double a, const double b) { return std::abs(a - b) <= 1e-7 * std::abs(b); }
 
-/// Compares a mesh; prints what differs.
-bool is_as_expected(const MeshFile &mesh, const Expected &expected) {
+/// Compares a mesh, of which `n_layers` nodes stand for one of the file and whose measures are `height` times
+/// those of the file; prints what differs.
+bool is_as_expected(const MeshFile &mesh, const Expected &expected, const std::size_t n_layers = 1,
+                    const double height = 1.) {
   const auto agrees = [&](const std::string &what, const double found, const double wanted) {
     if (!near(found, wanted))
       std::cout << expected.name << ": " << what << " " << found << ", not " << wanted << std::endl;
@@ -63,12 +66,16 @@ bool is_as_expected(const MeshFile &mesh, const Expected &expected) {
   };
   const auto count = [](const std::size_t n) { return static_cast<double>(n); };
   bool holds = agrees("elements", count(mesh.hexahedra.size()), count(expected.n_elements));
-  holds = agrees("nodes", count(mesh.positions.size()), count(expected.n_nodes)) && holds;
-  holds = agrees("volume", volume(mesh), expected.volume) && holds;
+  holds = agrees("nodes", count(mesh.positions.size()), count(n_layers * expected.n_nodes)) && holds;
+  holds = agrees("volume", volume(mesh) / height, expected.volume) && holds;
   const BoundaryGroups groups(mesh);
   for (const auto &[name, wanted] : expected.areas)
-    holds = agrees(name, area(mesh, groups, ids_of(groups, name)), wanted) && holds;
+    holds = agrees(name, area(mesh, groups, ids_of(groups, name)) / height, wanted) && holds;
   return holds;
+}
+
+bool is_as_expected_of_section(const MeshFile &mesh, const Expected &expected) {
+  return is_as_expected(mesh, expected, 2, mesh.positions.back()[2]);
 }
 
 } // namespace
@@ -80,9 +87,12 @@ int main() {
     std::string message;
     bool holds = false;
     try {
-      MeshFile mesh = parse_mesh(text_of(expected.name), &text_of);
+      const bool is_section = expected.name.rfind("section_", 0) == 0;
+      const std::string text = text_of(expected.name);
+      MeshFile mesh = is_section ? parse_plane_mesh(text, &text_of) : parse_mesh(text, &text_of);
       mend_and_check(mesh, DoubledNodes::refused, 0.);
-      holds = expected.message.empty() && is_as_expected(mesh, expected);
+      holds = expected.message.empty() &&
+              (is_section ? is_as_expected_of_section(mesh, expected) : is_as_expected(mesh, expected));
     } catch (const std::invalid_argument &error) {
       message = error.what();
       holds = !expected.message.empty() && message.find(expected.message) != std::string::npos;

@@ -17,7 +17,9 @@ namespace billet {
 enum class CellKind {
   hexahedron,
   quadrilateral,
-  ignored,     ///< points, lines, triangles: no face of a hexahedron
+  line,        ///< counts in a two-dimensional mesh only
+  triangle,    ///< refused in a two-dimensional mesh, else no face of a hexahedron
+  ignored,     ///< others that are no face of a hexahedron
   tetrahedron, ///< this and those below are refused
   wedge,
   pyramid,
@@ -44,6 +46,8 @@ public:
   void add_cell(const CellShape &shape, long long number, const long long *nodes,
                 const std::vector<std::size_t> &groups);
   void add_face(const std::array<long long, 4> &nodes, std::size_t group);
+  /// Adds an edge of a group, which counts in a file without hexahedra only.
+  void add_edge(const std::array<long long, 2> &nodes, const FaceGroup &group);
 
   /// Returns the index of the group with this name and number; adds it if there is none.
   std::size_t group(const std::string &name, unsigned int number);
@@ -54,8 +58,8 @@ public:
   unsigned int node_index(long long number, const char *named_by, long long name) const;
   MeshFile &mesh() { return mesh_; }
 
-  /// Resolves node numbers. Throws std::invalid_argument if a node is missing, or if there are solid cells
-  /// other than hexahedra.
+  /// Resolves node numbers. Throws std::invalid_argument if a node is missing, if there are solid cells other
+  /// than hexahedra, or neither hexahedra nor quadrilaterals.
   MeshFile finish();
 
 private:
@@ -67,13 +71,26 @@ private:
     std::array<long long, 4> nodes;
     std::size_t group;
   };
+  struct Quadrilateral {
+    long long number;
+    std::array<long long, 4> nodes;
+  };
+  struct Edge {
+    std::array<long long, 2> nodes;
+    FaceGroup group;
+  };
+  static void check_number(long long number);
+  std::size_t count(CellKind kind) const;
   void check_kinds() const;
+  void finish_plane();
 
   std::string node_word_;
   MeshFile mesh_;
   std::unordered_map<long long, unsigned int> node_index_;
   std::vector<Hexahedron> hexahedra_;
   std::vector<Face> faces_;
+  std::vector<Quadrilateral> quadrilaterals_;
+  std::vector<Edge> edges_;
   std::map<CellKind, std::size_t> n_cells_;
   std::map<std::pair<std::string, unsigned int>, std::size_t> group_index_;
 };

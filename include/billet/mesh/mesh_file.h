@@ -43,6 +43,25 @@ struct GroupedSet {
   std::size_t group;
 };
 
+/// Quadrilateral of a two-dimensional mesh: corners in turn around it.
+struct FileQuadrilateral {
+  long long number; ///< in the file
+  std::array<unsigned int, 4> nodes;
+};
+
+/// Edge of such a mesh that is in a group.
+struct GroupedEdge {
+  std::array<unsigned int, 2> nodes;
+  std::size_t group;
+};
+
+/// Content of a file without hexahedra.
+struct PlaneMesh {
+  std::vector<FileQuadrilateral> quadrilaterals;
+  std::vector<GroupedEdge> edges;
+  std::size_t n_triangles = 0;
+};
+
 /// Content of a mesh file: hexahedra, and which faces its groups hold.
 struct MeshFile {
   std::vector<long long> node_numbers; ///< in the file
@@ -54,6 +73,7 @@ struct MeshFile {
   std::vector<FaceGroup> groups;
   std::vector<GroupedFace> faces;
   std::vector<GroupedSet> node_sets, element_sets;
+  PlaneMesh plane; ///< empty if there are hexahedra
 };
 
 /// Returns the content of a file that a mesh file includes. Throws std::invalid_argument.
@@ -76,11 +96,15 @@ MeshFormat vtk_format();
 MeshFormat abaqus_format();
 MeshFormat ucd_format();
 
-/// Reads a mesh from the content of a file. Its indices are sound and each number stands once.
+/// Reads a mesh of hexahedra from the content of a file. Its indices are sound and each number stands once.
 MeshFile parse_mesh(const std::string &bytes, const FileAccess &access);
+/// Reads a two-dimensional mesh, as extrude_plane() gives it.
+MeshFile parse_plane_mesh(const std::string &bytes, const FileAccess &access);
 
 /// Reads a mesh file; files that it includes are relative to its folder.
 MeshFile read_mesh_file(const std::string &file_name);
+/// Reads a file with a two-dimensional mesh, as extrude_plane() gives it.
+MeshFile read_plane_mesh_file(const std::string &file_name);
 
 } // namespace billet
 

@@ -21,7 +21,8 @@ struct LoadedMesh {
   BoundaryGroups groups;
 };
 
-/// Reads the mesh file of a body. Throws InputError.
+/// Reads the mesh file of a body: of a section, as extrude_plane() makes it a layer. The first two new ids of
+/// its groups are then those of both sides. Throws InputError.
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters);
 
 /// Builds the mesh of one body. Throws InputError.
