@@ -2,6 +2,7 @@
 #include "billet/forces/external_loads.h"
 
 #include "billet/errors.h"
+#include "billet/forces/surface_coupling.h"
 #include "billet/mechanics/element_mass.h"
 #include "billet/usage.h"
 
@@ -9,6 +10,7 @@
 #include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -105,11 +107,13 @@ std::pair<unsigned int, std::vector<double>> find_least(const MPI_Comm communica
 } // namespace
 
 ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses)
-    : nodes_(nodes), masses_(std::move(masses)) {
+    : scene_(scene), nodes_(nodes), masses_(std::move(masses)) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
     for (const AppliedLoad &load : scene.bodies()[b].loads)
       std::visit([&](const auto &action) { place(load, *action, b); }, load.load.action);
-  memory_.set(memory_of(on_bodies_) + memory_of(on_faces_) + memory_of(on_nodes_) + memory_of(on_points_));
+  memory_.set(memory_of(on_bodies_) + memory_of(on_faces_) + memory_of(on_nodes_) + memory_of(on_surfaces_) +
+              memory_of(on_points_));
+  follow(nodes.make_vectors());
   // Detects expressions without a value before any output is written.
   fail_together(nodes.discretization().communicator(), [&] {
     check_before_start([&] {
@@ -144,38 +148,22 @@ void ExternalLoads::place(const AppliedLoad &load, const BodyLoad &action, const
 
 std::unique_ptr<LoadedSurface>
 ExternalLoads::measure_surface(const std::vector<BoundaryFacet> &facets) const {
-  constexpr std::size_t n_sums = 10; // area, ∫x dA, ∫x ⊗ x dA
-  std::vector<double> sums(n_sums, 0.);
-  const auto add = [&](const Tensor<1, 3> &x, const double area) {
-    sums[0] += area;
-    for (unsigned int i = 0, k = 4; i < 3; ++i) {
-      sums[1 + i] += area * x[i];
-      for (unsigned int j = i; j < 3; ++j)
-        sums[k++] += area * x[i] * x[j];
-    }
-  };
+  std::vector<double> sums(4, 0.); // area, ∫x dA
   // About the middle of the scene, so that a face far from the origin keeps its digits.
   const Tensor<1, 3> &middle = nodes_.discretization().centre();
   for (const BoundaryFacet &facet : facets)
     for (const auto &point : facet_points()) {
       const auto corner = [&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); };
-      Tensor<1, 3> x;
+      const double area = point.area_vector(corner).norm();
+      sums[0] += area;
       for (unsigned int a = 0; a < 4; ++a)
-        x += point.N[a] * (corner(a) - middle);
-      add(x, point.area_vector(corner).norm());
+        for (unsigned int i = 0; i < 3; ++i)
+          sums[1 + i] += area * point.N[a] * (corner(a) - middle)[i];
     }
   dealii::Utilities::MPI::sum(sums, nodes_.discretization().communicator(), sums);
   auto surface = std::make_unique<LoadedSurface>();
   surface->area = sums[0];
-  const Tensor<1, 3> c = Tensor<1, 3>({sums[1], sums[2], sums[3]}) / sums[0];
-  surface->centre = middle + c;
-  Tensor<2, 3> squares;
-  for (unsigned int i = 0, k = 4; i < 3; ++i)
-    for (unsigned int j = i; j < 3; ++j, ++k)
-      squares[i][j] = squares[j][i] = sums[k] - sums[0] * c[i] * c[j];
-  for (unsigned int i = 0; i < 3; ++i)
-    surface->second_moment[i][i] = dealii::trace(squares);
-  surface->second_moment -= squares;
+  surface->centre = middle + Tensor<1, 3>({sums[1], sums[2], sums[3]}) / sums[0];
   return surface;
 }
 
@@ -200,6 +188,19 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
       nodes.push_back({corners[a], areas[a], normal, centre_of(facet), surface.get()});
   }
   on_nodes_.push_back({&load, &action, std::move(nodes), std::move(surface)});
+}
+
+void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, const std::size_t body) {
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
+  auto surface = measure_surface(facets);
+  const double n_faces = dealii::Utilities::MPI::sum(static_cast<double>(facets.size()), communicator);
+  const double size = std::sqrt(surface->area / n_faces);
+  surface->stiffness = scene_.bodies()[body].young_modulus / size;
+  std::vector<LoadedFace> faces;
+  for (const auto &facet : facets)
+    faces.push_back({local_corners(facet, nodes_), centre_of(facet), surface.get()});
+  on_surfaces_.push_back({&load, &action, std::move(faces), std::move(surface)});
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
@@ -239,9 +240,17 @@ void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, cons
   on_points_.push_back({&load, &action, std::move(sites), nullptr});
 }
 
+void ExternalLoads::follow(const NodalVectors &displacements) {
+  const NodalMotion at{nodes_.positions().data(), displacements.data(), nullptr};
+  for (const auto &placed : on_surfaces_)
+    measure_motion(placed.sites, at, *placed.surface, [this](std::vector<double> &numbers) {
+      dealii::Utilities::MPI::sum(numbers, nodes_.discretization().communicator(), numbers);
+    });
+}
+
 void ExternalLoads::add_forces(const double t, const NodalVectors &displacements,
                                const NodalVectors &velocities, NodalVectors &forces) const {
-  std::size_t n_loads = on_bodies_.size() + on_faces_.size() + on_points_.size();
+  std::size_t n_loads = on_bodies_.size() + on_faces_.size() + on_surfaces_.size() + on_points_.size();
   for (const auto &placed : on_nodes_)
     n_loads += placed.sites.size();
   Usage::count_if(n_loads > 0, Capability::loads, n_loads);
@@ -265,6 +274,16 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
   for (const auto &placed : on_nodes_)
     add_with_factor(*placed.load, t, forces, [&](double *sum) {
       placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
+    });
+  for (const auto &placed : on_surfaces_)
+    add_with_factor(*placed.load, t, forces, [&](double *sum) {
+      const LoadValues values = evaluate(*placed.load, t, placed.sites);
+      for (std::size_t f = 0; f < placed.sites.size(); ++f) {
+        const LoadedFace &face = placed.sites[f];
+        const auto shares = find_shares(face, at, placed.surface->motion.centre);
+        for (unsigned int a = 0; a < 4; ++a)
+          add_vector(sum, face.nodes[a], placed.action->force(shares[a], values.at(f), *placed.surface));
+      }
     });
   for (const auto &placed : on_points_)
     add_with_factor(*placed.load, t, forces, [&](double *sum) {
@@ -308,9 +327,53 @@ void ExternalLoads::add_tangent(const double t, const NodalVectors &displacement
       target.add(of_node, node_dofs);
     }
   }
+  add_surface_tangents(t, at, system);
+}
+
+void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
+                                         const TangentSystem &system) const {
+  dealii::FullMatrix<double> of_face(12, 12);
+  std::vector<DofIndex> face_dofs(12);
+  for (const auto &[load, action, faces, surface] : on_surfaces_) {
+    const double factor = load->times.factor(t);
+    if (factor == 0.)
+      continue;
+    const TangentSystem target{system.constraints, system.matrix, system.lift, factor * system.weight};
+    SurfaceCoupling coupling(nodes_.discretization());
+    const LoadValues values = evaluate(*load, t, faces);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const LoadedFace &face = faces[f];
+      const auto shares = find_shares(face, at, surface->motion.centre);
+      const auto corner = [&](const unsigned int a) { return get_vector(at.positions, face.nodes[a]); };
+      const Tensor<2, 3> local = action->local_tangent(values.at(f), *surface);
+      of_face = 0.;
+      for (const auto &point : facet_points()) {
+        const double area = point.area_vector(corner).norm();
+        for (unsigned int i = 0; i < 12; ++i)
+          for (unsigned int j = 0; j < 12; ++j)
+            of_face(i, j) += area * point.N[i / 3] * point.N[j / 3] * local[i % 3][j % 3];
+      }
+      for (unsigned int a = 0; a < 4; ++a) {
+        const std::array<DofIndex, 3> &dofs = nodes_.dofs(face.nodes[a]);
+        std::copy_n(dofs.begin(), 3, face_dofs.begin() + 3 * a);
+        coupling.add(dofs, action->coupling(shares[a], values.at(f), *surface));
+      }
+      target.add(of_face, face_dofs);
+    }
+    coupling.add_to(target);
+  }
 }
 
 void ExternalLoads::add_bounds(NodalVectors &bounds) const {
+  const NodalVectors at_rest = nodes_.make_vectors();
+  for (const auto &placed : on_surfaces_) {
+    const double stiffness = placed.action->stiffness(*placed.surface);
+    for (const LoadedFace &face : placed.sites) {
+      const auto shares = find_shares(face, motion(at_rest, at_rest), placed.surface->centre);
+      for (unsigned int a = 0; a < 4; ++a)
+        add_vector(bounds.data(), face.nodes[a], Tensor<1, 3>({stiffness * shares[a].area, 0., 0.}));
+    }
+  }
   for (const auto &placed : on_nodes_) {
     if (!placed.load->load.limits_steps())
       continue;

@@ -11,10 +11,12 @@ LoadType dead_traction_type();
 LoadType body_force_type();
 LoadType force_type();
 LoadType moment_type();
+LoadType rigid_face_type();
 
 TypeTable<Load> &load_types() {
-  static TypeTable<Load> types{acceleration_type(),  pressure_type(),   spring_type(), dashpot_type(),
-                               dead_traction_type(), body_force_type(), force_type(),  moment_type()};
+  static TypeTable<Load> types{acceleration_type(), pressure_type(),      spring_type(),
+                               dashpot_type(),      dead_traction_type(), body_force_type(),
+                               force_type(),        moment_type(),        rigid_face_type()};
   return types;
 }
 
@@ -42,6 +44,8 @@ bool Load::has_unsymmetric_tangent() const {
     return (*face)->tangent() == LoadTangent::unsymmetric;
   if (const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action))
     return (*node)->tangent() == LoadTangent::unsymmetric;
+  if (const auto *surface = std::get_if<std::shared_ptr<const SurfaceLoad>>(&action))
+    return (*surface)->tangent() == LoadTangent::unsymmetric;
   return false;
 }
 
@@ -57,6 +61,10 @@ std::vector<dealii::Tensor<1, 3>> Load::supports(const dealii::Tensor<1, 3> &nor
 }
 
 bool Load::limits_steps() const {
+  LoadedSurface unit;
+  unit.stiffness = 1.;
+  if (const auto *surface = std::get_if<std::shared_ptr<const SurfaceLoad>>(&action))
+    return (*surface)->stiffness(unit) > 0.;
   const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action);
   if (node == nullptr)
     return false;

@@ -17,7 +17,7 @@ constexpr unsigned int n_dofs = 12;
 constexpr double damping_factor = 0.7;
 using Matrix = dealii::FullMatrix<double>;
 
-/// Area, centroid and second moment of one face, by the same points as loads.
+/// Area and centroid of one face, by the same points as loads.
 LoadedSurface measure(const std::array<dealii::Tensor<1, 3>, 4> &corners) {
   LoadedSurface surface;
   const auto for_each_point = [&](const auto &add) {
@@ -33,12 +33,6 @@ LoadedSurface measure(const std::array<dealii::Tensor<1, 3>, 4> &corners) {
     surface.centre += area * x;
   });
   surface.centre /= surface.area;
-  for_each_point([&](const dealii::Tensor<1, 3> &x, const double area) {
-    const dealii::Tensor<1, 3> r = x - surface.centre;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        surface.second_moment[i][j] += area * ((i == j ? r.norm_square() : 0.) - r[i] * r[j]);
-  });
   return surface;
 }
 
@@ -101,7 +95,7 @@ void check_tangent(const std::string &name, const Load &load, const Sample &samp
     return;
   }
   // Forces of pressures and springs are quadratic, so that differences are exact.
-  check(name + ": tangent", error / tangent.linfty_norm(), name.rfind("moment", 0) == 0 ? 1e-6 : 1e-9);
+  check(name + ": tangent", error / tangent.linfty_norm(), 1e-9);
   check(name + ": symmetry",
         (asymmetry < 1e-12 * tangent.linfty_norm()) == (load.tangent() == LoadTangent::symmetric));
 }
@@ -146,39 +140,144 @@ void check_load(const std::string &name, const std::string &type, const std::str
     check_load(name, **node, values);
 }
 
-/// A moment on a face that turns about an axis without strain: the forces have no sum, and the moment turns,
-/// too, if they follow.
-void check_moment(const bool follows) {
-  const Load load =
-      testing::make_load("moment", std::string("set Boundary ids = 0\nset Moment = 1 ; 2 ; 3\n") +
-                                       "set Follow = " + (follows ? "true" : "false"))
-          .load;
-  LoadValues values(3, 1, true);
-  for (unsigned int i = 0; i < 3; ++i)
-    values.at(0)[i] = 1. + i;
-  const dealii::Tensor<1, 3> moment({1., 2., 3.});
-  Sample sample;
-  const auto Q = dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
-      dealii::Point<3>(2. / 7., 3. / 7., 6. / 7.), 2.5);
-  for (unsigned int a = 0; a < 4; ++a) {
-    const dealii::Tensor<1, 3> X = get_vector(sample.positions.data(), a);
-    const dealii::Tensor<1, 3> u = Q * (X - sample.surface.centre) + sample.surface.centre - X;
-    for (unsigned int i = 0; i < 3; ++i)
-      sample.displacements[nodal_stride * a + i] = follows ? u[i] : 0.;
+/// Two warped faces side by side, six nodes in all, and their motion.
+struct Surface {
+  static constexpr unsigned int n_nodes = 6, n_dofs = 3 * n_nodes;
+  std::array<double, n_nodes * nodal_stride> positions{}, displacements{};
+  std::vector<LoadedFace> faces{{{0, 1, 2, 3}, {}}, {{1, 4, 3, 5}, {}}};
+  LoadedSurface whole;
+
+  Surface() {
+    testing::Random random;
+    const std::array<std::array<double, 2>, n_nodes> places{
+        {{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}, {3., 0.}, {3., 1.}}};
+    for (unsigned int a = 0; a < n_nodes; ++a) {
+      add_vector(positions.data(), a,
+                 dealii::Tensor<1, 3>({places[a][0], places[a][1], 0.}) + random.vector(0.1));
+      add_vector(displacements.data(), a, random.vector(0.2));
+    }
+    for (const LoadedFace &face : faces) {
+      std::array<dealii::Tensor<1, 3>, 4> corners;
+      for (unsigned int a = 0; a < 4; ++a)
+        corners[a] = get_vector(positions.data(), face.nodes[a]);
+      const LoadedSurface part = measure(corners);
+      whole.centre = (whole.area * whole.centre + part.area * part.centre) / (whole.area + part.area);
+      whole.area += part.area;
+    }
+    whole.stiffness = 3.;
   }
-  std::array<double, 4 * nodal_stride> forces{};
-  std::get<std::shared_ptr<const FaceLoad>>(load.action)
-      ->add_forces({sample.loaded_face()}, values, sample.motion(), forces.data());
-  dealii::Tensor<1, 3> sum, about_centre;
-  for (unsigned int a = 0; a < 4; ++a) {
-    const dealii::Tensor<1, 3> f = get_vector(forces.data(), a);
-    sum += f;
-    about_centre +=
-        dealii::cross_product_3d(sample.face.positions(sample.motion())[a] - sample.surface.centre, f);
+  NodalMotion motion() const { return {positions.data(), displacements.data(), nullptr}; }
+  dealii::Tensor<1, 3> place(const unsigned int a) const {
+    return get_vector(positions.data(), a) + get_vector(displacements.data(), a);
   }
-  const std::string name = follows ? "moment that follows" : "dead moment";
-  check(name + ": no force", sum.norm(), 1e-12);
-  check(name + ": moment", (about_centre - (follows ? Q * moment : moment)).norm(), 1e-12);
+  /// Moves all nodes by a rotation about a point that is not the centroid.
+  dealii::Tensor<2, 3> turn() {
+    const auto Q = dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+        dealii::Point<3>(2. / 7., 3. / 7., 6. / 7.), 2.5);
+    for (unsigned int a = 0; a < n_nodes; ++a) {
+      const dealii::Tensor<1, 3> X = get_vector(positions.data(), a);
+      const dealii::Tensor<1, 3> u = Q * X + dealii::Tensor<1, 3>({1., 2., 3.}) - X;
+      for (unsigned int i = 0; i < 3; ++i)
+        displacements[nodal_stride * a + i] = u[i];
+    }
+    return Q;
+  }
+  std::vector<dealii::Tensor<1, 3>> forces(const SurfaceLoad &load, const double *values) {
+    for (LoadedFace &face : faces)
+      face.surface = &whole;
+    measure_motion(faces, motion(), whole, [](std::vector<double> &) {});
+    std::vector<dealii::Tensor<1, 3>> sums(n_nodes);
+    for (const LoadedFace &face : faces) {
+      const auto shares = find_shares(face, motion(), whole.motion.centre);
+      for (unsigned int a = 0; a < 4; ++a)
+        sums[face.nodes[a]] += load.force(shares[a], values, whole);
+    }
+    return sums;
+  }
+  Matrix tangent(const SurfaceLoad &load, const double *values) {
+    forces(load, values);
+    Matrix K(n_dofs, n_dofs);
+    std::array<SurfaceLoad::Coupling, n_nodes> couplings{};
+    for (const LoadedFace &face : faces) {
+      const auto shares = find_shares(face, motion(), whole.motion.centre);
+      const auto D = load.local_tangent(values, whole);
+      const auto corner = [&](const unsigned int a) { return get_vector(positions.data(), face.nodes[a]); };
+      for (const auto &point : facet_points())
+        for (unsigned int i = 0; i < 12; ++i)
+          for (unsigned int j = 0; j < 12; ++j)
+            K(3 * face.nodes[i / 3] + i % 3, 3 * face.nodes[j / 3] + j % 3) +=
+                point.area_vector(corner).norm() * point.N[i / 3] * point.N[j / 3] * D[i % 3][j % 3];
+      for (unsigned int a = 0; a < 4; ++a) {
+        const auto part = load.coupling(shares[a], values, whole);
+        for (unsigned int k = 0; k < 2; ++k) {
+          couplings[face.nodes[a]].left[k] += part.left[k];
+          couplings[face.nodes[a]].right[k] += part.right[k];
+        }
+      }
+    }
+    for (unsigned int i = 0; i < n_dofs; ++i)
+      for (unsigned int j = 0; j < n_dofs; ++j)
+        for (unsigned int k = 0; k < 2; ++k)
+          K(i, j) += (couplings[i / 3].left[k] * couplings[j / 3].right[k])[i % 3][j % 3];
+    return K;
+  }
+};
+
+/// Returns the sum of forces and their moment about the origin, in this order.
+std::array<dealii::Tensor<1, 3>, 2> resultants(const Surface &surface,
+                                               const std::vector<dealii::Tensor<1, 3>> &forces) {
+  std::array<dealii::Tensor<1, 3>, 2> sums;
+  for (unsigned int a = 0; a < Surface::n_nodes; ++a) {
+    sums[0] += forces[a];
+    sums[1] += dealii::cross_product_3d(surface.place(a), forces[a]);
+  }
+  return sums;
+}
+
+/// A load on a surface as a whole: tangent, symmetry, no force and this moment, also after a rigid motion.
+void check_surface_load(const std::string &name, const std::string &type, const std::string &lines,
+                        const dealii::Tensor<1, 3> &moment, const bool follows) {
+  const auto load = std::get<std::shared_ptr<const SurfaceLoad>>(
+      testing::make_load(type, "set Boundary ids = 0\n" + lines).load.action);
+  const std::array<double, 3> values{moment[0], moment[1], moment[2]};
+  Surface surface;
+  const auto forces = surface.forces(*load, values.data());
+  const dealii::Tensor<2, 3> R = surface.whole.motion.rotation;
+  const auto [force, about] = resultants(surface, forces);
+  check(name + ": no force", force.norm(), 1e-13);
+  check(name + ": moment on a deformed surface", (about - (follows ? R * moment : moment)).norm(), 1e-12);
+  const Matrix tangent = surface.tangent(*load, values.data());
+  double error = 0., asymmetry = 0.;
+  for (unsigned int j = 0; j < Surface::n_dofs; ++j) {
+    constexpr double h = 1e-4;
+    const auto forces_at = [&](const double step) {
+      Surface moved;
+      moved.displacements[nodal_stride * (j / 3) + j % 3] += step;
+      return moved.forces(*load, values.data());
+    };
+    // Of fourth order, since the forces are curved.
+    const auto f1 = forces_at(h), f2 = forces_at(2. * h), b1 = forces_at(-h), b2 = forces_at(-2. * h);
+    for (unsigned int i = 0; i < Surface::n_dofs; ++i) {
+      const auto at = [&](const auto &f) { return f[i / 3][i % 3]; };
+      const double slope = (8. * (at(f1) - at(b1)) - (at(f2) - at(b2))) / (12. * h);
+      error = std::max(error, std::abs(tangent(i, j) + slope));
+      asymmetry = std::max(asymmetry, std::abs(tangent(i, j) - tangent(j, i)));
+    }
+  }
+  check(name + ": tangent", error / tangent.linfty_norm(), 1e-9);
+  check(name + ": symmetry",
+        (asymmetry < 1e-12 * tangent.linfty_norm()) == (load->tangent() == LoadTangent::symmetric));
+  const dealii::Tensor<2, 3> Q = surface.turn();
+  const auto turned = surface.forces(*load, values.data());
+  const auto [force_there, moment_there] = resultants(surface, turned);
+  check(name + ": moment after a rigid motion",
+        force_there.norm() + (moment_there - (follows ? Q * moment : moment)).norm(), 1e-12);
+  if (moment.norm() > 0.)
+    return;
+  double largest = 0.;
+  for (const auto &f : turned)
+    largest = std::max(largest, f.norm());
+  check(name + ": no forces after a rigid motion", largest, 1e-12);
 }
 
 void check_spread_force() {
@@ -239,10 +338,11 @@ int main() {
   }
   check_load("dead traction", "dead traction", "set Traction = 1 ; 2 ; t");
   check_load("force", "force", "set Force = 1 ; 2 ; t");
-  check_load("moment", "moment", "set Moment = 1 ; 2 ; t");
-  check_load("dead moment", "moment", "set Moment = 1 ; 2 ; t\nset Follow = false");
-  check_moment(true);
-  check_moment(false);
+  const dealii::Tensor<1, 3> moment({1., 2., 3.});
+  check_surface_load("moment", "moment", "set Moment = 1 ; 2 ; t", moment, true);
+  check_surface_load("moment of fixed direction", "moment", "set Moment = 1 ; 2 ; t\nset Follow = false",
+                     moment, false);
+  check_surface_load("rigid face", "rigid face", "set Stiffness factor = 7", {}, false);
   check_spread_force();
   check_supports();
   check_times();

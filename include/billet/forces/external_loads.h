@@ -13,18 +13,21 @@
 namespace billet {
 
 /// Loads of all bodies on the elements, faces and nodes of a rank, in the order: body loads, loads on
-/// deformed faces, nodal loads, loads on points.
+/// deformed faces, nodal loads, loads on surfaces, loads on points.
 class ExternalLoads {
 public:
   /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads act. Throws
   /// InputError. Collective.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
 
+  /// Measures how surfaces under loads have moved as a whole; it precedes add_forces(). Collective.
+  void follow(const NodalVectors &displacements);
+
   /// Adds the forces [force] at time t.
   void add_forces(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                   NodalVectors &forces) const;
 
-  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v [force/length].
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v [force/length]. Collective.
   void add_tangent(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                    double damping_factor, const TangentSystem &system) const;
 
@@ -48,17 +51,21 @@ private:
   void place(const AppliedLoad &load, const BodyLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const FaceLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const NodalLoad &action, std::size_t body);
+  void place(const AppliedLoad &load, const SurfaceLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const PointLoad &action, std::size_t body);
   std::unique_ptr<LoadedSurface> measure_surface(const std::vector<BoundaryFacet> &facets) const;
+  void add_surface_tangents(double t, const NodalMotion &motion, const TangentSystem &system) const;
   NodalMotion motion(const NodalVectors &displacements, const NodalVectors &velocities) const {
     return {nodes_.positions().data(), displacements.data(), velocities.data()};
   }
 
+  const Scene &scene_;
   const LocalNodes &nodes_;
   std::vector<double> masses_;
   std::vector<Placed<BodyLoad, WeightedNode>> on_bodies_;
   std::vector<Placed<FaceLoad, LoadedFace>> on_faces_;
   std::vector<Placed<NodalLoad, LoadedNode>> on_nodes_;
+  std::vector<Placed<SurfaceLoad, LoadedFace>> on_surfaces_;
   std::vector<Placed<PointLoad, WeightedNode>> on_points_;
   HeldMemory memory_{Capability::loads};
 };

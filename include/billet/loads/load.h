@@ -10,6 +10,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -45,12 +46,20 @@ struct NodalMotion {
   const double *velocities;    ///< [length/time]
 };
 
-/// All faces under one load, undeformed, on all ranks.
+/// How a surface has moved as a whole, weighted by undeformed areas: (F1) to (F3) of the theory.
+struct SurfaceMotion {
+  dealii::Tensor<1, 3> centre;        ///< c, the centroid
+  dealii::Tensor<2, 3> second_moment; ///< J = ∫ r² I − r ⊗ r dA about c [length⁴]
+  dealii::Tensor<2, 3> rotation;      ///< R, the rotation that fits best
+  dealii::Tensor<2, 3> turning;       ///< T: T δθ = Σ_b R q_b × δx_b, δR = [δθ]× R [length⁴]
+};
+
+/// All faces under one load, on all ranks.
 struct LoadedSurface {
-  double area = 0.;            ///< [length²]
-  dealii::Tensor<1, 3> centre; ///< centroid
-  /// ∫ r² I − r ⊗ r dA about the centroid [length⁴].
-  dealii::Tensor<2, 3> second_moment;
+  double area = 0.;            ///< undeformed [length²]
+  dealii::Tensor<1, 3> centre; ///< undeformed centroid
+  double stiffness = 0.;       ///< E/h of the body, h the mean size of the faces [force/length³]
+  SurfaceMotion motion;        ///< for loads on surfaces
 };
 
 /// Face under a load.
@@ -147,18 +156,58 @@ public:
   }
 };
 
+/// Share of a face in a node of a surface, or sum of these shares.
+struct SurfaceNode {
+  double area = 0.;                    ///< A_a, the integral of N_a [length²]
+  dealii::Tensor<1, 3> arm;            ///< p_a, the integral of N_a (x − c) [length³]
+  dealii::Tensor<1, 3> undeformed_arm; ///< q_a, that of N_a (X − C) [length³]
+};
+
+/// Returns the shares of a face in its corners, about this centroid.
+std::array<SurfaceNode, 4> find_shares(const LoadedFace &face, const NodalMotion &motion,
+                                       const dealii::Tensor<1, 3> &centre);
+
+/// Measures the motion of a surface with these faces on this rank; `sum` adds numbers over all ranks.
+void measure_motion(const std::vector<LoadedFace> &faces, const NodalMotion &motion, LoadedSurface &surface,
+                    const std::function<void(std::vector<double> &)> &sum);
+
+/// Load on a surface as a whole: the force on a node depends on the motion of all of its nodes.
+class SurfaceLoad {
+public:
+  virtual ~SurfaceLoad() = default;
+
+  /// Returns the force on a node; it is linear in the shares.
+  virtual dealii::Tensor<1, 3> force(const SurfaceNode &node, const double *values,
+                                     const LoadedSurface &surface) const = 0;
+  virtual LoadTangent tangent() const = 0;
+
+  /// −∂F_a/∂x_b = m_ab D + Σ_k left_k(a) right_k(b), m_ab the integral of N_a N_b: D.
+  virtual dealii::Tensor<2, 3> local_tangent(const double *values, const LoadedSurface &surface) const = 0;
+  /// Factors of the second term; they are linear in the shares.
+  struct Coupling {
+    std::array<dealii::Tensor<2, 3>, 2> left, right;
+  };
+  virtual Coupling coupling(const SurfaceNode &node, const double *values,
+                            const LoadedSurface &surface) const = 0;
+  /// Returns an upper bound of the stiffness per undeformed area, which limits the explicit time step
+  /// [force/length³].
+  virtual double stiffness(const LoadedSurface & /*surface*/) const { return 0.; }
+};
+
 /// External load on a body, other than contact with tools and other bodies.
 struct Load {
   /// Expressions whose values the forces depend on, in this order.
   std::vector<LoadExpression> expressions;
   std::variant<std::shared_ptr<const BodyLoad>, std::shared_ptr<const FaceLoad>,
-               std::shared_ptr<const NodalLoad>, std::shared_ptr<const PointLoad>>
+               std::shared_ptr<const NodalLoad>, std::shared_ptr<const PointLoad>,
+               std::shared_ptr<const SurfaceLoad>>
       action;
 
   bool acts_on_faces() const {
     return std::holds_alternative<std::shared_ptr<const FaceLoad>>(action) ||
-           std::holds_alternative<std::shared_ptr<const NodalLoad>>(action);
+           std::holds_alternative<std::shared_ptr<const NodalLoad>>(action) || acts_on_surface();
   }
+  bool acts_on_surface() const { return std::holds_alternative<std::shared_ptr<const SurfaceLoad>>(action); }
   /// Whether it needs a density.
   bool acts_on_mass() const;
   /// Returns the directions in which it supports a node of a face with this normal.

@@ -96,6 +96,7 @@ ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, cons
   crossings_ = Crossings();
   Failure failure;
   const NodalVectors &u = motion.displacements(), &v = motion.velocities();
+  loads_.follow(u);
   try {
     motion.check();
     tools.remove_due(clock.time(), contacts, loaded_nodes_, external_, works.external);

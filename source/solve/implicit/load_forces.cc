@@ -32,6 +32,7 @@ double LoadForces::subtract(const double t, const Vector &displacements, const V
     return 0.;
   displaced_ = nodal(displacements);
   rates_ = nodal(velocities);
+  loads_->follow(displaced_);
   NodalVectors forces = nodes_.make_vectors();
   fail_together(discretization_.communicator(), [&] { loads_->add_forces(t, displaced_, rates_, forces); });
   Vector sum = discretization_.make_additive_vector();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/tangent_matrix.h"
 
+#include "billet/forces/surface_coupling.h"
 #include "billet/solve/implicit/step_state.h"
 
 #include <deal.II/dofs/dof_tools.h>
@@ -44,6 +45,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
   for (const auto &contact : contacts_)
     contact.couplings().add_entries(pattern);
+  add_surface_couplings(scene_, discretization_, supports_.homogeneous(), pattern);
   pattern.compress();
   if (linear_) {
     linear_->release();
