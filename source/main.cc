@@ -99,6 +99,7 @@ struct CommandLine {
   bool json = false;
   std::vector<billet::SceneFile::Setting> settings;
   bool replaces_results = false;
+  bool is_quiet = false;
   std::string option_of_runs; ///< the last option that runs and checks alone have
 };
 
@@ -152,7 +153,7 @@ bool read_option_of_runs(const std::string &option, const std::vector<std::strin
     const std::string folder = argument_of(option, arguments, next, "folder");
     command.settings.push_back({"Output/Folder", folder, "--output " + folder});
   } else if (option == "--quiet")
-    command.settings.push_back({"Output/Verbosity", "quiet", option});
+    command.is_quiet = true;
   else if (option == "--force")
     command.replaces_results = true;
   else
@@ -219,6 +220,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
   if (command.task == Task::preview) {
     if (!command.restart_file.empty()) // a resumed run begins deformed
       refuse("--restart");
+    if (command.is_quiet)
+      command.settings.push_back({"Output/Verbosity", "quiet", "--quiet"});
     return command;
   }
   if (command.task != Task::update_scene)
@@ -357,7 +360,7 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
     break;
   case Task::run:
     code = billet::run_simulation(read_scene(command.scenes.front(), command), MPI_COMM_WORLD,
-                                  {command.replaces_results, log});
+                                  {command.replaces_results, log, command.is_quiet});
     break;
   }
   return code;

@@ -44,6 +44,11 @@ Axes::Axes(const TypeInput &input) {
     triad_[2] = dealii::cross_product_3d(triad_[0], triad_[1]);
   }
   if (kind_ == Kind::cylindrical) {
+    if (!input.is_set("Axis point"))
+      input.reject("Axis point", "a point 'x, y, z' of the line about which the axes are cylindrical");
+    if (!input.is_set("Axis direction"))
+      input.reject("Axis direction",
+                   "a vector 'x, y, z' along the line about which the axes are cylindrical");
     point_ = input.vector("Axis point");
     triad_[2] = input.direction("Axis direction");
   }

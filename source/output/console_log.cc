@@ -109,15 +109,34 @@ private:
   Sink &sink_;
 };
 
+/// Stream into the file alone.
+class ConsoleLog::Entry : private std::streambuf {
+public:
+  explicit Entry(Sink &sink) : stream(this), sink_(sink) {}
+
+  std::ostream stream;
+
+private:
+  int_type overflow(const int_type character) override {
+    if (!traits_type::eq_int_type(character, traits_type::eof()))
+      sink_.put(traits_type::to_char_type(character));
+    return traits_type::not_eof(character);
+  }
+
+  Sink &sink_;
+};
+
 ConsoleLog::ConsoleLog()
     : sink_(std::make_unique<Sink>()), output_(std::make_unique<Copy>(std::cout, *sink_)),
-      errors_(std::make_unique<Copy>(std::cerr, *sink_)) {}
+      errors_(std::make_unique<Copy>(std::cerr, *sink_)), entry_(std::make_unique<Entry>(*sink_)) {}
 
 ConsoleLog::~ConsoleLog() = default; // the copies end before the sink
 
 void ConsoleLog::open(const std::string &file_name, const bool continues) {
   sink_->open(file_name, continues);
 }
+
+std::ostream &ConsoleLog::file() { return entry_->stream; }
 
 bool is_held_by_a_run(const std::string &file_name) {
   const int file = open(file_name.c_str(), O_RDONLY | O_CLOEXEC);

@@ -30,16 +30,18 @@ std::string format_duration(const double seconds) {
 
 } // namespace
 
-Progress::Progress(const Scene &scene, std::ostream &stream, const bool is_terminal)
-    : scene_(scene), stream_(stream), is_terminal_(is_terminal),
+Progress::Progress(const Scene &scene, std::ostream &stream, std::ostream &messages, const bool is_terminal)
+    : scene_(scene), stream_(stream), messages_(messages), is_terminal_(is_terminal),
       verbosity_(scene.parameters().output.verbosity) {
   make_columns();
 }
 
 void Progress::add_forces(const std::string &name,
                           const std::function<dealii::Tensor<1, 3>(const Solution &)> &force) {
+  constexpr int least_width = 14;
+  const std::string header = "|F| " + name;
   columns_.push_back(
-      {("|F| " + name).substr(0, 13), 14,
+      {header, std::max(least_width, static_cast<int>(header.size()) + 2),
        [whole = scene_.whole_section(), force](const Solution &s) { return whole.size_of(force(s)); }});
 }
 
@@ -148,7 +150,7 @@ void Progress::show_diagnostic(const Severity severity, const std::string &text)
   if (verbosity_ == Verbosity::quiet && severity == Severity::note)
     return;
   erase_bar();
-  stream_ << text << std::endl;
+  (severity == Severity::note ? stream_ : messages_) << text << std::endl;
 }
 
 void Progress::accept(const StepReport &report, const Solution &solution) {
@@ -261,13 +263,14 @@ void Progress::finish(const std::vector<std::string> &repetitions, const std::st
   if (verbosity_ == Verbosity::quiet && warnings.empty())
     return;
   erase_bar();
+  std::ostream &stream = warnings.empty() ? stream_ : messages_;
   for (const auto &line : repetitions)
-    stream_ << line << "\n";
-  stream_ << "Completed in " << format_duration(elapsed())
-          << (warnings.empty() ? " without warnings." : " with " + warnings + ".");
+    stream << line << "\n";
+  stream << "Completed in " << format_duration(elapsed())
+         << (warnings.empty() ? " without warnings." : " with " + warnings + ".");
   if (!file_to_open.empty())
-    stream_ << " Open in ParaView: " << file_to_open;
-  stream_ << std::endl;
+    stream << " Open in ParaView: " << file_to_open;
+  stream << std::endl;
 }
 
 } // namespace billet

@@ -178,7 +178,7 @@ void TimeStepping::parse(Reader &reader) {
     for (const std::string key :
          {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",
           "Shrink iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
-      if (reader.is_set(key))
+      if (reader.is_set(key) && reader.text(key) != "automatic") // as a scene that includes this one says
         reader.reject(key, "no value: the steps of an explicit scene follow from its elements");
     return;
   }

@@ -34,12 +34,16 @@ double seconds_between_checks(const parameters::Scene &parameters) {
 } // namespace
 
 RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostics &diagnostics,
-                     Resumption *resumption)
+                     Resumption *resumption, std::ostream *const steps)
     : scene_(scene), communicator_(communicator),
       is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
       writer_(scene, communicator, scene.parameters().output.folder.value),
       snapshots_(scene.parameters(), writer_),
-      progress_(scene, is_first_ ? std::cout : silence_, is_first_ && console_is_terminal()),
+      progress_(scene,
+                steps != nullptr ? *steps
+                : is_first_      ? std::cout
+                                 : silence_,
+                is_first_ ? std::cout : silence_, steps == nullptr && is_first_ && console_is_terminal()),
       diagnostics_(diagnostics), checkpoints_(scene.parameters().output, communicator),
       signals_(communicator, seconds_between_checks(scene.parameters())) {
   const std::string &folder = scene.parameters().output.folder.value;

@@ -46,7 +46,8 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
         options.log->open(parameters.output.folder.value + "/" + log_file,
                           earlier == EarlierResults::continued);
     });
-    RunOutput output(scene, communicator, diagnostics, resumption.get());
+    std::ostream *const steps = options.is_quiet && options.log != nullptr ? &options.log->file() : nullptr;
+    RunOutput output(scene, communicator, diagnostics, resumption.get(), steps);
     if (!moved.empty()) // no message of the run: it depends on what was there before
       output.progress().show_diagnostic(
           Severity::note,

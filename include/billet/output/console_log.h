@@ -21,13 +21,17 @@ public:
   /// Opens the file, and locks it until the program ends: two runs must not write into one folder. Appends if
   /// `continues`. Throws InputError if the file cannot be written or another run holds it.
   void open(const std::string &file_name, bool continues);
+  /// Returns a stream into the file alone.
+  std::ostream &file();
 
 private:
   class Copy;
+  class Entry;
   class Sink;
 
   std::unique_ptr<Sink> sink_;
   std::unique_ptr<Copy> output_, errors_;
+  std::unique_ptr<Entry> entry_;
 };
 
 /// Whether a run that has not ended yet holds this log file.

@@ -18,7 +18,8 @@ namespace billet {
 /// line every half minute. First rank only.
 class Progress {
 public:
-  Progress(const Scene &scene, std::ostream &stream, bool is_terminal);
+  /// Lines of steps go to `stream`, warnings to `messages`, which may be the same.
+  Progress(const Scene &scene, std::ostream &stream, std::ostream &messages, bool is_terminal);
   Progress(const Progress &) = delete; // columns refer to it
   Progress &operator=(const Progress &) = delete;
 
@@ -62,7 +63,7 @@ private:
   double elapsed() const;
 
   const Scene &scene_;
-  std::ostream &stream_;
+  std::ostream &stream_, &messages_;
   bool is_terminal_;
   bool has_bar_ = false;
   bool shows_linear_iterations_ = false;

@@ -20,9 +20,10 @@ namespace billet {
 /// signals that request a checkpoint or the end.
 class RunOutput {
 public:
-  /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0.
-  /// Collective.
-  RunOutput(const Scene &scene, MPI_Comm communicator, Diagnostics &diagnostics, Resumption *resumption);
+  /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0. `steps`
+  /// gets lines of steps in place of the console; null: the console gets them. Collective.
+  RunOutput(const Scene &scene, MPI_Comm communicator, Diagnostics &diagnostics, Resumption *resumption,
+            std::ostream *steps = nullptr);
   ~RunOutput() { diagnostics_.set_print({}); }
   RunOutput(const RunOutput &) = delete;
   RunOutput &operator=(const RunOutput &) = delete;

@@ -15,6 +15,7 @@ class ConsoleLog;
 struct RunOptions {
   bool replaces_results = false; ///< rather than to move those of an earlier run aside
   ConsoleLog *log = nullptr;     ///< to be opened in the output folder; null: none
+  bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
 };
 
 /// Runs a scene from start to end, or from a checkpoint. Throws InputError before anything is written,

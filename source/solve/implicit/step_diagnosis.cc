@@ -101,6 +101,10 @@ Explanation StepDiagnosis::describe_residual() {
 Diagnostic StepDiagnosis::describe_stall(const NewtonReport &report) const {
   Diagnostic diagnostic(diagnostic::stalled_step,
                         "The step is accepted although the residual no longer falls: " + report.criteria);
+  if (problem_.contacts().empty())
+    diagnostic.advice(
+        "Compare the forces with those of a run with a smaller 'Maximum step'. Near a limit load "
+        "of the body, no step is small enough");
   return diagnostic.time(problem_.step().time)
       .measure("residual", report.measures.force)
       .value("energy", report.measures.energy)
