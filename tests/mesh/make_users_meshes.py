@@ -323,13 +323,14 @@ def section_oracle(file: pathlib.Path) -> Expected:
     x = mesh.points[cells]
     total = 0.5 * numpy.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1])[:, 2].sum()
     names = {int(v[0]): name for name, v in mesh.field_data.items() if v[1] == 1}
-    lengths: Counter[str] = Counter()
+    lengths: dict[str, float] = {}
     for block, numbers in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
         if block.type == "line":
             for (a, b), number in zip(block.data, numbers):
                 for name in (str(number), names[int(number)]):
-                    lengths[name] += float(numpy.linalg.norm(mesh.points[b] - mesh.points[a]))
-    return len(cells), len(numpy.unique(cells)), abs(float(total)), dict(lengths)
+                    length = float(numpy.linalg.norm(mesh.points[b] - mesh.points[a]))
+                    lengths[name] = lengths.get(name, 0.0) + length
+    return len(cells), len(numpy.unique(cells)), abs(float(total)), lengths
 
 
 def make_sections(texts: list[str]) -> None:
