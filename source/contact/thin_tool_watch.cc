@@ -5,23 +5,36 @@
 
 namespace billet {
 
+namespace {
+
+struct Limits {
+  /// Thickness below which a tool is watched [facet sizes]: exceeds the travel of a node in a step, and its
+  /// penetration.
+  static constexpr double far = 2.;
+  /// Parts of the thickness. Paths that enter less than `deep` only graze the tool; the path is looked at in
+  /// increments of `fine` where the tool is near; above `middle` the other side is about as near.
+  static constexpr double deep = 0.1, fine = 0.125, middle = 0.45;
+  /// Cosine: a node in one side of a square edge may enter through the other.
+  static constexpr double square = 1e-6;
+  /// Cosine between normals, deep inside, below which an edge is in between: 60 degrees.
+  static constexpr double turned = 0.5;
+};
+
+} // namespace
+
 std::optional<ThinToolWatch> ThinToolWatch::make(const RigidSurface &surface, const double max_facet_size) {
   const BoundingBox &box = surface.bounding_box();
   double thickness = box.high[0] - box.low[0];
   for (unsigned int i = 1; i < 3; ++i)
     thickness = std::min(thickness, box.high[i] - box.low[i]);
-  constexpr double far = 2.; // facet sizes: exceeds the travel of a node in a step, and its penetration
-  if (!(thickness > 0. && thickness < far * max_facet_size))
+  if (!(thickness > 0. && thickness < Limits::far * max_facet_size))
     return {};
   return ThinToolWatch(surface, thickness);
 }
 
 bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
-  // Paths that enter less deep only graze the tool.
-  const double deep = 0.1 * thickness_, fine = 0.125 * thickness_;
-  constexpr double middle = 0.45; // above it the other side is about as near
-  constexpr double square = 1e-6; // cosine: a node in one side of a square edge may enter through the other
-  if (node.penetration > middle * thickness_)
+  const double deep = Limits::deep * thickness_, fine = Limits::fine * thickness_;
+  if (node.penetration > Limits::middle * thickness_)
     return true;
   const dealii::Tensor<1, 3> &from = positions_n_[i], &to = node.position;
   const dealii::Tensor<1, 3> way = to - from;
@@ -34,7 +47,7 @@ bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
     // The node passes from one side to the other or, deep inside, from the end of the tool to a side: an edge
     // cuts in.
     const double turned = start.exists && end.exists ? start.normal * end.normal : 1.;
-    return turned < -square || (turned < 0.5 && std::max(start.gap, end.gap) < -deep);
+    return turned < -Limits::square || (turned < Limits::turned && std::max(start.gap, end.gap) < -deep);
   }
   // From outside to outside: each increment is a distance in which the node cannot meet the tool.
   for (double done = std::max(start.gap, fine); done < length;) {

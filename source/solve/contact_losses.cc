@@ -12,7 +12,15 @@ namespace billet {
 
 namespace {
 
-constexpr double much = 0.05; // of the largest energy
+/// When losses are reported, and which.
+struct Limits {
+  /// Part of the largest energy above which losses are reported: they then show in the motion.
+  static constexpr double much = 0.05;
+  /// Growth since the last message after which they are reported again, so that messages stay few.
+  static constexpr double again = 2.;
+  /// Part of the total below which a cause is not named beside the largest.
+  static constexpr double small = 0.05;
+};
 
 /// Name of a cause in messages, and advice to the user.
 struct Description {
@@ -52,7 +60,7 @@ DiagnosticList ContactLosses::watch(const double max_energy, const double time) 
   if (!(max_energy > 0.))
     return {};
   const double part = total() / max_energy;
-  if (part <= std::max(much, 2. * reported_))
+  if (part <= std::max(Limits::much, Limits::again * reported_))
     return {};
   reported_ = part;
   std::array<Cause, n_causes> order{};
@@ -63,9 +71,8 @@ DiagnosticList ContactLosses::watch(const double max_energy, const double time) 
   std::ostringstream what;
   what.precision(2);
   what << "Contact removes " << 100. * part << " % of the maximum energy so far";
-  constexpr double small = 0.05; // of the total; not reported
   for (const Cause cause : order)
-    if (cause == order[0] || energies_[cause] > small * total())
+    if (cause == order[0] || energies_[cause] > Limits::small * total())
       what << (cause == order[0] ? ": " : "; ") << 100. * energies_[cause] / max_energy << " % by "
            << describe(cause).name;
   return {Diagnostic(diagnostic::contact_dissipates, what.str())

@@ -20,6 +20,18 @@ namespace {
 /// Part of the deformation that penetration may take without a warning.
 constexpr double notable_softness = 0.04;
 
+/// How forces must be spread over nodes.
+struct SpreadLimits {
+  /// Square of the sum of pressures over n times the sum of squares, above which they are alike.
+  static constexpr double alike = 0.9;
+  /// Minimum number of nodes that bear as much as the effective ones, for a contact that is not uniform.
+  static constexpr double enough = 5.;
+  /// Indentation, as part of the deformation, below which the number of nodes does not matter.
+  static constexpr double counts = 0.05;
+  /// Part of the force on curves with coarse facets above which they are reported.
+  static constexpr double much = 0.5;
+};
+
 /// Returns a part in per cent.
 std::string print_part(const double part) {
   std::ostringstream text;
@@ -31,18 +43,16 @@ std::string print_part(const double part) {
 } // namespace
 
 bool ForceSpread::is_uniform() const {
-  constexpr double alike = 0.9;
-  return nodes >= 3. && pressures * pressures > alike * nodes * pressure_squares;
+  return nodes >= 3. && pressures * pressures > SpreadLimits::alike * nodes * pressure_squares;
 }
 
 bool ForceSpread::has_few_nodes() const {
-  constexpr double enough = 5., counts = 0.05;
-  return force > 0. && effective_nodes() < enough && !is_uniform() && indentation > counts * deformation;
+  return force > 0. && effective_nodes() < SpreadLimits::enough && !is_uniform() &&
+         indentation > SpreadLimits::counts * deformation;
 }
 
 bool ForceSpread::is_coarse_on_curves() const {
-  constexpr double much = 0.5;
-  return force > 0. && on_coarse_curves > much * force;
+  return force > 0. && on_coarse_curves > SpreadLimits::much * force;
 }
 
 ContactReview::ContactReview(const Scene &scene, const Discretization &discretization)

@@ -10,6 +10,16 @@ namespace billet {
 
 namespace {
 
+/// What a step may pass over.
+struct Limits {
+  /// Path over chord above which a step misses the motion: an arc of 15 degrees is 1.00286 times its chord.
+  static constexpr double longer = 1.003;
+  /// Path below which a motion does not count, as part of the largest distance from its start in the run.
+  static constexpr double trifle = 0.05;
+  /// Number of times at which the motion of the whole run is looked at, and the minimum in a step.
+  static constexpr unsigned int per_run = 200, minimum = 16;
+};
+
 using Point = std::array<double, 3>;
 
 double distance(const Point &a, const Point &b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
@@ -64,8 +74,8 @@ std::vector<MotionWatch::Point> MotionWatch::places(const Track &track, const st
 }
 
 void MotionWatch::add(Track track, const double rounding) {
-  constexpr unsigned int n = 200;
-  const std::vector<Point> points = places(track, times_between(0., std::min(end_time_, track.end), n));
+  const std::vector<Point> points =
+      places(track, times_between(0., std::min(end_time_, track.end), Limits::per_run));
   for (const Point &point : points)
     track.extent = std::max(track.extent, distance(point, points.front()));
   if (track.extent > rounding)
@@ -73,9 +83,8 @@ void MotionWatch::add(Track track, const double rounding) {
 }
 
 std::string MotionWatch::find_unseen(const double from, const double to) const {
-  // L of an arc of 15 degrees is 1.00286 times its chord.
-  constexpr double longer = 1.003, trifle = 0.05, per_run = 200.;
-  constexpr unsigned int minimum = 16;
+  constexpr double per_run = Limits::per_run;
+  constexpr unsigned int minimum = Limits::minimum;
   const auto n = std::max(minimum, static_cast<unsigned int>(std::ceil(per_run * (to - from) / end_time_)));
   const std::vector<double> times = times_between(from, to, n);
   std::string found;
@@ -86,7 +95,8 @@ std::string MotionWatch::find_unseen(const double from, const double to) const {
     double path = 0.;
     for (std::size_t i = 1; i < points.size(); ++i)
       path += distance(points[i], points[i - 1]);
-    if (path > trifle * track.extent && path > longer * distance(points.back(), points.front())) {
+    if (path > Limits::trifle * track.extent &&
+        path > Limits::longer * distance(points.back(), points.front())) {
       found = track.name;
       break;
     }

@@ -8,6 +8,8 @@
 #include "../geometry/make_surface.h"
 #include "../testing.h"
 
+#include <cmath>
+
 using namespace billet;
 using namespace billet::testing;
 using dealii::Tensor;
@@ -74,6 +76,10 @@ void check_neighbours() {
   const Tensor<1, 3> up({0., 0., 1.}), aslant({0.8, 0., 0.6}), across({1., 0., 0.});
   check("a tool that faces the same way", is_near(0.41, up) && is_near(0.41, aslant) && !is_near(0.39, up));
   check("  one that faces another way does not count", !is_near(1., across) && !is_near(1., -up));
+  const auto turned = [](const double degrees) {
+    return Tensor<1, 3>({std::sin(degrees * M_PI / 180.), 0., std::cos(degrees * M_PI / 180.)});
+  };
+  check("  up to 60 degrees away", is_near(1., turned(58.)) && !is_near(1., turned(62.)));
   other.placement.rotation = Tensor<2, 3>({{0., 0., 1.}, {0., 1., 0.}, {-1., 0., 0.}}); // z to x
   check("  and turns with its placement", is_near(1., across) && !is_near(1., up));
 }

@@ -6,6 +6,8 @@
 #include "../geometry/make_surface.h"
 #include "../testing.h"
 
+#include <cmath>
+
 using namespace billet;
 using billet::testing::check;
 using dealii::Tensor;
@@ -29,12 +31,21 @@ int main() {
   check("through the middle", passes(at(-1., 0.), at(1., 0.)));
   check("through it aside", passes(at(-1., 0.03), at(1., 0.03)));
   check("a chord that grazes it does not count", !passes(at(-1., 0.0495), at(1., 0.0495)));
+  check("one that enters more than a tenth of its thickness does",
+        passes(at(-1., 0.038), at(1., 0.038)) && !passes(at(-1., 0.042), at(1., 0.042)));
   check("past it", !passes(at(-1., 0.2), at(1., 0.2)));
   check("away from it", !passes(at(-0.1, 0.), at(-1., 0.)));
   check("at rest", !passes(at(-0.1, 0.), at(-0.1, 0.)));
   check("into it", !passes(at(-0.1, 0.), at(-0.04, 0.)));
   check("inside, from one side to the other", passes(at(-0.04, 0.), at(0.04, 0.)));
   check("inside, on one side", !passes(at(-0.04, 0.), at(-0.045, 0.01)));
+  const auto turns = [&](const double degrees, const double radius) {
+    const double angle = degrees * M_PI / 180.;
+    return passes(at(radius, 0.), at(radius * std::cos(angle), radius * std::sin(angle)));
+  };
+  check("deep inside, to where it faces more than 60 degrees away", turns(62., 0.03) && !turns(58., 0.03));
+  check("  deeper than a tenth of the thickness", turns(80., 0.039) && !turns(80., 0.041));
+  check("less deep, to the other side of a right angle", turns(92., 0.045) && !turns(88., 0.045));
   check("pressed nearly to the middle", passes(at(-0.1, 0.), at(-0.1, 0.), 0.046));
   check("pressed less deep", !passes(at(-0.1, 0.), at(-0.1, 0.), 0.044));
   watch->forget();

@@ -79,6 +79,14 @@ int main() {
     ForceSpread bent = spread({1.});
     bent.deformation = 21.;
     check("nor where the bodies hardly indent each other", !bent.has_few_nodes());
+    bent.deformation = 19.;
+    check("by less than a twentieth of their deformation", bent.has_few_nodes());
+    const auto beside = [&](const double p) { return spread({1., p, p, p, p, p, p, p, p}); };
+    check("few are less than five effective ones",
+          beside(0.19).has_few_nodes() && !beside(0.2).has_few_nodes());
+    // (2 + p)² / (3 (2 + p²)) is 0.9 at p = 0.43.
+    check("pressures are alike if they make 0.9 of their mean square",
+          spread({1., 1., 0.45}).is_uniform() && !spread({1., 1., 0.4}).is_uniform());
     check("without force there is nothing", !ForceSpread().has_few_nodes());
     ForceSpread curved = spread({1., 1.});
     curved.on_coarse_curves = 1.;

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <string>
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
@@ -38,6 +40,29 @@ void check_turns() {
     return paths.turns_too_far(1. + degrees / 360., report);
   };
   check("a tool with friction turns by 15 degrees at most", !turns_too_far(14.9) && turns_too_far(15.1));
+}
+
+/// Vertical motions of a support that a step from 0 to 1 of a run to 2 samples at its ends only.
+void check_motions() {
+  const auto skips = [](const std::string &motion) {
+    auto parameters = read("confined_element.prm");
+    parameters.time_stepping.end_time = 2.;
+    parameters.bodies[0].supports[0].displacement.value[2] = "1e-3*(" + motion + ")";
+    SceneRun run(parameters);
+    NewtonReport report;
+    return PathGuard(run.problem.equation()).skips_motion(1., report);
+  };
+  // Up by 1 + back, and back after a rest: the path is 1 + 2 back times the chord.
+  const auto skips_return = [&](const double back) {
+    const std::string b = std::to_string(back);
+    return skips("(1 + " + b + ")*min(2*t, 1) - " + b + "*max(0, t - 0.75)/0.25");
+  };
+  check("paths of 1.003 times their chord are that of an arc of 15 degrees",
+        !skips_return(0.00145) && skips_return(0.00155));
+  const auto skips_part = [&](const double part) {
+    return skips(std::to_string(part) + "*max(0, 0.5 - abs(0.5 - t)) + max(0, t - 1)");
+  };
+  check("paths of a twentieth of the way in the run do not count", !skips_part(0.048) && skips_part(0.053));
 }
 
 enum class Meeting { none, accepted, too_early };
@@ -111,6 +136,7 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_cuts();
   check_turns();
+  check_motions();
   check_first_contacts();
   SceneRun run(read("confined_element.prm"));
   check_lost_steps(run);
