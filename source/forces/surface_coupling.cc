@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace billet {
 
@@ -55,20 +56,36 @@ std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, co
 
 } // namespace
 
+void check_surface_couplings(const Scene &scene, const Discretization &discretization) {
+  constexpr std::size_t max_nodes = 2000; // 36 million entries
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    for (const AppliedLoad &load : scene.bodies()[body].loads) {
+      if (!load.load.acts_on_surface())
+        continue;
+      std::set<DofIndex> own;
+      for (const BoundaryFacet &facet : collect_boundary_facets(discretization, body, load.boundary_ids))
+        for (const auto &dofs : facet.dofs)
+          own.insert(dofs[0]);
+      std::set<DofIndex> all;
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
+               discretization.communicator(), std::vector<DofIndex>(own.begin(), own.end())))
+        all.insert(of_rank.begin(), of_rank.end());
+      if (all.size() > max_nodes)
+        throw InputError(load.origin + ": the " + load.type + " acts on " + std::to_string(all.size()) +
+                         " nodes, each of which depends on all others in the tangent; allowed are " +
+                         std::to_string(max_nodes) +
+                         ". Let it act on a part of the faces, or on faces of larger elements");
+    }
+}
+
 void add_surface_couplings(const Scene &scene, const Discretization &discretization,
                            const Constraints &constraints, SparsityPattern &pattern) {
-  constexpr std::size_t max_nodes = 2000; // 36 million entries
   for (std::size_t body = 0; body < scene.bodies().size(); ++body)
     for (const AppliedLoad &load : scene.bodies()[body].loads) {
       if (!load.load.acts_on_surface())
         continue;
       const auto dofs = find_coupled_dofs(discretization, constraints,
                                           collect_boundary_facets(discretization, body, load.boundary_ids));
-      if (dofs.size() > 3 * max_nodes)
-        throw InputError(load.origin + ": the " + load.type + " acts on " + std::to_string(dofs.size() / 3) +
-                         " nodes, each of which depends on all others in the tangent; allowed are " +
-                         std::to_string(max_nodes) +
-                         ". Let it act on a part of the faces, or on faces of larger elements");
       for (const DofIndex row : dofs)
         if (discretization.owned_dofs().is_element(row))
           pattern.add_entries(row, dofs.begin(), dofs.end(), true);

@@ -2,7 +2,7 @@
 // Loads in static scenes against closed forms: the weight of a column, a ring under gas (Lamé), a strip that
 // an end moment rolls to a full circle, a rigid face, a block on springs under forces on faces and points,
 // dashpots, and loads that are switched on and off.
-#include "scene_run.h"
+#include "tangent_check.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -197,6 +197,23 @@ void check_rigid_face() {
   check("rigid face: the corner follows the bar", std::abs(pulled / (of_bar + of_turn) - 1.), 0.25);
 }
 
+/// The tangents of loads on surfaces couple all nodes of their faces, also those of other ranks, and those
+/// that a symmetry plane or a prescribed motion holds.
+void check_tangents() {
+  const std::string faces = "        set Boundary ids = 1, 5\n";
+  const std::string twist = "        set Type = moment\n        set Moment = 5*t ; 8*t ; -3*t\n" + faces;
+  for (const auto &[name, lines] :
+       {std::pair<std::string, std::string>("moment", load("twist", twist)),
+        {"moment of fixed direction", load("twist", twist + "        set Follow = false\n")},
+        {"rigid face", load("lid", "        set Type = rigid face\n" + faces)}}) {
+    SceneRun run(read({cube, "x = 0", stiff,
+                       "      subsection side\n        set Boundary ids = 3\n        set Displacement = 0 ; "
+                       "0.1*t ; 0\n        set Components = y\n      end\n",
+                       springs + lines, in_steps(8)}));
+    check(name + ": tangent", testing::tangent_error(run, 0.5, 3), 1e-6);
+  }
+}
+
 /// Springs of the ground carry the force, and its moment about the origin, whose arm is `at`.
 void check_block(const std::string &name, const std::string &lines, const Tensor<1, 3> &force,
                  const Tensor<1, 3> &at) {
@@ -293,6 +310,7 @@ int main(int argc, char *argv[]) {
              "        set Second axis = 1, 1, 0\n      end\n");
   check_roll();
   check_rigid_face();
+  check_tangents();
   check_block("force on a face",
               "        set Type = force\n        set Boundary ids = 5\n        set Force = 1e-5 ; 0 ; 2e-5\n",
               Tensor<1, 3>({1e-5, 0., 2e-5}), Tensor<1, 3>({0.5, 0.5, 1.}));

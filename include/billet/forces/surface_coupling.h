@@ -10,8 +10,10 @@
 
 namespace billet {
 
-/// Adds the entries by which loads on surfaces couple their nodes. Throws InputError if a surface has too
-/// many of them. Collective.
+/// Throws InputError if a load on a surface acts on too many nodes for a matrix. Collective.
+void check_surface_couplings(const Scene &scene, const Discretization &discretization);
+
+/// Adds the entries by which loads on surfaces couple their nodes. Collective.
 void add_surface_couplings(const Scene &scene, const Discretization &discretization,
                            const Constraints &constraints, SparsityPattern &pattern);
 

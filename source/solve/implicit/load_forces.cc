@@ -2,6 +2,7 @@
 #include "billet/solve/implicit/load_forces.h"
 
 #include "billet/errors.h"
+#include "billet/forces/surface_coupling.h"
 
 #include <algorithm>
 
@@ -12,8 +13,10 @@ LoadForces::LoadForces(const Scene &scene, const Discretization &discretization,
     : discretization_(discretization), nodes_(nodes), forces_n_(discretization.make_owned_vector()),
       forces_(forces_n_) {
   if (std::any_of(scene.bodies().begin(), scene.bodies().end(),
-                  [](const Body &body) { return !body.loads.empty(); }))
+                  [](const Body &body) { return !body.loads.empty(); })) {
+    check_surface_couplings(scene, discretization);
     loads_ = std::make_unique<ExternalLoads>(scene, nodes, masses(nodes));
+  }
 }
 
 NodalVectors LoadForces::nodal(const Vector &field) const {
