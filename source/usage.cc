@@ -10,7 +10,7 @@ const char *name_of(const Capability capability) {
   case Capability::plasticity:
     return "Plasticity";
   case Capability::stabilisation:
-    return "Hourglass stabilisation";
+    return "Hourglass";
   case Capability::contact:
     return "Contact";
   case Capability::friction:

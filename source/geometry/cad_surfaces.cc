@@ -2,12 +2,13 @@
 // Faces from CAD files, by the OpenCASCADE with which deal.II may have been built. Projections onto planes,
 // cylinders, cones, spheres and tori are in closed form; those onto other surfaces use Newton's method from
 // the nearest facet of a triangulation.
+#include "billet/errors.h"
+#include "billet/geometry/cad_file.h"
 #include "billet/geometry/surface_type.h"
 
 #include <deal.II/base/config.h>
 
 #ifdef DEAL_II_WITH_OPENCASCADE
-#include "billet/geometry/cad_file.h"
 #include "billet/geometry/frame.h"
 #include "billet/geometry/trimmed_surface.h"
 #include "billet/trial.h"
@@ -45,6 +46,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 #endif
 
@@ -353,7 +355,8 @@ TrialLimits limits_for(const std::size_t n_bytes) {
   return {8 + 20 * static_cast<unsigned int>(n_megabytes), 2000 + 500 * n_megabytes};
 }
 
-SurfacePatches make(const TypeInput &input) {
+/// Refuses a damaged file, and returns how many faces it defines.
+std::size_t check_file(const TypeInput &input) {
   std::ostringstream text;
   text << std::ifstream(input.file("File"), std::ios::binary).rdbuf();
   const std::size_t n_defined = check_text(input, text.str());
@@ -370,8 +373,84 @@ SurfacePatches make(const TypeInput &input) {
   if (end == TrialEnd::out_of_memory)
     input.reject("File",
                  "a file that OpenCASCADE reads with " + std::to_string(limits.megabytes) + " MB." + advice);
-  return convert_file(input, n_defined);
+  return n_defined;
 }
+
+SurfacePatches make(const TypeInput &input) { return convert_file(input, check_file(input)); }
+
+std::string describe_kind(const TopoDS_Face &face) {
+  const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
+  std::ostringstream text;
+  switch (surface.GetType()) { // of OpenCASCADE, with kinds that have no name here
+  case GeomAbs_Plane:
+    return "plane";
+  case GeomAbs_Cylinder:
+    text << "cylinder of radius " << surface.Cylinder().Radius();
+    return text.str();
+  case GeomAbs_Cone:
+    return "cone";
+  case GeomAbs_Sphere:
+    text << "sphere of radius " << surface.Sphere().Radius();
+    return text.str();
+  case GeomAbs_Torus:
+    text << "torus of radii " << surface.Torus().MajorRadius() << " and " << surface.Torus().MinorRadius();
+    return text.str();
+  default:
+    return "free-form surface";
+  }
+}
+
+std::vector<CadFace> list_faces(const TypeInput &input) {
+  check_file(input);
+  const TopoDS_Shape shape = read_shape(input);
+  const TopTools_IndexedMapOfShape faces = faces_of(shape);
+  std::vector<std::set<std::size_t>> neighbours(static_cast<std::size_t>(faces.Extent()));
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
+  for (int edge = 1; edge <= faces_of_edges.Extent(); ++edge)
+    for (const TopoDS_Shape &one : faces_of_edges(edge))
+      for (const TopoDS_Shape &other : faces_of_edges(edge))
+        if (!one.IsSame(other))
+          neighbours[static_cast<std::size_t>(faces.FindIndex(one)) - 1].insert(
+              static_cast<std::size_t>(faces.FindIndex(other)));
+  std::vector<CadFace> result;
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const TopoDS_Face &face = TopoDS::Face(faces(i));
+    const auto &beside = neighbours[static_cast<std::size_t>(i) - 1];
+    Bnd_Box box;
+    BRepBndLib::AddOptimal(face, box, false, false);
+    result.push_back({describe_kind(face),
+                      {tensor(box.CornerMin()), tensor(box.CornerMax())},
+                      {beside.begin(), beside.end()}});
+  }
+  return result;
+}
+
+/// A file by itself, as the input of a surface.
+class FileAlone final : public TypeInput {
+public:
+  explicit FileAlone(std::string name) : name_(std::move(name)) {}
+
+  bool is_set(const std::string &key) const override { return key == "File"; }
+  std::string text(const std::string & /*key*/) const override { return name_; }
+  bool flag(const std::string & /*key*/) const override { return false; }
+  double number(const std::string & /*key*/) const override { return 1.; }
+  double positive(const std::string & /*key*/) const override { return 1.; }
+  double not_negative(const std::string & /*key*/) const override { return 1.; }
+  std::vector<double> numbers(const std::string & /*key*/) const override { return {}; }
+  dealii::Tensor<1, 3> vector(const std::string & /*key*/) const override { return {}; }
+  dealii::Tensor<1, 3> direction(const std::string & /*key*/) const override { return {}; }
+  std::vector<std::string> parts(const std::string & /*key*/, char /*separator*/) const override {
+    return {};
+  }
+  std::string file(const std::string & /*key*/) const override { return name_; }
+  [[noreturn]] void reject(const std::string & /*key*/, const std::string &allowed) const override {
+    throw InputError("'" + name_ + "': allowed is " + allowed);
+  }
+
+private:
+  std::string name_;
+};
 
 #else
 
@@ -384,21 +463,35 @@ SurfacePatches make(const TypeInput &input) {
 
 } // namespace
 
+#ifdef DEAL_II_WITH_OPENCASCADE
+std::vector<CadFace> list_cad_faces(const std::string &file_name) {
+  if (!std::ifstream(file_name))
+    throw InputError("'" + file_name + "' cannot be read; allowed is the name of a STEP or IGES file");
+  return list_faces(FileAlone(file_name));
+}
+#else
+std::vector<CadFace> list_cad_faces(const std::string &file_name) {
+  throw InputError("'" + file_name +
+                   "' cannot be read, since the deal.II of this program has no OpenCASCADE");
+}
+#endif
+
 SurfaceType cad_type() {
-  return {"CAD",
-          "Faces of a CAD file, STEP or IGES. Requires deal.II with OpenCASCADE.",
-          {{"File", "", Kind::text,
-            "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
-           {"Scale", "1", Kind::number,
-            "> 0. Factor from the file's lengths, in millimetres, to lengths of the scene."},
-           {"Translation", "0, 0, 0", Kind::text, "Position of the file's origin. [length]"},
-           {"Faces", "", Kind::text,
-            "Numbers of the faces to use, separated by commas; the first face of the file has number 1. "
-            "Empty: all."},
-           {"Side", "outside", Kind::choice,
-            "outside|inside: Side of the bodies. The normals of the faces, out of a solid, point to the "
-            "outside."}},
-          make};
+  return {
+      "CAD",
+      "Faces of a CAD file, STEP or IGES. Requires deal.II with OpenCASCADE.",
+      {{"File", "", Kind::text,
+        "Name of the file (*.step, *.stp, *.iges, *.igs), relative to the scene file."},
+       {"Scale", "1", Kind::number,
+        "> 0. Factor from the file's lengths, in millimetres, to lengths of the scene."},
+       {"Translation", "0, 0, 0", Kind::text, "Position of the file's origin. [length]"},
+       {"Faces", "", Kind::text,
+        "Numbers of the faces to use, separated by commas; 'billet --list faces FILE' shows them. Without "
+        "a fillet between two faces, these end at sharp edges. Empty: all."},
+       {"Side", "outside", Kind::choice,
+        "outside|inside: Side of the bodies. The normals of the faces, out of a solid, point to the "
+        "outside."}},
+      make};
 }
 
 } // namespace billet

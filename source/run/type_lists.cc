@@ -3,6 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/friction/friction_law.h"
+#include "billet/geometry/cad_file.h"
 #include "billet/geometry/surface_type.h"
 #include "billet/integration/time_integrator_type.h"
 #include "billet/loads/load.h"
@@ -19,7 +20,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <iomanip>
 #include <sstream>
 
 namespace billet {
@@ -200,6 +203,38 @@ Json as_object(const Named &entry) {
                    did_you_mean(name, known));
 }
 
+/// Prints the faces of CAD files, with their numbers in scenes.
+void print_faces(std::ostream &stream, const std::vector<std::string> &files, const bool as_json) {
+  Json array = Json::array();
+  for (const std::string &file : files) {
+    const std::vector<CadFace> faces = list_cad_faces(file);
+    if (!as_json)
+      stream << file << ": " << faces.size() << " faces; coordinates in mm\n";
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const auto &[low, high] = faces[i].box;
+      if (as_json) {
+        array.push_back({{"file", file},
+                         {"number", i + 1},
+                         {"kind", faces[i].kind},
+                         {"least", {low[0], low[1], low[2]}},
+                         {"largest", {high[0], high[1], high[2]}},
+                         {"neighbours", faces[i].neighbours}});
+        continue;
+      }
+      const auto rounded = [](const double x) { return std::abs(x) < 1e-6 ? 0. : x; };
+      stream << std::setw(6) << i + 1 << "  " << faces[i].kind;
+      for (unsigned int c = 0; c < 3; ++c)
+        stream << ", "
+               << "xyz"[c] << " " << rounded(low[c]) << " to " << rounded(high[c]);
+      for (const std::size_t neighbour : faces[i].neighbours)
+        stream << (neighbour == faces[i].neighbours.front() ? "; beside " : ", ") << neighbour;
+      stream << "\n";
+    }
+  }
+  if (as_json)
+    stream << array.dump(1) << "\n";
+}
+
 void print_lists(std::ostream &stream, const bool as_json) {
   Json array = Json::array();
   for (const TypeList &list : type_lists()) {
@@ -210,7 +245,8 @@ void print_lists(std::ostream &stream, const bool as_json) {
   if (as_json)
     stream << array.dump(1) << "\n";
   else
-    stream << "\nbillet --list LIST shows all of a list, billet --list LIST NAME one entry.\n";
+    stream << "\nbillet --list LIST shows all of a list, billet --list LIST NAME one entry, and\n"
+              "billet --list faces FILE.step the faces of a CAD file.\n";
 }
 
 } // namespace
@@ -218,6 +254,12 @@ void print_lists(std::ostream &stream, const bool as_json) {
 void print_types(std::ostream &stream, const std::vector<std::string> &names, const bool as_json) {
   if (names.empty()) {
     print_lists(stream, as_json);
+    return;
+  }
+  if (names.front() == "faces") {
+    if (names.size() == 1)
+      throw InputError("command line: '--list faces' names no file; allowed are STEP and IGES files");
+    print_faces(stream, {names.begin() + 1, names.end()}, as_json);
     return;
   }
   std::vector<std::string> known;

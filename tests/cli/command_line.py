@@ -10,6 +10,7 @@ from other editors, and where a missing 'end' belongs.
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -19,6 +20,7 @@ import time
 from pathlib import Path
 
 from checks import (
+    SHIPPED,
     HERE,
     Checks,
     Ended,
@@ -136,6 +138,17 @@ def _() -> None:
     log = read_text("quiet/billet.log")
     require("residual" in log and "Completed in" in log, f"its log: {log}")
     require("Verbosity" not in read_text("quiet/scene.prm"), "the copy of its scene is quiet")
+
+
+@check("the faces of a CAD file are listed")
+def _() -> None:
+    listed = billet("--list", "faces", str(SHIPPED / "step_punch/punch.step")).output
+    says(r" 3  sphere of radius 10, x -10 to 10, y -10 to 10, z 0 to 10; beside 1\n", listed)
+    equal("number of lines", listed.count("\n"), 4)
+    faces = json.loads(billet("--list", "--json", "faces", str(SHIPPED / "step_punch/punch.step")).output)
+    equal("neighbours", [face["neighbours"] for face in faces], [[2, 3], [1], [1]])
+    refused = billet("--list", "faces", "nowhere.step", code=2)
+    says("'nowhere.step' cannot be read; allowed is the name of a STEP or IGES file", refused.errors)
 
 
 @check("the log has the failure")

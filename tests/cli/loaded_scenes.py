@@ -12,7 +12,20 @@ import math
 import re
 import sys
 
-from checks import SHIPPED, Checks, Ended, enter_folder, equal, near, read_text, require, rows_of, run, says
+from checks import (
+    SHIPPED,
+    Checks,
+    Ended,
+    enter_folder,
+    equal,
+    near,
+    read_text,
+    require,
+    rows_of,
+    run,
+    says,
+    write_text,
+)
 
 MAX_LINES = 60
 
@@ -127,6 +140,28 @@ def _() -> None:
         limit * math.log(b / a) / math.log(B / A),
         4e-3,
     )
+
+
+@check("the punch from a STEP file presses as a sphere does")
+def _() -> None:
+    rows = run_to_end("step_punch")
+    text = read_text(SHIPPED / "step_punch.prm")
+    sphere, n = re.subn(
+        r"set Shape += CAD\n +set File .*\n +set Faces .*\n +set Translation .*\n",
+        "set Shape = sphere\n set Centre = 0, 0, 30\n set Radius = 10\n",
+        text,
+    )
+    equal("tools replaced", n, 1)
+    write_text("sphere.prm", sphere)
+    equal("exit code", run(program, "sphere.prm").code, 0)
+    of_spheres = history("sphere")
+    equal("steps", len(of_spheres), len(rows))
+    for row, of_sphere in zip(rows, of_spheres):
+        for axis in "xyz":
+            near(f"force along {axis}", row[f"punch.force_{axis}"], of_sphere[f"punch.force_{axis}"], 1e-9)
+        # Hertz: a half-space, which gives way more than a block of twenty radii of contact on its base.
+        force = 4 / 3 * 1000 / (1 - 0.3**2) * math.sqrt(10) * (0.1 * row["time"]) ** 1.5
+        near("force of Hertz", -4 * row["punch.force_z"], force, 0.08)
 
 
 @check("the ball bounces as Hertz and gravity have it")
