@@ -28,6 +28,7 @@ from checks import (
 )
 
 MAX_LINES = 60
+from membrane import Membrane
 
 program = sys.argv[1]
 check = Checks()
@@ -140,6 +141,23 @@ def _() -> None:
         limit * math.log(b / a) / math.log(B / A),
         4e-3,
     )
+
+
+@check("the balloon swells as a thick sphere, then presses as a membrane")
+def _() -> None:
+    rows = run_to_end("balloon")
+    inner, outer, shear = 99.0, 101.0, 1.5 / (2 * 1.499)
+    n_free = 0
+    for row in rows:
+        if row["plate.full_circle_force_z"] == 0.0:
+            b = outer + row["equator.displacement_x"]
+            a = (inner**3 + b**3 - outer**3) ** (1 / 3)
+            of_b, of_a = ((r0 / r) ** 4 + 4 * r0 / r for r0, r in ((outer, b), (inner, a)))
+            near("pressure of a neo-Hookean sphere", 0.5 * shear * (of_b - of_a), 0.0115 * row["time"], 8e-3)
+            n_free += 1
+    require(n_free >= 3, f"{n_free} rows before contact")
+    force = Membrane(100.0, 2.0, shear).force_on_plane(0.0115, 105.0, 1.1523, 0.298)
+    near("force on the plate", -rows[-1]["plate.full_circle_force_z"], force, 1.5e-2)
 
 
 @check("the punch from a STEP file presses as a sphere does")
