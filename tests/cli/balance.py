@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: balance.py BILLET
+
+Begins every scene of prm/ in an empty current folder, and stops it after a few lines of its history in which tools,
+supports or pairs bear forces. In each line the sum of reactions, contact, loads and inertia is that of the residuals.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from checks import SHIPPED, Checks, enter_folder, require, rows_of
+
+N_LINES = 2  # with forces
+LIMIT = 1e-12  # over the sum of the forces' sizes
+SECONDS = 240.0  # for a scene on a busy machine
+
+program = os.path.abspath(sys.argv[1])
+check = Checks()
+enter_folder()
+
+
+def lines_of(folder: str) -> list[dict[str, float]]:
+    """Returns the whole lines of a history that grows."""
+    if not os.path.exists(f"{folder}/history.csv"):
+        return []
+    head, *rows = rows_of(f"{folder}/history.csv")
+    return [dict(zip(head, map(float, row))) for row in rows if len(row) == len(head) and row[-1] != ""]
+
+
+def bears(line: dict[str, float]) -> bool:
+    """Tells whether any force is not 0."""
+    return any(value != 0.0 for name, value in line.items() if name[:-2].endswith(".force"))
+
+
+def begin(scene: str, folder: str) -> list[dict[str, float]]:
+    """Runs a scene until enough lines have forces, or to its end."""
+    with open(f"{folder}.log", "w", encoding="utf-8") as log, subprocess.Popen(
+        [program, "--quiet", "--output", folder, scene], stdout=log, stderr=log
+    ) as run:
+        end = time.monotonic() + SECONDS
+        lines: list[dict[str, float]] = []
+        while run.poll() is None and time.monotonic() < end:
+            time.sleep(0.1)
+            lines = lines_of(folder)[:-1]  # the last one may not be whole
+            if sum(map(bears, lines)) >= N_LINES:
+                run.send_signal(signal.SIGTERM)
+                break
+        run.wait()
+    return lines or lines_of(folder)
+
+
+for scene in sorted(SHIPPED.glob("*.prm")):
+
+    @check(f"{scene.stem}: forces balance")
+    def _() -> None:
+        lines = begin(str(scene), scene.stem)
+        require(sum(map(bears, lines)) > 0, f"none of {len(lines)} lines has a force")
+        for line in lines:
+            defect = line["force_balance_defect"]
+            require(abs(defect) <= LIMIT, f"defect {defect} at time {line['time']}")
+
+
+sys.exit(check.finish())
