@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: balance.py BILLET
 
-Begins every scene of prm/ in an empty current folder, and stops it after a few lines of its history in which tools,
-supports or pairs bear forces. In each line the sum of reactions, contact, loads and inertia is that of the residuals.
+Begins every scene of prm/ in an empty current folder, and stops it after a few lines of its history in which
+tools, supports or pairs bear forces. In each line the sum of reactions, contact, loads and inertia is that of
+the residuals.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A spherical membrane of an incompressible neo-Hookean solid, inflated against a plane without friction.
 
-The meridian is integrated from the pole to the equator (Adkins & Rivlin 1952): tensions T1 along it and T2 around,
-stretches l1 and l2, slope phi, radius r. On the plane phi = 0; beyond it kappa_1 T1 + kappa_2 T2 = p. Two numbers,
-the stretch at the pole and the angle where the plane ends, follow from the slope and the height of the equator.
+The meridian is integrated from the pole to the equator (Adkins & Rivlin 1952): tensions T1 along it and T2
+around, stretches l1 and l2, slope phi, radius r. On the plane phi = 0; beyond it kappa_1 T1 + kappa_2 T2 = p.
+Two numbers, the stretch at the pole and the angle where the plane ends, follow from the slope and the height of
+the equator.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ parameters::Scene make_scene() {
            {"body force", "set Body force = 1 ; 2*t ; 3"},
            {"force", "set Point = 0.3, 0.4, 0.5\nset Force = 1 ; 2*t ; 3"},
            {"moment", "set Boundary ids = 1\nset Moment = 2 ; 3*t ; 1"},
-           {"rigid face", "set Boundary ids = 2"},
+           {"rigid face", "set Boundary ids = 2\nset Stiffness factor = 0.1"},
            {"moment", "set Boundary ids = 2\nset Moment = 1 ; 3*t ; 2\nset Follow = false"}})
     body.loads.push_back(testing::make_load(type, lines));
   return scene;

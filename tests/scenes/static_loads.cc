@@ -205,7 +205,8 @@ void check_tangents() {
   for (const auto &[name, lines] :
        {std::pair<std::string, std::string>("moment", load("twist", twist)),
         {"moment of fixed direction", load("twist", twist + "        set Follow = false\n")},
-        {"rigid face", load("lid", "        set Type = rigid face\n" + faces)}}) {
+        {"rigid face",
+         load("lid", "        set Type = rigid face\n        set Stiffness factor = 0.01\n" + faces)}}) {
     SceneRun run(read({cube, "x = 0", stiff,
                        "      subsection side\n        set Boundary ids = 3\n        set Displacement = 0 ; "
                        "0.1*t ; 0\n        set Components = y\n      end\n",
