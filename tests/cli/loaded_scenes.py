@@ -56,6 +56,9 @@ def _() -> None:
     near("reaction of the bolts", last["bracket.support bolts.force_x"], float(total[1]), 5e-3)
     pull = last["bracket.support pull.force_x"]
     near("force of the pull", pull, -last["bracket.support bolts.force_x"], 1e-5)
+    path = "Bodies/bracket/Supports/pull/Displacement"
+    short = run_to_end("bracket", "--set", f"{path}=0.5*t")[-1]
+    equal("force of the pull by its component alone", short["bracket.support pull.force_x"], pull)
 
 
 @check("the stack weighs what its blocks weigh")
