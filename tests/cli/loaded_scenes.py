@@ -43,6 +43,7 @@ def run_to_end(name: str, *options: str) -> Rows:
     ended, rows = run_scene(name, *options)
     equal("exit code", ended.code, 0)
     require("warning[" not in ended.output + ended.errors, ended.output + ended.errors)
+    require("note[stabilised-" not in ended.output, ended.output)  # of the stack, which rests by its weight
     for row in rows:
         require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
     return rows
