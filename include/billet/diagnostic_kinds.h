@@ -315,9 +315,18 @@ inline const DiagnosticKind stabilisation_too_strong(
 
 inline const DiagnosticKind stabilised_at_end(
     "stabilised-at-end", Severity::note,
-    "At the end of the run contact still leaves a rigid-body mode of a body free. Only the viscous forces of "
-    "'Contact stabilisation = until contact' resist it, so the position along that mode is arbitrary.",
+    "At the end of the run contact leaves a rigid-body mode of a body free, and the viscous forces of "
+    "'Contact stabilisation = until contact' bear more than 0.1 % of the forces on that body, though not of "
+    "all forces. The position along that mode is arbitrary.",
     "Constrain the mode by a support or a symmetry plane, or use friction");
+
+inline const DiagnosticKind stabilised_drift(
+    "stabilised-drift", Severity::warning,
+    "Loads have moved a body by more than 1 % of its size along a rigid-body mode that contact leaves free. "
+    "Only the viscous forces of 'Contact stabilisation = until contact' have resisted, so the distance is "
+    "arbitrary.",
+    "Constrain the mode by a support or a symmetry plane, use friction, or 'Scheme = implicit dynamics' for "
+    "free motion");
 
 inline const DiagnosticKind stabilised_loads(
     "stabilised-loads", Severity::warning,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/probe_geometry.h"
 
+#include "billet/mechanics/reference_point.h"
+
 #include <deal.II/base/geometry_info.h>
 
 #include <algorithm>
@@ -19,14 +21,6 @@ struct Limits {
   static constexpr double diverged = 100.;   ///< step of Newton's method, in reference coordinates
   static constexpr double outside = 1e-6;    ///< of the unit cube or square, as round-off
 };
-
-/// Returns A⁻¹ b; none if A is singular.
-std::optional<Tensor<1, 3>> solve(const Tensor<2, 3> &A, const Tensor<1, 3> &b) {
-  const double det = dealii::determinant(A);
-  if (det == 0. || !std::isfinite(det))
-    return {};
-  return dealii::invert(A) * b;
-}
 
 std::array<double, 4> shape_functions(const std::array<double, 2> &at) {
   return {(1. - at[0]) * (1. - at[1]), at[0] * (1. - at[1]), (1. - at[0]) * at[1], at[0] * at[1]};
@@ -56,30 +50,10 @@ std::optional<dealii::Point<3>> Hexahedron::find(const Tensor<1, 3> &point) cons
   for (unsigned int i = 0; i < 3; ++i)
     if (!(point[i] >= low_[i] && point[i] <= high_[i]))
       return {};
-  dealii::Point<3> xi(0.5, 0.5, 0.5);
-  for (unsigned int i = 0; i < Limits::iterations; ++i) {
-    Tensor<1, 3> x;
-    Tensor<2, 3> jacobian;
-    for (unsigned int a = 0; a < n_element_nodes; ++a) {
-      const double value = Unit::d_linear_shape_function(xi, a);
-      const auto gradient = Unit::d_linear_shape_function_gradient(xi, a);
-      for (unsigned int k = 0; k < 3; ++k) {
-        x[k] += corners_[3 * a + k] * value;
-        for (unsigned int j = 0; j < 3; ++j)
-          jacobian[k][j] += corners_[3 * a + k] * gradient[j];
-      }
-    }
-    const auto step = solve(jacobian, point - x);
-    if (!step || !(step->norm() < Limits::diverged))
-      return {};
-    xi += *step;
-    if (step->norm() < Limits::converged) {
-      if (Unit::distance_to_unit_cell(xi) > Limits::outside)
-        return {};
-      return Unit::project_to_unit_cell(xi);
-    }
-  }
-  return {};
+  const auto xi = find_reference_point(corners_, point);
+  if (!xi || Unit::distance_to_unit_cell(*xi) > Limits::outside)
+    return {};
+  return Unit::project_to_unit_cell(*xi);
 }
 
 Tensor<1, 3> point_of_facet(const FacetCorners &corners, const std::array<double, 2> &at) {
@@ -113,7 +87,7 @@ std::optional<FacetCrossing> cross_facet(const FacetCorners &corners, const Tens
       A[k][1] = g_2[k];
       A[k][2] = -d[k];
     }
-    const auto step = solve(A, x + crossing.distance * d - point_of_facet(corners, crossing.at));
+    const auto step = solve_linear(A, x + crossing.distance * d - point_of_facet(corners, crossing.at));
     if (!step || !(std::abs((*step)[0]) + std::abs((*step)[1]) < Limits::diverged))
       return {};
     crossing.at[0] += (*step)[0];

@@ -290,10 +290,12 @@ void Support::declare(ParameterHandler &prm) {
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
                     "Components of the displacement that are prescribed: x, y and z are the first, second "
                     "and third of 'Axes'.");
-  prm.declare_entry(
-      "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
-      "Prescribed displacement: one muParser expression for each of x, y, z, of the reference position x, y, "
-      "z, the time t and the names of amplitudes. Other components have no effect. [length]");
+  prm.declare_entry("Displacement", "0 ; 0 ; 0", Patterns::Anything(),
+                    "Prescribed displacement: one muParser expression for each of x, y, z, or for each of "
+                    "'Components' alone, "
+                    "in the order x, y, z; of the reference position x, y, z, the time t and the names of "
+                    "amplitudes. Other "
+                    "components have no effect. [length]");
   for (const TypeParameter &parameter : Axes::parameters())
     declare_parameter(prm, parameter, parameter.meaning);
   prm.declare_entry("From", "0", Patterns::Double(),
@@ -311,6 +313,23 @@ void Support::declare(ParameterHandler &prm) {
 }
 
 namespace {
+
+/// Reads 'Displacement' of a support: three expressions, or one for each component that it prescribes.
+std::array<std::string, 3> read_displacement(const Reader &reader, const std::array<bool, 3> &components) {
+  const auto expressions = reader.parts("Displacement");
+  const std::string text = reader.text("Displacement");
+  const auto n = static_cast<std::size_t>(std::count(components.begin(), components.end(), true));
+  const auto n_places = static_cast<std::size_t>(std::count(text.begin(), text.end(), ';')) + 1;
+  if (n_places != expressions.size() || (n_places != 3 && n_places != n)) // a place may be empty
+    reader.reject("Displacement", "three expressions for x, y and z, or one for each of 'Components' alone, "
+                                  "separated by semicolons, such as '0 ; 0 ; 0.5*t'");
+  std::array<std::string, 3> displacement{"0", "0", "0"};
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (n_places == 3 || components[i])
+      displacement[i] = expressions[next++];
+  return displacement;
+}
 
 /// Reads 'From', 'Until' and 'Fade time' of a support or a load. `never_fades`: reason if 'Until' is not set.
 template <class Timed> void parse_times(const Reader &reader, const std::string &never_fades, Timed &timed) {
@@ -345,11 +364,7 @@ void Support::parse(Reader &reader) {
   if (!components[0] && !components[1] && !components[2])
     reader.reject("Components", "at least one of x, y and z");
   axes = Axes(reader);
-  const auto expressions = reader.parts("Displacement");
-  if (expressions.size() != 3)
-    reader.reject("Displacement", "three expressions, separated by semicolons");
-  displacement = reader.located("Displacement",
-                                std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
+  displacement = reader.located("Displacement", read_displacement(reader, components));
   parse_times(reader, "the support never lets go", *this);
 }
 

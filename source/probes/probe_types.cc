@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/tensor_columns.h"
 #include "billet/nearest_name.h"
 #include "billet/probes/probe.h"
 
@@ -100,14 +101,8 @@ const std::vector<ProbeQuantity> &probe_quantities() {
        {"displacement_x", "displacement_y", "displacement_z", "displacement_magnitude"}},
       {Kind::velocity, "velocity", {"velocity_x", "velocity_y", "velocity_z", "velocity_magnitude"}},
       {Kind::position, "position", {"position_x", "position_y", "position_z"}},
-      {Kind::stress,
-       "stress",
-       {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz", "von_mises_stress",
-        "pressure"}},
-      {Kind::strain,
-       "strain",
-       {"logarithmic_strain_xx", "logarithmic_strain_yy", "logarithmic_strain_zz", "logarithmic_strain_xy",
-        "logarithmic_strain_xz", "logarithmic_strain_yz"}},
+      {Kind::stress, "stress", stress_columns()},
+      {Kind::strain, "strain", strain_columns()},
       {Kind::plastic_strain, "plastic strain", {"equivalent_plastic_strain"}},
       {Kind::contact_pressure, "contact pressure", {"contact_pressure"}}};
   return all;

@@ -16,7 +16,8 @@ double ContactStabilisation::damping(const double young_modulus, const double si
 
 ContactStabilisation::ContactStabilisation(const MPI_Comm communicator, const std::vector<double> &speeds,
                                            std::vector<Node> nodes)
-    : communicator_(communicator), nodes_(std::move(nodes)), last_forces_(3 * nodes_.size(), 0.) {
+    : communicator_(communicator), nodes_(std::move(nodes)), last_forces_(3 * nodes_.size(), 0.),
+      drifts_(speeds.size()) {
   std::vector<double> squares(speeds.size(), 0.);
   for (const Node &node : nodes_)
     squares[node.body] += node.damping * node.damping;
@@ -66,6 +67,51 @@ double ContactStabilisation::last_force(const std::size_t body) const {
       for (std::size_t i = 0; i < 3; ++i)
         square += last_forces_[3 * k + i] * last_forces_[3 * k + i];
   return std::sqrt(dealii::Utilities::MPI::sum(square, communicator_));
+}
+
+double ContactStabilisation::norm(const std::size_t body, const Values forces) const {
+  double square = 0.;
+  for (const Node &node : nodes_)
+    if (node.body == body)
+      for (std::size_t i = node.first; i < node.first + 3; ++i)
+        square += forces[i] * forces[i];
+  return std::sqrt(dealii::Utilities::MPI::sum(square, communicator_));
+}
+
+std::vector<ContactStabilisation::Motion> ContactStabilisation::motions(const Values u, const Values u_n,
+                                                                        const Values rest) const {
+  const std::vector<double> own = forces(u, u_n);
+  constexpr std::size_t n_sums = 8; // Σ k, Σ c, Σ c (u − u_n), Σ of all other forces
+  std::vector<double> sums(n_sums * bodies_.size(), 0.);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node &node = nodes_[n];
+    double *const of_body = &sums[n_sums * node.body];
+    of_body[0] += stiffness(node);
+    of_body[1] += node.damping;
+    for (std::size_t i = 0; i < 3; ++i) {
+      of_body[2 + i] += node.damping * (u[node.first + i] - u_n[node.first + i]);
+      of_body[5 + i] += own[3 * n + i] - rest[node.first + i];
+    }
+  }
+  dealii::Utilities::MPI::sum(sums, communicator_, sums);
+  std::vector<Motion> result(bodies_.size());
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const double *const of_body = &sums[n_sums * body];
+    if (acts_on(body) && of_body[0] > 0.)
+      result[body] = {dealii::Tensor<1, 3>({of_body[2], of_body[3], of_body[4]}) / of_body[1],
+                      dealii::Tensor<1, 3>({of_body[5], of_body[6], of_body[7]}), of_body[0]};
+  }
+  return result;
+}
+
+void ContactStabilisation::add_drifts(std::vector<dealii::Tensor<1, 3>> earlier,
+                                      const std::vector<Motion> &motions,
+                                      const std::vector<dealii::Tensor<1, 3>> &unresisted) {
+  drifts_ = std::move(earlier);
+  for (std::size_t body = 0; body < bodies_.size(); ++body)
+    if (const double work = motions[body].stiffness * unresisted[body].norm_square();
+        work > 0. && motions[body].load * unresisted[body] > by_loads * work)
+      drifts_[body] += unresisted[body];
 }
 
 double ContactStabilisation::commit(const Values u, const Values u_n, const std::vector<bool> &is_supported,

@@ -5,6 +5,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/geometry/box_tree.h"
+#include "billet/mechanics/reference_point.h"
 
 #include <deal.II/base/geometry_info.h>
 
@@ -32,13 +33,10 @@ struct Limits {
   static constexpr double in_itself = 0.1;
   /// Margin of an element for round-off [element size].
   static constexpr double rounding = 1e-9;
-  /// Newton's method for reference coordinates: maximum number of iterations, correction at its end, and
-  /// distance from the centre at which the point is outside [element size].
+  /// Newton's method for reference coordinates, see ReferenceLimits.
   static constexpr unsigned int max_iterations = 15;
-  static constexpr double converged = 1e-10, far = 3.;
+  static constexpr double far = 3.;
 };
-
-using Corners = std::array<Tensor<1, 3>, 8>;
 
 bool overlap(const BoundingBox &a, const BoundingBox &b) {
   for (unsigned int i = 0; i < 3; ++i)
@@ -52,39 +50,25 @@ bool contains(const BoundingBox &box, const Tensor<1, 3> &x) {
   return box.distance_square(x) <= none;
 }
 
-/// Whether a point is in a trilinear element, or beside it by at most `margin` of its size, by Newton's
-/// method for its reference coordinates.
-bool is_inside(const Corners &corners, const Tensor<1, 3> &x, const double margin) {
-  using Unit = dealii::GeometryInfo<3>;
-  Point<3> xi(0.5, 0.5, 0.5);
-  for (unsigned int iteration = 0; iteration < Limits::max_iterations; ++iteration) {
-    Tensor<1, 3> miss = x;
-    Tensor<2, 3> jacobian;
-    for (unsigned int v = 0; v < 8; ++v) {
-      miss -= Unit::d_linear_shape_function(xi, v) * corners[v];
-      jacobian += dealii::outer_product(corners[v], Unit::d_linear_shape_function_gradient(xi, v));
-    }
-    if (!(std::abs(dealii::determinant(jacobian)) > 0.))
-      return false;
-    const Tensor<1, 3> change = dealii::invert(jacobian) * miss;
-    xi += change;
-    if ((xi - Point<3>(0.5, 0.5, 0.5)).norm() > Limits::far)
-      return false;
-    if (change.norm() < Limits::converged)
-      return Unit::is_inside_unit_cell(xi, margin);
-  }
-  return false;
+/// Whether a point is in a trilinear element, or beside it by at most `margin` of its size.
+bool is_inside(const ElementVectors &corners, const Tensor<1, 3> &x, const double margin) {
+  const auto xi = find_reference_point(corners, x, {Limits::max_iterations, Limits::far});
+  return xi && dealii::GeometryInfo<3>::is_inside_unit_cell(*xi, margin);
+}
+
+BoundingBox box_around(const ElementVectors &corners) {
+  BoundingBox box = BoundingBox::empty();
+  for (unsigned int v = 0; v < n_element_nodes; ++v)
+    box.add(get_vector(corners.data(), v));
+  return box;
 }
 
 /// Returns the number of elements of this rank that contain each point; `margin` as in is_inside().
-std::vector<unsigned int> count_elements(const std::vector<Corners> &elements,
+std::vector<unsigned int> count_elements(const std::vector<ElementVectors> &elements,
                                          const std::vector<Tensor<1, 3>> &points, const double margin) {
   std::vector<BoundingBox> boxes;
-  for (const Corners &corners : elements) {
-    boxes.push_back(BoundingBox::empty());
-    for (const auto &x : corners)
-      boxes.back().add(x);
-  }
+  for (const ElementVectors &corners : elements)
+    boxes.push_back(box_around(corners));
   const BoxTree tree(boxes);
   std::vector<unsigned int> counts(points.size());
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -111,14 +95,10 @@ Tensor<1, 3> position_of(const Point<3> &X, const std::array<DofIndex, 3> &dofs,
   return x;
 }
 
-Corners corners_of(const Element &element, const Vector *displacements) {
-  Corners corners;
-  for (unsigned int v = 0; v < 8; ++v) {
-    const std::size_t first = std::size_t{3} * v;
-    corners[v] =
-        position_of(element.cell->vertex(v),
-                    {element.dofs[first], element.dofs[first + 1], element.dofs[first + 2]}, displacements);
-  }
+ElementVectors corners_of(const Element &element, const Vector *displacements) {
+  ElementVectors corners = nodal_positions(element.cell);
+  for (unsigned int i = 0; displacements != nullptr && i < n_element_dofs; ++i)
+    corners[i] += (*displacements)(element.dofs[i]);
   return corners;
 }
 
@@ -285,13 +265,10 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
   if (tested.empty())
     return {};
 
-  std::vector<Corners> elements;
+  std::vector<ElementVectors> elements;
   for (const Element &element : discretization_.elements(b)) {
-    const Corners corners = corners_of(element, displacements);
-    BoundingBox box = BoundingBox::empty();
-    for (const auto &x : corners)
-      box.add(x);
-    if (overlap(box, boxes[a]))
+    const ElementVectors corners = corners_of(element, displacements);
+    if (overlap(box_around(corners), boxes[a]))
       elements.push_back(corners);
   }
   const std::vector<Tensor<1, 3>> points = positions_of(tested);
@@ -373,7 +350,7 @@ std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple
     own.push_back({x[0], x[1], x[2], 0.});
   }
   const std::vector<Tensor<1, 3>> points = positions_of(gather(own, communicator));
-  std::vector<Corners> elements;
+  std::vector<ElementVectors> elements;
   for (const Element &element : discretization_.elements(couple.body))
     elements.push_back(corners_of(element, displacements));
   std::vector<unsigned int> counts = count_elements(elements, points, -Limits::in_itself);

@@ -138,6 +138,18 @@ std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector
   return aim;
 }
 
+/// Returns the products of each row with each motion.
+Rows components_along(const Rows &motions, const Rows &rows) {
+  Rows parts;
+  for (const auto &row : rows) {
+    std::vector<double> part;
+    for (const auto &motion : motions)
+      part.push_back(dot(row, motion));
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 /// Removes the direction of `motion` from the orthonormal `basis`, whose span contains it, and makes the rest
 /// orthonormal.
 void deflate(const std::vector<double> &motion, Rows &basis) {
@@ -345,13 +357,7 @@ RigidBodySupport::Mode RigidBodySupport::find_sliding(const std::vector<Row> &mo
 
 void RigidBodySupport::find_pushed(const std::vector<Row> &motions, const std::vector<Row> &one_way,
                                    Result &result) const {
-  Rows parts;
-  for (const auto &row : one_way) {
-    std::vector<double> part;
-    for (const auto &motion : motions)
-      part.push_back(dot(row, motion));
-    parts.push_back(std::move(part));
-  }
+  const Rows parts = components_along(motions, one_way);
   result.free.reset();
   for (std::size_t i = 0; i < 6 * bodies_.size(); ++i)
     for (const double sign : {-1., 1.}) {
@@ -373,6 +379,34 @@ void RigidBodySupport::find_pushed(const std::vector<Row> &motions, const std::v
     }
 }
 
+std::vector<Tensor<1, 3>> RigidBodySupport::find_unresisted_part(const std::vector<Tensor<1, 3>> &set,
+                                                                 const std::vector<Row> &motions,
+                                                                 const std::vector<Row> &one_way) const {
+  std::vector<Tensor<1, 3>> result(bodies_.size());
+  double square = 0.;
+  for (const Tensor<1, 3> &translation : set)
+    square += translation.norm_square();
+  if (!(square > 0.))
+    return result;
+  const double size = std::sqrt(square);
+  std::vector<double> aim;
+  for (const Row &motion : motions) {
+    double along = 0.;
+    for (std::size_t body = 0; body < bodies_.size(); ++body)
+      for (unsigned int i = 0; i < 3; ++i)
+        along += motion[6 * body + i] * set[body][i] / size;
+    aim.push_back(along);
+  }
+  const auto factors = project_on_cone(components_along(motions, one_way), std::move(aim));
+  if (!factors)
+    return result;
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    for (std::size_t body = 0; body < bodies_.size(); ++body)
+      for (unsigned int i = 0; i < 3; ++i)
+        result[body][i] += size * (*factors)[k] * motions[k][6 * body + i];
+  return result;
+}
+
 RigidBodySupport::Result RigidBodySupport::find() const {
   Unresisted motions = find_unresisted_both_ways();
   Rows &basis = motions.of_bodies;
@@ -392,6 +426,8 @@ RigidBodySupport::Result RigidBodySupport::find() const {
   }
   if (pushes_)
     find_pushed(motions.all, one_way, result);
+  for (const auto &set : sets_)
+    result.unresisted.push_back(find_unresisted_part(set, motions.all, one_way));
   return result;
 }
 

@@ -46,7 +46,7 @@ def require_keys(keys: str, code: int, said: str) -> None:
         if key == "none":
             require(not warned, f"warns of {' '.join(warned)}")
         elif key.startswith("! "):
-            require(key[2:] not in warned, f"warns of {key[2:]}")
+            require(key[2:] not in printed, f"tells of {key[2:]}")
         else:
             require_message(key, printed, said)
 

@@ -57,6 +57,7 @@ def run_to_end(name: str, *options: str) -> Rows:
     ended, rows = run_scene(name, *options)
     equal("exit code", ended.code, 0)
     require("warning[" not in ended.output + ended.errors, ended.output + ended.errors)
+    require("note[stabilised-" not in ended.output, ended.output)  # of the stack, which rests by its weight
     for row in rows:
         require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
     return rows
@@ -70,6 +71,9 @@ def _() -> None:
     near("reaction of the bolts", last["bracket.support bolts.force_x"], float(total[1]), 5e-3)
     pull = last["bracket.support pull.force_x"]
     near("force of the pull", pull, -last["bracket.support bolts.force_x"], 1e-5)
+    path = "Bodies/bracket/Supports/pull/Displacement"
+    short = run_to_end("bracket", "--set", f"{path}=0.5*t")[-1]
+    equal("force of the pull by its component alone", short["bracket.support pull.force_x"], pull)
 
 
 @check("the stack weighs what its blocks weigh")

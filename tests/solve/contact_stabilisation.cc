@@ -53,13 +53,17 @@ void check_messages() {
   stabilisation.start_step(1.);
   StepState step(discretization);
   step.trial.displacements = 1.;
-  stabilisation.commit(step, {true}, 0.);
   RigidBodySupport::Result support;
   support.is_free = {true};
-  const auto tells = [&](const DiagnosticKind &kind, const double work, const double forces) {
+  stabilisation.commit(step, support, 0.);
+  const auto tells = [&](const DiagnosticKind &kind, const double work, const double forces,
+                         const double own_forces = 1.) {
     const ContactStabilisation &own = *stabilisation.get();
-    for (const Diagnostic &message :
-         stabilisation.finish(1., work * own.work_of_motion(0), forces * own.last_force(0), support))
+    for (const Diagnostic &message : stabilisation.finish({1.,
+                                                           work * own.work_of_motion(0),
+                                                           forces * own.last_force(0),
+                                                           {own_forces * own.last_force(0)},
+                                                           support}))
       if (&message.kind() == &kind)
         return true;
     return false;
@@ -69,6 +73,19 @@ void check_messages() {
             !tells(diagnostic::stabilisation_too_strong, 1020., 1.));
   check("and those that bear a thousandth at the end",
         tells(diagnostic::stabilised_loads, 1., 980.) && !tells(diagnostic::stabilised_loads, 1., 1020.));
+  check("a note, if that is a thousandth of the forces on the body alone",
+        tells(diagnostic::stabilised_at_end, 1., 1020., 980.) &&
+            !tells(diagnostic::stabilised_at_end, 1., 980., 980.));
+  check("none, if it is less", !tells(diagnostic::stabilised_at_end, 1., 1020., 1020.));
+  // In equilibrium all that moves the body is a load, as large as the viscous forces.
+  const double size = 2. * RigidBodies(scene, discretization, holding_after(0.)).frames[0].size;
+  const auto tells_of_drift = [&](const double distance) {
+    support.unresisted = {{dealii::Tensor<1, 3>()}, {distance * dealii::Tensor<1, 3>({1., 0., 0.})}};
+    stabilisation.commit(step, support, 0.);
+    return tells(diagnostic::stabilised_drift, 1., 1.);
+  };
+  check("a warning is printed if loads move it by a hundredth of its size",
+        tells_of_drift(0.0101 * size) && !tells_of_drift(0.0099 * size));
 }
 
 } // namespace
@@ -205,6 +222,28 @@ int main(int argc, char **argv) {
     check("norms of the last forces",
           std::abs(std::hypot(stabilisation.last_force(0), stabilisation.last_force(1)) - std::sqrt(square)),
           1e-12 * std::sqrt(square));
+  }
+  {
+    ContactStabilisation stabilisation = three_nodes();
+    stabilisation.start_step(0.5);
+    Values rest = residual(stabilisation, u, u_n);
+    rest[6] -= 3.; // a load of 3 along x on the first body
+    const auto motions = stabilisation.motions(view(u), view(u_n), view(rest));
+    dealii::Tensor<1, 3> mean;
+    for (std::size_t i = 0; i < 3; ++i)
+      mean[i] = (2. * (u[6 + i] - u_n[6 + i]) + 0.5 * (u[i] - u_n[i])) / 2.5;
+    const dealii::Tensor<1, 3> x({1., 0., 0.}), none;
+    check("the mean displacement in the step", (motions[0].mean - mean).norm(), 1e-14);
+    check("the loads in it",
+          (motions[0].load - 3. * x).norm() + motions[1].load.norm() + motions[2].load.norm(), 1e-14);
+    check("and the stiffness", std::abs(motions[0].stiffness - 5.), 1e-14);
+    check("a body that is not stabilised has no motion", motions[2].mean.norm() == 0.);
+    const auto drift = [&](const dealii::Tensor<1, 3> &unresisted) {
+      stabilisation.add_drifts({0.25 * x, none, none}, motions, {unresisted, none, none});
+      return stabilisation.drifts()[0];
+    };
+    check("loads that do half of the work make a drift", (drift(1.1 * x) - 1.35 * x).norm(), 1e-14);
+    check("else something else moves the body", drift(1.3 * x) == 0.25 * x && drift(-x) == 0.25 * x);
   }
   check_messages();
   return billet::testing::exit_code();

@@ -175,6 +175,23 @@ int main(int argc, char **argv) {
     check("of two bodies that do not touch one is free", !found.is_free[0] && found.is_free[1]);
   }
   {
+    const auto unresisted = [](RigidBodySupport &support, const Tensor<1, 3> &translation) {
+      support.weigh_translations({{translation}});
+      return support.find().unresisted[0][0];
+    };
+    RigidBodySupport support = one_cube();
+    push(support, -z, Friction::none);
+    check("on a table: the part along it is free", (unresisted(support, x - z) - x).norm(), 0.02);
+    check("what goes down is not", unresisted(support, -z).norm() == 0.);
+    check("what goes up is", (unresisted(support, 3. * (y + z)) - 3. * (y + z)).norm(), 0.06);
+    push(support, x, Friction::none);
+    check("a wall resists what goes into it", unresisted(support, x).norm() == 0.);
+    check("and not what goes away", (unresisted(support, -x) + x).norm(), 0.02);
+    RigidBodySupport sticking = one_cube();
+    push(sticking, -z, Friction::sticks);
+    check("friction resists what goes along", unresisted(sticking, x).norm() == 0.);
+  }
+  {
     // Pressed between planes, with friction spent along x, but for what the squeeze adds away from the
     // middle.
     RigidBodySupport support = one_cube();

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/tensor.h>
 
 #include <vector>
 
@@ -24,6 +25,9 @@ public:
   static constexpr double fading = 0.1, min_factor = 5e-4;
   /// Maximum part of all work that viscous forces may do, and of the forces that they may be at the end.
   static constexpr double max_part = 1e-3;
+  /// Part of the work against these forces that loads do in a step in which loads move the body, rather than
+  /// a tool or another body.
+  static constexpr double by_loads = 0.5;
 
   /// Node on this rank.
   struct Node {
@@ -51,6 +55,9 @@ public:
   double work_of_motion(const std::size_t body) const { return bodies_[body].work_of_motion; }
   /// Returns the norm of the nodal forces on a body at the end of the last accepted step. Collective.
   double last_force(std::size_t body) const;
+  /// Returns the norm of other nodal forces on a body, given at displacements that this rank owns.
+  /// Collective.
+  double norm(std::size_t body, dealii::ArrayView<const double> forces) const;
 
   /// Begins a step of this length. If it is 0, the forces are those at the end of the last accepted step and
   /// do not depend on displacements.
@@ -65,13 +72,30 @@ public:
   /// Returns −∂f/∂u of a node, the same in each direction [force/length].
   double stiffness(const Node &node) const;
 
+  /// Motion of a body in the step, and the loads on it.
+  struct Motion {
+    dealii::Tensor<1, 3> mean; ///< displacement in the step, 0 if the body is not stabilised [length]
+    dealii::Tensor<1, 3> load; ///< resultant of all forces but internal, contact and viscous ones [force]
+    double stiffness = 0.;     ///< sum of stiffness() over the nodes [force/length]
+  };
+  /// Returns the motions of all bodies. `rest`: the residual less internal and contact forces. Collective.
+  std::vector<Motion> motions(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n,
+                              dealii::ArrayView<const double> rest) const;
+  /// Returns displacements of bodies by loads against viscous forces alone, proportional to 1/ζ [length].
+  const std::vector<dealii::Tensor<1, 3>> &drifts() const { return drifts_; }
+  /// Accepts the drifts of earlier steps, as far as nothing resists them now, and adds those of this step:
+  /// the parts `unresisted` of the motions that neither supports nor contact resist, if loads do work on
+  /// them.
+  void add_drifts(std::vector<dealii::Tensor<1, 3>> earlier, const std::vector<Motion> &motions,
+                  const std::vector<dealii::Tensor<1, 3>> &unresisted);
+  void set_drifts(std::vector<dealii::Tensor<1, 3>> drifts) { drifts_ = std::move(drifts); }
   /// Accepts the step: adds its works by the trapezoidal rule, and fades the forces on supported bodies.
   /// `driven_work`: of the loads of driven tools in the step. Returns the work of the forces. Collective.
   double commit(dealii::ArrayView<const double> u, dealii::ArrayView<const double> u_n,
                 const std::vector<bool> &is_supported, double driven_work = 0.);
 
   /// Return and set φ and the works of each body, for checkpoints. The last forces, in the order of nodes(),
-  /// are saved separately.
+  /// and the drifts are saved separately.
   std::vector<double> save() const;
   void load(const std::vector<double> &values);
   const std::vector<double> &last_forces() const { return last_forces_; }
@@ -88,6 +112,7 @@ private:
   std::vector<Body> bodies_;
   std::vector<Node> nodes_;
   std::vector<double> last_forces_; ///< −f at the end of the last accepted step, three for each node
+  std::vector<dealii::Tensor<1, 3>> drifts_; ///< of each body in accepted steps [length]
   double length_ = 0.;
 };
 

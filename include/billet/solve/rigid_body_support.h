@@ -52,6 +52,9 @@ public:
   void add_unloaded_contact(const SupportingPoint &point, const Side &of, const Side &on);
   /// Requests Result::is_free. On all ranks.
   void weigh_pushes() { pushes_ = true; }
+  /// Requests Result::unresisted for these sets of translations of all bodies; with weigh_pushes(). On all
+  /// ranks.
+  void weigh_translations(std::vector<std::vector<dealii::Tensor<1, 3>>> sets) { sets_ = std::move(sets); }
   /// Adds a point whose normal resists a motion into the surface only, with friction as in add_contact().
   /// Such points support a body only from both sides: a tool that pushes a loose body does not.
   void add_pushing_contact(const SupportingPoint &point, const Side &of, const Side &on);
@@ -73,6 +76,8 @@ public:
     /// Whether each body takes part in a mode that nothing resists, if weigh_pushes(). `free` is one of these
     /// modes then.
     std::vector<bool> is_free;
+    /// Parts of each set of weigh_translations() that nothing resists.
+    std::vector<std::vector<dealii::Tensor<1, 3>>> unresisted;
   };
   /// Finds the modes from the sums over all ranks; the result is the same on each. Collective.
   Result find() const;
@@ -101,12 +106,18 @@ private:
   Mode find_sliding(const std::vector<Row> &motions) const;
   /// Finds the bodies that take part in a combination of these motions which `one_way` does not resist.
   void find_pushed(const std::vector<Row> &motions, const std::vector<Row> &one_way, Result &result) const;
+  /// Returns the part of a set of translations that is a combination of these motions and that `one_way` does
+  /// not resist.
+  std::vector<dealii::Tensor<1, 3>> find_unresisted_part(const std::vector<dealii::Tensor<1, 3>> &set,
+                                                         const std::vector<Row> &motions,
+                                                         const std::vector<Row> &one_way) const;
 
   MPI_Comm communicator_;
   std::vector<Body> bodies_;
   std::size_t n_tools_;
   std::vector<double> gram_; ///< Σ r rᵀ of rows that resist both ways, n × n
   bool pushes_ = false;
+  std::vector<std::vector<dealii::Tensor<1, 3>>> sets_; ///< of translations of all bodies
   std::vector<double> one_way_; ///< rows that resist r z < 0 only, one after the other
   Row slide_;                   ///< Σ r of spent points, along their slip
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/tensor_columns.h"
 #include "billet/output/element_fields.h"
 #include "billet/output/field_quantity.h"
 
@@ -9,8 +10,7 @@ ElementQuantity stress_quantity();
 ElementQuantity stress_quantity() {
   return {"Cauchy stress",
           "stress",
-          {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_xz", "stress_yz", "von_mises_stress",
-           "pressure"},
+          stress_columns(),
           true,
           [](const Scene &scene) { return scene.parameters().output.stress; },
           [](const ElementAverage &average) -> std::vector<double> {

@@ -9,6 +9,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace billet {
@@ -109,6 +110,7 @@ void BodyStabilisation::prepare(const RigidBodies &bodies) {
   const auto &owned = discretization_.owned_dofs();
   std::vector<ContactStabilisation::Node> nodes;
   std::vector<double> speeds(n_bodies, 0.);
+  sizes_.assign(n_bodies, 0.);
   for (std::size_t body = 0; body < n_bodies; ++body) {
     RigidBodySupport support(discretization_.communicator(), {bodies.frames[body]}, 0);
     for (const auto &node : bodies.supported_nodes)
@@ -118,6 +120,7 @@ void BodyStabilisation::prepare(const RigidBodies &bodies) {
       continue;
     const double size = 2. * bodies.frames[body].size, end = scene_.parameters().time_stepping.end_time;
     speeds[body] = size / end;
+    sizes_[body] = size;
     const Vector volumes = nodal_volumes(discretization_, body);
     for (std::size_t first = 0; first < owned.n_elements(); first += 3)
       if (const DofIndex dof = owned.nth_index_in_set(first); volumes(dof) > 0.)
@@ -162,13 +165,32 @@ void BodyStabilisation::add_tangent(const TangentSystem &system) const {
   }
 }
 
-double BodyStabilisation::commit(const StepState &step, const std::vector<bool> &is_free,
+std::vector<ContactStabilisation::Motion> BodyStabilisation::motions(const StepState &step) const {
+  Vector rest = step.trial.supports;
+  rest -= step.trial.internal;
+  rest -= step.trial.contact;
+  return stabilisation_->motions(owned_values(step.trial.displacements),
+                                 owned_values(step.start.displacements),
+                                 owned_values(static_cast<const Vector &>(rest)));
+}
+
+std::vector<std::vector<dealii::Tensor<1, 3>>> BodyStabilisation::translations(const StepState &step) const {
+  std::vector<dealii::Tensor<1, 3>> in_step;
+  for (const auto &motion : motions(step))
+    in_step.push_back(motion.mean);
+  return {stabilisation_->drifts(), in_step};
+}
+
+double BodyStabilisation::commit(const StepState &step, const RigidBodySupport::Result &support_by_contact,
                                  const double driven_work) {
   if (!stabilisation_)
     return 0.;
   std::vector<bool> is_supported;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body)
-    is_supported.push_back(stabilisation_->acts_on(body) && !is_free[body]);
+    is_supported.push_back(stabilisation_->acts_on(body) && !support_by_contact.is_free[body]);
+  if (acts() && support_by_contact.unresisted.size() == 2)
+    stabilisation_->add_drifts(support_by_contact.unresisted[0], motions(step),
+                               support_by_contact.unresisted[1]);
   return stabilisation_->commit(owned_values(step.trial.displacements),
                                 owned_values(step.start.displacements), is_supported, driven_work);
 }
@@ -183,6 +205,10 @@ void BodyStabilisation::save(StateWriter &writer) const {
       values[stabilisation_->nodes()[k].first + i] = stabilisation_->last_forces()[3 * k + i];
   writer.in("stabilisation", [&] {
     writer.write("bodies", stabilisation_->save());
+    std::vector<double> drifts;
+    for (const dealii::Tensor<1, 3> &drift : stabilisation_->drifts())
+      drifts.insert(drifts.end(), {drift[0], drift[1], drift[2]});
+    writer.write("drifts", drifts);
     save_nodal(writer, "forces", OwnedNodes(discretization_, NodeKeys(discretization_)), forces);
   });
 }
@@ -192,6 +218,13 @@ void BodyStabilisation::load(StateReader &reader) {
     return;
   reader.in("stabilisation", [&] {
     stabilisation_->load(reader.read("bodies"));
+    if (reader.has("drifts")) {
+      const std::vector<double> values = reader.read("drifts");
+      std::vector<dealii::Tensor<1, 3>> drifts(stabilisation_->drifts().size());
+      for (std::size_t body = 0; body < drifts.size() && values.size() == 3 * drifts.size(); ++body)
+        drifts[body] = dealii::Tensor<1, 3>({values[3 * body], values[3 * body + 1], values[3 * body + 2]});
+      stabilisation_->set_drifts(std::move(drifts));
+    }
     Vector forces = discretization_.make_owned_vector();
     load_nodal(reader, "forces", OwnedNodes(discretization_, NodeKeys(discretization_)), forces);
     std::vector<double> last;
@@ -213,14 +246,58 @@ DiagnosticList BodyStabilisation::check_needless() const {
   return messages;
 }
 
-DiagnosticList BodyStabilisation::finish(const double time, const double max_energy, const double forces,
-                                         const RigidBodySupport::Result &support_by_contact) const {
+void BodyStabilisation::judge_free_body(const std::size_t body, const FinalState &state,
+                                        DiagnosticList &messages) const {
+  const std::string &name = scene_.bodies()[body].name;
+  const auto &free = state.support_by_contact.free;
+  const std::string mode = "a rigid-body mode of body '" + name + "' at the end" +
+                           (free && free->body == body ? ", with " + print(free->motion) : "");
+  const double force = stabilisation_->last_force(body);
+  const double part = state.forces > 0. ? force / state.forces : 0.;
+  // Loads are the difference of these forces and the internal and contact forces.
+  const double largest = std::max(force, state.forces_on_bodies[body]);
+  const double own_part = largest > 0. ? force / largest : 0.;
+  const bool is_much = part > ContactStabilisation::max_part;
+  std::ostringstream text;
+  text.precision(3);
+  text << "Neither supports nor contact constrain " << mode << ": viscous forces bear "
+       << 100. * (is_much ? part : own_part) << " % of the forces " << (is_much ? "there" : "on the body");
+  if (is_much)
+    messages.push_back(Diagnostic(diagnostic::stabilised_loads, text.str())
+                           .body(name)
+                           .time(state.time)
+                           .measure("part of the forces", part));
+  else if (own_part > ContactStabilisation::max_part)
+    messages.push_back(Diagnostic(diagnostic::stabilised_at_end, text.str())
+                           .body(name)
+                           .time(state.time)
+                           .measure("part of the forces on the body", own_part));
+  const dealii::Tensor<1, 3> &drift = stabilisation_->drifts()[body];
+  const double distance = drift.norm();
+  if (!(distance > Limits::max_drift * sizes_[body]))
+    return;
+  RigidMotion motion{drift / distance, {}};
+  for (unsigned int i = 0; i < 3; ++i)
+    if (std::abs(motion.translation[i]) < Limits::no_component)
+      motion.translation[i] = 0.;
+  std::ostringstream moved;
+  moved.precision(3);
+  moved << "Loads have moved body '" << name << "' by " << distance << ", " << 100. * distance / sizes_[body]
+        << " % of its size, with " << print(motion)
+        << ", which neither supports nor contact constrain: only viscous forces have resisted";
+  messages.push_back(Diagnostic(diagnostic::stabilised_drift, moved.str())
+                         .body(name)
+                         .time(state.time)
+                         .measure("part of the size", distance / sizes_[body]));
+}
+
+DiagnosticList BodyStabilisation::finish(const FinalState &state) const {
   DiagnosticList messages;
   if (!stabilisation_)
     return messages;
   for (std::size_t body = 0; body < scene_.bodies().size(); ++body) {
     const std::string &name = scene_.bodies()[body].name;
-    const double part = max_energy > 0. ? stabilisation_->work_of_motion(body) / max_energy : 0.;
+    const double part = state.max_energy > 0. ? stabilisation_->work_of_motion(body) / state.max_energy : 0.;
     if (part > ContactStabilisation::max_part) {
       const double factor = part / ContactStabilisation::max_part;
       std::ostringstream text;
@@ -230,31 +307,13 @@ DiagnosticList BodyStabilisation::finish(const double time, const double max_ene
            << " %";
       messages.push_back(Diagnostic(diagnostic::stabilisation_too_strong, text.str())
                              .body(name)
-                             .time(time)
+                             .time(state.time)
                              .measure("factor", factor)
                              .value("part of all work", part));
     }
-    if (!stabilisation_->acts_on(body) || body >= support_by_contact.is_free.size() ||
-        !support_by_contact.is_free[body])
-      continue;
-    const std::string what = "Neither supports nor contact constrain a rigid-body mode of body '" + name +
-                             "' at the end" +
-                             (support_by_contact.free && support_by_contact.free->body == body
-                                  ? ", with " + print(support_by_contact.free->motion)
-                                  : "");
-    const double force_part = forces > 0. ? stabilisation_->last_force(body) / forces : 0.;
-    if (force_part > ContactStabilisation::max_part) {
-      std::ostringstream text;
-      text.precision(3);
-      text << what << ": viscous forces bear " << 100. * force_part << " % of the forces there";
-      messages.push_back(Diagnostic(diagnostic::stabilised_loads, text.str())
-                             .body(name)
-                             .time(time)
-                             .measure("part of the forces", force_part));
-    } else
-      messages.push_back(Diagnostic(diagnostic::stabilised_at_end, what + ": only viscous forces resist it")
-                             .body(name)
-                             .time(time));
+    const std::vector<bool> &is_free = state.support_by_contact.is_free;
+    if (stabilisation_->acts_on(body) && body < is_free.size() && is_free[body])
+      judge_free_body(body, state, messages);
   }
   return messages;
 }

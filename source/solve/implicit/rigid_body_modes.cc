@@ -111,6 +111,8 @@ std::optional<RigidBodySupport::Mode> RigidBodyModes::find_sliding_soon() const 
 RigidBodySupport::Result RigidBodyModes::find_support_by_contact() const {
   RigidBodySupport support(problem_.communicator(), bodies_.frames, problem_.tools().unknown().size());
   support.weigh_pushes();
+  if (problem_.stabilisation().acts())
+    support.weigh_translations(problem_.stabilisation().translations(problem_.step()));
   add_supports(support);
   if (dealii::Utilities::MPI::this_mpi_process(problem_.communicator()) == 0)
     for (std::size_t k = 0; k < problem_.tools().unknown().size(); ++k)
@@ -236,7 +238,7 @@ void RigidBodyModes::commit() {
     driven_work +=
         problem_.scene().tools()[tool].load(problem_.step().time) * problem_.tools().last_increments()[tool];
   problem_.state().energies.viscous +=
-      problem_.stabilisation().commit(problem_.step(), support_by_contact_.is_free, driven_work);
+      problem_.stabilisation().commit(problem_.step(), support_by_contact_, driven_work);
 }
 
 void RigidBodyModes::begin() {
@@ -253,10 +255,17 @@ Explanation RigidBodyModes::describe_loss(const std::string &failure) const {
 }
 
 DiagnosticList RigidBodyModes::finish(const double max_energy) const {
+  const BodyStabilisation &stabilisation = problem_.stabilisation();
+  if (stabilisation.get() == nullptr)
+    return {};
   const ForceState &state = problem_.step().start;
-  return problem_.stabilisation().finish(problem_.state().time, max_energy,
-                                         std::max(state.internal.l2_norm(), state.contact.l2_norm()),
-                                         support_by_contact_);
+  std::vector<double> on_bodies;
+  for (std::size_t body = 0; body < problem_.scene().bodies().size(); ++body)
+    on_bodies.push_back(std::max(stabilisation.get()->norm(body, owned_values(state.internal)),
+                                 stabilisation.get()->norm(body, owned_values(state.contact))));
+  return stabilisation.finish({problem_.state().time, max_energy,
+                               std::max(state.internal.l2_norm(), state.contact.l2_norm()), on_bodies,
+                               support_by_contact_});
 }
 
 void RigidBodyModes::save(StateWriter &writer) const {

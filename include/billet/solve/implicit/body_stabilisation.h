@@ -30,6 +30,15 @@ struct RigidBodies {
   std::vector<SupportedNode> supported_nodes; ///< on this rank
 };
 
+/// State of the bodies at the end of a run.
+struct FinalState {
+  double time;
+  double max_energy; ///< largest energy of the run
+  double forces;     ///< larger norm of the internal and the contact forces of all nodes [force]
+  std::vector<double> forces_on_bodies; ///< the same of the nodes of each body [force]
+  const RigidBodySupport::Result &support_by_contact;
+};
+
 /// Viscous forces that stabilise bodies of static scenes until contact supports them; see
 /// ContactStabilisation.
 class BodyStabilisation {
@@ -51,24 +60,37 @@ public:
   /// Adds the forces to the residual. Returns their reference value for residuals [force]. Collective.
   double add_forces(const StepState &step, Vector &residual) const;
   void add_tangent(const TangentSystem &system) const;
-  /// Accepts the step: fades the forces on bodies that are not free. Returns the work of the forces.
-  /// Collective.
-  double commit(const StepState &step, const std::vector<bool> &is_free, double driven_work);
+  /// Returns the drifts of the bodies before the step, and their mean displacements in it, for
+  /// RigidBodySupport::weigh_translations(). Only if the forces act. Collective.
+  std::vector<std::vector<dealii::Tensor<1, 3>>> translations(const StepState &step) const;
+  /// Accepts the step: fades the forces on bodies that are not free, and adds drifts. Returns the work of the
+  /// forces. Collective.
+  double commit(const StepState &step, const RigidBodySupport::Result &support_by_contact,
+                double driven_work);
 
   /// Returns messages before the run about bodies that need no stabilisation.
   DiagnosticList check_needless() const;
-  /// Returns messages at the end of the run. `forces`: the largest norm of the nodal forces there.
-  /// Collective.
-  DiagnosticList finish(double time, double max_energy, double forces,
-                        const RigidBodySupport::Result &support_by_contact) const;
+  /// Returns messages at the end of the run. Collective.
+  DiagnosticList finish(const FinalState &state) const;
 
   void save(StateWriter &writer) const;
   void load(StateReader &reader);
 
 private:
+  struct Limits {
+    /// Maximum drift of a body that contact leaves free [size of the body].
+    static constexpr double max_drift = 0.01;
+    /// Component of its direction that is printed as zero.
+    static constexpr double no_component = 0.01;
+  };
+  std::vector<ContactStabilisation::Motion> motions(const StepState &step) const;
+  /// Appends messages about a body that contact leaves free at the end. Collective.
+  void judge_free_body(std::size_t body, const FinalState &state, DiagnosticList &messages) const;
+
   const Scene &scene_;
   const Discretization &discretization_;
   std::unique_ptr<ContactStabilisation> stabilisation_;
+  std::vector<double> sizes_;     ///< of bodies, their longest extents [length]
   std::vector<bool> is_needless_; ///< of bodies that supports hold; or empty
 };
 
