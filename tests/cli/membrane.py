@@ -3,8 +3,8 @@
 
 The meridian is integrated from the pole to the equator (Adkins & Rivlin 1952): tensions T1 along it and T2
 around, stretches l1 and l2, slope phi, radius r. On the plane phi = 0; beyond it kappa_1 T1 + kappa_2 T2 = p.
-Two numbers, the stretch at the pole and the angle where the plane ends, follow from the slope and the height of
-the equator.
+Two numbers, the stretch at the pole and the angle where the plane ends, follow from the slope and the height
+of the equator.
 """
 
 from __future__ import annotations
