@@ -12,7 +12,19 @@ import json
 import re
 import sys
 
-from checks import SHIPPED, Checks, enter_folder, equal, near, read_text, require, run, says, write_text
+from checks import (
+    SHIPPED,
+    Checks,
+    enter_folder,
+    equal,
+    near,
+    read_text,
+    require,
+    rows_of,
+    run,
+    says,
+    write_text,
+)
 
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
 PARTS = {"drawing": 0.1, "rolling": 0.1, "bending": 0.2, "impact": 0.25}  # of the time
@@ -135,6 +147,23 @@ def _() -> None:
     require("torus" not in ended.output, ended.output)
     says("; did you mean 'torus'", run(program, "--list", "primitives", "tours").errors)
     says("; did you mean 'primitives'", run(program, "--list", "primitvs").errors)
+
+
+@check("the first scene of the README gives the right force")
+def _() -> None:
+    section = read_text(SHIPPED.parent / "README.md").split("## Your first scene")[1]
+    lines = [
+        line[4:] for line in section.split("    billet first.prm")[0].splitlines() if line[:4] == " " * 4
+    ]
+    require(len(lines) <= 25, f"{len(lines)} lines")
+    write_text("first.prm", "\n".join(lines) + "\n")
+    ended = run(program, "first.prm")
+    equal("exit code", ended.code, 0)
+    says("without warnings", ended.output)
+    head, *rows = rows_of("first/history.csv")
+    last = dict(zip(head, map(float, rows[-1])))
+    near("travel", last["die.travel_z"], 8.0, 1e-12)
+    near("force, without volume change", last["die.force_z"], 100 * 100 * 20 / 12, 1e-3)
 
 
 sys.exit(check.finish())
