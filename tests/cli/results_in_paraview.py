@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: results_in_paraview.py BILLET LAUNCHER...
+
+Runs in an empty current folder; LAUNCHER and a number start BILLET on so many ranks. ParaView, without a display,
+opens every kind of result: blocks by the names of the scene, fields at nodes and in elements, tensors, and a
+picture.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+from checks import HERE, Checks, Program, enter_folder, equal, read_text, require, run, write_text
+from edits import edit
+
+program = Program(sys.argv[1:])
+check = Checks()
+enter_folder()
+
+Fields = dict[tuple[str, str, str], tuple[int, int]]  # block, kind and name: components and tuples
+TENSORS = ["stress", "logarithmic_strain"]
+NUMBERS = ["element_id", "body", "material"]
+
+
+def pvbatch(*arguments: str, display: bool = False) -> str:
+    """Runs a script by ParaView."""
+    command = [*(["xvfb-run", "-a"] if display else []), "pvbatch", *arguments]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    require(ended.returncode == 0, ended.stdout + ended.stderr)
+    return ended.stdout
+
+
+def contents(file: str) -> Fields:
+    """Returns the fields that ParaView finds at the last time."""
+    fields: Fields = {}
+    for line in pvbatch(str(HERE / "contents_in_paraview.py"), file).splitlines():
+        parts = line.split("\t")
+        if len(parts) == 6:
+            fields[parts[1], parts[2], parts[3]] = int(parts[4]), int(parts[5])
+    return fields
+
+
+def write_scene(name: str, base: str, edits: str) -> None:
+    write_text(name, edit(read_text(HERE / base), edits).text)
+
+
+def billet(scene: str, folder: str, *options: str, ranks: int = 1) -> None:
+    ended = run(*program.on(ranks, *options, "--output", folder, scene))
+    require(ended.code == 0, f"exit code {ended.code}\n{ended.output}{ended.errors}")
+
+
+def require_body(fields: Fields, body: str, n_nodes: int, n_elements: int) -> None:
+    """Checks what the block of a body must have."""
+    block = f"Bodies/{body}"
+    for tensor in TENSORS:
+        equal(tensor, fields[block, "cell", tensor], (6, n_elements))
+    for number in NUMBERS:
+        equal(number, fields[block, "cell", number], (1, n_elements))
+    equal("displacement", fields[block, "point", "displacement"], (3, n_nodes))
+    equal("coordinates", fields[block, "point", "undeformed_coordinates"], (3, n_nodes))
+    equal("boundary ids", fields[f"Boundaries/{body}", "cell", "boundary_id"][0], 1)
+
+
+@check("static results with a tool, averaged")
+def _() -> None:
+    write_scene("static.prm", "block.prm", "Output: + set Nodal averages = true")
+    billet("static.prm", "static")
+    fields = contents("static/scene.pvd")
+    require_body(fields, "block", 18, 4)
+    equal("averaged stress", fields["Bodies/block", "point", "averaged_stress"], (6, 18))
+    equal("pairs", fields["Contact surfaces/top on die", "cell", "pair"], (1, 2))
+    require(("Tools/die", "cell", "tool") in fields, "no tool")
+
+
+@check("two ranks give the same blocks")
+def _() -> None:
+    write_scene("ranks.prm", "block.prm", "")
+    billet("ranks.prm", "ranks", ranks=2)
+    billet("ranks.prm", "alone")
+    equal("fields", contents("ranks/scene.pvd"), contents("alone/scene.pvd"))
+
+
+@check("HDF5 gives the same fields")
+def _() -> None:
+    write_scene("hdf5.prm", "block.prm", "Output: + set Format = hdf5")
+    billet("hdf5.prm", "hdf5")
+    of_hdf5 = contents("hdf5/fields.xdmf")
+    bodies = {(kind, name): size for (block, kind, name), size in of_hdf5.items() if "block" in block}
+    for kind, name, size in (("cell", "stress", 4), ("point", "displacement", 18)):
+        equal(name, bodies[kind, name][1], size)
+
+
+@check("explicit results of two bodies")
+def _() -> None:
+    write_scene("impact.prm", "impact.prm", "")
+    billet("impact.prm", "impact")
+    fields = contents("impact/scene.pvd")
+    require_body(fields, "slab", 18, 4)
+    require(("Bodies/block", "point", "velocity") in fields, "no velocity")
+    require(("Tools/hammer", "cell", "tool") in fields, "no tool")
+
+
+@check("a preview has what the run will begin with")
+def _() -> None:
+    write_scene("seen.prm", "block.prm", "")
+    ended = run(*program.on(1, "--preview", "--output", "seen", "seen.prm"))
+    equal("exit code", ended.code, 0)
+    blocks = {block for block, _kind, _name in contents("seen/preview/scene.pvd")}
+    for block in ("Bodies/block", "Tools/die"):
+        require(block in blocks, f"no {block} in {blocks}")
+
+
+@check("a picture is drawn")
+def _() -> None:
+    pvbatch("static/show_in_paraview.py", "static.png", display=True)
+    colours = int(pvbatch(str(HERE / "contents_in_paraview.py"), "static.png").split("\t")[-1])
+    require(colours > 50, f"{colours} colours")
+
+
+sys.exit(check.finish())
