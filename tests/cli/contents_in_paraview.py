@@ -2,8 +2,8 @@
 """Usage: pvbatch contents_in_paraview.py FILE...
 
 Opens results by ParaView's readers, at their last time, and prints a line for each array: the file, the path of
-names of its block, point or cell, its name, and its numbers of components and of tuples. Of a picture it prints
-the number of colours.
+names of its block, point or cell, its name, and its numbers of components and of tuples. Of a picture it
+prints the number of colours.
 """
 
 from __future__ import annotations
