@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: pvbatch contents_in_paraview.py FILE...
 
-Opens results by ParaView's readers, at their last time, and prints a line for each array: the file, the path of
-names of its block, point or cell, its name, and its numbers of components and of tuples. Of a picture it
-prints the number of colours.
+Opens results by ParaView's readers, at their last time, and prints a line for each array: the file,
+the path of names of its block, point or cell, its name, and its numbers of components and of
+tuples. Of a picture it prints the number of colours.
 """
 
 from __future__ import annotations

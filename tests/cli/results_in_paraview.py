@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: results_in_paraview.py BILLET LAUNCHER...
 
-Runs in an empty current folder; LAUNCHER and a number start BILLET on so many ranks. ParaView opens every kind of
-result without a display: blocks by the names of the scene, fields at nodes and in elements, tensors, and a
-picture.
+Runs in an empty current folder; LAUNCHER and a number start BILLET on so many ranks. ParaView opens
+every kind of result without a display: blocks by the names of the scene, fields at nodes and in
+elements, tensors, and a picture.
 """
 
 from __future__ import annotations
