@@ -176,8 +176,10 @@ Loss lose(const double force, const double length) {
   SceneRun run(parameters);
   ImplicitProblem &problem = run.problem.equation();
   RigidBodyModes modes(problem);
+  RigidBodySupport::Result held;
+  held.is_free = {false};
   for (unsigned int step = 0; step < 4; ++step) // until stabilising forces have faded
-    problem.stabilisation().commit(problem.step(), {false}, 0.);
+    problem.stabilisation().commit(problem.step(), held, 0.);
   testing::MemoryState state;
   testing::MemoryWriter writer(state);
   writer.write("forces on bodies", {force});
