@@ -59,7 +59,7 @@ bool is_inside(const ElementVectors &corners, const Tensor<1, 3> &x, const doubl
 BoundingBox box_around(const ElementVectors &corners) {
   BoundingBox box = BoundingBox::empty();
   for (unsigned int v = 0; v < n_element_nodes; ++v)
-    box.add(get_vector(corners.data(), v));
+    box.add(Tensor<1, 3>({corners[3 * v], corners[3 * v + 1], corners[3 * v + 2]}));
   return box;
 }
 

@@ -26,9 +26,9 @@ from checks import (
     says,
     write_text,
 )
+from membrane import Membrane
 
 MAX_LINES = 60
-from membrane import Membrane
 
 program = sys.argv[1]
 check = Checks()
