@@ -187,9 +187,6 @@ int main(int argc, char **argv) {
     push(support, x, Friction::none);
     check("a wall resists what goes into it", unresisted(support, x).norm() == 0.);
     check("and not what goes away", (unresisted(support, -x) + x).norm(), 0.02);
-    RigidBodySupport sticking = one_cube();
-    push(sticking, -z, Friction::sticks);
-    check("friction resists what goes along", unresisted(sticking, x).norm() == 0.);
   }
   {
     // Pressed between planes, with friction spent along x, but for what the squeeze adds away from the
