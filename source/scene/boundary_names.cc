@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace billet {
 
@@ -102,44 +103,68 @@ BoundaryNames read_boundary_names(parameters::Mesh &mesh) {
   return names;
 }
 
-/// Returns all boundary ids that the body's faces can have, except those of which all faces are on its
-/// symmetry planes. Faces of the full mesh descend from those of its outline, and may get ids by conditions.
-std::vector<unsigned int> exterior_ids(const parameters::Body &body) {
-  parameters::Body before_conditions = body;
-  for (auto &renamed : before_conditions.mesh.boundary_ids.value)
-    renamed.second = "0";
-  dealii::Triangulation<3> outline;
-  build_body_mesh(before_conditions, MeshDetail::outline, outline);
-  const double size = dealii::GridTools::diameter(outline);
+/// Returns the ids of the boundary faces that are not on one of these planes.
+std::vector<unsigned int> ids_beside(const std::vector<parameters::SymmetryPlane> &planes,
+                                     const dealii::Triangulation<3> &mesh) {
+  constexpr double rounding = 1e-8;
+  const auto corners = dealii::GridTools::compute_bounding_box(mesh).get_boundary_points();
+  const double tolerance = rounding * corners.first.distance(corners.second);
   std::vector<unsigned int> ids;
-  for (const auto &face : outline.active_face_iterators()) {
+  for (const auto &face : mesh.active_face_iterators()) {
     if (!face->at_boundary())
       continue;
-    const auto &planes = body.symmetry_planes.value;
     const bool is_on_plane =
         std::any_of(planes.begin(), planes.end(), [&](const parameters::SymmetryPlane &plane) {
-          constexpr double rounding = 1e-8;
           const auto vertices = face->vertex_indices();
           return std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
-            return std::abs(face->vertex(v) * plane.normal - plane.offset) <= rounding * size;
+            return std::abs(face->vertex(v) * plane.normal - plane.offset) <= tolerance;
           });
         });
     if (!is_on_plane)
       add_once(ids, face->boundary_id());
   }
-  for (const auto &renamed : body.mesh.boundary_ids.value)
-    add_once(ids, renamed.first);
+  return ids;
+}
+
+/// Returns all boundary ids that the body's faces can have, except those of which all faces are on its
+/// symmetry planes. Which faces a condition selects shows on the full mesh alone, so that this is made where
+/// they may be on a plane. Otherwise faces descend from those of the outline, and may get ids by conditions.
+std::vector<unsigned int> find_exterior_ids(const parameters::Body &body) {
+  const auto &planes = body.symmetry_planes.value;
+  const auto &conditions = body.mesh.boundary_ids.value;
+  dealii::Triangulation<3> mesh;
+  std::vector<unsigned int> ids;
+  if (!planes.empty() && !conditions.empty()) {
+    build_body_mesh(body, MeshDetail::full, mesh);
+    ids = ids_beside(planes, mesh);
+  } else {
+    parameters::Body before_conditions = body;
+    for (auto &renamed : before_conditions.mesh.boundary_ids.value)
+      renamed.second = "0"; // not cleared: its names have the same order
+    build_body_mesh(before_conditions, MeshDetail::outline, mesh);
+    ids = ids_beside(planes, mesh);
+    for (const auto &renamed : conditions)
+      add_once(ids, renamed.first);
+  }
   std::sort(ids.begin(), ids.end());
   return ids;
 }
 
-/// Chooses the ids of all exterior faces where the scene asks for these, otherwise those of names.
-void resolve_of_pair(BoundaryIds &boundaries, const BoundaryNames &known, const parameters::Body &body) {
-  if (boundaries.are_all)
-    boundaries.value = exterior_ids(body);
-  else
-    resolve(boundaries, known, body.name);
-}
+/// Ids of the exterior faces of bodies, each found once.
+class ExteriorIds {
+public:
+  explicit ExteriorIds(const std::vector<parameters::Body> &bodies) : bodies_(bodies), ids_(bodies.size()) {}
+
+  const std::vector<unsigned int> &of(const std::size_t body) {
+    if (!ids_[body])
+      ids_[body] = find_exterior_ids(bodies_[body]);
+    return *ids_[body];
+  }
+
+private:
+  const std::vector<parameters::Body> &bodies_;
+  std::vector<std::optional<std::vector<unsigned int>>> ids_;
+};
 
 } // namespace
 
@@ -160,13 +185,17 @@ parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<Bounda
     for (auto &load : body.loads)
       resolve(load.boundary_ids, names.back(), body.name);
   }
+  ExteriorIds exterior(scene.bodies);
+  const auto resolve_of_pair = [&](BoundaryIds &boundaries, const std::size_t body) {
+    if (boundaries.are_all)
+      boundaries.value = exterior.of(body);
+    else
+      resolve(boundaries, names[body], scene.bodies[body].name);
+  };
   for (auto &pair : scene.pairs) {
-    const std::size_t body = scene.body_index(pair);
-    resolve_of_pair(pair.boundary_ids, names[body], scene.bodies[body]);
-    if (!pair.is_between_bodies())
-      continue;
-    const std::size_t second = scene.second_body_index(pair);
-    resolve_of_pair(pair.second_boundary_ids, names[second], scene.bodies[second]);
+    resolve_of_pair(pair.boundary_ids, scene.body_index(pair));
+    if (pair.is_between_bodies())
+      resolve_of_pair(pair.second_boundary_ids, scene.second_body_index(pair));
   }
   for (auto &probe : scene.probes) {
     const std::size_t body = scene.body_index(probe);

@@ -6,7 +6,8 @@ Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
 
 'Contact = all' has the history of the same pairs written by hand, in statics and in explicit dynamics, on
 one rank and on two. Pairs of the scene replace those of the same two, 'General contact' gives values and
-excludes, and pairs that never touch cost little. Tables from files have the history of tables in the scene.
+excludes. Faces on symmetry planes do not touch, and pairs that never touch add little to the matrix. Tables
+from files have the history of tables in the scene.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from checks import (
     near,
     read_text,
     require,
+    says,
     write_text,
 )
 
@@ -193,6 +195,41 @@ def _() -> None:
     left = EXPLICIT.replace(pair("slab on hammer", "Body = slab", ALL, "Tool = hammer", SOFT), "")
     require(left != EXPLICIT, "nothing is left out")
     same_history(billet(IMPACT, NO_PAIRS + general(SOFT, "Exclusions = slab : hammer")), billet(IMPACT, left))
+
+
+# --- symmetry planes ------------------------------------------------------------------------------
+
+
+def nodes_under_die(mesh: str) -> str:
+    """Returns how many nodes of the block --check finds in the pair with the die."""
+    ran = runner.run(BLOCK, NO_PAIRS + mesh + general(*VALUES), options=["--check"])
+    require(ran.ended.code == 0, f"exit code {ran.ended.code}\n{ran.said}{ran.complained}")
+    return says(r"^Gap +block on die: .* over \d+ of (\d+) nodes", ran.said)[1]
+
+
+def ids(condition: str) -> str:
+    """Returns the edit that gives faces of the block the id 9, too."""
+    return f"Mesh: Boundary ids = 7 : abs(z - 2) < 1e-6 ; 9 : {condition} & "
+
+
+@check("faces on a symmetry plane do not touch, whatever their id")
+def _() -> None:
+    # 18 nodes, of which 2 are on no other faces than those of the planes
+    equal("the nodes", nodes_under_die(""), 16)
+    equal("the nodes with an id for one plane", nodes_under_die(ids("abs(x) < 1e-6")), 16)
+    equal("the nodes with an id for both planes", nodes_under_die(ids("abs(x*y) < 1e-6")), 16)
+
+
+@check("nor do faces on a plane that only the refined mesh has")
+def _() -> None:
+    fine = "Mesh: + set Refinements = 1 & "
+    part = ids("abs(x) < 1e-6 && z < 0.5")
+    equal("the nodes", nodes_under_die(fine + part), nodes_under_die(fine))
+
+
+@check("faces on a plane touch if others beside it have their id")
+def _() -> None:
+    equal("the nodes", nodes_under_die(ids("abs(x*(x - 2)) < 1e-6")), 17)
 
 
 # --- cost -----------------------------------------------------------------------------------------
