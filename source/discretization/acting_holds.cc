@@ -51,6 +51,16 @@ std::set<double> ActingHolds::take(const HoldFilter &acts) {
   return times;
 }
 
+void ActingHolds::change_to(const HoldFilter &acts) {
+  for (const double fade_time : fade_times(acts))
+    release(acts, fade_time);
+  take(acts);
+}
+
+std::set<double> ActingHolds::late_beginnings() const {
+  return billet::late_beginnings(scene_, [this](const Hold &hold) { return (*this)(hold); });
+}
+
 std::set<double> late_beginnings(const Scene &scene, const HoldFilter &acts) {
   std::set<double> times;
   for (const Body &body : scene.bodies())

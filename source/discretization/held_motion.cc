@@ -66,9 +66,7 @@ void HeldMotion::rebuild() {
 
 void HeldMotion::release(const double t, const double fade_time, NodalVectors &forces) {
   acting_.release(holding_at(t), fade_time);
-  const std::set<double> left = late_beginnings(scene_, [this](const Hold &hold) { return acting_(hold); });
-  for (auto start = starts_.begin(); start != starts_.end();)
-    start = left.count(start->first) > 0 ? std::next(start) : starts_.erase(start);
+  acting_.forget_ended(starts_);
   rebuild();
   for (const Node &node : nodes_)
     for (const Direction &direction : node.directions)
@@ -84,10 +82,7 @@ void HeldMotion::take(const double t, const NodalVectors &displacements) {
 
 void HeldMotion::resume(const double t, std::map<double, NodalVectors> starts) {
   starts_ = std::move(starts);
-  const HoldFilter acts = holding_at(t);
-  for (const double fade_time : acting_.fade_times(acts))
-    acting_.release(acts, fade_time);
-  acting_.take(acts);
+  acting_.change_to(holding_at(t));
   rebuild();
 }
 

@@ -97,9 +97,7 @@ void Supports::rebuild() {
 
 void Supports::release(const double t, const double fade_time) {
   acting_.release(holding_after(t), fade_time);
-  const std::set<double> left = late_beginnings(scene_, [this](const Hold &hold) { return acting_(hold); });
-  for (auto start = starts_.begin(); start != starts_.end();)
-    start = left.count(start->first) > 0 ? std::next(start) : starts_.erase(start);
+  acting_.forget_ended(starts_);
   rebuild();
 }
 
@@ -111,10 +109,7 @@ void Supports::take(const double t, const Vector &displacements) {
 
 void Supports::resume(const double t, std::map<double, Vector> starts) {
   starts_ = std::move(starts);
-  const HoldFilter acts = holding_after(t);
-  for (const double fade_time : acting_.fade_times(acts))
-    acting_.release(acts, fade_time);
-  acting_.take(acts);
+  acting_.change_to(holding_after(t));
   rebuild();
 }
 

@@ -5,6 +5,8 @@
 #include "billet/scene/scene.h"
 
 #include <functional>
+#include <iterator>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -42,8 +44,17 @@ public:
   void release(const HoldFilter &acts, double fade_time);
   /// Adds those that `acts` chooses. Returns the times later than 0 at which those begin that did not act.
   std::set<double> take(const HoldFilter &acts);
+  /// Makes those act that `acts` chooses, as by release() and take().
+  void change_to(const HoldFilter &acts);
+  /// Forgets the states of times at which none of those began that act.
+  template <class State> void forget_ended(std::map<double, State> &starts) const {
+    const std::set<double> left = late_beginnings();
+    for (auto start = starts.begin(); start != starts.end();)
+      start = left.count(start->first) > 0 ? std::next(start) : starts.erase(start);
+  }
 
 private:
+  std::set<double> late_beginnings() const;
   template <class Visit> void visit(const Visit &visit) const {
     for (const Body &body : scene_.bodies())
       for (const Hold &hold : body.holds)
