@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/triangle_mesh.h"
+#include "billet/printable.h"
 
 #include <cmath>
 #include <cstdint>
@@ -118,21 +119,12 @@ private:
     return result;
   }
   [[noreturn]] void fail(const std::string &expected) const {
-    throw std::invalid_argument("line " + std::to_string(line_) + " of it has " +
-                                (word_.empty() ? "the end of the file" : "'" + printable(word_) + "'") +
-                                " where " + expected + " should be");
-  }
-  /// Returns a word without what a terminal would take for a command, and not longer than a message should
-  /// be.
-  static std::string printable(std::string word) {
     constexpr std::size_t max_length = 40;
-    if (word.size() > max_length)
-      word = word.substr(0, max_length) + "...";
-    for (char &c : word)
-      c = c >= ' ' && c <= '~' ? c : '?';
-    return word;
+    throw std::invalid_argument(
+        "line " + std::to_string(line_) + " of it has " +
+        (word_.empty() ? "the end of the file" : "'" + printable(word_, max_length) + "'") + " where " +
+        expected + " should be");
   }
-
   const char *next_, *end_;
   unsigned int line_ = 1;
   std::string word_;

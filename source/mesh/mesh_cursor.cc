@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mesh/mesh_cursor.h"
 
+#include "billet/printable.h"
+
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -13,13 +15,9 @@ bool is_space(const char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
 
-/// Returns what a file has for a message: short, and without what a terminal would take for a command.
 std::string quoted(const std::string_view text) {
   constexpr std::size_t max_length = 40;
-  std::string result = "'";
-  for (const char c : text.substr(0, max_length))
-    result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > max_length ? "...'" : "'");
+  return "'" + printable(text, max_length) + "'";
 }
 
 } // namespace

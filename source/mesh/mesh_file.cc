@@ -2,6 +2,7 @@
 #include "billet/mesh/mesh_file.h"
 
 #include "billet/mesh/plane_mesh.h"
+#include "billet/printable.h"
 
 #include <filesystem>
 #include <fstream>
@@ -52,15 +53,8 @@ MeshFile parse(const std::string &bytes, const FileAccess &access) {
                               "; Gmsh converts many others: 'gmsh -save -format msh41 -o part.msh part.unv'");
 }
 
-/// Returns a text without what a terminal would take for a command, and not longer than a message should be.
-std::string printable(std::string text) {
-  constexpr std::size_t max_length = 1000;
-  if (text.size() > max_length)
-    text = text.substr(0, max_length) + "...";
-  for (char &c : text)
-    c = c >= ' ' && c <= '~' ? c : '?';
-  return text;
-}
+/// Length of the longest message [characters].
+constexpr std::size_t max_message = 1000;
 
 } // namespace
 
@@ -75,7 +69,7 @@ MeshFile parse_mesh(const std::string &bytes, const FileAccess &access) {
           "two-dimensional mesh");
     return mesh;
   } catch (const std::invalid_argument &error) {
-    throw std::invalid_argument(printable(error.what()));
+    throw std::invalid_argument(printable(error.what(), max_message));
   }
 }
 
@@ -85,7 +79,7 @@ MeshFile parse_plane_mesh(const std::string &bytes, const FileAccess &access) {
     extrude_plane(mesh);
     return mesh;
   } catch (const std::invalid_argument &error) {
-    throw std::invalid_argument(printable(error.what()));
+    throw std::invalid_argument(printable(error.what(), max_message));
   }
 }
 
