@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/corner_normals.h"
 
+#include "billet/disjoint_sets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,21 +15,6 @@ namespace {
 
 constexpr double flat_angle = 2e-4; // maximum angle between the normals of a flat region [radians]
 constexpr double min_height = 3e-7; // minimum height of a facet with an area, over the size of the mesh
-
-/// Disjoint sets that can be merged.
-class UnionFind {
-public:
-  explicit UnionFind(const std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  unsigned int root(unsigned int i) {
-    for (; parent_[i] != i; i = parent_[i])
-      parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(const unsigned int a, const unsigned int b) { parent_[root(a)] = root(b); }
-
-private:
-  std::vector<unsigned int> parent_;
-};
 
 /// Connected facets in one plane.
 struct FlatRegion {
@@ -137,14 +124,14 @@ FacetNormals::FacetNormals(const TriangleMesh &mesh, const TriangleEdges &edges)
 CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edges, const FacetNormals &facets,
                              const double sharp_angle) {
   const auto n_facets = static_cast<unsigned int>(mesh.facets.size());
-  UnionFind groups(3 * static_cast<std::size_t>(n_facets));
+  DisjointSets groups(3 * static_cast<std::size_t>(n_facets));
   for (const auto &edge : edges.edges) {
     if (facets.is_sharp(edge, sharp_angle))
       continue;
     const auto [a, b] = edge.facets;
     const auto [i, j] = edge.corners; // the second facet traverses the edge in the opposite direction
-    groups.unite(3 * a + i, 3 * b + (j + 1) % 3);
-    groups.unite(3 * a + (i + 1) % 3, 3 * b + j);
+    groups.join(3 * a + i, 3 * b + (j + 1) % 3);
+    groups.join(3 * a + (i + 1) % 3, 3 * b + j);
   }
 
   const std::vector<FlatRegion> regions = flat_regions(mesh, edges, facets);
@@ -152,7 +139,7 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
                                  std::numeric_limits<double>::infinity());
   for (unsigned int f = 0; f < n_facets; ++f)
     for (unsigned int i = 0; i < 3 && facets.areas[f] > 0.; ++i) {
-      double &minimum = min_radius[groups.root(3 * f + i)];
+      double &minimum = min_radius[groups.find(3 * f + i)];
       minimum = std::min(minimum, regions[f].radius);
     }
 
@@ -162,7 +149,7 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
       const auto &point = mesh.points[mesh.facets[f][i]];
       const double sides = (mesh.points[mesh.facets[f][(i + 1) % 3]] - point).norm_square() *
                            (mesh.points[mesh.facets[f][(i + 2) % 3]] - point).norm_square();
-      const unsigned int group = groups.root(3 * f + i);
+      const unsigned int group = groups.find(3 * f + i);
       const double ratio = regions[f].is_single ? 1. : regions[f].radius / (1.4 * min_radius[group]);
       sums[group] += facets.areas[f] / sides * std::max(1., std::pow(ratio, 8)) * facets.normals[f];
     }
@@ -170,7 +157,7 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
   CornerNormals normals(n_facets);
   for (unsigned int f = 0; f < n_facets; ++f)
     for (unsigned int i = 0; i < 3; ++i) {
-      const Tensor<1, 3> &sum = sums[groups.root(3 * f + i)];
+      const Tensor<1, 3> &sum = sums[groups.find(3 * f + i)];
       normals[f][i] = sum.norm() > 0. ? sum / sum.norm() : facets.normals[f];
     }
   return normals;

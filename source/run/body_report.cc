@@ -2,13 +2,12 @@
 #include "billet/run/body_report.h"
 
 #include "billet/discretization/boundary_facets.h"
-#include "billet/geometry/facet_projection.h"
+#include "billet/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <unordered_map>
 
@@ -18,34 +17,6 @@ using dealii::Tensor;
 namespace mpi = dealii::Utilities::MPI;
 
 namespace {
-
-/// Disjoint sets of numbers from 0.
-class DisjointSets {
-public:
-  explicit DisjointSets(const std::size_t n = 0) : parents_(n) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-  }
-  std::size_t add() {
-    parents_.push_back(parents_.size());
-    return parents_.size() - 1;
-  }
-  std::size_t find(std::size_t i) {
-    while (parents_[i] != i)
-      i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void join(const std::size_t a, const std::size_t b) { parents_[find(a)] = find(b); }
-  std::size_t size() const { return parents_.size(); }
-  std::size_t count() const {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < parents_.size(); ++i)
-      n += parents_[i] == i ? 1 : 0;
-    return n;
-  }
-
-private:
-  std::vector<std::size_t> parents_;
-};
 
 /// Returns this rank's separate sets of elements as a message: their number, then pairs of a node that other
 /// ranks may have, by its first dof, and the set it is in.
@@ -162,27 +133,6 @@ void measure_elements(const Discretization &discretization, const std::size_t bo
   report.least_quality = worst[0];
 }
 
-/// Area of a bilinear facet, its first moment and its area vector, by 2 x 2 Gauss points.
-struct FacetIntegrals {
-  double area = 0.;
-  Tensor<1, 3> moment, vector;
-};
-
-FacetIntegrals integrate(const BoundaryFacet &facet) {
-  const facet::Expansion x(
-      FacetCorners{{facet.corners[0], facet.corners[1], facet.corners[2], facet.corners[3]}});
-  const double gauss = 1. / std::sqrt(3.);
-  FacetIntegrals integrals;
-  for (const auto &sign : facet::signs) {
-    const double xi = gauss * sign[0], eta = gauss * sign[1];
-    const Tensor<1, 3> normal = dealii::cross_product_3d(x.e_1 + eta * x.e_3, x.e_2 + xi * x.e_3);
-    integrals.area += normal.norm();
-    integrals.moment += normal.norm() * (x.e_0 + xi * x.e_1 + eta * x.e_2 + xi * eta * x.e_3);
-    integrals.vector += normal;
-  }
-  return integrals;
-}
-
 /// Returns the ids of the exterior faces of a body, over all ranks.
 std::vector<unsigned int> find_boundary_ids(const Discretization &discretization, const std::size_t body) {
   std::set<unsigned int> ids;
@@ -200,13 +150,16 @@ BoundaryReport measure_boundary(const Discretization &discretization, const std:
                                 const unsigned int id) {
   std::vector<double> sums(8, 0.); // faces, area, moment, vector
   for (const BoundaryFacet &facet : collect_boundary_facets(discretization, body, {id})) {
-    const FacetIntegrals integrals = integrate(facet);
+    const std::array<double, 4> areas = facet.corner_areas();
+    const Tensor<1, 3> vector = facet.area_vector();
     sums[0] += 1.;
-    sums[1] += integrals.area;
-    for (unsigned int i = 0; i < 3; ++i) {
-      sums[2 + i] += integrals.moment[i];
-      sums[5 + i] += integrals.vector[i];
+    for (unsigned int a = 0; a < 4; ++a) {
+      sums[1] += areas[a];
+      for (unsigned int i = 0; i < 3; ++i)
+        sums[2 + i] += areas[a] * facet.corners[a][i];
     }
+    for (unsigned int i = 0; i < 3; ++i)
+      sums[5 + i] += vector[i];
   }
   mpi::sum(sums, discretization.communicator(), sums);
   BoundaryReport report;
