@@ -151,15 +151,14 @@ ExternalLoads::measure_surface(const std::vector<BoundaryFacet> &facets) const {
   std::vector<double> sums(4, 0.); // area, ∫x dA
   // About the middle of the scene, so that a face far from the origin keeps its digits.
   const Tensor<1, 3> &middle = nodes_.discretization().centre();
-  for (const BoundaryFacet &facet : facets)
-    for (const auto &point : facet_points()) {
-      const auto corner = [&](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); };
-      const double area = point.area_vector(corner).norm();
-      sums[0] += area;
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-          sums[1 + i] += area * point.N[a] * (corner(a) - middle)[i];
+  for (const BoundaryFacet &facet : facets) {
+    const std::array<double, 4> areas = facet.corner_areas();
+    for (unsigned int a = 0; a < 4; ++a) {
+      sums[0] += areas[a];
+      for (unsigned int i = 0; i < 3; ++i)
+        sums[1 + i] += areas[a] * (facet.corners[a][i] - middle[i]);
     }
+  }
   dealii::Utilities::MPI::sum(sums, nodes_.discretization().communicator(), sums);
   auto surface = std::make_unique<LoadedSurface>();
   surface->area = sums[0];
@@ -280,9 +279,9 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
       const LoadValues values = evaluate(*placed.load, t, placed.sites);
       for (std::size_t f = 0; f < placed.sites.size(); ++f) {
         const LoadedFace &face = placed.sites[f];
-        const auto shares = find_shares(face, at, placed.surface->motion.centre);
         for (unsigned int a = 0; a < 4; ++a)
-          add_vector(sum, face.nodes[a], placed.action->force(shares[a], values.at(f), *placed.surface));
+          add_vector(sum, face.nodes[a],
+                     placed.action->force(placed.surface->shares[f][a], values.at(f), *placed.surface));
       }
     });
   for (const auto &placed : on_points_)
@@ -343,7 +342,6 @@ void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
     const LoadValues values = evaluate(*load, t, faces);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const LoadedFace &face = faces[f];
-      const auto shares = find_shares(face, at, surface->motion.centre);
       const auto corner = [&](const unsigned int a) { return get_vector(at.positions, face.nodes[a]); };
       const Tensor<2, 3> local = action->local_tangent(values.at(f), *surface);
       of_face = 0.;
@@ -356,7 +354,7 @@ void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
       for (unsigned int a = 0; a < 4; ++a) {
         const std::array<DofIndex, 3> &dofs = nodes_.dofs(face.nodes[a]);
         std::copy_n(dofs.begin(), 3, face_dofs.begin() + 3 * a);
-        coupling.add(dofs, action->coupling(shares[a], values.at(f), *surface));
+        coupling.add(dofs, action->coupling(surface->shares[f][a], values.at(f), *surface));
       }
       target.add(of_face, face_dofs);
     }
@@ -365,14 +363,12 @@ void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
 }
 
 void ExternalLoads::add_bounds(NodalVectors &bounds) const {
-  const NodalVectors at_rest = nodes_.make_vectors();
   for (const auto &placed : on_surfaces_) {
     const double stiffness = placed.action->stiffness(*placed.surface);
-    for (const LoadedFace &face : placed.sites) {
-      const auto shares = find_shares(face, motion(at_rest, at_rest), placed.surface->centre);
+    for (std::size_t f = 0; f < placed.sites.size(); ++f)
       for (unsigned int a = 0; a < 4; ++a)
-        add_vector(bounds.data(), face.nodes[a], Tensor<1, 3>({stiffness * shares[a].area, 0., 0.}));
-    }
+        add_vector(bounds.data(), placed.sites[f].nodes[a],
+                   Tensor<1, 3>({stiffness * placed.surface->shares[f][a].area, 0., 0.}));
   }
   for (const auto &placed : on_nodes_) {
     if (!placed.load->load.limits_steps())

@@ -25,6 +25,24 @@ Vector condensed(const Discretization &discretization, const Constraints &constr
   return owned;
 }
 
+/// Returns the items of all ranks, in the order of these.
+template <class Item>
+std::vector<Item> gather_all(const MPI_Comm communicator, const std::vector<Item> &own) {
+  std::vector<Item> all;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
+}
+
+/// Calls visit(load, facets) for each load on a surface.
+template <class Visit>
+void for_each_surface(const Scene &scene, const Discretization &discretization, const Visit &visit) {
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    for (const AppliedLoad &load : scene.bodies()[body].loads)
+      if (load.load.acts_on_surface())
+        visit(load, collect_boundary_facets(discretization, body, load.boundary_ids));
+}
+
 /// Returns the dofs of a surface's nodes and of those on which they depend, of all ranks, in their order.
 std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, const Constraints &constraints,
                                         const std::vector<BoundaryFacet> &facets) {
@@ -47,9 +65,7 @@ std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, co
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes[i] != 0. || masters[i] != 0.)
       own.push_back(owned.nth_index_in_set(i));
-  std::vector<DofIndex> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(discretization.communicator(), own))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  std::vector<DofIndex> all = gather_all(discretization.communicator(), own);
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -58,38 +74,32 @@ std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, co
 
 void check_surface_couplings(const Scene &scene, const Discretization &discretization) {
   constexpr std::size_t max_nodes = 2000; // 36 million entries
-  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
-    for (const AppliedLoad &load : scene.bodies()[body].loads) {
-      if (!load.load.acts_on_surface())
-        continue;
-      std::set<DofIndex> own;
-      for (const BoundaryFacet &facet : collect_boundary_facets(discretization, body, load.boundary_ids))
-        for (const auto &dofs : facet.dofs)
-          own.insert(dofs[0]);
-      std::set<DofIndex> all;
-      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
-               discretization.communicator(), std::vector<DofIndex>(own.begin(), own.end())))
-        all.insert(of_rank.begin(), of_rank.end());
-      if (all.size() > max_nodes)
-        throw InputError(load.origin + ": the " + load.type + " acts on " + std::to_string(all.size()) +
-                         " nodes, each of which depends on all others in the tangent; allowed are " +
-                         std::to_string(max_nodes) +
-                         ". Let it act on a part of the faces, or on faces of larger elements");
-    }
+  for_each_surface(
+      scene, discretization, [&](const AppliedLoad &load, const std::vector<BoundaryFacet> &facets) {
+        std::set<DofIndex> own;
+        for (const BoundaryFacet &facet : facets)
+          for (const auto &dofs : facet.dofs)
+            own.insert(dofs[0]);
+        const auto gathered =
+            gather_all(discretization.communicator(), std::vector<DofIndex>(own.begin(), own.end()));
+        const std::size_t n = std::set<DofIndex>(gathered.begin(), gathered.end()).size();
+        if (n > max_nodes)
+          throw InputError(load.origin + ": the " + load.type + " acts on " + std::to_string(n) +
+                           " nodes, each of which depends on all others in the tangent; allowed are " +
+                           std::to_string(max_nodes) +
+                           ". Let it act on a part of the faces, or on faces of larger elements");
+      });
 }
 
 void add_surface_couplings(const Scene &scene, const Discretization &discretization,
                            const Constraints &constraints, SparsityPattern &pattern) {
-  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
-    for (const AppliedLoad &load : scene.bodies()[body].loads) {
-      if (!load.load.acts_on_surface())
-        continue;
-      const auto dofs = find_coupled_dofs(discretization, constraints,
-                                          collect_boundary_facets(discretization, body, load.boundary_ids));
-      for (const DofIndex row : dofs)
-        if (discretization.owned_dofs().is_element(row))
-          pattern.add_entries(row, dofs.begin(), dofs.end(), true);
-    }
+  for_each_surface(scene, discretization,
+                   [&](const AppliedLoad & /*load*/, const std::vector<BoundaryFacet> &facets) {
+                     const auto dofs = find_coupled_dofs(discretization, constraints, facets);
+                     for (const DofIndex row : dofs)
+                       if (discretization.owned_dofs().is_element(row))
+                         pattern.add_entries(row, dofs.begin(), dofs.end(), true);
+                   });
 }
 
 SurfaceCoupling::SurfaceCoupling(const Discretization &discretization) : discretization_(discretization) {
@@ -136,12 +146,8 @@ void SurfaceCoupling::add_to(const TangentSystem &system) {
     for (unsigned int k = 0; k < n_factors; ++k)
       right.push_back(factors[n_factors + k][i]);
   }
-  std::vector<DofIndex> columns;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
-    columns.insert(columns.end(), of_rank.begin(), of_rank.end());
-  std::vector<double> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, right))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  const std::vector<DofIndex> columns = gather_all(communicator, own);
+  const std::vector<double> all = gather_all(communicator, right);
   std::vector<double> entries(columns.size());
   for (std::size_t r = 0; r < own.size(); ++r) {
     for (std::size_t c = 0; c < columns.size(); ++c) {

@@ -52,15 +52,14 @@ void set_motion(const std::vector<double> &products, SurfaceMotion &motion) {
   motion.turning = trace(P) * unit - P;
 }
 
-} // namespace
-
+/// Returns the shares of a face in its corners, about this centroid.
 std::array<SurfaceNode, 4> find_shares(const LoadedFace &face, const NodalMotion &motion,
-                                       const dealii::Tensor<1, 3> &centre) {
-  const std::array<dealii::Tensor<1, 3>, 4> positions = face.positions(motion);
+                                       const Tensor<1, 3> &centre) {
+  const std::array<Tensor<1, 3>, 4> positions = face.positions(motion);
   const auto corner = [&](const unsigned int a) { return get_vector(motion.positions, face.nodes[a]); };
   std::array<SurfaceNode, 4> shares;
   for (const auto &point : facet_points()) {
-    dealii::Tensor<1, 3> arm = -centre, undeformed_arm = -face.surface->centre;
+    Tensor<1, 3> arm = -centre, undeformed_arm = -face.surface->centre;
     for (unsigned int a = 0; a < 4; ++a) {
       arm += point.N[a] * positions[a];
       undeformed_arm += point.N[a] * corner(a);
@@ -75,6 +74,8 @@ std::array<SurfaceNode, 4> find_shares(const LoadedFace &face, const NodalMotion
   return shares;
 }
 
+} // namespace
+
 void measure_motion(const std::vector<LoadedFace> &faces, const NodalMotion &at, LoadedSurface &surface,
                     const std::function<void(std::vector<double> &)> &sum) {
   // Two sums, so that a surface far from where it began keeps its digits.
@@ -86,8 +87,9 @@ void measure_motion(const std::vector<LoadedFace> &faces, const NodalMotion &at,
   sum(first);
   surface.motion.centre = surface.centre + Tensor<1, 3>({first[0], first[1], first[2]}) / surface.area;
   std::vector<double> products(18, 0.); // ∫ r ⊗ r dA, ∫ r ⊗ (X − C) dA: Σ r_a ⊗ p_a, Σ r_a ⊗ q_a
+  surface.shares.clear();
   for (const LoadedFace &face : faces) {
-    const auto shares = find_shares(face, at, surface.motion.centre);
+    const auto &shares = surface.shares.emplace_back(find_shares(face, at, surface.motion.centre));
     const auto positions = face.positions(at);
     for (unsigned int a = 0; a < 4; ++a) {
       const Tensor<1, 3> r = positions[a] - surface.motion.centre;

@@ -187,19 +187,17 @@ struct Surface {
       face.surface = &whole;
     measure_motion(faces, motion(), whole, [](std::vector<double> &) {});
     std::vector<dealii::Tensor<1, 3>> sums(n_nodes);
-    for (const LoadedFace &face : faces) {
-      const auto shares = find_shares(face, motion(), whole.motion.centre);
+    for (std::size_t f = 0; f < faces.size(); ++f)
       for (unsigned int a = 0; a < 4; ++a)
-        sums[face.nodes[a]] += load.force(shares[a], values, whole);
-    }
+        sums[faces[f].nodes[a]] += load.force(whole.shares[f][a], values, whole);
     return sums;
   }
   Matrix tangent(const SurfaceLoad &load, const double *values) {
     forces(load, values);
     Matrix K(n_dofs, n_dofs);
     std::array<SurfaceLoad::Coupling, n_nodes> couplings{};
-    for (const LoadedFace &face : faces) {
-      const auto shares = find_shares(face, motion(), whole.motion.centre);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const LoadedFace &face = faces[f];
       const auto D = load.local_tangent(values, whole);
       const auto corner = [&](const unsigned int a) { return get_vector(positions.data(), face.nodes[a]); };
       for (const auto &point : facet_points())
@@ -208,7 +206,7 @@ struct Surface {
             K(3 * face.nodes[i / 3] + i % 3, 3 * face.nodes[j / 3] + j % 3) +=
                 point.area_vector(corner).norm() * point.N[i / 3] * point.N[j / 3] * D[i % 3][j % 3];
       for (unsigned int a = 0; a < 4; ++a) {
-        const auto part = load.coupling(shares[a], values, whole);
+        const auto part = load.coupling(whole.shares[f][a], values, whole);
         for (unsigned int k = 0; k < 2; ++k) {
           couplings[face.nodes[a]].left[k] += part.left[k];
           couplings[face.nodes[a]].right[k] += part.right[k];

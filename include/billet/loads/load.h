@@ -54,12 +54,20 @@ struct SurfaceMotion {
   dealii::Tensor<2, 3> turning;       ///< T: T δθ = Σ_b R q_b × δx_b, δR = [δθ]× R [length⁴]
 };
 
+/// Share of a face in a node of a surface, or sum of these shares.
+struct SurfaceNode {
+  double area = 0.;                    ///< A_a, the integral of N_a [length²]
+  dealii::Tensor<1, 3> arm;            ///< p_a, the integral of N_a (x − c) [length³]
+  dealii::Tensor<1, 3> undeformed_arm; ///< q_a, that of N_a (X − C) [length³]
+};
+
 /// All faces under one load, on all ranks.
 struct LoadedSurface {
   double area = 0.;            ///< undeformed [length²]
   dealii::Tensor<1, 3> centre; ///< undeformed centroid
   double stiffness = 0.;       ///< E/h of the body, h the mean size of the faces [force/length³]
-  SurfaceMotion motion;        ///< for loads on surfaces
+  SurfaceMotion motion;        ///< for loads on surfaces, as the next one
+  std::vector<std::array<SurfaceNode, 4>> shares; ///< of the faces on this rank in their corners
 };
 
 /// Face under a load.
@@ -156,18 +164,7 @@ public:
   }
 };
 
-/// Share of a face in a node of a surface, or sum of these shares.
-struct SurfaceNode {
-  double area = 0.;                    ///< A_a, the integral of N_a [length²]
-  dealii::Tensor<1, 3> arm;            ///< p_a, the integral of N_a (x − c) [length³]
-  dealii::Tensor<1, 3> undeformed_arm; ///< q_a, that of N_a (X − C) [length³]
-};
-
-/// Returns the shares of a face in its corners, about this centroid.
-std::array<SurfaceNode, 4> find_shares(const LoadedFace &face, const NodalMotion &motion,
-                                       const dealii::Tensor<1, 3> &centre);
-
-/// Measures the motion of a surface with these faces on this rank; `sum` adds numbers over all ranks.
+/// Measures motion and shares of a surface with these faces on this rank; `sum` adds numbers over all ranks.
 void measure_motion(const std::vector<LoadedFace> &faces, const NodalMotion &motion, LoadedSurface &surface,
                     const std::function<void(std::vector<double> &)> &sum);
 
