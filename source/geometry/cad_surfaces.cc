@@ -230,34 +230,51 @@ std::unique_ptr<const SurfacePatch> convert(const TopoDS_Face &face, const doubl
       {tensor(box.CornerMin()), tensor(box.CornerMax())}});
 }
 
+/// CAD file, of a surface in a scene or by itself.
+class CadSource {
+public:
+  explicit CadSource(const TypeInput &input) : name_(input.file("File")), input_(&input) {}
+  explicit CadSource(std::string name) : name_(std::move(name)) {}
+
+  const std::string &name() const { return name_; }
+  [[noreturn]] void reject(const std::string &allowed) const {
+    if (input_ != nullptr)
+      input_->reject("File", allowed);
+    throw InputError("'" + name_ + "': allowed is " + allowed);
+  }
+
+private:
+  std::string name_;
+  const TypeInput *input_ = nullptr;
+};
+
 /// Whether the file is an IGES file, by the suffix of its name.
-bool is_iges(const TypeInput &input) {
-  const std::string name = input.text("File");
+bool is_iges(const CadSource &source) {
+  const std::string &name = source.name();
   const auto dot = name.rfind('.');
   std::string suffix = dot == std::string::npos ? "" : name.substr(dot + 1);
   for (char &letter : suffix)
     letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   if (suffix != "step" && suffix != "stp" && suffix != "iges" && suffix != "igs")
-    input.reject("File", "a file named *.step, *.stp, *.iges or *.igs");
+    source.reject("a file named *.step, *.stp, *.iges or *.igs");
   return suffix[0] == 'i';
 }
 
 /// Reads a file. OpenCASCADE gives lengths in millimetres, whatever the file's unit.
-TopoDS_Shape read_shape(const TypeInput &input) {
-  const std::string name = input.file("File");
+TopoDS_Shape read_shape(const CadSource &source) {
   Message::DefaultMessenger()->RemovePrinters(
       STANDARD_TYPE(Message_Printer)); // otherwise they print on the console
   TopoDS_Shape shape;
   try {
     STEPControl_Reader step;
     IGESControl_Reader iges;
-    XSControl_Reader &reader = is_iges(input) ? static_cast<XSControl_Reader &>(iges) : step;
-    if (reader.ReadFile(name.c_str()) == IFSelect_RetDone && reader.TransferRoots() > 0)
+    XSControl_Reader &reader = is_iges(source) ? static_cast<XSControl_Reader &>(iges) : step;
+    if (reader.ReadFile(source.name().c_str()) == IFSelect_RetDone && reader.TransferRoots() > 0)
       shape = reader.OneShape();
   } catch (const Standard_Failure &) { // leaves the shape empty
   }
   if (shape.IsNull())
-    input.reject("File", is_iges(input) ? "an IGES file with a shape" : "a STEP file with a shape");
+    source.reject(is_iges(source) ? "an IGES file with a shape" : "a STEP file with a shape");
   return shape;
 }
 
@@ -305,16 +322,15 @@ double edge_accuracy(const TopoDS_Shape &shape) {
   return accuracy;
 }
 
-/// Reads the file, which defines a number of faces.
-SurfacePatches convert_file(const TypeInput &input, const std::size_t n_defined) {
+/// Reads the file of a surface, which defines a number of faces.
+SurfacePatches convert_file(const TypeInput &input, const CadSource &source, const std::size_t n_defined) {
   const double scale = input.positive("Scale");
   const auto translation = input.vector("Translation");
-  const TopoDS_Shape all = read_shape(input);
+  const TopoDS_Shape all = read_shape(source);
   if (const auto n_read = static_cast<std::size_t>(faces_of(all).Extent()); n_read < n_defined)
-    input.reject("File",
-                 "a file of which OpenCASCADE reads all " + std::to_string(n_defined) + " faces; it reads " +
-                     std::to_string(n_read) +
-                     ". The others may be damaged. Write it again, or in the other format, STEP or IGES");
+    source.reject("a file of which OpenCASCADE reads all " + std::to_string(n_defined) + " faces; it reads " +
+                  std::to_string(n_read) +
+                  ". The others may be damaged. Write it again, or in the other format, STEP or IGES");
   TopoDS_Shape shape = choose_faces(input, all);
   SurfacePatches patches;
   try {
@@ -322,7 +338,7 @@ SurfacePatches convert_file(const TypeInput &input, const std::size_t n_defined)
     placement.SetScale(gp_Pnt(), scale);
     placement.SetTranslationPart(gp_Vec(translation[0], translation[1], translation[2]));
     shape = BRepBuilderAPI_Transform(shape, placement, true).Shape();
-    if (is_iges(input)) { // in which each face has edges of its own
+    if (is_iges(source)) { // in which each face has edges of its own
       BRepBuilderAPI_Sewing sewing(sewing_tolerance * size_of(shape));
       sewing.Add(shape);
       sewing.Perform();
@@ -334,18 +350,17 @@ SurfacePatches convert_file(const TypeInput &input, const std::size_t n_defined)
     for (int i = 1; i <= faces.Extent(); ++i)
       patches.push_back(convert(TopoDS::Face(faces(i)), side_sign(input), accuracy));
   } catch (const Standard_Failure &error) {
-    input.reject("File",
-                 std::string("a file with sound faces; OpenCASCADE says: ") + error.GetMessageString());
+    source.reject(std::string("a file with sound faces; OpenCASCADE says: ") + error.GetMessageString());
   }
   return patches;
 }
 
 /// Refuses a file that is cut short or damaged as its text shows, and returns how many faces it defines.
-std::size_t check_text(const TypeInput &input, const std::string &text) {
-  const CadFileReport report = is_iges(input) ? check_iges_file(text) : check_step_file(text);
+std::size_t check_text(const CadSource &source, const std::string &text) {
+  const CadFileReport report = is_iges(source) ? check_iges_file(text) : check_step_file(text);
   if (!report.fault.empty())
-    input.reject("File", std::string("a sound ") + (is_iges(input) ? "IGES" : "STEP") + " file; " +
-                             report.fault + ". Write it again");
+    source.reject(std::string("a sound ") + (is_iges(source) ? "IGES" : "STEP") + " file; " + report.fault +
+                  ". Write it again");
   return report.n_faces;
 }
 
@@ -355,28 +370,30 @@ TrialLimits limits_for(const std::size_t n_bytes) {
   return {8 + 20 * static_cast<unsigned int>(n_megabytes), 2000 + 500 * n_megabytes};
 }
 
-/// Refuses a damaged file, and returns how many faces it defines.
-std::size_t check_file(const TypeInput &input) {
+/// Returns what `read` makes of a file that defines this number of faces. Refuses a damaged file before that.
+template <class Read> auto read_soundly(const CadSource &source, const Read &read) {
   std::ostringstream text;
-  text << std::ifstream(input.file("File"), std::ios::binary).rdbuf();
-  const std::size_t n_defined = check_text(input, text.str());
+  text << std::ifstream(source.name(), std::ios::binary).rdbuf();
+  const std::size_t n_defined = check_text(source, text.str());
   const TrialLimits limits = limits_for(text.str().size());
   // OpenCASCADE trusts a file: some damaged ones end the program, or it never ends reading them.
-  const TrialEnd end = try_in_copy(limits, [&] { convert_file(input, n_defined); });
+  const TrialEnd end = try_in_copy(limits, [&] { read(n_defined); });
   const std::string advice = " This one may be damaged. Write it again, or with fewer faces";
   if (end == TrialEnd::crashed)
-    input.reject("File", "a sound file. OpenCASCADE crashes on this one: it is damaged, or cut short. Write "
-                         "it again, or in the other format, STEP or IGES");
+    source.reject("a sound file. OpenCASCADE crashes on this one: it is damaged, or cut short. Write "
+                  "it again, or in the other format, STEP or IGES");
   if (end == TrialEnd::out_of_time)
-    input.reject("File",
-                 "a file that OpenCASCADE reads within " + std::to_string(limits.seconds) + " s." + advice);
+    source.reject("a file that OpenCASCADE reads within " + std::to_string(limits.seconds) + " s." + advice);
   if (end == TrialEnd::out_of_memory)
-    input.reject("File",
-                 "a file that OpenCASCADE reads with " + std::to_string(limits.megabytes) + " MB." + advice);
-  return n_defined;
+    source.reject("a file that OpenCASCADE reads with " + std::to_string(limits.megabytes) + " MB." + advice);
+  return read(n_defined);
 }
 
-SurfacePatches make(const TypeInput &input) { return convert_file(input, check_file(input)); }
+SurfacePatches make(const TypeInput &input) {
+  const CadSource source(input);
+  return read_soundly(source,
+                      [&](const std::size_t n_defined) { return convert_file(input, source, n_defined); });
+}
 
 std::string describe_kind(const TopoDS_Face &face) {
   const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
@@ -400,9 +417,8 @@ std::string describe_kind(const TopoDS_Face &face) {
   }
 }
 
-std::vector<CadFace> list_faces(const TypeInput &input) {
-  check_file(input);
-  const TopoDS_Shape shape = read_shape(input);
+std::vector<CadFace> list_faces(const CadSource &source) {
+  const TopoDS_Shape shape = read_shape(source);
   const TopTools_IndexedMapOfShape faces = faces_of(shape);
   std::vector<std::set<std::size_t>> neighbours(static_cast<std::size_t>(faces.Extent()));
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
@@ -426,32 +442,6 @@ std::vector<CadFace> list_faces(const TypeInput &input) {
   return result;
 }
 
-/// A file by itself, as the input of a surface.
-class FileAlone final : public TypeInput {
-public:
-  explicit FileAlone(std::string name) : name_(std::move(name)) {}
-
-  bool is_set(const std::string &key) const override { return key == "File"; }
-  std::string text(const std::string & /*key*/) const override { return name_; }
-  bool flag(const std::string & /*key*/) const override { return false; }
-  double number(const std::string & /*key*/) const override { return 1.; }
-  double positive(const std::string & /*key*/) const override { return 1.; }
-  double not_negative(const std::string & /*key*/) const override { return 1.; }
-  std::vector<double> numbers(const std::string & /*key*/) const override { return {}; }
-  dealii::Tensor<1, 3> vector(const std::string & /*key*/) const override { return {}; }
-  dealii::Tensor<1, 3> direction(const std::string & /*key*/) const override { return {}; }
-  std::vector<std::string> parts(const std::string & /*key*/, char /*separator*/) const override {
-    return {};
-  }
-  std::string file(const std::string & /*key*/) const override { return name_; }
-  [[noreturn]] void reject(const std::string & /*key*/, const std::string &allowed) const override {
-    throw InputError("'" + name_ + "': allowed is " + allowed);
-  }
-
-private:
-  std::string name_;
-};
-
 #else
 
 SurfacePatches make(const TypeInput &input) {
@@ -467,7 +457,8 @@ SurfacePatches make(const TypeInput &input) {
 std::vector<CadFace> list_cad_faces(const std::string &file_name) {
   if (!std::ifstream(file_name))
     throw InputError("'" + file_name + "' cannot be read; allowed is the name of a STEP or IGES file");
-  return list_faces(FileAlone(file_name));
+  const CadSource source(file_name);
+  return read_soundly(source, [&](std::size_t /*n_defined*/) { return list_faces(source); });
 }
 #else
 std::vector<CadFace> list_cad_faces(const std::string &file_name) {

@@ -5,6 +5,7 @@
 #include "billet/errors.h"
 #include "billet/forces/external_loads.h"
 #include "billet/forces/inertia.h"
+#include "billet/geometry/frame.h"
 #include "billet/output/snapshot_grids.h"
 
 #include <algorithm>
@@ -25,31 +26,18 @@ struct Sizes {
   static constexpr double longest_load = 0.25;
 };
 
-/// Returns two unit vectors that are normal to this one and to each other.
-std::array<Tensor<1, 3>, 2> find_normals(const Tensor<1, 3> &direction) {
-  unsigned int least = 0;
-  for (unsigned int i = 1; i < 3; ++i)
-    if (std::abs(direction[i]) < std::abs(direction[least]))
-      least = i;
-  Tensor<1, 3> axis;
-  axis[least] = 1.;
-  Tensor<1, 3> first = dealii::cross_product_3d(direction, axis);
-  first /= first.norm();
-  return {first, dealii::cross_product_3d(direction, first)};
-}
-
 /// Adds a square shaft and a pyramid.
 void add_arrow(Grid &grid, const Arrow &arrow) {
   const double length = (arrow.to - arrow.from).norm();
   if (!(length > 0.))
     return;
   const Tensor<1, 3> direction = (arrow.to - arrow.from) / length;
-  const auto normals = find_normals(direction);
+  const Frame frame = Frame::from_normal(direction);
   const Tensor<1, 3> neck = arrow.to - Sizes::head_length * length * direction;
   const std::uint64_t first = grid.n_points();
   const auto add_square = [&](const Tensor<1, 3> &centre, const double width) {
     for (const auto &sign : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}}) {
-      const Tensor<1, 3> corner = centre + width * length * (sign[0] * normals[0] + sign[1] * normals[1]);
+      const Tensor<1, 3> corner = centre + width * length * (sign[0] * frame.q + sign[1] * frame.r);
       for (unsigned int i = 0; i < 3; ++i)
         grid.points.push_back(corner[i]);
     }

@@ -10,6 +10,7 @@
 #include "billet/run/body_report.h"
 #include "billet/run/output_folder.h"
 #include "billet/run/pair_report.h"
+#include "billet/run/run.h"
 #include "billet/run/run_forecast.h"
 #include "billet/run/scene_report_text.h"
 #include "billet/scene/plausibility.h"
@@ -77,8 +78,7 @@ void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator
   fail_together(communicator, [&] { check_output_folder(parameters, EarlierResults::replaced); });
   if (parameters.restart.is_wanted())
     const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
-  std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone
-  fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
+  const std::unique_ptr<const Scene> built = build_scene(parameters, communicator);
   const Scene &scene = *built;
   constexpr std::size_t max_elements = 500000; // takes a minute and some GB on one rank
   DiagnosticList messages = parameters.warnings;

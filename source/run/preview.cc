@@ -8,6 +8,7 @@
 #include "billet/output/snapshot_grids.h"
 #include "billet/run/check.h"
 #include "billet/run/output_folder.h"
+#include "billet/run/run.h"
 #include "billet/scene/plausibility.h"
 #include "billet/solve/explicit/explicit_dynamics.h"
 #include "billet/solve/implicit/implicit_solution.h"
@@ -119,8 +120,7 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
   const parameters::Scene parameters = parameters_of_preview(of_run);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   fail_together(communicator, [&] { check_output_folder(parameters, EarlierResults::replaced); });
-  std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone
-  fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
+  const std::unique_ptr<const Scene> built = build_scene(parameters, communicator);
   const Scene &scene = *built;
   const Discretization discretization(scene, communicator);
   DiagnosticList messages = parameters.warnings;

@@ -7,6 +7,12 @@
 
 namespace billet {
 
+std::unique_ptr<const Scene> build_scene(const parameters::Scene &parameters, const MPI_Comm communicator) {
+  std::unique_ptr<const Scene> scene;
+  fail_together(communicator, [&] { scene = std::make_unique<const Scene>(parameters); });
+  return scene;
+}
+
 void Run::announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
                    const double force_tolerance) const {
   output.progress().start(discretization_, solution);

@@ -30,8 +30,7 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
   const std::unique_ptr<Resumption> resumption = Resumption::open(parameters, communicator);
   const EarlierResults earlier = treat_earlier_results(parameters, resumption.get(), options);
   fail_together(communicator, [&] { check_output_folder(parameters, earlier); });
-  std::unique_ptr<const Scene> built; // it reads mesh files, which may fail on one rank alone
-  fail_together(communicator, [&] { built = std::make_unique<const Scene>(parameters); });
+  const std::unique_ptr<const Scene> built = build_scene(parameters, communicator);
   const Scene &scene = *built;
   Diagnostics diagnostics(is_first);
   ExitCode code = ExitCode::success;

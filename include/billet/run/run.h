@@ -63,6 +63,9 @@ protected:
   const ProbeReader probes_;
 };
 
+/// Builds the scene. It reads mesh files, which may fail on one rank alone. Throws InputError. Collective.
+std::unique_ptr<const Scene> build_scene(const parameters::Scene &parameters, MPI_Comm communicator);
+
 /// Makes the method that the scene selects. `resumption`: null at time 0. Collective.
 std::unique_ptr<Run> make_run(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
 
