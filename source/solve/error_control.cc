@@ -12,7 +12,7 @@ constexpr std::size_t place_of_iterations = 9;
 
 void ErrorControl::accept(const double h, const Forces &forces, const double residual,
                           const double penetration) {
-  const double force = size_of(forces);
+  const double force = course_.size_of(forces);
   course_.accept(h, force);
   iterations_ += residual * force * h;
   steps_.accept(h, forces.size());

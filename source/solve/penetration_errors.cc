@@ -15,7 +15,7 @@ void PenetrationErrors::accept(const double h, const double force, const double 
 void PenetrationErrors::measure(const ForceCourse &course, const double penetration,
                                 const ResultGroup &forces, const ResultGroup &without,
                                 const double residuals) {
-  const double force = size_of(forces), noise = residuals * force,
+  const double force = course.size_of(forces), noise = residuals * force,
                error = std::max(0., distance_of(forces, without) - noise);
   if (!(force > 0. && penetration > 0.)) {
     miss(false);

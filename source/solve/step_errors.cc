@@ -177,7 +177,7 @@ void StepErrors::schedule(const ForceCourse &course, const Slope &slope, const d
 
 void StepErrors::measure(const ForceCourse &course, const double h, const ResultGroup &forces,
                          const ResultGroup &of_one_step, const double residuals) {
-  const double force = size_of(forces); // 0 for a tool that has not moved yet, while others have
+  const double force = course.size_of(forces); // 0 for a tool that has not moved yet, while others have
   const double difference = distance_of(of_one_step, forces);
   const Slope slope = slope_of(h, forces, of_one_step, difference, residuals * force);
   take(slope, h);

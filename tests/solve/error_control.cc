@@ -158,6 +158,15 @@ int main() {
   rough.measure_penetration(100., force(0.1, 0.), force(0.1, 1e-3), 1e-3);
   check("what residuals make of penetrations does not count", rough.estimate().penetration == 0.);
   check("penetrations that make little are measured seldom", n_wanted > 2 && n_wanted < 8);
+  // 0.032 of something as small as 0.1 is much; of 10 it is little.
+  ErrorControl small({0., 1e-3}, 1.);
+  const double size = 10. * size_of(force(0.1, 0.));
+  small.set_least_size(size);
+  small.accept(0.1, force(0.1, 0.), 1e-5, 100.);
+  small.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);
+  check("what is small counts as a part of the least size",
+        near(small.estimate().penetration, 2. * 0.032 / size, 1e-9) &&
+            near(small.estimate().iterations, 2e-5, 1e-9));
   // A body that yields under a force: what it makes from then on counts in full, and a comparison that fails
   // there is tried again with shorter steps, however little there was before.
   const auto yielding = [](const bool stays) {

@@ -9,10 +9,11 @@ namespace billet {
 namespace {
 
 /// Returns the largest difference of a group, as part of it.
-double difference(const StepResults::Groups &a, const StepResults::Groups &b) {
+double difference(const StepResults::Groups &a, const StepResults::Groups &b,
+                  const std::vector<double> &least_sizes) {
   double maximum = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
-    const double scale = size_of(b[group]);
+    const double scale = std::max(size_of(b[group]), least_sizes[group]);
     if (scale > 0.)
       maximum = std::max(maximum, distance_of(a[group], b[group]) / scale);
   }
@@ -58,6 +59,20 @@ void StepResults::add_travels(const std::vector<double> &offsets, Groups &result
       results.push_back({dealii::Tensor<1, 3>({offsets[i], 0., 0.})});
 }
 
+std::vector<double> StepResults::least_sizes() const {
+  std::vector<double> sizes(1, 0.);
+  const double work = std::abs(problem_.state().energies.external), time = problem_.state().time;
+  const auto &tools = problem_.scene().tools();
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    if (tools[i].is_driven()) {
+      const double reach = problem_.discretization().radius() / problem_.tools().unit_of(i);
+      // Without work there may have been no step, and no load yet.
+      const double load = work > 0. ? std::abs(tools[i].load(time)) : 0.;
+      sizes.push_back(work < load * reach ? work / load : work > 0. ? reach : 0.);
+    }
+  return sizes;
+}
+
 std::vector<std::string> StepResults::names() const {
   std::vector<std::string> names = {"forces"};
   for (const auto &tool : problem_.scene().tools())
@@ -98,6 +113,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
                                             NewtonReport &report) {
   Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
+  const std::vector<double> least_sizes = results_.least_sizes();
   measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
   for (auto &contact : problem_.contacts())
     contact.penalties().augment();
@@ -116,9 +132,9 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
     const double norm = residual.l2_norm();
     report.iterations.push_back({norm / problem_.force_scale(), std::abs(energy), 1.});
     measured_->residual = norm / problem_.force_scale();
-    is_accurate =
-        measured_->residual <= std::max(accuracy * solver.force_tolerance,
-                                        Limits::accuracy * difference(results_.of_trial(), measured_->with));
+    is_accurate = measured_->residual <=
+                  std::max(accuracy * solver.force_tolerance,
+                           Limits::accuracy * difference(results_.of_trial(), measured_->with, least_sizes));
   }
   if (is_admissible && is_accurate) {
     measured_->without = results_.of_trial();
@@ -131,7 +147,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
 double PenetrationMeasurement::find_allowed() const {
   if (!measured_ || measured_->without.empty())
     return 0.;
-  const double error = difference(measured_->without, measured_->with);
+  const double error = difference(measured_->without, measured_->with, results_.least_sizes());
   if (!(error > allowed_ && allowed_ > 0.))
     return 0.;
   return std::max(1., measured_->penetration * allowed_ / error);

@@ -31,6 +31,8 @@ public:
   using Results = StepResults::Groups;
   /// Returns the results at the last accepted step. Their number is that of result_names().
   Results results() const { return StepResults(problem_).accepted(); }
+  /// See StepResults::least_sizes().
+  std::vector<double> least_result_sizes() const { return StepResults(problem_).least_sizes(); }
   std::vector<std::string> result_names() const { return StepResults(problem_).names(); }
 
   /// Step that is tried but not accepted.

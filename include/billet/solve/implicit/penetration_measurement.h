@@ -27,6 +27,11 @@ public:
   /// Return the groups at the last accepted step, and at the trial state.
   Groups accepted() const;
   Groups of_trial() const;
+  /// Returns the size that each group counts with at least, by the last accepted state. That of a travel is
+  /// the travel by which the tool's load does the work of all loads so far (doc/theory.md, W3): what it is
+  /// off by changes the other forces, as a part of them, by no more than the part of that which it is. At
+  /// most the scene's radius, for loads near zero.
+  std::vector<double> least_sizes() const;
 
 private:
   bool has_forces_of_contacts() const;
