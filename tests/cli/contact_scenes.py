@@ -12,10 +12,15 @@ import re
 import sys
 
 from checks import SHIPPED, Checks, enter_folder, equal, near, read_text, require, rows_of, run
+from rolling_theory import force_and_torque
 from snap_fit_theory import INSERTION, REMOVAL, Way, beam_force, design_force, force_ratio
 
 MAX_LINES = 60
-PAGES = {"snap_fit": "snap_fit"}
+PAGES = {
+    "snap_fit": "snap_fit",
+    "slab_rolling": "slab_rolling",
+    "slab_rolling_explicit": "slab_rolling",
+}
 
 program = sys.argv[1]
 check = Checks()
@@ -83,6 +88,53 @@ def _() -> None:
     # What was spent on the way went into friction.
     near("friction", inside[0]["friction_dissipation"], inside[0]["external_work"], 1e-2)
     check_climb([row for row in rows if row["time"] > 1], REMOVAL, "heel")
+
+
+TURN = 0.35  # of the roll in the whole scene, at a constant rate
+
+
+def check_rolling(name: str, end: float) -> None:
+    """Rolls 70 % of a coarse slab, and compares means over what is steady with slab theory."""
+    coarse = "Bodies/slab/Mesh/Arguments=18, 2 : -66.16, 0 : -21.16, 5"
+    rows = run_variant(name, coarse, f"Time stepping/End time={0.7 * end}")
+    steady = [row for row in rows if row["time"] >= 0.45 * end]
+    spans = [after["time"] - before["time"] for before, after in zip(steady, steady[1:])]
+
+    def mean(column: str) -> float:
+        return sum(span * row[column] for span, row in zip(spans, steady[1:])) / sum(spans)
+
+    def gain(column: str) -> float:
+        return steady[-1][column] - steady[0][column]
+
+    force, torque = force_and_torque()
+    near("force of the roll", -mean("roll.force_y"), force, 4e-2)
+    near("torque of the roll", mean("roll.moment_z"), torque, 4e-2)
+    # Friction alone draws the slab, and the roll's work is all that goes into it.
+    work = mean("roll.moment_z") * TURN * gain("time") / end
+    near("plastic work and friction", gain("plastic_work") + gain("friction_dissipation"), work, 5e-3)
+    require(abs(mean("roll.force_x")) < 0.01 * force, f"the roll pushes with {mean('roll.force_x')}")
+
+
+@check("friction draws the slab in, with the force and torque of slab theory")
+def _() -> None:
+    check_rolling("slab_rolling", 1.0)
+
+
+@check("so it does in explicit dynamics")
+def _() -> None:
+    check_rolling("slab_rolling_explicit", 10.5e-3)
+
+
+@check("the cup begins symmetric about its diagonal, and its forces and energies balance")
+def _() -> None:
+    rows = run_variant("square_cup", "Time stepping/End time=2e-4")
+    last = rows[-1]
+    require(last["punch.travel_z"] < -0.2, f"the punch has gone {last['punch.travel_z']}")
+    for row in rows:
+        across = abs(row["corner.displacement_x"] - row["corner.displacement_y"])
+        require(across <= 1e-9, f"the corner moves {across} off the diagonal")
+    require(last["plastic_work"] > 0, "nothing yields")
+    require(abs(last["energy_drift"]) < 1e-3, f"energy drifts by {last['energy_drift']}")
 
 
 @check("pages")

@@ -31,13 +31,13 @@ def force_ratio(way: Way) -> float:
 
 
 def design_force(way: Way, rise: float) -> float:
-    """Returns the transverse force of snap-fit design guides: a cantilever with the transverse force alone."""
+    """Returns the force of snap-fit design guides: a cantilever with the transverse force alone."""
     return 3 * BENDING * rise / way.arm**3
 
 
 def beam_force(way: Way, rise: float, n: int = 200) -> float:
     """Returns the transverse force that raises the hook. The axial force acts, too, below the middle of the
-    beam, and equilibrium holds in the deformed state: EI v'' = P (x_hook - x) - W (y_axis - y_hook)."""
+    beam, and equilibrium holds in the deformed state: B v'' = P (x_hook - x) - W (y_axis - y_hook)."""
     dx = way.arm / n
 
     def rise_of(force: float) -> float:
