@@ -20,6 +20,7 @@ PAGES = {
     "snap_fit": "snap_fit",
     "slab_rolling": "slab_rolling",
     "slab_rolling_explicit": "slab_rolling",
+    "square_cup": "square_cup",
 }
 
 program = sys.argv[1]
