@@ -74,7 +74,7 @@ ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization,
                                     ? std::min(1., ErrorBudget::residual(scene.parameters().target_error) /
                                                        scene.parameters().solver.force_tolerance)
                                     : 1.) {
-  controls_.resize(problem.result_names().size(), ErrorControl(tolerances_of_travels(scene), end_time_));
+  controls_.resize(problem.results().names().size(), ErrorControl(tolerances_of_travels(scene), end_time_));
   memory_.set(sizeof(*this) + controls_.size() * sizeof(ErrorControl));
   allow_penetration();
 }
@@ -107,7 +107,7 @@ void ErrorWatch::miss_measurement(const double length, const bool failed) {
 }
 
 ErrorWatch::EstimatedError ErrorWatch::estimated_error() const {
-  const std::vector<std::string> names = problem_.result_names();
+  const std::vector<std::string> names = problem_.results().names();
   EstimatedError estimated_error;
   for (std::size_t i = 0; i < controls_.size(); ++i) {
     const ErrorControl::Estimate estimate = controls_[i].estimate();
@@ -179,8 +179,8 @@ void ErrorWatch::take_measurement() {
 }
 
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
-  const ImplicitSolution::Results results = problem_.results();
-  const std::vector<double> least_sizes = problem_.least_result_sizes();
+  const ImplicitSolution::Results results = problem_.results().accepted();
+  const std::vector<double> least_sizes = problem_.results().least_sizes();
   for (std::size_t i = 0; i < controls_.size(); ++i)
     controls_[i].set_least_size(least_sizes[i]);
   for (std::size_t i = 0; i < controls_.size(); ++i)
@@ -235,7 +235,7 @@ DiagnosticList ErrorWatch::check(const StepControl &control) const {
 }
 
 void ErrorWatch::save(StateWriter &writer) const {
-  const std::vector<std::string> names = problem_.result_names();
+  const std::vector<std::string> names = problem_.results().names();
   for (std::size_t i = 0; i < controls_.size(); ++i)
     writer.in(group("results", i), [&] {
       writer.write_text("name", names[i]);
@@ -248,7 +248,7 @@ void ErrorWatch::save(StateWriter &writer) const {
 }
 
 void ErrorWatch::load(StateReader &reader) {
-  const std::vector<std::string> names = problem_.result_names();
+  const std::vector<std::string> names = problem_.results().names();
   probe_.results.assign(names.size(), {});
   bool is_whole = true;
   for (std::size_t i = 0; i < controls_.size(); ++i) {

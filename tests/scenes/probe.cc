@@ -39,8 +39,8 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
     const double from = tried.control.time(), to = tried.control.next_time();
     const ImplicitSolution::Probe probe = tried.problem.probe(2. * to - from, n == 0 ? 0. : to - from);
     if (n == 0) {
-      check(name + ": a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
-            1e-8);
+      check(name + ": a probe gives what the step gives",
+            difference(probe.results, coarse.problem.results().accepted()), 1e-8);
     }
     if (n < 3)
       tried.problem.measure_penetration();
@@ -51,13 +51,13 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
     if (measured) {
       n_from_probe -= measured->n_iterations;
       check(name + ": that with penetrations is what the step gives",
-            difference(measured->with, tried.problem.results()), 1e-12);
+            difference(measured->with, tried.problem.results().accepted()), 1e-12);
       check(name + ": without it is stiffer",
             !measured->without.empty() && measured->without[0][0].norm() > measured->with[0][0].norm());
       check(name + ": penetrations are seen, whether a pair asks for it or not", measured->penetration > 1.);
     }
     n_otherwise += static_cast<unsigned int>(untried.advance().iterations.size());
-    forces.add(difference(tried.problem.results(), untried.problem.results()));
+    forces.add(difference(tried.problem.results().accepted(), untried.problem.results().accepted()));
     const EnergyLedger &e = tried.problem.state().energies, &f = untried.problem.state().energies;
     energies.add(std::abs(e.plastic - f.plastic) + std::abs(e.elastic - f.elastic) +
                  std::abs(e.friction - f.friction) + std::abs(e.external - f.external));
@@ -75,12 +75,12 @@ void check_automatic(parameters::Scene parameters, const unsigned int n_steps) {
   testing::set_fixed_steps(parameters, 2 * n_steps);
   SceneRun tried(parameters), untried(parameters);
   const ImplicitSolution::Probe probe = tried.problem.probe(2. * tried.control.next_time(), 0.);
-  check("automatic: a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
-        1e-8);
+  check("automatic: a probe gives what the step gives",
+        difference(probe.results, coarse.problem.results().accepted()), 1e-8);
   tried.advance();
   untried.advance();
-  check("automatic: it changes no step", difference(tried.problem.results(), untried.problem.results()),
-        5e-3);
+  check("automatic: it changes no step",
+        difference(tried.problem.results().accepted(), untried.problem.results().accepted()), 5e-3);
 }
 
 /// A step that fails, or in which a tool stops after tractions have been augmented, leaves no measurement to
@@ -106,7 +106,7 @@ void check_stop() {
     if (!measured || measured->without.empty())
       ++n_missed;
     else
-      change.add(difference(measured->with, run.problem.results()));
+      change.add(difference(measured->with, run.problem.results().accepted()));
   }
   check("stop: nothing is measured where the tool stops", n_missed == 1);
   check("stop: penetrations make little of the forces", change.value(), 2e-3);
@@ -127,10 +127,10 @@ void check_force() {
   SceneRun coarse(parameters);
   coarse.advance();
   check("force: forces, and the travel",
-        tried.problem.result_names() == std::vector<std::string>{"forces", "travel of 'die'"});
+        tried.problem.results().names() == std::vector<std::string>{"forces", "travel of 'die'"});
   const ImplicitSolution::Probe probe = tried.problem.probe(0.05, 0.);
-  check("force: a probe gives what the step gives", difference(probe.results, coarse.problem.results()),
-        1e-8);
+  check("force: a probe gives what the step gives",
+        difference(probe.results, coarse.problem.results().accepted()), 1e-8);
   for (unsigned int n = 0; n < 2; ++n) {
     tried.problem.measure_penetration();
     tried.advance();
@@ -140,7 +140,7 @@ void check_force() {
       continue;
     }
     check("force: what is with penetrations is what the step gives",
-          difference(measured->with, tried.problem.results()), 1e-12);
+          difference(measured->with, tried.problem.results().accepted()), 1e-12);
     check("force: without penetrations the tool presses as hard, and goes less far",
           near(measured->without[0][0].norm(), measured->with[0][0].norm(), 1e-4) &&
               measured->without[1][0].norm() < measured->with[1][0].norm());

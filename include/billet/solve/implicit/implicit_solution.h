@@ -29,11 +29,8 @@ public:
   NewtonReport step(double t, double previous_step);
 
   using Results = StepResults::Groups;
-  /// Returns the results at the last accepted step. Their number is that of result_names().
-  Results results() const { return StepResults(problem_).accepted(); }
-  /// See StepResults::least_sizes().
-  std::vector<double> least_result_sizes() const { return StepResults(problem_).least_sizes(); }
-  std::vector<std::string> result_names() const { return StepResults(problem_).names(); }
+  /// Returns the results that steps are judged by, with their names.
+  StepResults results() const { return StepResults(problem_); }
 
   /// Step that is tried but not accepted.
   struct Probe {

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: contact_scenes.py BILLET
+
+Runs coarser variants of shipped scenes with contact in an empty current folder, and compares them with what
+holds for any mesh, and with theory. The scenes themselves run in tests/benchmarks.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+
+from checks import SHIPPED, Checks, enter_folder, equal, near, read_text, require, rows_of, run
+from rolling_theory import force_and_torque
+from snap_fit_theory import INSERTION, REMOVAL, Way, beam_force, design_force, force_ratio
+
+MAX_LINES = 60
+PAGES = {
+    "snap_fit": "snap_fit",
+    "slab_rolling": "slab_rolling",
+    "slab_rolling_explicit": "slab_rolling",
+    "square_cup": "square_cup",
+}
+
+program = sys.argv[1]
+check = Checks()
+enter_folder()
+
+Rows = list[dict[str, float]]
+
+
+def run_variant(name: str, *changes: str) -> Rows:
+    """Runs a shipped scene with changes to its end, and returns its history, in which forces balance."""
+    options = [part for change in changes for part in ("--set", change)]
+    ended = run(
+        program,
+        str(SHIPPED / f"{name}.prm"),
+        "--output",
+        name,
+        "--force",
+        "--set",
+        "Output/Format=none",
+        *options,
+    )
+    require(ended.code == 0, ended.output + ended.errors)
+    head, *lines = rows_of(f"{name}/history.csv")
+    rows = [dict(zip(head, map(float, line))) for line in lines]
+    for row in rows:
+        require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
+    return rows
+
+
+def check_climb(rows: Rows, way: Way, node: str) -> None:
+    """Compares the forces on a straight ramp, where one corner of the hook slides, with theory."""
+    ratio = force_ratio(way)
+    sliding = 0
+    for row in rows:
+        rise, force = row[f"{node}.displacement_y"], row["catch.force_y"]
+        if 0.05 < rise < 0.7:
+            sliding += 1
+            near("axial over transverse force", -way.push * row["catch.force_x"] / force, ratio, 1e-4)
+            near("transverse force, beam", force, beam_force(way, rise), 1e-2)
+            # Design guides leave out the moment of the axial force.
+            near("transverse force, design guides", force, design_force(way, rise), 0.16)
+    require(sliding >= 4, f"only {sliding} steps on the ramp")
+
+
+@check("the hook climbs the catch as a beam on a wedge with friction")
+def _() -> None:
+    coarse = "Bodies/clip/Mesh/Arguments=41, 2 : 0, 0 : 20.5, 1"
+    rows = run_variant(
+        "snap_fit",
+        coarse,
+        "Time stepping/End time=0.34",
+        "Time stepping/Stops=0.3",
+        "Time stepping/Maximum step=0.04",
+    )
+    check_climb(rows, INSERTION, "toe")
+
+
+@check("it snaps in without a force, and is pulled out as a beam on the steeper ramp")
+def _() -> None:
+    coarse = "Bodies/clip/Mesh/Arguments=41, 2 : 0, 0 : 20.5, 1"
+    rows = run_variant("snap_fit", coarse, "Time stepping/End time=1.19")
+    inside = [row for row in rows if abs(row["time"] - 1) < 1e-9]
+    equal("steps at the end of the way in", len(inside), 1)
+    equal("force on the catch", abs(inside[0]["catch.force_x"]) + abs(inside[0]["catch.force_y"]), 0.0)
+    # What was spent on the way went into friction.
+    near("friction", inside[0]["friction_dissipation"], inside[0]["external_work"], 1e-2)
+    check_climb([row for row in rows if row["time"] > 1], REMOVAL, "heel")
+
+
+TURN = 0.35  # of the roll in the whole scene, at a constant rate
+
+
+def check_rolling(name: str, end: float) -> None:
+    """Rolls 70 % of a coarse slab, and compares means over what is steady with slab theory."""
+    coarse = "Bodies/slab/Mesh/Arguments=18, 2 : -66.16, 0 : -21.16, 5"
+    rows = run_variant(name, coarse, f"Time stepping/End time={0.7 * end}")
+    steady = [row for row in rows if row["time"] >= 0.45 * end]
+    spans = [after["time"] - before["time"] for before, after in zip(steady, steady[1:])]
+
+    def mean(column: str) -> float:
+        return sum(span * row[column] for span, row in zip(spans, steady[1:])) / sum(spans)
+
+    def gain(column: str) -> float:
+        return steady[-1][column] - steady[0][column]
+
+    force, torque = force_and_torque()
+    near("force of the roll", -mean("roll.force_y"), force, 4e-2)
+    near("torque of the roll", mean("roll.moment_z"), torque, 4e-2)
+    # Friction alone draws the slab, and the roll's work is all that goes into it.
+    work = mean("roll.moment_z") * TURN * gain("time") / end
+    near("plastic work and friction", gain("plastic_work") + gain("friction_dissipation"), work, 5e-3)
+    require(abs(mean("roll.force_x")) < 0.01 * force, f"the roll pushes with {mean('roll.force_x')}")
+
+
+@check("friction draws the slab in, with the force and torque of slab theory")
+def _() -> None:
+    check_rolling("slab_rolling", 1.0)
+
+
+@check("so it does in explicit dynamics")
+def _() -> None:
+    check_rolling("slab_rolling_explicit", 10.5e-3)
+
+
+@check("the cup begins symmetric about its diagonal, and its forces and energies balance")
+def _() -> None:
+    rows = run_variant("square_cup", "Time stepping/End time=2e-4")
+    last = rows[-1]
+    require(last["punch.travel_z"] < -0.2, f"the punch has gone {last['punch.travel_z']}")
+    for row in rows:
+        across = abs(row["corner.displacement_x"] - row["corner.displacement_y"])
+        require(across <= 1e-9, f"the corner moves {across} off the diagonal")
+    require(last["plastic_work"] > 0, "nothing yields")
+    require(abs(last["energy_drift"]) < 1e-3, f"energy drifts by {last['energy_drift']}")
+
+
+@check("pages")
+def _() -> None:
+    for name, page_name in PAGES.items():
+        lines = read_text(SHIPPED / f"{name}.prm").count("\n")
+        require(lines <= MAX_LINES, f"{name}: more than {MAX_LINES} lines")
+        page = read_text(SHIPPED.parent / f"doc/scenes/{page_name}.md")
+        require(f"prm/{name}.prm" in page, f"the page of {name} does not name its scene")
+        for picture in re.findall(r"\]\(\.\./(images/\S+?)\)", page):
+            require((SHIPPED.parent / "doc" / picture).exists(), f"no {picture}")
+
+
+sys.exit(check.finish())
