@@ -19,6 +19,8 @@ Contacts::Contacts(const Scene &scene, const Discretization &discretization, con
   list_all();
 }
 
+Contacts::~Contacts() = default;
+
 Contacts::Contacts(const Scene &scene, const LocalNodes &nodes) : n_tools_(scene.tools().size()) {
   const Discretization &discretization = nodes.discretization();
   for (std::size_t p = 0; p < scene.pairs().size(); ++p) {

@@ -112,6 +112,8 @@ Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
     }
 }
 
+Discretization::~Discretization() = default;
+
 ElementVectors nodal_positions(const CellIterator &cell) {
   ElementVectors positions{};
   for (unsigned int v = 0; v < n_element_nodes; ++v)

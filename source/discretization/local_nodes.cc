@@ -30,6 +30,8 @@ LocalNodes::LocalNodes(const Discretization &discretization) : discretization_(d
   find_sharers();
 }
 
+LocalNodes::~LocalNodes() = default;
+
 unsigned int LocalNodes::find(const DofIndex first_dof) const {
   const auto entry = index_.find(first_dof);
   return entry == index_.end() ? dealii::numbers::invalid_unsigned_int : entry->second;

@@ -124,6 +124,8 @@ ExternalLoads::ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::v
   });
 }
 
+ExternalLoads::~ExternalLoads() = default;
+
 void ExternalLoads::place(const AppliedLoad &load, const BodyLoad &action, const std::size_t body) {
   std::vector<double> volumes(action.is_per_volume() ? masses_.size() : 0, 0.);
   std::vector<unsigned int> nodes;

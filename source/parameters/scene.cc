@@ -335,6 +335,13 @@ void check_repeated_pairs(const std::vector<ContactPair> &pairs, const bool name
     }
 }
 
+Scene::Scene() = default;
+Scene::Scene(const Scene &) = default;
+Scene::Scene(Scene &&) noexcept = default;
+Scene &Scene::operator=(const Scene &) = default;
+Scene &Scene::operator=(Scene &&) noexcept = default;
+Scene::~Scene() = default;
+
 Scene Scene::read(const std::string &file_name, const std::string &restart_file,
                   const std::vector<SceneFile::Setting> &settings) {
   SceneFile file = SceneFile::read(file_name, settings);

@@ -273,6 +273,8 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
 
 Scene::Scene(const parameters::Scene &parameters) : Scene(resolve(parameters)) {}
 
+Scene::~Scene() = default;
+
 Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
     : parameters_(std::move(resolved.first)) {
   const parameters::Scene &parameters = parameters_;

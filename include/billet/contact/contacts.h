@@ -22,6 +22,7 @@ public:
   Contacts(const Scene &scene, const Discretization &discretization, ContactTangent tangent);
   /// Constructs the pairs for schemes without a matrix. `nodes` must outlive this object.
   Contacts(const Scene &scene, const LocalNodes &nodes);
+  ~Contacts();
   Contacts(const Contacts &) = delete;
   Contacts &operator=(const Contacts &) = delete;
 

@@ -30,6 +30,7 @@ class Discretization {
 public:
   /// Builds the mesh on the first rank and distributes it. Throws InputError.
   Discretization(const Scene &scene, MPI_Comm communicator);
+  ~Discretization();
 
   MPI_Comm communicator() const { return communicator_; }
   const dealii::DoFHandler<3> &dof_handler() const { return dof_handler_; }

@@ -21,6 +21,7 @@ using NodalVectors = dealii::AlignedVector<double>;
 class LocalNodes {
 public:
   explicit LocalNodes(const Discretization &discretization);
+  ~LocalNodes();
 
   const Discretization &discretization() const { return discretization_; }
   unsigned int size() const { return static_cast<unsigned int>(dofs_.size()); }

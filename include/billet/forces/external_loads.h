@@ -19,6 +19,7 @@ public:
   /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads act. Throws
   /// InputError. Collective.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
+  ~ExternalLoads();
 
   /// Measures how surfaces under loads have moved as a whole; it precedes add_forces(). Collective.
   void follow(const NodalVectors &displacements);

@@ -36,6 +36,13 @@ struct Scene {
   Output output;
   Restart restart;
 
+  Scene();
+  Scene(const Scene &);
+  Scene(Scene &&) noexcept;
+  Scene &operator=(const Scene &);
+  Scene &operator=(Scene &&) noexcept;
+  ~Scene();
+
   /// Reads a scene file. `restart_file`, unless it is empty, replaces the scene's own; `settings` from the
   /// command line override the file. Throws InputError.
   static Scene read(const std::string &file_name, const std::string &restart_file = "",

@@ -201,6 +201,7 @@ class Scene {
 public:
   /// Builds the scene. Throws InputError.
   explicit Scene(const parameters::Scene &parameters);
+  ~Scene();
   Scene(const Scene &) = delete; // parts of it refer to each other
   Scene &operator=(const Scene &) = delete;
 

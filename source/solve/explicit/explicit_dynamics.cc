@@ -22,6 +22,8 @@ ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &dis
   state_.velocities = discretization.make_ghosted_vector();
 }
 
+ExplicitDynamics::~ExplicitDynamics() = default;
+
 void ExplicitDynamics::compute_forces() {
   const ExplicitForces::Failure failure = parts_.forces.compute(
       parts_.clock, parts_.motion, parts_.elements, parts_.contacts, parts_.tools, ledger_.works());

@@ -47,6 +47,8 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
   memory_.set(n_fields * discretization.owned_dofs().n_elements() * sizeof(double));
 }
 
+ImplicitMotion::~ImplicitMotion() = default;
+
 void ImplicitMotion::set_initial_velocities() {
   fail_together(discretization_.communicator(), [&] {
     check_before_start([&] {

@@ -64,6 +64,8 @@ ImplicitParts::ImplicitParts(const Scene &scene, const Discretization &discretiz
     tangent_.build();
 }
 
+ImplicitParts::~ImplicitParts() = default;
+
 ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discretization)
     : ImplicitParts(scene, discretization), step_(discretization),
       raw_internal_(discretization.make_additive_vector()),
@@ -79,6 +81,8 @@ ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discr
   state_.displacements = discretization.make_ghosted_vector();
   state_.displacements = step_.start.displacements;
 }
+
+ImplicitProblem::~ImplicitProblem() = default;
 
 bool ImplicitProblem::on_all_ranks(const bool success) const {
   return dealii::Utilities::MPI::min(success ? 1 : 0, communicator()) == 1;

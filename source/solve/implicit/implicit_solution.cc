@@ -39,6 +39,8 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
   rules_->start(*this);
 }
 
+ImplicitSolution::~ImplicitSolution() = default;
+
 std::array<std::size_t, 2> ImplicitSolution::history_sizes() const {
   std::array<std::size_t, 2> sizes = {
       {problem_.internal().history_size(), problem_.contacts().history_size()}};

@@ -21,6 +21,7 @@ namespace billet {
 class ExplicitDynamics final : public Solution {
 public:
   ExplicitDynamics(const Scene &scene, const Discretization &discretization);
+  ~ExplicitDynamics() override;
 
   /// Computes the forces at the current time, a stable step that leads to `event` (see ExplicitClock), and
   /// the velocities after the forces. Throws SolutionFailure if the state is not admissible.

@@ -25,6 +25,7 @@ class ImplicitMotion final : public ImplicitScheme {
 public:
   /// Starts at time 0, with the initial velocities. Throws InputError.
   ImplicitMotion(const Scene &scene, const Discretization &discretization, const Supports &supports);
+  ~ImplicitMotion() override;
 
   parameters::TimeStepping::Scheme kind() const override {
     return parameters::TimeStepping::Scheme::implicit_dynamics;

@@ -22,6 +22,7 @@ namespace billet {
 class ImplicitParts {
 public:
   ImplicitParts(const Scene &scene, const Discretization &discretization);
+  ~ImplicitParts();
 
   const Scene &scene() const { return scene_; }
   const parameters::Scene &parameters() const { return scene_.parameters(); }
@@ -70,6 +71,7 @@ protected:
 class ImplicitProblem final : public ImplicitParts, public NonlinearProblem {
 public:
   ImplicitProblem(const Scene &scene, const Discretization &discretization);
+  ~ImplicitProblem() override;
 
   StepState &step() { return step_; }
   const StepState &step() const { return step_; }

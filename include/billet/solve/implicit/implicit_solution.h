@@ -22,6 +22,7 @@ namespace billet {
 class ImplicitSolution final : public Solution {
 public:
   ImplicitSolution(const Scene &scene, const Discretization &discretization);
+  ~ImplicitSolution() override;
 
   /// Tries the step from the current time to `t`. On convergence the new state is committed. `previous_step`
   /// is the length of the last accepted step if its increment may be continued, else 0. Throws
