@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/paraview_script.h"
 
+#include <deal.II/base/exceptions.h>
+
 namespace billet {
 
 namespace {
@@ -16,6 +18,7 @@ Contact surfaces and the bodies' outsides with their boundary ids are loaded, to
 Pipeline Browser shows them.
 """
 
+import math
 import os
 import sys
 
@@ -26,6 +29,14 @@ from paraview import simple
 const std::string body = R"py(
 TOOL, EDGE = [0.42, 0.48, 0.57], [0.12, 0.12, 0.12]
 TOOL_AT_END, SUPPORT, LOAD = [0.80, 0.55, 0.30], [0.10, 0.45, 0.20], [0.75, 0.10, 0.10]
+
+SIZE = [1200, 800]
+# From where to look at a model, and which way is up, by its section.
+VIEWS = {
+    "solid": ([3.0, -4.0, 2.2], [0.0, 0.0, 1.0]),
+    "plane strain": ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
+    "axisymmetric": ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
+}
 
 
 def folder():
@@ -74,6 +85,12 @@ def extract(results, group):
     return None
 
 
+def box_of(part):
+    """Returns the lowest and the highest coordinates of a part."""
+    bounds = part.GetDataInformation().GetBounds()
+    return bounds[0::2], bounds[1::2]
+
+
 def show_bodies(part, view):
     shown = simple.Show(part, view)
     shown.Representation = "Surface With Edges"
@@ -97,6 +114,22 @@ def show_plain(part, view, colour, opacity):
     shown.Opacity = opacity
 
 
+def show_tools(part, view, box, colour, opacity):
+    """In a section, tools are lines: their surfaces are seen from the side."""
+    if SECTION == "solid":
+        show_plain(part, view, colour, opacity)
+        return
+    cut = simple.Slice(registrationName=SECTION + " of tools", Input=part)
+    cut.SliceType = "Plane"
+    cut.SliceType.Normal = VIEWS[SECTION][0]
+    cut.SliceType.Origin = [0.5 * (a + b) for a, b in zip(*box)]
+    shown = simple.Show(cut, view)
+    shown.ColorArrayName = [None, ""]
+    shown.DiffuseColor = shown.AmbientColor = colour
+    shown.LineWidth = 3.0
+    simple.Hide(part, view)
+
+
 def show_boundaries(part, view):
     shown = simple.Show(part, view)
     shown.Representation = "Surface With Edges"
@@ -109,16 +142,15 @@ def show_boundaries(part, view):
     shown.SetScalarBarVisibility(view, True)
 
 
-def show_preview(results, view):
+def show_preview(results, view, box):
     """Shows supports in green, loads in red, tools at the end of their motion in orange."""
-    for group, colour, opacity in (
-        ("Tools at end", TOOL_AT_END, 0.2),
-        ("Supports", SUPPORT, 1.0),
-        ("Loads", LOAD, 1.0),
-    ):
+    tools = extract(results, "Tools at end")
+    if tools:
+        show_tools(tools, view, box, TOOL_AT_END, 0.2)
+    for group, colour in (("Supports", SUPPORT), ("Loads", LOAD)):
         part = extract(results, group)
         if part:
-            show_plain(part, view, colour, opacity)
+            show_plain(part, view, colour, 1.0)
 
 
 def show_hidden(part, view, name):
@@ -130,6 +162,29 @@ def show_hidden(part, view, name):
         simple.ColorBy(shown, ("CELLS", name))
     shown.SetScalarBarVisibility(view, False)
     simple.Hide(part, view)
+
+
+def frame(view, box, tools):
+    """Shows the bodies in this box, and of the tools, which may be infinite, what is near them."""
+    low, high = box
+    if tools:
+        margin = 0.15 * math.dist(low, high)
+        tools_low, tools_high = box_of(tools)
+        low, high = (
+            [min(a, max(b, a - margin)) for a, b in zip(low, tools_low)],
+            [max(a, min(b, a + margin)) for a, b in zip(high, tools_high)],
+        )
+    centre = [0.5 * (a + b) for a, b in zip(low, high)]
+    width, depth, height = (b - a for a, b in zip(low, high))
+    direction, view.CameraViewUp = VIEWS[SECTION]
+    if SECTION == "plane strain":
+        depth, height = height, depth
+    radius = 0.5 * math.hypot(width, depth, height)
+    distance = radius / math.sin(math.radians(0.5 * view.CameraViewAngle)) / math.hypot(*direction)
+    view.CameraFocalPoint = centre
+    view.CameraPosition = [a + distance * b for a, b in zip(centre, direction)]
+    view.CameraParallelProjection = 0 if SECTION == "solid" else 1
+    view.CameraParallelScale = 0.55 * max(height, width * SIZE[1] / SIZE[0])
 
 
 def main():
@@ -150,29 +205,44 @@ def main():
         show_boundaries(outsides, view)
     elif outsides:
         show_hidden(outsides, view, "boundary_id")
+    box = box_of(bodies or outsides)
     if tools:
-        show_plain(tools, view, TOOL, 0.3)
+        show_tools(tools, view, box, TOOL, 0.3)
     if PREVIEW:
-        show_preview(results, view)
+        show_preview(results, view, box)
     elif bodies:
         show_bodies(bodies, view)
         simple.SetActiveSource(bodies)
-    view.CameraPosition, view.CameraFocalPoint = [3.0, -4.0, 2.2], [0.0, 0.0, 0.0]
-    view.CameraViewUp = [0.0, 0.0, 1.0]
-    simple.ResetCamera(view)
+    simple.Render(view)  # the first time it chooses a camera of its own
+    frame(view, box, tools)
     simple.Render(view)
     if len(sys.argv) > 1 and sys.argv[1].endswith(".png"):
-        view.ViewSize = [1200, 800]
-        simple.SaveScreenshot(sys.argv[1], view, ImageResolution=[1200, 800])
+        view.ViewSize = SIZE
+        simple.SaveScreenshot(sys.argv[1], view, ImageResolution=SIZE)
 
 
 main()
 )py";
 
+std::string name_of(const WholeSection::Kind section) {
+  switch (section) {
+  case WholeSection::Kind::model:
+    return "solid";
+  case WholeSection::Kind::per_width:
+    return "plane strain";
+  case WholeSection::Kind::full_circle:
+    return "axisymmetric";
+  }
+  Assert(false, dealii::ExcInternalError());
+  return "";
+}
+
 } // namespace
 
-std::string paraview_script(const std::string &index, const bool is_preview) {
-  return head + "INDEX = \"" + index + "\"\nPREVIEW = " + (is_preview ? "True" : "False") + body;
+std::string paraview_script(const std::string &index, const WholeSection::Kind section,
+                            const bool is_preview) {
+  return head + "INDEX = \"" + index + "\"\nSECTION = \"" + name_of(section) +
+         "\"\nPREVIEW = " + (is_preview ? "True" : "False") + body;
 }
 
 } // namespace billet

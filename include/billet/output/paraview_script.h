@@ -2,6 +2,8 @@
 #ifndef BILLET_OUTPUT_PARAVIEW_SCRIPT_H
 #define BILLET_OUTPUT_PARAVIEW_SCRIPT_H
 
+#include "billet/scene/whole_section.h"
+
 #include <string>
 
 namespace billet {
@@ -10,9 +12,9 @@ namespace billet {
 const std::string paraview_script_name = "show_in_paraview.py";
 
 /// Returns a Python script that opens the results beside it in ParaView. `index`: the file that lists them.
-/// A preview is shown with its supports, loads and tools at the end, and bodies in the colours of their
-/// boundary ids.
-std::string paraview_script(const std::string &index, bool is_preview = false);
+/// It looks at a section from its front. A preview is shown with its supports, loads and tools at the end,
+/// and bodies in the colours of their boundary ids.
+std::string paraview_script(const std::string &index, WholeSection::Kind section, bool is_preview);
 
 } // namespace billet
 
