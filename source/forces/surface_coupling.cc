@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/forces/surface_coupling.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/algebra/vector.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
@@ -23,15 +24,6 @@ Vector condensed(const Discretization &discretization, const Constraints &constr
   owned = additive;
   condense(constraints, couples_ranks, owned);
   return owned;
-}
-
-/// Returns the items of all ranks, in the order of these.
-template <class Item>
-std::vector<Item> gather_all(const MPI_Comm communicator, const std::vector<Item> &own) {
-  std::vector<Item> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
-  return all;
 }
 
 /// Calls visit(load, facets) for each load on a surface.

@@ -125,6 +125,7 @@ private:
         (word_.empty() ? "the end of the file" : "'" + printable(word_, max_length) + "'") + " where " +
         expected + " should be");
   }
+
   const char *next_, *end_;
   unsigned int line_ = 1;
   std::string word_;

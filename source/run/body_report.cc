@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/body_report.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/disjoint_sets.h"
 
@@ -140,9 +141,9 @@ std::vector<unsigned int> find_boundary_ids(const Discretization &discretization
     for (const unsigned int f : element.cell->face_indices())
       if (element.cell->face(f)->at_boundary())
         ids.insert(element.cell->face(f)->boundary_id());
-  const std::vector<unsigned int> own(ids.begin(), ids.end());
-  for (const auto &of_rank : mpi::all_gather(discretization.communicator(), own))
-    ids.insert(of_rank.begin(), of_rank.end());
+  const std::vector<unsigned int> all =
+      gather_all(discretization.communicator(), std::vector<unsigned int>(ids.begin(), ids.end()));
+  ids.insert(all.begin(), all.end());
   return {ids.begin(), ids.end()};
 }
 

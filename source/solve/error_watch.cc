@@ -181,10 +181,10 @@ void ErrorWatch::take_measurement() {
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
   const ImplicitSolution::Results results = problem_.results().accepted();
   const std::vector<double> least_sizes = problem_.results().least_sizes();
-  for (std::size_t i = 0; i < controls_.size(); ++i)
+  for (std::size_t i = 0; i < controls_.size(); ++i) {
     controls_[i].set_least_size(least_sizes[i]);
-  for (std::size_t i = 0; i < controls_.size(); ++i)
     controls_[i].accept(length, results[i], residual_factor_ * report.force, problem_.penetration());
+  }
   if (probe_length_ > 0. && control.time() < probe_end_) {
     control.plan(probe_length_);
     last_residual_ = report.force;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/missing_pairs.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/contact/overlap.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/geometry/bilinear_facet.h"
@@ -104,13 +105,6 @@ ElementVectors corners_of(const Element &element, const Vector *displacements) {
 
 /// Position, and whether a pair names it.
 using TestedPoint = std::array<double, 4>;
-
-std::vector<TestedPoint> gather(const std::vector<TestedPoint> &own, const MPI_Comm communicator) {
-  std::vector<TestedPoint> all;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, own))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
-  return all;
-}
 
 std::vector<Tensor<1, 3>> positions_of(const std::vector<TestedPoint> &tested) {
   std::vector<Tensor<1, 3>> positions;
@@ -261,7 +255,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
     if (contains(boxes[b], x))
       own.push_back({x[0], x[1], x[2], named_a.nodes[n] ? 1. : 0.});
   }
-  const std::vector<TestedPoint> tested = gather(own, communicator);
+  const std::vector<TestedPoint> tested = gather_all(communicator, own);
   if (tested.empty())
     return {};
 
@@ -349,7 +343,7 @@ std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple
       x += 0.25 * position_of(facet.corners[v], facet.dofs[v], displacements);
     own.push_back({x[0], x[1], x[2], 0.});
   }
-  const std::vector<Tensor<1, 3>> points = positions_of(gather(own, communicator));
+  const std::vector<Tensor<1, 3>> points = positions_of(gather_all(communicator, own));
   std::vector<ElementVectors> elements;
   for (const Element &element : discretization_.elements(couple.body))
     elements.push_back(corners_of(element, displacements));

@@ -8,14 +8,13 @@ holds for any mesh, and with theory. The scenes themselves run in tests/benchmar
 
 from __future__ import annotations
 
-import re
 import sys
 
-from checks import SHIPPED, Checks, enter_folder, equal, near, read_text, require, rows_of, run
+from checks import SHIPPED, Checks, enter_folder, equal, near, require, run
 from rolling_theory import force_and_torque
+from shipped import Rows, history, require_balance, require_page, require_short
 from snap_fit_theory import INSERTION, REMOVAL, Way, beam_force, design_force, force_ratio
 
-MAX_LINES = 60
 PAGES = {
     "snap_fit": "snap_fit",
     "slab_rolling": "slab_rolling",
@@ -26,8 +25,6 @@ PAGES = {
 program = sys.argv[1]
 check = Checks()
 enter_folder()
-
-Rows = list[dict[str, float]]
 
 
 def run_variant(name: str, *changes: str) -> Rows:
@@ -44,10 +41,8 @@ def run_variant(name: str, *changes: str) -> Rows:
         *options,
     )
     require(ended.code == 0, ended.output + ended.errors)
-    head, *lines = rows_of(f"{name}/history.csv")
-    rows = [dict(zip(head, map(float, line))) for line in lines]
-    for row in rows:
-        require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
+    rows = history(name)
+    require_balance(rows)
     return rows
 
 
@@ -141,12 +136,8 @@ def _() -> None:
 @check("pages")
 def _() -> None:
     for name, page_name in PAGES.items():
-        lines = read_text(SHIPPED / f"{name}.prm").count("\n")
-        require(lines <= MAX_LINES, f"{name}: more than {MAX_LINES} lines")
-        page = read_text(SHIPPED.parent / f"doc/scenes/{page_name}.md")
-        require(f"prm/{name}.prm" in page, f"the page of {name} does not name its scene")
-        for picture in re.findall(r"\]\(\.\./(images/\S+?)\)", page):
-            require((SHIPPED.parent / "doc" / picture).exists(), f"no {picture}")
+        require_short(name)
+        require_page(name, page_name)
 
 
 sys.exit(check.finish())

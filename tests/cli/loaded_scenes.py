@@ -21,32 +21,21 @@ from checks import (
     near,
     read_text,
     require,
-    rows_of,
     run,
     says,
     write_text,
 )
 from membrane import Membrane
-
-MAX_LINES = 60
+from shipped import Rows, history, require_balance, require_page, require_short
 
 program = sys.argv[1]
 check = Checks()
 enter_folder()
 
-Rows = list[dict[str, float]]
-
-
-def history(folder: str) -> Rows:
-    """Returns the rows of a run's history."""
-    head, *rows = rows_of(f"{folder}/history.csv")
-    return [dict(zip(head, map(float, row))) for row in rows]
-
 
 def run_scene(name: str, *options: str) -> tuple[Ended, Rows]:
     """Runs a shipped scene and returns how it ended, and its history."""
-    text = read_text(SHIPPED / f"{name}.prm")
-    require(text.count("\n") <= MAX_LINES, f"more than {MAX_LINES} lines")
+    require_short(name)
     folder = f"{name}.{len(options)}"
     ended = run(program, str(SHIPPED / f"{name}.prm"), "--output", folder, *options)
     return ended, history(folder)
@@ -58,8 +47,7 @@ def run_to_end(name: str, *options: str) -> Rows:
     equal("exit code", ended.code, 0)
     require("warning[" not in ended.output + ended.errors, ended.output + ended.errors)
     require("note[stabilised-" not in ended.output, ended.output)  # of the stack, which rests by its weight
-    for row in rows:
-        require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
+    require_balance(rows)
     return rows
 
 
@@ -212,10 +200,7 @@ def _() -> None:
 @check("pages")
 def _() -> None:
     for name in ("bracket", "stack", "pressurised_cylinder", "drop"):
-        page = read_text(SHIPPED.parent / f"doc/scenes/{name}.md")
-        require(f"prm/{name}.prm" in page, f"the page of {name} does not name its scene")
-        for picture in re.findall(r"\]\(\.\./(images/\S+?)\)", page):
-            require((SHIPPED.parent / "doc" / picture).exists(), f"no {picture}")
+        require_page(name, name)
 
 
 sys.exit(check.finish())

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of shipped scenes share: length, history, balance of forces, pages."""
+
+from __future__ import annotations
+
+import re
+
+from checks import SHIPPED, read_text, require, rows_of
+
+MAX_LINES = 60
+
+Rows = list[dict[str, float]]
+
+
+def require_short(name: str) -> None:
+    """Checks the length of a scene."""
+    n_lines = read_text(SHIPPED / f"{name}.prm").count("\n")
+    require(n_lines <= MAX_LINES, f"{name}: more than {MAX_LINES} lines")
+
+
+def history(folder: str) -> Rows:
+    """Returns the rows of a run's history."""
+    head, *rows = rows_of(f"{folder}/history.csv")
+    return [dict(zip(head, map(float, row))) for row in rows]
+
+
+def require_balance(rows: Rows) -> None:
+    """Checks that the forces of each row balance."""
+    for row in rows:
+        require(abs(row["force_balance_defect"]) <= 1e-12, f"defect {row['force_balance_defect']}")
+
+
+def require_page(name: str, page_name: str) -> None:
+    """Checks that the page of a scene names it, and has its pictures."""
+    page = read_text(SHIPPED.parent / f"doc/scenes/{page_name}.md")
+    require(f"prm/{name}.prm" in page, f"the page of {name} does not name its scene")
+    for picture in re.findall(r"\]\(\.\./(images/\S+?)\)", page):
+        require((SHIPPED.parent / "doc" / picture).exists(), f"no {picture}")
