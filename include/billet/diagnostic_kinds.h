@@ -292,8 +292,12 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind mesh_may_exceed_target(
     "mesh-may-exceed-target", Severity::note,
-    "Stresses jump between elements by more than the 'Target error', which does not control the mesh.",
-    "Compare with a run on a finer mesh");
+    "The estimated error of the mesh exceeds the 'Target error', which does not control the mesh.",
+    "Use finer elements where the field 'mesh_error' is large");
+
+inline const DiagnosticKind
+    mesh_error("mesh-error", Severity::note,
+               "This is the estimated error that the size of the elements makes in the forces of the run.", "");
 
 inline const DiagnosticKind target_error_expensive("target-error-expensive", Severity::warning,
                                                    "The allowed error requires very many steps.",

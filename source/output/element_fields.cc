@@ -2,6 +2,7 @@
 #include "billet/output/element_fields.h"
 
 #include "billet/output/field_quantity.h"
+#include "billet/solve/mesh_errors.h"
 
 #include <deal.II/base/geometry_info.h>
 
@@ -91,6 +92,8 @@ private:
   ElementAverage average(const Summary &summary, const std::size_t element, const std::size_t place) const {
     ElementAverage result{body_, summary.cauchy_stress, summary.equivalent_plastic_strain, {}};
     result.material = material_;
+    if (solution_.mesh_errors() != nullptr)
+      result.mesh_error = solution_.mesh_errors()->of_element(body_, element);
     if (!states_.empty())
       result.state = {fields_, states_[element][place]};
     const Element &brick = solution_.discretization().elements(body_)[element];

@@ -3,15 +3,12 @@
 
 #include "billet/diagnostic_kinds.h"
 
-#include <array>
 #include <cmath>
 #include <sstream>
 
 namespace billet {
 
 namespace {
-
-constexpr unsigned int n_stresses = 6;
 
 /// Returns one scalar for each element.
 template <class Get>
@@ -81,19 +78,6 @@ ElementValues smooth(const Discretization &discretization, const ElementValues &
     }
   }
   return result;
-}
-
-double stress_jumps(const Solution &solution, const Discretization &discretization) {
-  const auto summaries = summarize(solution, discretization);
-  double jumps = 0., stresses = 0.;
-  for (unsigned int c = 0; c < n_stresses; ++c) {
-    const double weight = c < 3 ? 1. : 2.; // shear components appear twice
-    const ElementValues stress = values_of(
-        summaries, [c](const ElementSummary &summary) { return summary.cauchy_stress.access_raw_entry(c); });
-    jumps += weight * integrate_squares(discretization, difference(stress, smooth(discretization, stress)));
-    stresses += weight * integrate_squares(discretization, stress);
-  }
-  return stresses > 0. ? std::sqrt(jumps / stresses) : 0.;
 }
 
 Checkerboard find_checkerboard(const Solution &solution, const Discretization &discretization) {

@@ -23,11 +23,10 @@ namespace {
 
 double percent(const double part) { return 100. * part; }
 
-std::string mesh_is_not_part(const double stress_jumps) {
+std::string mesh_is_not_part(const double mesh) {
   std::ostringstream text;
   text.precision(2);
-  text << "The estimate excludes the error of the mesh: stresses jump between elements by "
-       << percent(stress_jumps) << " % on average";
+  text << "The estimate excludes the error of the mesh, about " << percent(mesh) << " % of the forces";
   return text.str();
 }
 
@@ -64,9 +63,9 @@ Diagnostic ErrorReport::estimate() const {
   text.precision(7);
   for (const auto &[name, value] : costs)
     text << (&name == &costs.front().first ? "; cost: " : ", ") << value << " " << name;
-  text << ". " << mesh_is_not_part(stress_jumps);
+  text << ". " << mesh_is_not_part(mesh);
   Diagnostic result(diagnostic::error_estimate, text.str());
-  result.value("error", total()).value("target", target).value("stress jumps", stress_jumps);
+  result.value("error", total()).value("target", target).value("mesh", mesh);
   for (const auto &source : sources)
     result.value(source.name, source.is_known ? source.error : std::nan(""));
   return result;
@@ -101,11 +100,11 @@ DiagnosticList ErrorReport::diagnostics() const {
     messages.push_back(Diagnostic(diagnostic::target_error_unknown, text.str())
                            .value("target", target)
                            .advice(unknown->remedy));
-  } else if (stress_jumps > target) {
-    messages.push_back(Diagnostic(diagnostic::mesh_may_exceed_target,
-                                  mesh_is_not_part(stress_jumps) + ", more than the target")
-                           .value("stress jumps", stress_jumps)
-                           .value("target", target));
+  } else if (mesh > target) {
+    messages.push_back(
+        Diagnostic(diagnostic::mesh_may_exceed_target, mesh_is_not_part(mesh) + ", more than the target")
+            .value("mesh", mesh)
+            .value("target", target));
   }
   return messages;
 }
@@ -126,7 +125,7 @@ void ErrorReport::write(const std::string &folder) const {
   file << "error," << estimated(total(), all_known) << "\n";
   for (const auto &source : sources)
     file << source.name << "," << estimated(source.error, source.is_known) << "\n";
-  file << "stress jumps," << stress_jumps << "\n";
+  file << "mesh," << mesh << "\n";
   file.precision(12);
   for (const auto &[what, value] : costs)
     file << what << "," << value << "\n";

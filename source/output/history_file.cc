@@ -2,6 +2,7 @@
 #include "billet/output/history_file.h"
 
 #include "billet/errors.h"
+#include "billet/solve/mesh_errors.h"
 
 #include <filesystem>
 #include <iomanip>
@@ -26,6 +27,10 @@ std::string columns_of(const Scene &scene, const std::vector<HistoryQuantity> &q
     for (const std::string &column : quantity.columns(scene))
       columns += (columns.empty() ? "" : ",") + column;
   return columns;
+}
+
+double mesh_error_of(const Solution &solution) {
+  return solution.mesh_errors() != nullptr ? solution.mesh_errors()->error() : 0.;
 }
 
 } // namespace
@@ -76,12 +81,14 @@ HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<std::uintm
 
 void HistoryFile::write(const StepReport &report, const Solution &solution,
                         const std::vector<double> &probes) {
-  write({solution.state(), report.step, report.length, &report, solution.reactions(), probes, whole_});
+  write({solution.state(), report.step, report.length, &report, solution.reactions(), probes, whole_,
+         mesh_error_of(solution)});
 }
 
 void HistoryFile::write(const unsigned int step, const double length, const Solution &solution,
                         const std::vector<double> &probes) {
-  write({solution.state(), step, length, nullptr, solution.reactions(), probes, whole_});
+  write({solution.state(), step, length, nullptr, solution.reactions(), probes, whole_,
+         mesh_error_of(solution)});
 }
 
 void HistoryFile::write(const HistorySample &sample) {

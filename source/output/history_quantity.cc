@@ -17,6 +17,7 @@ HistoryQuantity force_balance_quantity();
 HistoryQuantity energy_ratio_quantity();
 HistoryQuantity probes_quantity();
 HistoryQuantity whole_section_quantity();
+HistoryQuantity mesh_error_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -44,6 +45,7 @@ HistoryQuantities &history_quantities() {
     all.add(energy_ratio_quantity());
     all.add(probes_quantity());
     all.add(whole_section_quantity());
+    all.add(mesh_error_quantity());
     return all;
   }();
   return quantities;

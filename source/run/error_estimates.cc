@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/error_estimates.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/output/element_means.h"
 #include "billet/run/stopwatch.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace billet {
 
@@ -44,7 +45,7 @@ ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_s
   return result;
 }
 
-void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
+void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretization &discretization,
                    const parameters::Scene &parameters, const RunReview &review, RunOutput &output) {
   report.target = parameters.target_error;
   if (review.element_error() > 0.)
@@ -53,11 +54,29 @@ void report_errors(ErrorReport report, const Solution &solution, const Discretiz
   if (review.penalty_error() > 0.)
     report.sources.push_back(
         {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});
-  report.stress_jumps = stress_jumps(solution, discretization);
+  report.mesh = mesh.error();
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
   output.report(report.diagnostics());
   output.write_estimate(report);
+}
+
+DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Scene &parameters) {
+  if (!mesh.is_known())
+    return {};
+  constexpr double much = 0.05; // in proportion to what other sources usually make
+  std::ostringstream text;
+  text.precision(2);
+  text << "The size of the elements makes an error of about " << 100. * mesh.error() << " % of the forces";
+  const std::vector<double> parts = mesh.of_bodies();
+  for (std::size_t body = 0; parts.size() > 1 && body < parts.size(); ++body)
+    text << (body == 0 ? ": " : ", ") << "body '" << parameters.bodies[body].name << "' "
+         << 100. * parts[body] << " %";
+  Diagnostic message(diagnostic::mesh_error, text.str());
+  message.value("error", mesh.error());
+  if (mesh.error() > much)
+    message.advice("Use finer elements where the field 'mesh_error' is large, and compare the forces");
+  return {message};
 }
 
 } // namespace billet

@@ -71,6 +71,7 @@ void ExplicitRun::load(Resumption &resumption) {
       history_times_.begin_after(reader.number("last"));
     balanced_step_ = reader.count("balanced step");
     review_.load(reader);
+    mesh_errors_.load(reader);
     if (errors_ && reader.has("errors")) {
       errors_->load(reader);
       problem_.shorten_steps(errors_->step_factor());
@@ -85,6 +86,7 @@ void ExplicitRun::save_method(StateWriter &writer) const {
     writer.write("last", {history_times_.last()});
     writer.write("balanced step", {static_cast<double>(balanced_step_)});
     review_.save(writer);
+    mesh_errors_.save(writer);
     if (errors_)
       errors_->save(writer);
   });
@@ -92,6 +94,7 @@ void ExplicitRun::save_method(StateWriter &writer) const {
 
 void ExplicitRun::begin(RunOutput &output, const Resumption *resumption) {
   announce(problem_, output, resumption, 0.);
+  problem_.set_mesh_errors(mesh_errors_);
   if (parameters_.explicit_dynamics.scaled_step > 0.)
     output.report(describe_mass_scaling(problem_));
 }
@@ -151,10 +154,8 @@ void ExplicitRun::show_number_of_steps(RunOutput &output) const {
 }
 
 void ExplicitRun::write_row(RunOutput &output) {
-  if (probes_.empty())
-    problem_.update_ledger();
-  else
-    problem_.update_state(); // probes read the fields, too
+  problem_.update_state(); // the errors of the mesh, and probes, read the fields
+  mesh_errors_.add(problem_);
   const std::vector<double> probes = probes_.read(problem_);
   output.write_row([&](HistoryFile &history) {
     history.write(problem_.n_steps(), problem_.step_length(), problem_, probes);
@@ -165,7 +166,6 @@ void ExplicitRun::write_row(RunOutput &output) {
       check_force_balance(problem_.reactions().balance, problem_.time(),
                           parameters_.explicit_dynamics.number_type == NumberType::float_precision));
   output.report(problem_.check_penalties());
-  problem_.update_state();
   output.report(review_.after_step(problem_, problem_.time() >= stops_.end()));
   output.report(energies_.check(problem_.time(), problem_.state().energies));
 }
@@ -230,11 +230,12 @@ void ExplicitRun::end(RunOutput &output) {
                     {"element updates", static_cast<double>(problem_.n_steps()) *
                                             static_cast<double>(discretization_.n_global_elements())}};
     problem_.update_state();
-    report_errors(report, problem_, discretization_, parameters_, review_, output);
+    report_errors(report, mesh_errors_, discretization_, parameters_, review_, output);
   }
   output.progress().show_pace(problem_.n_steps(), discretization_.n_global_elements(), stopwatch_.seconds(),
                               stopwatch_.processor_seconds());
   problem_.update_state();
+  output.report(describe_mesh_errors(mesh_errors_, parameters_));
   output.report(find_checkerboard(problem_, discretization_).check());
 }
 

@@ -67,6 +67,7 @@ void ImplicitRun::load_control(Resumption &resumption) {
       if (watch_)
         watch_->load(reader);
       review_.load(reader);
+      mesh_errors_.load(reader);
       if (errors_ && reader.has("errors"))
         errors_->load(reader);
     });
@@ -82,11 +83,15 @@ void ImplicitRun::save_method(StateWriter &writer) const {
     if (errors_)
       errors_->save(writer);
     review_.save(writer);
+    mesh_errors_.save(writer);
   });
 }
 
 void ImplicitRun::begin(RunOutput &output, const Resumption *resumption) {
   announce(problem_, output, resumption, parameters_.solver.force_tolerance);
+  problem_.set_mesh_errors(mesh_errors_);
+  if (!mesh_errors_.has_begun())
+    mesh_errors_.add(problem_);
   if (resumption == nullptr || !resumption->report.is_exact)
     output.snapshots().write(problem_);
 }
@@ -145,6 +150,7 @@ void ImplicitRun::after_step(RunOutput &output) {
   control_errors(output);
   continued_ = report_.length;
   report_.step = control_.n_steps();
+  mesh_errors_.add(problem_);
   const std::vector<double> probes = probes_.read(problem_);
   output.write_row([&](HistoryFile &history) { history.write(report_, problem_, probes); });
   output.progress().set_probes(probes);
@@ -194,12 +200,13 @@ void ImplicitRun::end(RunOutput &output) {
   output.report(review_.finish());
   output.report(problem_.finish());
   if (watch_)
-    report_errors(make_report(*watch_, report_), problem_, discretization_, parameters_, review_, output);
+    report_errors(make_report(*watch_, report_), mesh_errors_, discretization_, parameters_, review_, output);
   if (errors_) {
     ErrorReport estimate = make_report(*errors_, "Reduce 'Maximum step'");
     estimate.costs = {{"steps taken", report_.step}, {"Newton iterations", report_.total_iterations}};
-    report_errors(std::move(estimate), problem_, discretization_, parameters_, review_, output);
+    report_errors(std::move(estimate), mesh_errors_, discretization_, parameters_, review_, output);
   }
+  output.report(describe_mesh_errors(mesh_errors_, parameters_));
   output.report(find_checkerboard(problem_, discretization_).check());
 }
 

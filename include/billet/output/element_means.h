@@ -17,12 +17,6 @@ using ElementValues = std::vector<std::vector<double>>;
 /// of the body around it, weighted by undeformed volume. Collective.
 ElementValues smooth(const Discretization &discretization, const ElementValues &values);
 
-/// Returns the relative jump of stresses between elements, an indicator of the discretization error after
-/// Zienkiewicz & Zhu (1987): √(Σ V |σ − σ*|² / Σ V |σ|²) over all elements. Here σ is the mean Cauchy stress
-/// of an element with volume V, and σ* the smoothed stress, see smooth(). It decreases with element size and
-/// measures errors of stresses; errors of forces are smaller. 0 without stress. Collective.
-double stress_jumps(const Solution &solution, const Discretization &discretization);
-
 /// Pressure checkerboard: the part of the pressures that alternates from element to element, as bricks with
 /// one pressure each allow (Sussman & Bathe, Comput. Struct. 26 (1987) 357-409). The indicator is d = p - S
 /// p, with S as in smooth(). For a checkerboard, d contains all of it and S d vanishes; for a smooth field, S

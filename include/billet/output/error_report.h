@@ -25,7 +25,7 @@ struct ErrorReport {
   double target = 0.;          ///< 0: none
   bool is_known = true;        ///< whether there was a reference quantity to normalise by
   std::vector<Source> sources; ///< estimated sources
-  double stress_jumps = 0.;    ///< from stress_jumps()
+  double mesh = 0.;            ///< from MeshErrors::error(); not one of the sources
   std::vector<std::pair<std::string, double>> costs;
 
   /// Returns the sum of the known errors.

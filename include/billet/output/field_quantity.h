@@ -20,6 +20,7 @@ struct ElementAverage {
   StateAverage state;                             ///< of the law; without numbers unless a quantity reads it
   dealii::Tensor<2, 3> deformation_gradient = {}; ///< mean over the undeformed element
   std::size_t material = 0;                       ///< number of the body's material
+  double mesh_error = 0.;                         ///< from MeshErrors::of_element()
 };
 
 /// Quantity that is constant in an element: a scalar, or the components of a vector or tensor. Six components

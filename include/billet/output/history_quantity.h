@@ -29,6 +29,7 @@ struct HistorySample {
   const Reactions &reactions;
   const std::vector<double> &probes; ///< values of probe_columns()
   const WholeSection &whole;
+  double mesh_error = 0.; ///< from MeshErrors::error()
 };
 
 /// Columns of the history that belong together.

@@ -7,6 +7,7 @@
 #include "billet/run/run_output.h"
 #include "billet/solve/energy_errors.h"
 #include "billet/solve/error_watch.h"
+#include "billet/solve/mesh_errors.h"
 #include "billet/solve/run_review.h"
 
 namespace billet {
@@ -20,8 +21,11 @@ ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_s
 
 /// Adds the errors of elements and soft contact, reports the estimate, and writes error_estimate.csv.
 /// Collective.
-void report_errors(ErrorReport report, const Solution &solution, const Discretization &discretization,
+void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretization &discretization,
                    const parameters::Scene &parameters, const RunReview &review, RunOutput &output);
+
+/// Returns the message on the errors of the mesh at the end of a run; none if nothing has deformed.
+DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Scene &parameters);
 
 } // namespace billet
 

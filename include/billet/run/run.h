@@ -5,6 +5,7 @@
 #include "billet/output/probe_reader.h"
 #include "billet/run/resumption.h"
 #include "billet/run/run_output.h"
+#include "billet/solve/mesh_errors.h"
 #include "billet/solve/run_review.h"
 #include "billet/solve/stability_watch.h"
 
@@ -20,8 +21,8 @@ class Run {
 public:
   Run(const Scene &scene, MPI_Comm communicator)
       : scene_(scene), parameters_(scene.parameters()), discretization_(scene, communicator),
-        review_(scene, discretization_), stability_(scene, discretization_), probes_(scene, discretization_) {
-  }
+        review_(scene, discretization_), stability_(scene, discretization_), mesh_errors_(discretization_),
+        probes_(scene, discretization_) {}
   virtual ~Run() = default;
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
@@ -60,6 +61,7 @@ protected:
   const Discretization discretization_;
   RunReview review_;
   StabilityWatch stability_;
+  MeshErrors mesh_errors_;
   const ProbeReader probes_;
 };
 

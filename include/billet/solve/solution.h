@@ -13,6 +13,8 @@
 
 namespace billet {
 
+class MeshErrors;
+
 /// Energies since time 0, the same on all ranks [energy].
 struct EnergyLedger {
   double initial = 0.; ///< at the start of the scene
@@ -71,6 +73,14 @@ public:
   virtual bool solves_iteratively() const { return false; }
   /// Returns the forces on the bodies at the state.
   virtual const Reactions &reactions() const = 0;
+
+  /// Returns the errors of the mesh so far; null if nobody estimates them.
+  const MeshErrors *mesh_errors() const { return mesh_errors_; }
+  /// Lets mesh_errors() return these, which must outlive the solution.
+  void set_mesh_errors(const MeshErrors &errors) { mesh_errors_ = &errors; }
+
+private:
+  const MeshErrors *mesh_errors_ = nullptr;
 };
 
 } // namespace billet

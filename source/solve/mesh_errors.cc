@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/mesh_errors.h"
+
+#include "billet/discretization/element_key.h"
+#include "billet/discretization/node_keys.h"
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace billet {
+
+using dealii::Point;
+using dealii::Tensor;
+
+namespace {
+
+constexpr unsigned int n_stresses = 6;
+constexpr std::size_t row_width = n_stresses + n_element_dofs + 1;
+
+/// Factors of (W4).
+struct Factors {
+  /// Of J² h A over the secant modulus of the interval: what half as long elements save in an elastic bar. Of
+  /// rigid plasticity it is twice as much as they save, on the safe side.
+  static constexpr double of_jump = 1. / 12.;
+  /// Part of the normal jump that counts.
+  static constexpr double normal = 0.5;
+  /// Of a face's jump, what an element is charged with; its neighbour is charged with the other half.
+  static constexpr double own = 0.5;
+};
+
+Tensor<1, 3> node_of(const ElementVectors &vectors, const unsigned int a) {
+  return Tensor<1, 3>({vectors[3 * a], vectors[3 * a + 1], vectors[3 * a + 2]});
+}
+
+/// Returns the gradient at the centre of an element of its nodal vectors, and its volume as 8 times the
+/// Jacobian there.
+std::pair<Tensor<2, 3>, double> centre_gradient(const ElementVectors &positions,
+                                                const ElementVectors &values) {
+  Tensor<2, 3> jacobian, derivatives; // ∂x_i/∂ξ_j, ∂v_i/∂ξ_j
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    for (unsigned int j = 0; j < 3; ++j) {
+      const double derivative = ((a >> j) & 1U) == 1U ? 0.125 : -0.125;
+      for (unsigned int i = 0; i < 3; ++i) {
+        jacobian[i][j] += derivative * positions[3 * a + i];
+        derivatives[i][j] += derivative * values[3 * a + i];
+      }
+    }
+  const double determinant = dealii::determinant(jacobian);
+  if (!(determinant > 0.))
+    return {Tensor<2, 3>(), 0.};
+  return {derivatives * dealii::invert(jacobian), 8. * determinant};
+}
+
+double equivalent_of(const dealii::SymmetricTensor<2, 3> &tensor) { return dealii::deviator(tensor).norm(); }
+
+} // namespace
+
+MeshErrors::MeshErrors(const Discretization &discretization)
+    : discretization_(discretization), errors_(discretization.n_bodies()) {
+  for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
+    elements_.emplace_back(discretization.elements(body).size());
+    for (const Element &element : discretization.elements(body))
+      volume_ += element.cell->measure();
+  }
+  volume_ = dealii::Utilities::MPI::sum(volume_, discretization.communicator());
+}
+
+MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const OwnedElement &before,
+                                         const Stress &stress, const ElementVectors &displacements) {
+  ElementVectors middle = positions, increment{};
+  for (unsigned int i = 0; i < n_element_dofs; ++i) {
+    middle[i] += 0.5 * (before.displacements[i] + displacements[i]);
+    increment[i] = displacements[i] - before.displacements[i];
+  }
+  const auto [gradient, volume] = centre_gradient(middle, increment);
+  const Stress strain = dealii::symmetrize(gradient);
+  Interval interval;
+  interval.stress = 0.5 * (before.stress + stress);
+  interval.volume = volume;
+  interval.strain = std::sqrt(2. / 3.) * equivalent_of(strain);
+  interval.work = volume * (interval.stress * strain);
+  return interval;
+}
+
+std::vector<MeshErrors::Interval> MeshErrors::compare_all(const Solution &solution,
+                                                          const std::vector<std::vector<Stress>> &stresses) {
+  const auto &dof_handler = discretization_.dof_handler();
+  std::vector<Interval> intervals(dof_handler.get_triangulation().n_active_cells());
+  const SolutionState &state = solution.state();
+  for (std::size_t body = 0; body < elements_.size(); ++body)
+    for (std::size_t e = 0; e < elements_[body].size(); ++e) {
+      const Element &element = discretization_.elements(body)[e];
+      intervals[element.cell->active_cell_index()] =
+          compare(nodal_positions(element.cell), elements_[body][e], stresses[body][e],
+                  gather(state.displacements, element.dofs));
+    }
+  using Shown = std::array<double, n_stresses + 1>;
+  dealii::GridTools::exchange_cell_data_to_ghosts<Shown, dealii::DoFHandler<3>>(
+      dof_handler,
+      [&](const CellIterator &cell) {
+        const Interval &own = intervals[cell->active_cell_index()];
+        Shown shown{};
+        for (unsigned int c = 0; c < n_stresses; ++c)
+          shown[c] = own.stress.access_raw_entry(c);
+        shown[n_stresses] = own.volume;
+        return shown;
+      },
+      [&](const CellIterator &cell, const Shown &shown) {
+        Interval &other = intervals[cell->active_cell_index()];
+        for (unsigned int c = 0; c < n_stresses; ++c)
+          other.stress.access_raw_entry(c) = shown[c];
+        other.volume = shown[n_stresses];
+      });
+  return intervals;
+}
+
+double MeshErrors::saved_work(const CellIterator &cell, const ElementVectors &positions,
+                              const std::vector<Interval> &intervals) {
+  const Interval &own = intervals[cell->active_cell_index()];
+  const double equivalent = std::sqrt(1.5) * equivalent_of(own.stress);
+  double saved = 0.;
+  for (const unsigned int f : cell->face_indices()) {
+    if (cell->face(f)->at_boundary())
+      continue;
+    const Interval &other = intervals[cell->neighbor(f)->active_cell_index()];
+    std::array<Tensor<1, 3>, 4> x;
+    for (unsigned int v = 0; v < 4; ++v)
+      x[v] = node_of(positions, dealii::GeometryInfo<3>::face_to_cell_vertices(f, v));
+    const Tensor<1, 3> area = 0.5 * dealii::cross_product_3d(x[3] - x[0], x[2] - x[1]);
+    const double size = area.norm();
+    if (!(size > 0.))
+      continue; // on an axis
+    const Tensor<1, 3> normal = area / size, jump = (own.stress - other.stress) * normal;
+    const double across = jump * normal, along = std::max(0., jump.norm_square() - across * across);
+    const double height = 0.5 * (own.volume + other.volume) / size;
+    // A jump above the stress itself does not make the element softer than the strain that it has.
+    const double modulus = std::max(equivalent, jump.norm()) / 3.;
+    if (modulus > 0.)
+      saved += Factors::own * Factors::of_jump * height * size * (along + Factors::normal * across * across) *
+               own.strain / modulus;
+  }
+  return saved;
+}
+
+void MeshErrors::add(const Solution &solution) {
+  std::vector<std::vector<Stress>> stresses(elements_.size());
+  for (std::size_t body = 0; body < elements_.size(); ++body)
+    for (const ElementSummary &summary : solution.summarize(body))
+      stresses[body].push_back(summary.cauchy_stress);
+  std::vector<Interval> intervals;
+  if (has_begun_)
+    intervals = compare_all(solution, stresses);
+  std::vector<double> sums(elements_.size() + 1); // by body, and the work
+  for (std::size_t body = 0; body < elements_.size(); ++body)
+    for (std::size_t e = 0; e < elements_[body].size(); ++e) {
+      const Element &element = discretization_.elements(body)[e];
+      OwnedElement &own = elements_[body][e];
+      const ElementVectors displacements = gather(solution.state().displacements, element.dofs);
+      if (has_begun_) {
+        ElementVectors middle = nodal_positions(element.cell);
+        for (unsigned int i = 0; i < n_element_dofs; ++i)
+          middle[i] += 0.5 * (own.displacements[i] + displacements[i]);
+        const double saved = saved_work(element.cell, middle, intervals);
+        own.error += saved;
+        sums[body] += saved;
+        sums.back() += std::abs(intervals[element.cell->active_cell_index()].work);
+      }
+      own.stress = stresses[body][e];
+      own.displacements = displacements;
+    }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  for (std::size_t body = 0; body < elements_.size(); ++body)
+    errors_[body] += sums[body];
+  work_ += sums.back();
+  has_begun_ = true;
+}
+
+double MeshErrors::error() const {
+  double sum = 0.;
+  for (const double error : of_bodies())
+    sum += error;
+  return sum;
+}
+
+std::vector<double> MeshErrors::of_bodies() const {
+  std::vector<double> parts(errors_.size());
+  for (std::size_t body = 0; is_known() && body < parts.size(); ++body)
+    parts[body] = errors_[body] / work_;
+  return parts;
+}
+
+double MeshErrors::of_element(const std::size_t body, const std::size_t element) const {
+  if (!is_known())
+    return 0.;
+  return elements_[body][element].error / discretization_.elements(body)[element].cell->measure() /
+         (work_ / volume_);
+}
+
+void MeshErrors::save(StateWriter &writer) const {
+  std::vector<std::uint64_t> keys;
+  std::vector<double> rows;
+  RowWriter row(rows);
+  for (std::size_t body = 0; body < elements_.size(); ++body)
+    for (std::size_t e = 0; e < elements_[body].size(); ++e) {
+      const OwnedElement &own = elements_[body][e];
+      keys.push_back(element_key(discretization_.elements(body)[e].cell));
+      for (unsigned int c = 0; c < n_stresses; ++c)
+        row.number(own.stress.access_raw_entry(c));
+      rows.insert(rows.end(), own.displacements.begin(), own.displacements.end());
+      row.number(own.error);
+    }
+  std::vector<double> sums = errors_;
+  sums.push_back(work_);
+  sums.push_back(has_begun_ ? 1. : 0.);
+  writer.write("mesh errors", sums);
+  writer.write_rows("mesh errors of elements", row_width, keys, rows);
+}
+
+void MeshErrors::load(const StateReader &reader) {
+  if (!reader.has("mesh errors"))
+    return; // of an earlier version: the estimate begins here
+  const std::vector<double> sums = reader.read("mesh errors", errors_.size() + 2);
+  std::copy_n(sums.begin(), errors_.size(), errors_.begin());
+  work_ = sums[errors_.size()];
+  has_begun_ = sums.back() > 0.;
+  std::vector<std::uint64_t> keys;
+  for (std::size_t body = 0; body < elements_.size(); ++body)
+    for (const Element &element : discretization_.elements(body))
+      keys.push_back(element_key(element.cell));
+  const std::vector<double> rows = reader.read_rows("mesh errors of elements", row_width, keys);
+  RowReader row(rows);
+  for (auto &of_body : elements_)
+    for (OwnedElement &own : of_body) {
+      for (unsigned int c = 0; c < n_stresses; ++c)
+        own.stress.access_raw_entry(c) = row.number();
+      for (double &displacement : own.displacements)
+        displacement = row.number();
+      own.error = row.number();
+    }
+}
+
+} // namespace billet
