@@ -104,6 +104,10 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
   const Tensor<1, 3> arm = surface_.e_0 - x;
   const double range = 1.1 + 2. * limits.tolerance; // keeps the end of the range outside the tolerance
   std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
+  const std::array<bool, 2> is_undefined = surface_.undefined_at(at);
+  for (unsigned int i = 0; i < 2; ++i)
+    if (is_undefined[i])
+      at[i] = 0.;
   projection.excess = excess_of(at);
   bool is_straight = projection.excess <= limits.tolerance;
   if (!is_straight) {
@@ -116,12 +120,8 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
     if (is_straight)
       projection.excess = 0.;
   }
-  const Tensor<1, 3> area_vector =
-      dealii::cross_product_3d(surface_.e_1 + at[1] * surface_.e_3, surface_.e_2 + at[0] * surface_.e_3);
-  const double size = area_vector.norm();
-  if (!(size > 0.)) // the tip of a triangle
-    return projection;
-  projection.normal = area_vector / size;
+  const Tensor<1, 3> area_vector = surface_.area_vector(at);
+  projection.normal = area_vector / area_vector.norm();
   projection.gap = -(difference(at, arm) * projection.normal);
   projection.parameters = at;
   projection.weights = facet::weights(at);
@@ -146,11 +146,18 @@ FacetProjectionOf<Number> BilinearFacet::follow(const facet::ExpansionOf<Number>
   const double xi_xi = value_of(along_xi.norm_square()), eta_eta = value_of(along_eta.norm_square()),
                mixed = value_of(along_xi * along_eta + away * e_3),
                determinant = xi_xi * eta_eta - mixed * mixed;
-  at[0] -= (eta_eta * r_xi - mixed * r_eta) / determinant;
-  at[1] -= (xi_xi * r_eta - mixed * r_xi) / determinant;
+  const std::array<bool, 2> is_undefined = surface.undefined_at(found.parameters);
+  if (is_undefined[0])
+    at[1] -= r_eta / eta_eta;
+  else if (is_undefined[1])
+    at[0] -= r_xi / xi_xi;
+  else {
+    at[0] -= (eta_eta * r_xi - mixed * r_eta) / determinant;
+    at[1] -= (xi_xi * r_eta - mixed * r_xi) / determinant;
+  }
 
   FacetProjectionOf<Number> projection;
-  const Tensor<1, 3, Number> area_vector = dealii::cross_product_3d(e_1 + at[1] * e_3, e_2 + at[0] * e_3);
+  const Tensor<1, 3, Number> area_vector = surface.area_vector(at);
   projection.normal = area_vector / area_vector.norm();
   projection.gap = -(difference(at) * projection.normal);
   projection.parameters = at;

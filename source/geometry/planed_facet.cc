@@ -76,13 +76,25 @@ std::array<Number, 2> PlanedFacetOf<Number>::compute_parameters(const InPlane &x
   else if (A != 0.)
     eta = (root - B) / (2. * A);
   eta = into_range(eta);
-  const InPlane along{e_1_[0] + eta * e_3_[0], e_1_[1] + eta * e_3_[1]};
-  const Number square = along[0] * along[0] + along[1] * along[1];
-  // At the tip of a triangle ξ is undefined.
-  const Number xi =
-      square > 0.
-          ? into_range(((x[0] - eta * e_2_[0]) * along[0] + (x[1] - eta * e_2_[1]) * along[1]) / square)
-          : Number(0.);
+  const auto along = [](const InPlane &e, const Number &at, const InPlane &e_3) {
+    return InPlane{e[0] + at * e_3[0], e[1] + at * e_3[1]};
+  };
+  const auto square_of = [](const InPlane &e) { return e[0] * e[0] + e[1] * e[1]; };
+  // See ExpansionOf::undefined_at().
+  const double no_length = facet::tip * facet::tip * value_of(square_of(e_1_) + square_of(e_2_));
+  const auto find_xi = [&]() {
+    const InPlane along_xi = along(e_1_, eta, e_3_);
+    const Number square = square_of(along_xi);
+    return square > no_length
+               ? into_range(((x[0] - eta * e_2_[0]) * along_xi[0] + (x[1] - eta * e_2_[1]) * along_xi[1]) /
+                            square)
+               : Number(0.);
+  };
+  Number xi = find_xi();
+  if (!(square_of(along(e_2_, xi, e_3_)) > no_length)) {
+    eta = 0.;
+    xi = find_xi();
+  }
   return {xi, eta};
 }
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/geometry_info.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace billet {
@@ -12,9 +13,11 @@ using Unit = dealii::GeometryInfo<3>;
 
 namespace {
 
-/// Steps of Newton's method, in reference coordinates.
 struct Limits {
+  /// Steps of Newton's method, in reference coordinates.
   static constexpr double converged = 1e-10, diverged = 100.;
+  /// Distance from the point, relative to the coordinates, that is round-off.
+  static constexpr double reached = 1e-14;
 };
 
 } // namespace
@@ -30,6 +33,9 @@ std::optional<dealii::Point<3>> find_reference_point(const ElementVectors &corne
                                                      const ReferenceLimits &limits) {
   const dealii::Point<3> centre(0.5, 0.5, 0.5);
   dealii::Point<3> xi = centre;
+  double reached = 0.;
+  for (const double coordinate : corners)
+    reached = std::max(reached, Limits::reached * std::abs(coordinate));
   for (unsigned int i = 0; i < limits.max_iterations; ++i) {
     Tensor<1, 3> x;
     Tensor<2, 3> jacobian;
@@ -42,6 +48,9 @@ std::optional<dealii::Point<3>> find_reference_point(const ElementVectors &corne
           jacobian[k][j] += corners[3 * a + k] * gradient[j];
       }
     }
+    // On the axis of a prism the next step would be round-off. A flat element has no first step.
+    if (i > 0 && (point - x).norm() <= reached)
+      return xi;
     const auto step = solve_linear(jacobian, point - x);
     if (!step || !(step->norm() < Limits::diverged))
       return {};

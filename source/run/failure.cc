@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/failure.h"
 
+#include "billet/contact/traction.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/output/energy_watch.h"
 
@@ -73,15 +74,53 @@ std::string advise_on_steps(const parameters::Scene &parameters, const bool is_c
   return text.str();
 }
 
+/// Returns the pair of bodies whose springs hold most energy now, or the first one.
+const BodyPair &most_loaded_pair(const Scene &scene, const ExplicitDynamics &problem) {
+  const auto &loads = problem.state().body_pair_loads;
+  const auto most = std::max_element(loads.begin(), loads.end(), [](const auto &a, const auto &b) {
+    return a.stored_energy < b.stored_energy;
+  });
+  return scene.body_pairs()[static_cast<std::size_t>(most - loads.begin())];
+}
+
+/// Returns what to change of a pair of bodies and of the steps, in order. It leaves out what the scene has.
+std::vector<std::string> list_changes(const parameters::ExplicitDynamics &steps, const BodyPair &pair) {
+  std::vector<std::string> changes;
+  const auto add = [&changes](const bool is_new, const std::string &text) {
+    if (is_new)
+      changes.push_back(text);
+  };
+  const auto number = [](const double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  };
+  const bool by_nodes = pair.facets != FacetMethod::overlap;
+  const bool is_stiff = pair.penalty_is_factor && pair.normal_penalty > enough_penalty;
+  constexpr double for_chatter = 1000.; // E/h
+  add(is_stiff && !pair.has_friction(), "'Normal penalty = " + number(enough_penalty) + "'");
+  add(by_nodes && pair.two_passes && !pair.is_self_contact,
+      "'Passes = one', with the finer or softer body as 'Body'");
+  add(by_nodes && pair.facets != FacetMethod::bilinear, "'Facets = bilinear'");
+  add(true, "a 'Safety factor' below " + number(steps.safety_factor));
+  add(true, "a 'Contact resolution' above " + number(steps.contact_resolution));
+  add(pair.has_friction() && pair.penalty_is_factor && pair.normal_penalty < for_chatter,
+      "for bodies that hop with strong friction, 'Normal penalty = " + number(for_chatter) + "'");
+  return changes;
+}
+
 /// Returns advice on energies that fail to balance in an explicit run.
 std::string advise_on_drift(const Scene &scene, const ExplicitDynamics &problem) {
   if (problem.has_low_penalties())
     return "Penalties are too low, and nodes with large penetration create energy. Increase 'Normal penalty'";
-  if (scene.capabilities().friction && !scene.body_pairs().empty())
-    return "Contact chatter with friction creates energy. Try a larger 'Normal penalty', such as 1000 E/h, "
-           "else a smaller 'Safety factor' or more bulk viscosity";
-  return "Steps may be too long, or a penalty too high. Try a smaller 'Safety factor', a lower penalty or "
-         "more bulk viscosity";
+  if (scene.body_pairs().empty())
+    return "Steps may be too long, or a penalty too high. Try a smaller 'Safety factor', a lower penalty or "
+           "more bulk viscosity";
+  const BodyPair &pair = most_loaded_pair(scene, problem);
+  std::string list;
+  for (const std::string &change : list_changes(scene.parameters().explicit_dynamics, pair))
+    list += (list.empty() ? "" : "; ") + change;
+  return "The likely cause is contact of pair '" + pair.name + "'. Try, in this order: " + list;
 }
 
 } // namespace

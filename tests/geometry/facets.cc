@@ -106,6 +106,29 @@ template <class Facet> void check_flat_square(const std::string &name) {
         exists(0.999 * range) && exists(-0.999 * range) && !exists(1.001 * range) && !exists(-1.001 * range));
 }
 
+/// Below the tip of a triangle, whose two corners coincide, both bear half of the force.
+template <class Facet> void check_tip(const std::string &name, const bool has_round_off) {
+  Random random;
+  WorstError error;
+  unsigned int n_lost = 0;
+  for (unsigned int i = 0; i < 200; ++i)
+    for (const unsigned int twin : {1, 2}) {
+      FacetCorners triangle = unit_square();
+      triangle[twin] = triangle[0];
+      if (has_round_off)
+        for (Tensor<1, 3> &corner : triangle)
+          corner *= random(0.1, 3.);
+      triangle[0] = triangle[twin];
+      const FacetProjection p = Facet(triangle).project(triangle[0] + vector(0., 0., -0.1), {});
+      n_lost += p.exists ? 0 : 1;
+      error.add(std::abs(p.weights[0] - 0.5));
+      error.add(std::abs(p.weights[twin] - 0.5));
+      error.add((p.normal - vector(0., 0., 1.)).norm());
+    }
+  check(name + ": below the tip of a triangle", n_lost == 0);
+  check(name + ": the tip's corners bear half of the force each", error.value(), 1e-7);
+}
+
 template <class Facet> void check_degenerate(const std::string &name) {
   FacetCorners triangle = unit_square();
   triangle[1] = triangle[0];
@@ -314,6 +337,8 @@ int main() {
   check_any_facet<BilinearFacet>("bilinear");
   check_degenerate<PlanedFacet>("planed");
   check_degenerate<BilinearFacet>("bilinear");
+  check_tip<PlanedFacet>("planed", true);
+  check_tip<BilinearFacet>("bilinear", false);
   check_planed();
   check_bilinear();
   check_segments();

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/geometry_info.h>
 
+#include <cmath>
+
 using namespace billet;
 using billet::testing::check;
 using Unit = dealii::GeometryInfo<3>;
@@ -43,6 +45,26 @@ int main() {
   }
   check("every point in an element and around it is found", is_found);
   check("at its coordinates", error.value(), 1e-12);
+  unsigned int n_lost = 0;
+  billet::testing::WorstError off;
+  for (unsigned int degrees = 1; degrees <= 30; ++degrees) { // prisms of a wedge, points on its axis
+    const double angle = M_PI / 180. * degrees;
+    ElementVectors prism{};
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const dealii::Point<3> corner = Unit::unit_cell_vertex(a);
+      prism[3 * a] = 0.7 * corner[0] * std::cos(corner[2] * angle);
+      prism[3 * a + 1] = 0.7 * corner[0] * std::sin(corner[2] * angle);
+      prism[3 * a + 2] = -3. + 1.1 * corner[1];
+    }
+    for (const double height : {-3., -2.7, -1.9}) {
+      const dealii::Tensor<1, 3> point({0., 0., height});
+      const auto found = find_reference_point(prism, point);
+      n_lost += found && Unit::distance_to_unit_cell(*found) < 1e-6 ? 0 : 1;
+      off.add(found ? (map(prism, *found) - point).norm() : 1.);
+    }
+  }
+  check("points on the axis of a wedge are in its prisms", n_lost == 0);
+  check("at their places", off.value(), 1e-12);
   const dealii::Point<3> away(0.5, 0.5, 4.5);
   check("a point far away is found",
         (find_reference_point(brick, map(brick, away)).value_or(dealii::Point<3>()) - away).norm(), 1e-12);

@@ -35,6 +35,10 @@ inline std::array<double, 4> weights(const std::array<double, 2> &parameters) {
   return weights<double>(parameters);
 }
 
+/// Distance from the tip of a triangle, relative to its size, within which a point counts as on it. Round-off
+/// in the parameters leaves 1e-8 there, where two roots coincide.
+inline constexpr double tip = 1e-6;
+
 /// Returns Σ w_I x_I.
 template <class Number>
 dealii::Tensor<1, 3, Number> interpolate(const std::array<Number, 4> &weights,
@@ -50,6 +54,21 @@ template <class Number> struct ExpansionOf {
 
   /// Returns the mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the diagonals.
   dealii::Tensor<1, 3, Number> mean_area_vector() const { return dealii::cross_product_3d(e_1, e_2); }
+  /// Returns which parameters are undefined at this point, as at the tip of a triangle, whose two corners
+  /// coincide. In the middle they share forces equally between these corners. Anything else would be decided
+  /// by round-off.
+  std::array<bool, 2> undefined_at(const std::array<double, 2> &at) const {
+    const Number no_length = tip * tip * (e_1.norm_square() + e_2.norm_square());
+    return {!((e_1 + at[1] * e_3).norm_square() > no_length),
+            !((e_2 + at[0] * e_3).norm_square() > no_length)};
+  }
+  /// Returns the area vector at this point. At the tip of a triangle it vanishes, and beyond it turns over:
+  /// there it is the mean.
+  dealii::Tensor<1, 3, Number> area_vector(const std::array<Number, 2> &at) const {
+    const dealii::Tensor<1, 3, Number> here = dealii::cross_product_3d(e_1 + at[1] * e_3, e_2 + at[0] * e_3),
+                                       mean = mean_area_vector();
+    return here * mean > tip * mean.norm_square() ? here : mean;
+  }
   /// Whether the facet has an area; otherwise it has no normal.
   bool has_area() const {
     // Relative area that round-off of the coordinates may leave for a facet degenerated to a line.

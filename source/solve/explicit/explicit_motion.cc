@@ -2,11 +2,31 @@
 #include "billet/solve/explicit/explicit_motion.h"
 
 #include <algorithm>
+#include <set>
 
 namespace billet {
 
+using dealii::Tensor;
+
 ExplicitMotion::ExplicitMotion(const Scene &scene, const LocalNodes &nodes)
-    : nodes_(nodes), held_(scene, nodes), u_(nodes.make_vectors()), v_(u_), v_before_(u_), supports_(u_) {}
+    : nodes_(nodes), held_(scene, nodes), u_(nodes.make_vectors()), v_(u_), v_before_(u_), supports_(u_) {
+  find_twins();
+}
+
+void ExplicitMotion::find_twins() {
+  std::set<std::pair<unsigned int, unsigned int>> twins; // the prisms along the axis share them
+  for (std::size_t b = 0; b < nodes_.discretization().n_bodies(); ++b)
+    for (const auto &element : nodes_.elements(b))
+      for (unsigned int v = 0; v < n_element_nodes; ++v)
+        for (unsigned int bit = 1; bit < n_element_nodes; bit *= 2) { // an edge's corners differ in one bit
+          const unsigned int first = element[v & ~bit], second = element[v | bit];
+          const auto apart =
+              get_vector(nodes_.positions().data(), first) - get_vector(nodes_.positions().data(), second);
+          if (first != second && !(apart.norm() > 0.))
+            twins.emplace(first, second);
+        }
+  twins_.assign(twins.begin(), twins.end());
+}
 
 void ExplicitMotion::begin(const Scene &scene) {
   fail_together(nodes_.discretization().communicator(), [&] {
@@ -59,6 +79,13 @@ void ExplicitMotion::kick(const ExplicitClock &clock, const NodalMasses &masses,
   // At the start v_ is v_0, and v_{−½} follows below.
   const double weight = is_first ? 0.5 * clock.step() : half_sum;
   std::swap(v_, v_before_);
+  for (const auto &[first, second] : twins_) {
+    const Tensor<1, 3> sum = get_vector(node_forces.data(), first) + get_vector(node_forces.data(), second);
+    const double all = masses.values()[first] + masses.values()[second];
+    for (const unsigned int node : {first, second})
+      for (unsigned int i = 0; i < 3; ++i)
+        node_forces[std::size_t{nodal_stride} * node + i] = masses.values()[node] / all * sum[i];
+  }
   double *v = v_.data(), *forces = node_forces.data();
   const double *v_before = v_before_.data();
   for (const double inverse_mass : masses.inverse()) {

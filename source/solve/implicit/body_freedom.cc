@@ -54,7 +54,7 @@ void add_springs(const ImplicitProblem &problem, const std::size_t body,
 
 } // namespace
 
-std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
+std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
   std::vector<Resistance> resistances;
   const auto acts = [&problem](const Hold &hold) { return problem.supports().acting()(hold); };
   for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization(), acts)) {
@@ -90,27 +90,35 @@ std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, const 
   const double size = resistances.empty() ? 1.
                                           : std::max((box.high - box.low).norm(),
                                                      Limits::min_size * problem.discretization().radius());
-  return find_free_motion(resistances, 0.5 * (box.low + box.high), size);
+  const auto motion = find_free_motion(resistances, 0.5 * (box.low + box.high), size);
+  if (!motion)
+    return {};
+  const bool touches = std::any_of(resistances.begin(), resistances.end(), [](const Resistance &resistance) {
+    return resistance.sense != Resistance::Sense::both_ways;
+  });
+  return FreeMode{*motion, touches};
 }
 
 void check_free_modes(const ImplicitProblem &problem) {
   for (std::size_t body = 0; body < problem.scene().bodies().size(); ++body)
-    if (const auto motion =
+    if (const auto mode =
             problem.stabilisation().acts_on(body) ? std::nullopt : find_free_mode(problem, body))
       throw InputError(
           problem.scene().parameters().bodies[body].origin +
           ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
           "bodies in contact constrain its rigid-body mode with " +
-          print(*motion) +
-          ". A static scene allows no free mode. Add a support, or let the body touch at the start. If only "
-          "loads, such as its weight, hold it on what it touches, set 'Contact stabilisation = until "
-          "contact'");
+          print(mode->motion) + ". A static scene allows no free mode. " +
+          (mode->touches ? "The body touches at the start, but contact only pushes and, without friction, "
+                           "slides. Add a support or a symmetry plane against this mode"
+                         : "Add a support, or let the body touch at the start") +
+          ". If only loads, such as its weight, hold it on what it touches, set 'Contact stabilisation = "
+          "until contact'");
 }
 
 std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t body,
                                const std::set<std::string> &removed, const std::string &what_happens) {
-  const auto motion = find_free_mode(problem, body);
-  if (!motion)
+  const auto mode = find_free_mode(problem, body);
+  if (!mode)
     return "";
   std::ostringstream message;
   message << problem.scene().parameters().file_name << ": without ";
@@ -120,7 +128,7 @@ std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t
           << problem.scene().bodies()[body].name
           << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
              "rigid-body mode with "
-          << print(*motion);
+          << print(mode->motion);
   return message.str();
 }
 

@@ -42,8 +42,9 @@ public:
   const std::vector<unsigned int> &held_nodes() const { return held_.nodes(); }
   const NodalVectors &support_forces() const { return supports_; }
 
-  /// Changes velocities by `forces`, which it sets to 0. A failure of supports is reported at the next
-  /// forces; see check().
+  /// Changes velocities by `forces`, which it sets to 0. The two nodes at one place of a prism, on the axis
+  /// of a wedge, move as one: each takes the part of their forces that its mass has of theirs. A failure of
+  /// supports is reported at the next forces; see check().
   void kick(const ExplicitClock &clock, const NodalMasses &masses, NodalVectors &forces);
   /// Throws SolutionFailure if supports have failed on this rank in the last kick.
   void check() const {
@@ -73,6 +74,7 @@ private:
     FadeTimes times;
     std::vector<std::pair<unsigned int, dealii::Tensor<1, 3>>> forces;
   };
+  void find_twins();
   void add_to_fading(const FadeTimes &times, const NodalVectors &forces);
   void save_supports(StateWriter &writer, const NodalRows &rows) const;
 
@@ -80,6 +82,7 @@ private:
   HeldMotion held_;
   NodalVectors u_, v_, v_before_;
   NodalVectors supports_;
+  std::vector<std::pair<unsigned int, unsigned int>> twins_; ///< nodes of a prism at one place
   std::vector<Fading> fading_;
   std::exception_ptr failure_; ///< of this rank, in the last kick
 };

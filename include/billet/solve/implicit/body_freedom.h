@@ -10,8 +10,14 @@
 
 namespace billet {
 
-/// Finds a rigid-body mode of the body that supports and contacts do not resist, if there is one. Collective.
-std::optional<RigidMotion> find_free_mode(const ImplicitProblem &problem, std::size_t body);
+/// A rigid-body mode of a body that supports and contacts do not resist.
+struct FreeMode {
+  RigidMotion motion;
+  bool touches = false; ///< whether the body is in contact
+};
+
+/// Finds such a mode of the body, if there is one. Collective.
+std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, std::size_t body);
 
 /// Throws InputError if a body without stabilisation has such a mode at the start.
 void check_free_modes(const ImplicitProblem &problem);
