@@ -167,7 +167,8 @@ inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warni
 
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
-    "Newton's method failed, so a penalty is reduced to 10 E/h; augmentation enforces the constraint.", "");
+    "Newton's method failed, so a penalty is reduced towards 10 E/h; augmentation enforces the constraint.",
+    "");
 
 inline const DiagnosticKind
     penalty_raised("penalty-raised", Severity::note,
@@ -352,6 +353,18 @@ inline const DiagnosticKind stalled_step(
     "Newton's method cannot reach its tolerances in a step, because of round-off or contact chatter. The "
     "step is accepted with a residual of at most 2 % of the forces.",
     "Compare the forces with those of a run with a smaller 'Maximum step' or a lower 'Normal penalty'");
+
+inline const DiagnosticKind support_takes_force(
+    "support-takes-force", Severity::warning,
+    "A support constrains nodes of a contact face along the force of a tool that presses there. The support "
+    "bears part of this force, or all of it.",
+    "Leave that component out of the support, support other nodes, or move the tool by its 'Translation'");
+
+inline const DiagnosticKind untracked_sliding(
+    "untracked-sliding", Severity::warning,
+    "Forces slide nodes further in a step of fixed length than contact can follow. The step may have passed "
+    "over states of equilibrium.",
+    "Use 'Step control = automatic', which cuts such steps");
 
 inline const DiagnosticKind direct_solver("direct-solver", Severity::note,
                                           "The iterative linear solver failed, or the matrix is nearly "

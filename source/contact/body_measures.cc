@@ -11,6 +11,10 @@ using dealii::Tensor;
 Penetration BodyMeasures::penetration() const { return contact_.measures().penetration(); }
 double BodyMeasures::excessive_penetration() const { return contact_.measures().excessive_penetration(); }
 double BodyMeasures::closing_of_new_contacts() const { return contact_.measures().closing_of_new_contacts(); }
+double BodyMeasures::max_sliding(const double expected) const {
+  return contact_.measures().max_sliding(expected);
+}
+FrictionUse BodyMeasures::friction_use() const { return contact_.measures().friction_use(); }
 std::vector<SlaveForce> BodyMeasures::slave_forces() const { return contact_.measures().slave_forces(); }
 std::size_t BodyMeasures::history_size() const { return contact_.history_size(); }
 

@@ -32,6 +32,35 @@ double FacetMeasures::closing_of_new_contacts() const {
   return maximum;
 }
 
+double FacetMeasures::max_sliding(const double expected) const {
+  const auto &from = parts_.surfaces.positions_n(), &to = parts_.surfaces.positions();
+  double any_motion = 0.; // bounds that of a facet that is no longer near
+  for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i)
+    any_motion = std::max(any_motion, (to[i] - from[i]).norm());
+  double maximum = 0.;
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    if (!(parts_.start.pressed(s).pressure > 0.))
+      continue;
+    const unsigned int node = parts_.slaves.node(s);
+    const double motion = parts_.touching[s].presses() ? parts_.touching.motion_of(s).displacement.norm()
+                          : parts_.start.touched(s).exists()
+                              ? parts_.touching.motion_after_contact(s).displacement.norm()
+                              : (to[node] - from[node]).norm() + any_motion;
+    maximum = std::max(maximum, (motion - expected) / parts_.slaves.facet_size(s));
+  }
+  return maximum;
+}
+
+FrictionUse FacetMeasures::friction_use() const {
+  FrictionUse use;
+  if (parts_.settings.friction)
+    for (std::size_t s = 0; s < parts_.touching.size(); ++s)
+      if (const SlaveState &state = parts_.touching[s]; state.presses())
+        use.add(*parts_.settings.friction, state.traction.status, state.contact.normal, state.own_area,
+                state.traction.traction);
+  return use;
+}
+
 std::vector<SlaveForce> FacetMeasures::slave_forces() const {
   std::vector<SlaveForce> result(parts_.touching.size());
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)

@@ -47,6 +47,29 @@ double ToolMeasures::closing_of_new_contacts() const {
   return maximum;
 }
 
+double ToolMeasures::max_sliding(const double expected) const {
+  double maximum = 0.;
+  if (!parts_.pressures.is_known() || parts_.step.is_removed)
+    return maximum;
+  for (std::size_t i = 0; i < parts_.states.size(); ++i)
+    if (const PressureRecord::Entry &before = parts_.pressures[i]; before.pressure > 0.)
+      maximum = std::max(
+          maximum,
+          ((parts_.step.placement.to_space(before.position) - parts_.states[i].position).norm() - expected) /
+              parts_.slaves.nodes[i].size);
+  return maximum;
+}
+
+FrictionUse ToolMeasures::friction_use() const {
+  FrictionUse use;
+  if (parts_.pair.has_friction())
+    visit_areas(parts_, [&](const unsigned int i, const double area) {
+      const ToolContactState &state = parts_.states[i];
+      use.add(*parts_.pair.friction, state.status, state.normal, area, state.traction);
+    });
+  return use;
+}
+
 bool ToolMeasures::has_touching_nodes() const {
   return std::any_of(parts_.states.begin(), parts_.states.end(),
                      [](const ToolContactState &state) { return state.status != ContactStatus::open; });

@@ -34,9 +34,13 @@ dealii::Point<3> centre_of(const BoundaryFacet &facet) {
   return centre;
 }
 
+/// Returns the time of a load's values at time t: after 'Until' they keep those of that time, and fade.
+double time_of_values(const AppliedLoad &load, const double t) { return std::min(t, load.times.until); }
+
 /// Returns the values of the expressions; only one value for a uniform expression.
 template <class Site>
-LoadValues evaluate(const AppliedLoad &load, const double t, const std::vector<Site> &sites) {
+LoadValues evaluate(const AppliedLoad &load, const double time, const std::vector<Site> &sites) {
+  const double t = time_of_values(load, time);
   const auto &expressions = load.expressions;
   const bool is_uniform = std::all_of(expressions.begin(), expressions.end(),
                                       [](const Expression &value) { return value.is_uniform(); });
@@ -259,7 +263,7 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
   const auto values_of = [t](const AppliedLoad &load) {
     std::vector<double> values;
     for (const Expression &expression : load.expressions)
-      values.push_back(expression.value(t));
+      values.push_back(expression.value(time_of_values(load, t)));
     return values;
   };
   for (const auto &placed : on_bodies_)

@@ -377,7 +377,7 @@ void Load::declare(ParameterHandler &prm) {
                     "[time]");
   prm.declare_entry(
       "Fade time", "", Patterns::Anything(),
-      ">= 0. Time over which the load fades, linearly, after 'Until'. Empty: a hundredth of the "
+      ">= 0. Time over which the load fades, linearly, from its value at 'Until'. Empty: a hundredth of the "
       "end time in static scenes, where a jump has no equilibrium path; 0, at once, in "
       "dynamic ones. [time]");
 }

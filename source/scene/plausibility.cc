@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <type_traits>
 
@@ -222,6 +223,57 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
                               .measure("force / (yield stress x section)", force / borne));
 }
 
+/// Checks whether supports hold nodes that a tool with a given force presses on, along that force. A support
+/// that acts on a neighbouring face holds the nodes of their common edge.
+void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
+                      DiagnosticList &diagnostics) {
+  constexpr double along = 0.1; // cosine between the support and the force
+  for (const ContactPair &pair : scene.pairs()) {
+    const Tool &tool = scene.tools()[pair.tool];
+    if (tool.control() != Tool::Control::force)
+      continue;
+    const Placement placement = tool.placement(0.);
+    const auto &holds = scene.bodies()[pair.body].holds;
+    std::vector<std::set<unsigned int>> held(holds.size()); // vertices
+    std::set<unsigned int> pressed;
+    const auto &ids = pair.boundary_ids;
+    for (const auto &cell : mesh.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices()) {
+        const auto &face = cell->face(f);
+        if (!cell->is_locally_owned() || cell->material_id() != pair.body || !face->at_boundary())
+          continue;
+        const bool is_of_pair = std::find(ids.begin(), ids.end(), face->boundary_id()) != ids.end();
+        for (const unsigned int v : face->vertex_indices())
+          if (is_of_pair && tool.surface().project(placement.to_tool(face->vertex(v))).exists)
+            pressed.insert(face->vertex_index(v));
+        for (std::size_t h = 0; h < holds.size(); ++h)
+          if (holds_face(holds[h], face, 1e-8 * face->diameter()))
+            for (const unsigned int v : face->vertex_indices())
+              if (std::abs(holds[h].direction(face->vertex(v)) * tool.force_direction()) > along)
+                held[h].insert(face->vertex_index(v));
+      }
+    for (std::size_t h = 0; h < holds.size(); ++h) {
+      std::vector<double> n{
+          static_cast<double>(pressed.size()),
+          static_cast<double>(std::count_if(held[h].begin(), held[h].end(),
+                                            [&](const unsigned int v) { return pressed.count(v) > 0; }))};
+      dealii::Utilities::MPI::sum(n, communicator, n); // nodes of several ranks count more than once
+      if (n[1] == 0.)
+        continue;
+      std::ostringstream text;
+      text.precision(2);
+      text
+          << "The " << holds[h].name << " holds " << std::ceil(100. * n[1] / n[0])
+          << " % of the nodes that the tool may press on, along its 'Force direction'. There it, and not the "
+             "body, bears the force of the tool";
+      diagnostics.push_back(Diagnostic(diagnostic::support_takes_force, text.str())
+                                .pair(pair.name)
+                                .tool(tool.name())
+                                .measure("part of the nodes", n[1] / n[0]));
+    }
+  }
+}
+
 void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
   // A bar that rebounds from a wall loses 16 % of its momentum in steps of 0.6 wave crossing times. In steps
   // of 0.3 it loses 7 %.
@@ -290,6 +342,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
     check_motion(scene, scene.tools()[t], start.size, diagnostics);
     check_force(scene, t, start, diagnostics);
   }
+  check_held_nodes(scene, mesh, communicator, diagnostics);
   constexpr double deep = 2.;
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     if (start.penetrations[p] > deep)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -33,12 +34,23 @@ struct Limits {
   static constexpr double alike = 0.02, apart = 0.2;
 };
 
+parameters::Solver tighten(parameters::Solver settings, const double accuracy) {
+  settings.force_tolerance *= accuracy;
+  settings.energy_tolerance *= accuracy;
+  settings.displacement_tolerance *= accuracy;
+  return settings;
+}
+
 /// Convergence test by the four criteria (Q1) and the limit on iterations, with a record of the iterations.
 class Convergence {
 public:
-  Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const Vector &x_n,
-              const bool accepts_stalled, NewtonReport &report)
-      : problem_(problem), settings_(settings), x_n_(x_n), accepts_stalled_(accepts_stalled),
+  Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const double accuracy,
+              const Vector &x_n, const bool accepts_stalled, NewtonReport &report)
+      : problem_(problem), settings_(tighten(settings, accuracy)), x_n_(x_n),
+        accepts_stalled_(accepts_stalled),
+        describe_([settings, accuracy](const ConvergenceMeasures &measures) {
+          return measures.describe(settings, accuracy);
+        }),
         report_(report) {}
 
   /// See NewtonJudge.
@@ -92,7 +104,7 @@ public:
       verdict = NewtonVerdict::failed;
     }
     if (report_.is_stalled || verdict == NewtonVerdict::failed)
-      report_.criteria = measures.describe(settings_);
+      report_.criteria = describe_(measures);
     if (verdict == NewtonVerdict::failed && std::isfinite(norm) && is_cycling(report_.iterations)) {
       report_.is_cycling = true;
       report_.failure = "after " + std::to_string(n) +
@@ -169,9 +181,10 @@ private:
   }
 
   const NonlinearProblem &problem_;
-  const parameters::Solver &settings_;
+  const parameters::Solver settings_; ///< with the tolerances that apply
   const Vector &x_n_;
   const bool accepts_stalled_;
+  const std::function<std::string(const ConvergenceMeasures &)> describe_;
   NewtonReport &report_;
   double last_norm_ = 0., increment_ = 0.; // |Δu|
   unsigned int n_in_round_off_ = 0;
@@ -180,23 +193,32 @@ private:
 
 } // namespace
 
-std::string ConvergenceMeasures::describe(const parameters::Solver &tolerances) const {
+std::string ConvergenceMeasures::describe(const parameters::Solver &tolerances, const double accuracy) const {
   std::ostringstream text;
   text.precision(2);
-  const auto add = [&](const char *what, const double value, const char *of_what, const double tolerance) {
-    if (value > tolerance)
-      text << (text.tellp() > 0 ? ", " : "") << what << value << of_what << " (tolerance " << tolerance
-           << ")";
+  const auto add_tolerance = [&](const double tolerance) {
+    text << " (tolerance " << tolerance;
+    if (accuracy != 1.)
+      text << ", tightened to " << accuracy * tolerance;
+    text << ")";
   };
-  text << "residual " << force << " of the forces (tolerance " << tolerances.force_tolerance << ")";
+  const auto add = [&](const char *what, const double value, const char *of_what, const double tolerance) {
+    if (!(value > accuracy * tolerance))
+      return;
+    text << (text.tellp() > 0 ? ", " : "") << what << value << of_what;
+    add_tolerance(tolerance);
+  };
+  text << "residual " << force << " of the forces";
+  add_tolerance(tolerances.force_tolerance);
   if (!has_correction)
     return text.str();
   add("energy ", energy, " of the step's work", tolerances.energy_tolerance);
   add("correction ", correction, " of the step's increment", tolerances.displacement_tolerance);
-  if (n_status_changes > 0.)
+  if (n_status_changes > 0.) {
     text << ", " << n_status_changes << (n_status_changes == 1. ? " change" : " changes")
-         << " of contact status with " << status << " of the contact force (tolerance "
-         << tolerances.force_tolerance << ")";
+         << " of contact status with " << status << " of the contact force";
+    add_tolerance(tolerances.force_tolerance);
+  }
   return text.str();
 }
 
@@ -232,14 +254,14 @@ bool is_cycling(const std::vector<NewtonIteration> &iterations) {
 }
 
 NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Vector &x_n,
-                          Vector &x, const bool accepts_stalled) {
+                          Vector &x, const bool accepts_stalled, const double accuracy) {
   NewtonReport report;
   NewtonOptions options{};
-  options.residual_tolerance = settings.force_tolerance;
+  options.residual_tolerance = accuracy * settings.force_tolerance;
   options.linear_tolerance = settings.linear_tolerance;
   options.adapts_tolerance = settings.forcing == parameters::Solver::Forcing::eisenstat_walker;
   options.searches_lines = settings.line_search == parameters::Solver::LineSearch::energy;
-  Convergence convergence(problem, settings, x_n, accepts_stalled, report);
+  Convergence convergence(problem, settings, accuracy, x_n, accepts_stalled, report);
   const NewtonEnd end = solve_by_newton(
       problem, options,
       [&convergence](const unsigned int n, const NewtonState &now, const NewtonCorrection *last) {

@@ -15,11 +15,7 @@ StepEnergy::Verdict StepEnergy::judge(const double t_n, const double length, con
   if (!(works.before + works.own > floor) || works.before < min_before * works.own ||
       !(std::abs(works.imbalance) > max_part_of_own * works.own) || !(part_of_all(works) > max_part))
     return Verdict::balanced;
-  if (t_n >= rejected_until_ - rounding * first_length_) {
-    rejected_until_ = t_n + length;
-    first_length_ = length;
-  }
-  return length <= min_cut * first_length_ * (1. + rounding) ? Verdict::jump : Verdict::rejected;
+  return rejected_.add(t_n, length) ? Verdict::jump : Verdict::rejected;
 }
 
 } // namespace billet

@@ -243,11 +243,11 @@ void check_dashpot() {
   check("dashpot: displacement", std::abs(spring_reaction(run)[0][2] / u - 1.), 1e-4);
 }
 
-/// A force from 0.25 until 0.5, which fades until 0.75.
+/// A force from 0.25 until 0.5, whose value at that time fades until 0.75.
 void check_times() {
   SceneRun run(read({cube, "x = 0 ; y = 0", stiff, "",
                      springs + load("push", "        set Type = force\n        set Boundary ids = 5\n"
-                                            "        set Force = 0 ; 0 ; 1e-3\n        set From = 0.25\n"
+                                            "        set Force = 0 ; 0 ; 2e-3*t\n        set From = 0.25\n"
                                             "        set Until = 0.5\n        set Fade time = 0.25\n"),
                      in_steps(8)}));
   const std::vector<double> stops = run.scene.stops();
@@ -257,7 +257,7 @@ void check_times() {
   testing::WorstError error;
   run.finish([&](const NewtonReport &) {
     const double t = run.control.time();
-    const double expected = t < 0.26 ? 0. : t < 0.51 ? 1e-3 : std::max(0., 1e-3 * (0.75 - t) / 0.25);
+    const double expected = t < 0.26 ? 0. : t < 0.51 ? 2e-3 * t : std::max(0., 1e-3 * (0.75 - t) / 0.25);
     error.add(std::abs(spring_reaction(run)[0][2] - expected) / 1e-3);
   });
   check("times: force", error.value(), 1e-4);

@@ -73,13 +73,13 @@ struct Result {
 /// `start`: x_n.
 Result solve(Springs &springs, const std::vector<double> &guess,
              const parameters::Solver &settings = make_settings(), const bool accepts_stalled = true,
-             const double start = 0.) {
+             const double start = 0., const double accuracy = 1.) {
   Vector x_n(dealii::complete_index_set(guess.size()), MPI_COMM_WORLD);
   x_n = start;
   Vector x = x_n;
   std::copy(guess.begin(), guess.end(), x.begin());
   Result result;
-  result.report = solve_newton(springs, settings, x_n, x, accepts_stalled);
+  result.report = solve_newton(springs, settings, x_n, x, accepts_stalled, accuracy);
   result.x.assign(x.begin(), x.end());
   return result;
 }
@@ -194,6 +194,11 @@ int main(int argc, char *argv[]) {
           result.report.converged && result.report.is_stalled && near(result.report.force, 0.016, 1e-9));
     check("and said with its value",
           result.report.criteria.find("residual 0.016 of the forces (tolerance 0.005)") == 0);
+    Springs tightened({chattering(0.0015)});
+    check("where augmentation tightens the tolerance, with both",
+          solve(tightened, {0.}, make_settings(), true, 0., 0.1)
+                  .report.criteria.find(
+                      "residual 0.003 of the forces (tolerance 0.005, tightened to 0.0005)") == 0);
     Springs again({chattering(0.008)});
     const Result refused = solve(again, {0.}, make_settings(), false);
     check("unless something else may help", !refused.report.converged && refused.report.is_stalled);

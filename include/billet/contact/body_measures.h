@@ -22,6 +22,8 @@ public:
   Penetration penetration() const override;
   double excessive_penetration() const override;
   double closing_of_new_contacts() const override;
+  double max_sliding(double expected) const override;
+  FrictionUse friction_use() const override;
   /// Returns the load on the first body by the second.
   ContactLoad compute_load() const override;
   StepWorks compute_step_works(double weight) const override;

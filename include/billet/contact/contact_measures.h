@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_CONTACT_MEASURES_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/contact/friction_use.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
@@ -48,6 +49,11 @@ public:
   using VisitSupporting = std::function<void(const SupportingPoint &, std::size_t body, std::size_t other)>;
   /// Visits the points in contact; none for self-contact.
   virtual void visit_supporting(const VisitSupporting &visit) const = 0;
+  /// Returns the maximum motion over the step, relative to the touched surface and beyond `expected`
+  /// [length], of a node that pressed at its start [facet sizes]; at least 0.
+  virtual double max_sliding(double expected) const = 0;
+  /// Returns the sums of tangential forces and of their limits over the nodes that press.
+  virtual FrictionUse friction_use() const { return {}; }
 
 protected:
   ContactMeasures() = default;

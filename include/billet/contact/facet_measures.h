@@ -4,6 +4,7 @@
 
 #include "billet/contact/contact_load.h"
 #include "billet/contact/facet_contact_parts.h"
+#include "billet/contact/friction_use.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/supporting_point.h"
 
@@ -24,6 +25,9 @@ public:
   /// Returns the maximum closing in the step of a node that presses at its end but not at its start [facet
   /// sizes].
   double closing_of_new_contacts() const;
+  /// See ContactMeasures.
+  double max_sliding(double expected) const;
+  FrictionUse friction_use() const;
   /// Returns the status of each slave, and its traction times its area.
   std::vector<SlaveForce> slave_forces() const;
 

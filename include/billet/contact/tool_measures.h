@@ -18,6 +18,8 @@ public:
   /// behind the node.
   double excessive_penetration() const override;
   double closing_of_new_contacts() const override;
+  double max_sliding(double expected) const override;
+  FrictionUse friction_use() const override;
   ContactLoad compute_load() const override { return works_.compute_load(); }
   StepWorks compute_step_works(const double weight) const override {
     return works_.compute_step_works(weight);

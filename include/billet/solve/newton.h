@@ -37,8 +37,9 @@ struct ConvergenceMeasures {
   bool has_correction = false;  ///< false before the first iteration: then only `force` is known
 
   /// Returns a text such as "residual 0.03 of the forces (tolerance 0.005), ...". It lists the residual, the
-  /// measures above their tolerances, and changes of contact status.
-  std::string describe(const parameters::Solver &tolerances) const;
+  /// measures above their tolerances, and changes of contact status. `accuracy`: factor of the tolerances of
+  /// the residual, its work and the correction.
+  std::string describe(const parameters::Solver &tolerances, double accuracy = 1.) const;
 };
 
 /// One Newton iteration: the residual it starts from and the correction it makes.
@@ -132,9 +133,9 @@ bool is_stagnant(const std::vector<NewtonIteration> &iterations, double last_for
 
 /// Solves by Newton's method. Starts from, and overwrites, `x`; the step's increment is x − x_n. If the
 /// iterations stall close to balance, they converge if `accepts_stalled`, else they fail; `is_stalled` is set
-/// in both cases.
+/// in both cases. `accuracy`: factor of the tolerances of the residual, its work and the correction.
 NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Vector &x_n,
-                          Vector &x, bool accepts_stalled = true);
+                          Vector &x, bool accepts_stalled = true, double accuracy = 1.);
 
 } // namespace billet
 

@@ -2,6 +2,8 @@
 #ifndef BILLET_SOLVE_STEP_ENERGY_H
 #define BILLET_SOLVE_STEP_ENERGY_H
 
+#include "billet/solve/rejected_steps.h"
+
 #include <vector>
 
 namespace billet {
@@ -25,9 +27,6 @@ public:
   /// Minimum work before the step, as part of the step's own, for a judgement. Below it bodies begin to
   /// touch, and there is no energy yet to be lost.
   static constexpr double min_before = 0.1;
-  /// Length, as part of the first rejected step, down to which steps are cut. An imbalance that remains then,
-  /// anywhere within that step, belongs to the solution.
-  static constexpr double min_cut = 1. / 32.;
 
   /// Returns the imbalance as part of all work, that of this step included; 0 without work.
   static double part_of_all(const Works &works);
@@ -35,17 +34,11 @@ public:
   /// Judges a step from time `t_n`. `floor`: works below it count as zero.
   Verdict judge(double t_n, double length, const Works &works, double floor);
 
-  std::vector<double> save() const { return {rejected_until_, first_length_}; }
-  void load(const std::vector<double> &numbers) {
-    rejected_until_ = numbers.at(0);
-    first_length_ = numbers.at(1);
-  }
+  std::vector<double> save() const { return rejected_.save(); }
+  void load(const std::vector<double> &numbers) { rejected_.load(numbers); }
 
 private:
-  /// Tolerance of times and lengths, as part of the first rejected step.
-  static constexpr double rounding = 1e-6;
-
-  double rejected_until_ = -1., first_length_ = 0.; ///< end of the first rejected step, and its length
+  RejectedSteps rejected_;
 };
 
 } // namespace billet

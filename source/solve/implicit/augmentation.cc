@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 namespace billet {
@@ -76,6 +77,20 @@ struct Augmentation::Series {
   std::size_t hardest = 0; ///< of the report before
 };
 
+namespace {
+
+/// Whether the pair is with a driven tool that has neither a load nor a mass: it gives way to bodies, and any
+/// force is an error of the iterations.
+bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size_t> &tool) {
+  if (!tool)
+    return false;
+  const std::vector<std::size_t> &driven = problem.tools().unknown();
+  return std::find(driven.begin(), driven.end(), *tool) != driven.end() &&
+         problem.scene().tools()[*tool].load(problem.step().time) == 0. && !problem.scheme().has_mass(*tool);
+}
+
+} // namespace
+
 Augmentation::Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver,
                            PenetrationMeasurement &measurement)
     : problem_(problem), solver_(solver), measurement_(measurement),
@@ -113,11 +128,12 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
   for (std::size_t i = 0; i < room.size(); ++i) {
     if (!(room[i] < 1.) || !contacts[i].settings().is_augmented())
       continue;
-    const double factor = whole_octaves(room[i]), penalty = enough_penalty / room[i] * factor;
+    const double factor = whole_octaves(room[i]), before = enough_penalty / room[i],
+                 penalty = before * factor;
     contacts[i].penalties().scale(factor, factor);
     has_softened = true;
     std::ostringstream text;
-    text << "The penalty is reduced to " << penalty
+    text << "The penalty is reduced from " << before << " to " << penalty
          << " E/h, since Newton's method failed; augmentation enforces the constraint";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(contacts[i].name())
@@ -131,17 +147,18 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
 Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs) const {
   Demands demands;
   demands.of_contacts = problem_.contacts().augmentation_errors();
-  for (double &demand : demands.of_contacts) {
+  const std::vector<double> excess = springs.empty() ? std::vector<double>() : softness_.excess(springs);
+  for (std::size_t i = 0; i < demands.of_contacts.size(); ++i) {
+    double &demand = demands.of_contacts[i];
+    if (bears_nothing(problem_, problem_.contacts()[i].rigid_tool())) {
+      demand = 0.;
+      continue;
+    }
     demand /= penetration_allowed_;
     demands.by_tolerances = std::max(demands.by_tolerances, demand);
-  }
-  demands.maximum = demands.by_tolerances;
-  if (springs.empty())
-    return demands;
-  const std::vector<double> excess = softness_.excess(springs);
-  for (std::size_t i = 0; i < excess.size(); ++i) {
-    demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
-    demands.maximum = std::max(demands.maximum, excess[i]);
+    if (!excess.empty())
+      demand = std::max(demand, excess[i]);
+    demands.maximum = std::max(demands.maximum, demand);
   }
   return demands;
 }

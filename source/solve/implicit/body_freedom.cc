@@ -132,34 +132,46 @@ std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t
   return message.str();
 }
 
+double prescribed_motion(const ImplicitProblem &problem, const double t) {
+  const StepState &step = problem.step();
+  const double radius = problem.discretization().radius();
+  double of_tools = 0., of_supports = 0.;
+  for (const auto &tool : problem.scene().tools())
+    of_tools =
+        std::max(of_tools, max_motion(tool.placement(problem.state().time), tool.placement(t), radius));
+  const Constraints &held = problem.supports().homogeneous();
+  for (const DofIndex dof : problem.discretization().owned_dofs())
+    if (is_held(held, dof))
+      of_supports =
+          std::max(of_supports, std::abs(step.trial.displacements(dof) - step.start.displacements(dof)));
+  return of_tools + dealii::Utilities::MPI::max(of_supports, problem.communicator());
+}
+
 bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport &report) {
   const StepState &step = problem.step();
   const double radius = problem.discretization().radius(), diameter = 2. * radius;
   // Motion that the scene prescribes, in the step and since the start.
-  double driven = 0., driven_so_far = 0.;
+  const double driven = prescribed_motion(problem, t);
+  double driven_so_far = 0.;
   for (const auto &tool : problem.scene().tools()) {
     const Placement start = tool.placement(0.), before = tool.placement(problem.state().time),
                     after = tool.placement(t);
-    driven = std::max(driven, max_motion(before, after, radius));
     driven_so_far =
         std::max({driven_so_far, max_motion(start, before, radius), max_motion(start, after, radius)});
   }
-  std::array<double, 5> maximum{0., 0., 0., 0., -1.}; // held in the step, so far; all in it, so far; body
+  std::array<double, 3> maximum{0., 0., 0.}; // held so far; all in the step, so far
   const Constraints &held = problem.supports().homogeneous();
   for (const DofIndex dof : problem.discretization().owned_dofs()) {
     const double now = step.trial.displacements(dof), change = now - step.start.displacements(dof);
-    if (is_held(held, dof)) {
-      maximum[0] = std::max(maximum[0], std::abs(change));
-      maximum[1] = std::max({maximum[1], std::abs(now), std::abs(step.start.displacements(dof))});
-    }
-    maximum[2] = std::max(maximum[2], std::abs(change));
-    maximum[3] = std::max(maximum[3], std::abs(now));
+    if (is_held(held, dof))
+      maximum[0] = std::max({maximum[0], std::abs(now), std::abs(step.start.displacements(dof))});
+    maximum[1] = std::max(maximum[1], std::abs(change));
+    maximum[2] = std::max(maximum[2], std::abs(now));
   }
   dealii::Utilities::MPI::max(dealii::ArrayView<const double>(maximum.data(), maximum.size()),
                               problem.communicator(),
                               dealii::ArrayView<double>(maximum.data(), maximum.size()));
-  driven += maximum[0];
-  driven_so_far += maximum[1];
+  driven_so_far += maximum[0];
   const auto fail = [&](const std::string &what) {
     report.fail({what + ". Quasi-static solutions do not move this far",
                  "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free motion, or "
@@ -168,14 +180,14 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
   };
   std::ostringstream text;
   text.precision(3);
-  if (maximum[2] > Limits::max_step * diameter + 2. * driven) {
-    text << "the step to time " << t << " moves a node by " << maximum[2] << ", which is "
-         << maximum[2] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
+  if (maximum[1] > Limits::max_step * diameter + 2. * driven) {
+    text << "the step to time " << t << " moves a node by " << maximum[1] << ", which is "
+         << maximum[1] / diameter << " times the diameter of the scene. Tools and supports move by " << driven
          << "; allowed is " << Limits::max_step << " diameters more than twice that";
     return fail(text.str());
   }
-  if (maximum[3] > Limits::max_path * diameter + 2. * driven_so_far) {
-    text << "at time " << t << " a node has moved by " << maximum[3] << ", which is " << maximum[3] / diameter
+  if (maximum[2] > Limits::max_path * diameter + 2. * driven_so_far) {
+    text << "at time " << t << " a node has moved by " << maximum[2] << ", which is " << maximum[2] / diameter
          << " times the diameter of the scene; allowed are " << Limits::max_path
          << " diameters more than twice the path of tools and supports";
     return fail(text.str());

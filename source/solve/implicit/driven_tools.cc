@@ -186,6 +186,10 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
     rhs(i) = r_s[i] - border_.rows[i] * du;
     if (border_.block(i, i) != 0.)
       continue;
+    S(i, i) = 1.;
+    rhs(i) = 0.;
+    if (r_s[i] == 0.) // no load: it stays where it is
+      continue;
     // A tool without contact moves until it touches.
     const double way = distance_to_touch(unknown_[i]);
     if (!std::isfinite(way)) {
@@ -194,7 +198,6 @@ bool DrivenTools::solve(const Solve &solve, const Vector &r_u, const std::vector
                  "direction and position";
       return false;
     }
-    S(i, i) = 1.;
     rhs(i) = sense * way;
   }
   S.gauss_jordan();

@@ -9,13 +9,10 @@ NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &di
   const Vector x_n = problem_.unknowns();
   Vector x = problem_.tools().pack(displacements, offsets);
   parameters::Solver settings = problem_.parameters().solver;
-  const double accuracy = accuracy_ * problem_.scheme().wanted_accuracy();
-  settings.force_tolerance *= accuracy;
-  settings.energy_tolerance *= accuracy;
-  settings.displacement_tolerance *= accuracy;
   if (is_probing_)
     settings.max_iterations = std::min(settings.max_iterations, max_iterations_of_probe);
-  NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_);
+  NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_,
+                                     accuracy_ * problem_.scheme().wanted_accuracy());
   if (!problem_.tools().failure().empty() && !report.converged)
     report.failure = problem_.tools().failure();
   else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())

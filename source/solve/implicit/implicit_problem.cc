@@ -104,6 +104,11 @@ bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
   raw_internal_.compress(dealii::VectorOperation::add);
   contacts_.update(step_.ghosted, raw_contact_);
   raw_contact_.compress(dealii::VectorOperation::add);
+  if (judge_)
+    if (const std::string why = judge_(); !why.empty()) {
+      obstacle_ = why;
+      return false;
+    }
 
   ForceState &trial = step_.trial;
   const auto measure = [this](const double force) { scales_.force = std::max(scales_.force, force); };

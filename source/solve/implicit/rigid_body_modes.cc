@@ -167,14 +167,48 @@ void RigidBodyModes::hold_unloaded_bodies() {
   }
 }
 
+std::vector<FrictionUse> RigidBodyModes::sum_friction() const {
+  std::vector<FrictionUse> uses =
+      problem_.contacts().collect([](const auto &contact) { return contact.measures().friction_use(); });
+  std::vector<double> sums;
+  for (const FrictionUse &use : uses)
+    sums.insert(sums.end(), {use.tangential, use.limit, use.slipping});
+  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    uses[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
+  return uses;
+}
+
+std::string RigidBodyModes::describe_friction(const std::size_t body,
+                                              const std::vector<FrictionUse> &uses) const {
+  std::ostringstream text;
+  text.precision(4);
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const auto &contact = problem_.contacts()[i];
+    const std::vector<std::size_t> &bodies = contact.bodies();
+    if (uses[i].limit > 0. && std::find(bodies.begin(), bodies.end(), body) != bodies.end())
+      text << (text.tellp() > 0 ? ", " : "") << "contact pair '" << contact.name()
+           << "' bears a friction force of " << uses[i].tangential << " of at most " << uses[i].limit;
+  }
+  return text.str();
+}
+
 Explanation RigidBodyModes::describe_sliding() const {
   if (bodies_.frames.empty() || !support_.sliding)
     return {};
+  const std::size_t body = support_.sliding->body;
+  const std::string friction = describe_friction(body, friction_n_);
   std::ostringstream text;
-  text << "; at the end of the last step body '" << problem_.scene().bodies()[support_.sliding->body].name
-       << "' is in full sliding, or close to it, along its rigid-body mode with "
-       << print(support_.sliding->motion) << ", with friction at its limit";
-  return {text.str(), "Add a support, more pressure or more friction"};
+  text << "body '" << problem_.scene().bodies()[body].name << "' slides, or is about to: at time "
+       << problem_.state().time << " " << (friction.empty() ? "friction is at its limit" : friction)
+       << ", and nothing else resists its rigid-body mode with " << print(support_.sliding->motion);
+  return {text.str(), "Add a support, more pressure or more friction, reduce the load, or move the body by a "
+                      "support or tool"};
+}
+
+Explanation RigidBodyModes::explain_sliding() const {
+  const Explanation why = describe_sliding();
+  return why.empty() || !find_sliding_soon() ? Explanation() : why; // else the failed state resists
 }
 
 bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
@@ -183,6 +217,8 @@ bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, Ne
   text << "body '" << problem_.scene().bodies()[mode.body].name << "' has no support at time " << t
        << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
        << " opens, or slides at the limit of friction";
+  if (const std::string friction = describe_friction(mode.body, sum_friction()); !friction.empty())
+    text << ": " << friction;
   const Explanation why{text.str(), "Add a support or a symmetry plane, keep a contact longer, or increase "
                                     "friction; use 'Scheme = implicit dynamics' for free motion"};
   const parameters::Scene &parameters = problem_.parameters();
@@ -208,6 +244,7 @@ bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
     max_forces_[body] = std::max(max_forces_[body], forces_n_[body]);
   support_ = found;
+  friction_n_ = sum_friction();
   hold_unloaded_bodies();
   report_let_go(t, report);
   if (!support_.sliding)

@@ -18,6 +18,7 @@ void StepAttempt::begin(const double t) {
   problem.tools().choose_unknown(pressing);
   problem.stabilisation().start_step(t - problem.state().time);
   stopping_.clear();
+  p_.rules.begin_attempt();
 }
 
 bool StepAttempt::find_guess(const double t, const double previous_step, NewtonIteration &linear_step,
@@ -47,6 +48,13 @@ bool StepAttempt::find_guess(const double t, const double previous_step, NewtonI
 }
 
 NewtonReport StepAttempt::make(const double t, const double previous_step, const Way way) {
+  NewtonReport report = solve(t, previous_step, way);
+  if (!report.converged && !report.is_explained && !p_.solver.is_probing())
+    p_.rules.explain(t, report);
+  return report;
+}
+
+NewtonReport StepAttempt::solve(const double t, const double previous_step, const Way way) {
   NewtonReport report;
   begin(t);
   if (p_.paths.turns_too_far(t, report) || p_.paths.skips_motion(t, report))

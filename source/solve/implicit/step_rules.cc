@@ -73,6 +73,7 @@ void StaticRules::check_next_step() const {
 }
 
 bool StaticRules::rejects(const double t, NewtonReport &report) {
+  sliding_.check(t, report);
   return raises_.is_needed(report) || balance_.rejects(t, report) || modes_.rejects(t, report);
 }
 
@@ -101,8 +102,25 @@ void StaticRules::close_step(const double t) {
   modes_.follow_supports();
 }
 
+void StaticRules::explain(const double t, NewtonReport &report) {
+  const Explanation cause = modes_.explain_sliding();
+  const Explanation jump = sliding_.explain(t, cause);
+  const Explanation &why = jump.empty() ? cause : jump;
+  if (why.empty())
+    return;
+  const double t_n = problem_.state().time;
+  if (lost_.add(t_n, t - t_n))
+    throw SolutionFailure(
+        Diagnostic(diagnostic::solution_failed, problem_.parameters().file_name + ": " + why.what)
+            .time(t_n)
+            .advice(why.advice + ". Results until then are in '" + problem_.parameters().output.folder.value +
+                    "'"));
+  report.fail(why);
+}
+
 void StaticRules::save(StateWriter &writer) const {
   writer.write_text("free body", free_body_);
+  writer.write("lost equilibrium", lost_.save());
   modes_.save(writer);
   balance_.save(writer);
   problem_.scheme().save(writer, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
@@ -112,8 +130,11 @@ void StaticRules::load(StateReader &reader, const bool is_exact) {
   balance_.load(reader);
   modes_.load(reader, is_exact);
   problem_.scheme().load(reader, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
-  if (is_exact)
-    free_body_ = reader.read_text("free body");
+  if (!is_exact)
+    return;
+  free_body_ = reader.read_text("free body");
+  if (reader.has("lost equilibrium"))
+    lost_.load(reader.read("lost equilibrium", 2));
 }
 
 void StaticRules::hold_imbalance(const Vector &residual) {

@@ -27,6 +27,10 @@ void check_free_modes(const ImplicitProblem &problem);
 std::string describe_free_mode(const ImplicitProblem &problem, std::size_t body,
                                const std::set<std::string> &removed, const std::string &what_happens);
 
+/// Returns how far tools and supports move by what the scene prescribes, in the step to time t [length].
+/// Collective.
+double prescribed_motion(const ImplicitProblem &problem, double t);
+
 /// Whether the trial state moves farther, in the step or in the run, than tools and supports explain; then
 /// the step fails. For static scenes. Collective.
 bool moves_too_far(const ImplicitProblem &problem, double t, NewtonReport &report);

@@ -12,8 +12,10 @@
 #include "billet/solve/implicit/tool_removal.h"
 #include "billet/solve/newton.h"
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace billet {
@@ -115,6 +117,9 @@ public:
   double find_free_part(bool is_thorough);
   const std::string &obstacle() const { return obstacle_; }
   void clear_obstacle() { obstacle_.clear(); }
+  /// Sets a function that judges each trial state after its contacts are known. It returns why the state is
+  /// not admissible; empty if it is. Collective.
+  void judge_trials(std::function<std::string()> judge) { judge_ = std::move(judge); }
 
 private:
   /// Compares the contacts with those at the last tangent. Collective.
@@ -127,6 +132,7 @@ private:
   std::vector<std::vector<SlaveForce>> linearised_; ///< of the contacts at the last tangent
   StatusChanges status_changes_;                    ///< between the last tangent and the last residual
   std::string obstacle_;
+  std::function<std::string()> judge_; ///< of trial states; may be empty
 };
 
 } // namespace billet

@@ -30,6 +30,8 @@ public:
   /// Returns a text about the body that slid on all its contacts at the end of the last step, for a failed
   /// step.
   Explanation describe_sliding() const;
+  /// Returns the same if that body would slide at the failed trial state, too. Collective.
+  Explanation explain_sliding() const;
   /// Returns a text about the loss of a body for which a longer step failed; empty if there was none, or
   /// `failure` is this loss.
   Explanation describe_loss(const std::string &failure) const;
@@ -65,6 +67,11 @@ private:
   RigidBodySupport::Result find_support_by_contact() const;
   /// Finds a mode that only points resist which slip, or nearly do. Collective.
   std::optional<RigidBodySupport::Mode> find_sliding_soon() const;
+  /// Returns a text about the friction of the contacts of a body: "contact pair 'a' bears ...". Of pairs
+  /// without friction or pressure it says nothing.
+  std::string describe_friction(std::size_t body, const std::vector<FrictionUse> &uses) const;
+  /// Returns the friction of each contact at the last update. Collective.
+  std::vector<FrictionUse> sum_friction() const;
   /// Σ |f| of the nodes of contacts, by body [force]. Collective.
   std::vector<double> contact_forces_on_bodies() const;
   /// Stabilises the free body of this mode from now on, if contact bore next to no force at the end of the
@@ -77,6 +84,7 @@ private:
   ImplicitProblem &problem_;
   RigidBodies bodies_;
   std::vector<double> forces_n_, max_forces_; ///< on bodies at the end of the last step; maxima so far
+  std::vector<FrictionUse> friction_n_;       ///< of the contacts at the end of the last step
   Loss loss_; ///< earliest loss for which a step failed; it explains failures of earlier steps
   std::vector<RigidBodySupport::Mode> let_go_;  ///< modes of bodies that this step has begun to stabilise
   RigidBodySupport::Result support_;            ///< at the end of the last accepted step

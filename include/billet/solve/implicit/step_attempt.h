@@ -43,6 +43,8 @@ private:
     std::vector<double> offsets;
   };
   void begin(double t);
+  /// Does the same as make(), except that it leaves failures of the iterations without other reasons.
+  NewtonReport solve(double t, double previous_step, Way way);
   /// Makes the trial state the first guess. Returns false, with the reason in the report, if no guess is
   /// admissible. `linear_step`: its linear solution; its force is 0 if there was none.
   bool find_guess(double t, double previous_step, NewtonIteration &linear_step, NewtonReport &report);

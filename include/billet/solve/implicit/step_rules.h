@@ -7,6 +7,8 @@
 #include "billet/solve/implicit/penalty_raises.h"
 #include "billet/solve/implicit/predictor.h"
 #include "billet/solve/implicit/rigid_body_modes.h"
+#include "billet/solve/implicit/sliding_guard.h"
+#include "billet/solve/rejected_steps.h"
 
 #include <map>
 #include <memory>
@@ -36,8 +38,13 @@ public:
   virtual void check_next_step() const {}
   virtual bool has_next_step() const { return true; }
 
+  /// Begins an attempt of a step.
+  virtual void begin_attempt() {}
   /// Whether a converged step fails. Collective.
   virtual bool rejects(double t, NewtonReport &report) = 0;
+  /// Explains a step for whose failure the iterations give no reason, if the bodies do. Throws
+  /// SolutionFailure, on all ranks, if shorter steps will not help. Collective.
+  virtual void explain(double /*t*/, NewtonReport & /*report*/) {}
   /// Whether lower penalties may help a step that failed for a known reason. In dynamics, converged steps
   /// that are too long need shorter ones.
   virtual bool may_mend_explained() const = 0;
@@ -88,8 +95,8 @@ std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathG
 class StaticRules final : public StepRules {
 public:
   StaticRules(ImplicitProblem &problem, const PathGuard &paths, SpringBooks &books)
-      : StepRules(problem, paths, books), predictor_(problem), balance_(problem), modes_(problem),
-        raises_(problem, books) {}
+      : StepRules(problem, paths, books), predictor_(problem), balance_(problem), sliding_(problem),
+        modes_(problem), raises_(problem, books) {}
 
   Predictor &predictor() override { return predictor_; }
   const Predictor &predictor() const override { return predictor_; }
@@ -97,11 +104,16 @@ public:
   void check_start() override;
   void check_next_step() const override;
   bool has_next_step() const override { return free_body_.empty(); }
+  void begin_attempt() override { sliding_.begin(); }
   bool rejects(double t, NewtonReport &report) override;
+  void explain(double t, NewtonReport &report) override;
   bool may_mend_explained() const override { return true; }
   bool may_continue_penalties() const override { return true; }
   DiagnosticList raise_penalties() override;
-  Explanation describe_sliding() const override { return modes_.describe_sliding(); }
+  Explanation describe_sliding() const override {
+    Explanation why = modes_.describe_sliding();
+    return why.empty() ? why : Explanation{"; " + why.what, why.advice};
+  }
   Explanation describe_loss(const std::string &failure) const override {
     return modes_.describe_loss(failure);
   }
@@ -116,6 +128,8 @@ public:
 private:
   Predictor predictor_;
   StaticBalance balance_;
+  SlidingGuard sliding_;
+  RejectedSteps lost_; ///< that failed for want of an equilibrium
   RigidBodyModes modes_;
   PenaltyRaises raises_;
   std::string free_body_; ///< why no step can follow: removed tools or supports held this body

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_IMPLICIT_SLIDING_GUARD_H
+#define BILLET_SOLVE_IMPLICIT_SLIDING_GUARD_H
+
+#include "billet/solve/implicit/implicit_problem.h"
+
+#include <cstddef>
+
+namespace billet {
+
+/// Bounds how far forces slide bodies over each other, or over tools, in a static step. If an equilibrium is
+/// lost, Newton's method may find another one far away, and contact has not seen what is between them. With
+/// automatic steps, trial states that slide too far are not admissible, so that the iterations find an
+/// equilibrium that is near.
+class SlidingGuard {
+public:
+  explicit SlidingGuard(ImplicitProblem &problem);
+
+  /// Begins an attempt of a step.
+  void begin() { n_refused_ = 0; }
+  /// Adds a warning if nodes slide too far in a converged step of fixed length. Collective.
+  void check(double t, NewtonReport &report) const;
+  /// Explains a step that failed after trial states slid too far; empty if none did. `cause`: why bodies
+  /// slide, if it is known.
+  Explanation explain(double t, const Explanation &cause) const;
+
+private:
+  struct Limits {
+    /// Maximum sliding of a node in a step, beyond twice what tools and supports prescribe [facet sizes].
+    static constexpr double max_sliding = 2.;
+    /// Maximum number of trial states that slide too far. Iterations with more of them do not return.
+    static constexpr unsigned int max_refused = 12;
+  };
+  struct Sliding {
+    double facets = 0.;      ///< maximum over all pairs, beyond the prescribed motion [facet sizes]
+    std::size_t contact = 0; ///< pair with the maximum
+  };
+  bool has_fixed_steps() const;
+  bool has_loads() const;
+  /// Whether a force moves something in the step: a driven tool with a load, or a load on a body.
+  bool has_forces() const;
+  /// Measures the trial state. Collective.
+  Sliding measure() const;
+  Explanation describe(std::size_t contact, double t, const Explanation &cause) const;
+
+  ImplicitProblem &problem_;
+  unsigned int n_refused_ = 0; ///< trial states of this attempt that slid too far
+  std::size_t refused_ = 0;    ///< contact pair of the last one
+};
+
+} // namespace billet
+
+#endif

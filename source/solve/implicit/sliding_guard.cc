@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/sliding_guard.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
+#include "billet/solve/implicit/body_freedom.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+SlidingGuard::SlidingGuard(ImplicitProblem &problem) : problem_(problem) {
+  if (has_fixed_steps() || problem.contacts().empty())
+    return;
+  problem.judge_trials([this]() -> std::string {
+    if (!has_forces())
+      return "";
+    const Sliding sliding = measure();
+    if (sliding.facets <= Limits::max_sliding && n_refused_ <= Limits::max_refused)
+      return "";
+    ++n_refused_;
+    refused_ = sliding.contact;
+    return "nodes of contact pair '" + problem_.contacts()[sliding.contact].name() + "' slide too far";
+  });
+}
+
+bool SlidingGuard::has_fixed_steps() const {
+  return problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed;
+}
+
+bool SlidingGuard::has_forces() const {
+  const auto &driven = problem_.tools().unknown();
+  return has_loads() || std::any_of(driven.begin(), driven.end(), [this](const std::size_t tool) {
+           return problem_.scene().tools()[tool].load(problem_.step().time) != 0.;
+         });
+}
+
+SlidingGuard::Sliding SlidingGuard::measure() const {
+  const double expected = 2. * prescribed_motion(problem_, problem_.step().time);
+  const std::vector<double> of_contacts = problem_.contacts().collect_max(
+      [expected](const auto &contact) { return contact.measures().max_sliding(expected); });
+  const auto maximum = std::max_element(of_contacts.begin(), of_contacts.end());
+  return {*maximum, static_cast<std::size_t>(maximum - of_contacts.begin())};
+}
+
+bool SlidingGuard::has_loads() const {
+  const auto &bodies = problem_.scene().bodies();
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); });
+}
+
+Explanation SlidingGuard::describe(const std::size_t contact, const double t,
+                                   const Explanation &cause) const {
+  std::ostringstream text;
+  text.precision(4);
+  std::string advice;
+  for (const std::size_t tool : problem_.tools().unknown()) {
+    const Tool &which = problem_.scene().tools()[tool];
+    if (which.load(t) == 0. || (has_loads() && !cause.empty())) // the loads slide the body
+      continue;
+    const bool turns = which.control() == Tool::Control::moment;
+    text << (advice.empty() ? "" : ", and ") << "tool '" << which.name() << "' finds no resistance to its "
+         << (turns ? "moment" : "force") << " of " << which.load(t) << " at time " << t << " and a "
+         << (turns ? "turn" : "travel") << " of " << problem_.tools().start_offsets()[tool] << ": it jumps";
+    advice = std::string("Move the tool by its ") + (turns ? "'Rotation angle'" : "'Translation'") +
+             " instead of its load";
+  }
+  if (advice.empty() && cause.empty())
+    text << "loads find no resistance at time " << t << ": bodies jump";
+  text << (advice.empty() || cause.empty() ? "" : "; ") << cause.what << ". Nodes of contact pair '"
+       << problem_.contacts()[contact].name() << "' slide by more than " << Limits::max_sliding
+       << " facet sizes in a step of " << t - problem_.state().time << ", which contact cannot follow";
+  append_sentences(advice, cause.advice);
+  append_sentences(advice, "'Scheme = implicit dynamics' and 'explicit' resolve jumps");
+  return {text.str(), advice};
+}
+
+void SlidingGuard::check(const double t, NewtonReport &report) const {
+  if (!has_fixed_steps() || problem_.contacts().empty() || !has_forces())
+    return;
+  const Sliding sliding = measure();
+  if (sliding.facets <= Limits::max_sliding)
+    return;
+  const Explanation why = describe(sliding.contact, t, {});
+  report.diagnostics.push_back(
+      Diagnostic(diagnostic::untracked_sliding, why.what)
+          .time(t)
+          .measure("sliding [facet sizes]", sliding.facets)
+          .advice("Use 'Step control = automatic', which cuts such steps. " + why.advice));
+}
+
+Explanation SlidingGuard::explain(const double t, const Explanation &cause) const {
+  return n_refused_ > 0 ? describe(refused_, t, cause) : Explanation();
+}
+
+} // namespace billet
