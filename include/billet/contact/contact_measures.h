@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_CONTACT_MEASURES_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/contact/facet_penetration.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/step_works.h"
 #include "billet/contact/supporting_point.h"
@@ -48,6 +49,8 @@ public:
   using VisitSupporting = std::function<void(const SupportingPoint &, std::size_t body, std::size_t other)>;
   /// Visits the points in contact; none for self-contact.
   virtual void visit_supporting(const VisitSupporting &visit) const = 0;
+  /// Returns the penetration of a tool between the nodes of facets; 0 without a tool. Collective.
+  virtual FacetPenetration penetration_between_nodes() const { return {}; }
 
 protected:
   ContactMeasures() = default;
