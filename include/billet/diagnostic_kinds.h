@@ -94,6 +94,14 @@ inline const DiagnosticKind
                      "there, and they fail early.",
                      "Correct the mesh: no inner angle of a face may exceed 180 degrees");
 
+inline const DiagnosticKind inverted_elements(
+    "inverted-elements", Severity::warning,
+    "Elements of a body have become inverted at a corner in an accepted state. Stresses there are wrong. The "
+    "message names the worst of them by its 'element_id' in the field output.",
+    "Use smaller bricks there, or ones that are longer in the direction in which they are compressed; where "
+    "a "
+    "tool's radius or edge does it, a larger radius");
+
 inline const DiagnosticKind inverted_at_end(
     "inverted-at-end", Severity::warning,
     "At the end of the run more than 5 % of the elements of a body are inverted at a corner. The mesh, not "
@@ -114,6 +122,14 @@ inline const DiagnosticKind
                     "Penetration is too large, relative to the facets, the displacements or the work. The "
                     "contact is softer than the bodies.",
                     "Increase 'Normal penalty'");
+
+inline const DiagnosticKind penetration_between_nodes(
+    "penetration-between-nodes", Severity::warning,
+    "A tool penetrates facets between their nodes, which alone are in contact, by more than a tenth of the "
+    "facets' present length. Bricks are too long for the tool's radius, often because they are stretched "
+    "over "
+    "it. Forces are too small.",
+    "Use a finer mesh where the pair touches");
 
 inline const DiagnosticKind contact_too_soft(
     "contact-too-soft", Severity::warning,

@@ -13,6 +13,7 @@ std::vector<HistoryQuantity> energy_quantities();
 HistoryQuantity momenta_quantity();
 HistoryQuantity support_reactions_quantity();
 HistoryQuantity tool_pair_loads_quantity();
+HistoryQuantity penetration_between_nodes_quantity();
 HistoryQuantity force_balance_quantity();
 HistoryQuantity energy_ratio_quantity();
 HistoryQuantity probes_quantity();
@@ -46,6 +47,7 @@ HistoryQuantities &history_quantities() {
     all.add(probes_quantity());
     all.add(whole_section_quantity());
     all.add(mesh_error_quantity());
+    all.add(penetration_between_nodes_quantity());
     return all;
   }();
   return quantities;

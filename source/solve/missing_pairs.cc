@@ -121,7 +121,8 @@ MissingPairs::MissingPairs(const Scene &scene, const Discretization &discretizat
   const std::size_t n_bodies = scene.bodies().size();
   for (std::size_t b = 0; b < n_bodies; ++b) {
     std::map<DofIndex, Node> nodes;
-    for (const auto &facet : collect_boundary_facets(discretization, b)) {
+    facets_[b] = collect_free_boundary(discretization, b, scene.bodies()[b].holds);
+    for (const BoundaryFacet &facet : facets_[b]) {
       const double size = std::sqrt(facet.area_vector().norm());
       for (unsigned int v = 0; v < 4; ++v) {
         const auto found = nodes.emplace(facet.dofs[v][0], Node{facet.dofs[v], facet.corners[v], size}).first;
@@ -130,7 +131,6 @@ MissingPairs::MissingPairs(const Scene &scene, const Discretization &discretizat
     }
     for (const auto &entry : nodes)
       nodes_[b].push_back(entry.second);
-    facets_[b] = collect_free_boundary(discretization, b, scene.bodies()[b].holds);
   }
   const auto add_ids = [](std::vector<unsigned int> &ids, const std::vector<unsigned int> &more) {
     ids.insert(ids.end(), more.begin(), more.end());

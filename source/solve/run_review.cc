@@ -5,6 +5,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/discretization/inverted_corners.h"
 #include "billet/scene/plausibility.h"
+#include "billet/solve/facet_penetrations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,13 +33,13 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   numerical_ = energies.numerical;
   DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
   append(diagnostics, missing_pairs_.check(solution.state()));
-  if (is_last) {
-    for (Diagnostic &inverted :
-         find_inverted_corners(scene_, discretization_, solution.state().displacements))
-      diagnostics.push_back(inverted.time(solution.state().time));
+  for (Diagnostic &inverted :
+       find_inverted_corners(scene_, discretization_, solution.state().displacements, is_last))
+    diagnostics.push_back(inverted.time(solution.state().time));
+  append(diagnostics, check_facet_penetrations(scene_, solution));
+  if (is_last)
     append(diagnostics, find_faceted_curvature(scene_, discretization_, solution.state().displacements,
                                                solution.state().time));
-  }
   constexpr double far = 3.; // sizes of the scene
   const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
   if (!scene_.parameters().is_dynamic() && moved > far) {

@@ -27,6 +27,7 @@ ABOUT_ELEMENTS = {
     "plastic-bending-coarse",
     "inverted-corners",
     "inverted-at-end",
+    "inverted-elements",
     "coarse-on-tool",
     "lumped-inertia",
 }

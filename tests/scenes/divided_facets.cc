@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Facets that are divided, since the tool could enter between their nodes: how many parts they have; forces
 // that are those of the stored energy, and together the load on the tool; a uniform pressure that stays a
-// uniform stress; the tangent; springs that harden; a ball that bounces off the middle of a facet, and a
-// plate that bounces off the edge of a tool.
+// uniform stress; how deep a tool is between nodes; the tangent; springs that harden; a ball that bounces off
+// the middle of a facet, and a plate that bounces off the edge of a tool.
 #include "billet/contact/facet_division.h"
 #include "billet/contact/hardening_spring.h"
 
@@ -141,6 +141,32 @@ void test_patch() {
   check("uniform pressure on divided facets: as stiff", bound <= 0.);
 }
 
+/// Facets that are stretched over a cylinder of radius 1, with all nodes on it. Between those at x = 0 and x
+/// = 0.8, a distance of l = √0.8, it enters by 1 − √(1 − l²/4).
+void test_between_nodes() {
+  const auto measure = [](const SurfacePart &part, const double sign) {
+    Pressed block(part);
+    for (unsigned int node = 0; node < block.nodes.size(); ++node) {
+      const Tensor<1, 3> at = get_vector(block.nodes.positions().data(), node);
+      const double x = 1.6 * at[0];
+      add_vector(block.u.data(), node, {x - at[0], 0., sign * (std::sqrt(1. - x * x) - 1.)});
+    }
+    block.press();
+    return block.contact.measures().penetration_between_nodes();
+  };
+  const std::string axis = "set Axis = 0, 1, 0\nset Radius = 1\nset Centre = 0, 0, ";
+  const FacetPenetration roll = measure({"cylinder", axis + "-1"}, 1.);
+  const double length = std::sqrt(0.8), depth = 1. - std::sqrt(0.8);
+  check("stretched over a roll: depth between nodes", std::abs(roll.length - depth), 1e-12);
+  check("stretched over a roll: part of the facet", std::abs(roll.of_facet - depth / length), 1e-12);
+  check("stretched over a roll: length of the facet", std::abs(roll.facet_length - length), 1e-12);
+  check("stretched over a roll: in the middle of a side",
+        std::abs(std::abs(roll.position[0]) - 0.4) + std::abs(roll.position[2] + 0.2), 1e-12);
+  const FacetPenetration cavity = measure({"cylinder", axis + "1\nset Side = inside"}, -1.);
+  check("in a cavity: none", cavity.length == 0. && cavity.of_facet == 0.);
+  check("on a plane: none", measure({"plane", ""}, 0.).length == 0.);
+}
+
 /// At d = d_0 the pressure is 2 k d and the slope 4 k; forces and slopes are derivatives.
 void test_hardening() {
   const HardeningSpring spring{3., 0.5}, linear{3.};
@@ -224,6 +250,7 @@ int main(int argc, char *argv[]) {
   test_potential("ridge", {"extruded profile", "set Corners = -1, -1 ; 0.23, 0.03 ; 1, -1\n"
                                                "set Axis = 0.05, -1, 0\nset Direction = 1, 0.05, 0"});
   test_patch();
+  test_between_nodes();
   test_hardening();
   test_tangent();
   test_bounce();

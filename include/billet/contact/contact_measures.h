@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_CONTACT_MEASURES_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/contact/facet_penetration.h"
 #include "billet/contact/friction_use.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/step_works.h"
@@ -54,6 +55,8 @@ public:
   virtual double max_sliding(double expected) const = 0;
   /// Returns the sums of tangential forces and of their limits over the nodes that press.
   virtual FrictionUse friction_use() const { return {}; }
+  /// Returns the penetration of a tool between the nodes of facets; 0 without a tool. Collective.
+  virtual FacetPenetration penetration_between_nodes() const { return {}; }
 
 protected:
   ContactMeasures() = default;

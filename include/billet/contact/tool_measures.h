@@ -14,6 +14,7 @@ public:
   explicit ToolMeasures(const RigidContactParts &parts) : parts_(parts), works_(parts) {}
 
   Penetration penetration() const override;
+  FacetPenetration penetration_between_nodes() const override { return find_facet_penetration(parts_); }
   /// Returns the penetration relative to the acceptable one: a fifth of a facet, and 0.4 of the element
   /// behind the node.
   double excessive_penetration() const override;

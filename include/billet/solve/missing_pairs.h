@@ -18,8 +18,9 @@ namespace billet {
 ///
 /// For two bodies with overlapping bounding boxes, a surface node of one counts if it is inside an element of
 /// the other. Its depth below the surface must exceed a tenth of a facet or a fifth of the element's
-/// thickness there, whichever is smaller. The node does not count if both it and the nearest face are in
-/// pairs of the two bodies. Bodies that overlap at the start are left out.
+/// thickness there, whichever is smaller. Faces on symmetry planes, as of a wedge, are not surfaces. The node
+/// does not count if both it and the nearest face are in pairs of the two bodies. Bodies that overlap at the
+/// start are left out.
 ///
 /// A node that is in no pair with a tool counts as inside it under two conditions. It was in front of the
 /// tool at the last check. It is now behind by a tenth of a facet more than the nodes in pairs. A body
@@ -85,7 +86,7 @@ private:
 
   const Scene &scene_;
   const Discretization &discretization_;
-  std::vector<std::vector<Node>> nodes_;           ///< of surfaces, by body, on this rank
+  std::vector<std::vector<Node>> nodes_;           ///< of these facets, by body, on this rank
   std::vector<std::vector<BoundaryFacet>> facets_; ///< of surfaces except symmetry planes
   std::vector<Couple> bodies_, tools_, selves_;    ///< that pairs do not connect completely
   std::string reported_;                           ///< lines of name_of() that have been reported

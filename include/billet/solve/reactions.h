@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_REACTIONS_H
 
 #include "billet/contact/contact_load.h"
+#include "billet/contact/facet_penetration.h"
 #include "billet/diagnostics.h"
 #include "billet/discretization/support_reactions.h"
 #include "billet/geometry/placement.h"
@@ -32,6 +33,7 @@ struct Reactions {
   std::vector<Resultant> of_supports;     ///< in the order of named_supports()
   std::vector<ContactLoad> of_tool_pairs; ///< in the order of Scene::pairs(), moments about the origin
   ForceBalance balance;
+  std::vector<FacetPenetration> between_nodes; ///< of `of_tool_pairs`
 };
 
 /// Returns the load with its moment about the origin. `placement`: that of the tool, about whose moved centre

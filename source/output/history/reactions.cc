@@ -7,6 +7,7 @@ namespace billet {
 
 HistoryQuantity support_reactions_quantity();
 HistoryQuantity tool_pair_loads_quantity();
+HistoryQuantity penetration_between_nodes_quantity();
 HistoryQuantity force_balance_quantity();
 
 namespace {
@@ -68,6 +69,22 @@ HistoryQuantity tool_pair_loads_quantity() {
               values.push_back(load.area);
               values.push_back(load.deepest);
             }
+            return values;
+          }};
+}
+
+HistoryQuantity penetration_between_nodes_quantity() {
+  return {"penetration between nodes",
+          [](const Scene &scene) {
+            std::vector<std::string> columns;
+            for (const ContactPair &pair : scene.pairs())
+              columns.push_back("pair " + column_name(pair.name) + ".penetration_between_nodes");
+            return columns;
+          },
+          [](const HistorySample &sample) {
+            std::vector<double> values;
+            for (const FacetPenetration &penetration : sample.reactions.between_nodes)
+              values.push_back(penetration.length);
             return values;
           }};
 }

@@ -33,6 +33,7 @@ ExplicitReactions::ExplicitReactions(const ExplicitParts &parts)
       round_off_(find_round_off_force(parts)) {
   values_.of_supports.resize(named_supports(parts.scene).size());
   values_.of_tool_pairs.resize(parts.scene.pairs().size());
+  values_.between_nodes.resize(parts.scene.pairs().size());
 }
 
 void ExplicitReactions::update() {
@@ -50,6 +51,7 @@ void ExplicitReactions::update() {
   for (std::size_t i = 0; i < values_.of_tool_pairs.size(); ++i) {
     const ContactLoad load = sum_over_ranks(parts_.tools.pair_load(i), parts_.communicator());
     values_.of_tool_pairs[i] = about_origin(load, parts_.tools[parts_.scene.pairs()[i].tool].now());
+    values_.between_nodes[i] = parts_.contacts.of_tools()[i].measures().penetration_between_nodes();
     values_.balance.contact += load.force;
   }
   sum_forces();

@@ -30,6 +30,7 @@ ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
     : problem_(problem), supports_(problem.scene(), problem.discretization(), problem.supports().acting()) {
   values_.of_supports.resize(named_supports(problem.scene()).size());
   values_.of_tool_pairs.resize(problem.scene().pairs().size());
+  values_.between_nodes.resize(problem.scene().pairs().size());
 }
 
 void ImplicitReactions::start() {
@@ -58,8 +59,9 @@ void ImplicitReactions::start() {
 }
 
 void ImplicitReactions::set_pair(const std::size_t pair, const ContactLoad &load,
-                                 const Placement &placement) {
+                                 const FacetPenetration &between_nodes, const Placement &placement) {
   values_.of_tool_pairs[pair] = about_origin(load, placement);
+  values_.between_nodes[pair] = between_nodes;
   values_.balance.contact += load.force;
 }
 

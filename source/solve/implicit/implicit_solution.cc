@@ -253,7 +253,7 @@ void ImplicitSolution::commit_loads(const double t) {
     if (const auto &tool = contacts[i].rigid_tool()) {
       state.tool_loads[*tool] += load;
       books_.set(i, load.stored_energy);
-      reactions_.set_pair(contacts[i].group_index(), load,
+      reactions_.set_pair(contacts[i].group_index(), load, contacts[i].measures().penetration_between_nodes(),
                           problem_.tools().place(*tool, t, problem_.tools().offsets()[*tool]));
     } else {
       *body_pair_load++ = load;

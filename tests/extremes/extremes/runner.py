@@ -35,6 +35,7 @@ DOUBT = (
     "element-too-stiff",
     "element-too-soft",
     "inverted-at-end",
+    "inverted-elements",
 )
 SOFT = ("penalty-too-low", "contact-too-soft")
 # ... or with forces as much of which need not balance.
@@ -62,7 +63,7 @@ ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not r
 JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
 # Corners that are inside out are doubtful where the run names them, and wrong in silence.
-INSIDE_OUT = ("inverted-at-end",)
+INSIDE_OUT = ("inverted-at-end", "inverted-elements")
 BEYOND_DOUBT = (
     "finite",
     "comes to its end",

@@ -18,8 +18,9 @@ public:
   /// Computes the reactions of supports from the last residual, before anything is committed; contact comes
   /// by set_pair(). Collective.
   void start();
-  /// Sets the load of a pair with a tool, whose placement is that at the end of the step.
-  void set_pair(std::size_t pair, const ContactLoad &load, const Placement &placement);
+  /// Sets the load and the penetration of a pair with a tool, whose placement is that at the end of the step.
+  void set_pair(std::size_t pair, const ContactLoad &load, const FacetPenetration &between_nodes,
+                const Placement &placement);
 
 private:
   const ImplicitProblem &problem_;
