@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/inverted_corners.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/diagnostic_kinds.h"
 
 #include <array>
@@ -53,7 +54,7 @@ DiagnosticList find(const Scene &scene, const Discretization &discretization, co
     }
     std::array<double, 5> worst{};
     double n = 0.;
-    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(discretization.communicator(), own)) {
+    for (const auto &of_rank : all_gather(discretization.communicator(), own)) {
       n += of_rank[0];
       if (of_rank[1] < worst[1])
         worst = of_rank;
