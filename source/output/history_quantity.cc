@@ -17,6 +17,7 @@ HistoryQuantity force_balance_quantity();
 HistoryQuantity energy_ratio_quantity();
 HistoryQuantity probes_quantity();
 HistoryQuantity whole_section_quantity();
+HistoryQuantity loads_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -27,6 +28,8 @@ void HistoryQuantities::add(const HistoryQuantity &quantity) {
   for (const HistoryQuantity &other : quantities_)
     if (other.name == quantity.name)
       throw std::logic_error("the quantity '" + quantity.name + "' of the history is registered twice");
+  if (quantity.meanings.empty())
+    throw std::logic_error("the quantity '" + quantity.name + "' of the history has no meaning");
   quantities_.push_back(quantity);
 }
 
@@ -44,6 +47,7 @@ HistoryQuantities &history_quantities() {
     all.add(energy_ratio_quantity());
     all.add(probes_quantity());
     all.add(whole_section_quantity());
+    all.add(loads_quantity());
     return all;
   }();
   return quantities;

@@ -52,6 +52,7 @@ void ExplicitReactions::update() {
     values_.of_tool_pairs[i] = about_origin(load, parts_.tools[parts_.scene.pairs()[i].tool].now());
     values_.balance.contact += load.force;
   }
+  values_.of_loads = parts_.forces.of_loads().results();
   sum_forces();
 }
 

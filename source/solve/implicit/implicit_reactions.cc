@@ -30,6 +30,7 @@ ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
     : problem_(problem), supports_(problem.scene(), problem.discretization(), problem.supports().acting()) {
   values_.of_supports.resize(named_supports(problem.scene()).size());
   values_.of_tool_pairs.resize(problem.scene().pairs().size());
+  values_.of_loads.resize(named_loads(problem.scene()).size());
 }
 
 void ImplicitReactions::start() {
