@@ -42,7 +42,8 @@ const char help[] =
        billet --version | --help
 
 Options of runs, checks and previews:
-       --set PATH=VALUE   override a parameter of the scene, such as --set "Time stepping/End time=2"
+       --set PATH=VALUE   override a parameter of the scene, such as --set "Time stepping/End time=2"; an
+                          empty VALUE takes the parameter's line away
        --output FOLDER    write results to FOLDER; without it, and without 'Folder' in the scene, they go to
                           a folder with the name of the scene
        --force            replace results of an earlier run; without it they are moved to FOLDER.1, FOLDER.2...

@@ -19,54 +19,81 @@ inline const DiagnosticKind
              "The scene uses the old name of a parameter or of a value. Version 1.0 will refuse it.",
              "Convert the scene by 'billet --update-scene'");
 
+inline const DiagnosticKind keywords_unread(
+    "keywords-unread", Severity::note,
+    "The mesh file has more than a mesh. The program reads nodes, elements, sets and surfaces "
+    "of a deck, and leaves out its other keywords.",
+    "Give in the scene what the message names for each of them");
+
+inline const DiagnosticKind probe_without_contact(
+    "probe-without-contact", Severity::warning,
+    "A probe reads the contact pressure where no pair computes one: only the nodes of a "
+    "pair's first body have it.",
+    "Name faces of the 'Body' of a pair in the probe");
+
+inline const DiagnosticKind parameters_left_out(
+    "parameters-left-out", Severity::note,
+    "The command line chooses another 'Scheme' than the scene file. The program leaves out the file's "
+    "parameters of the other scheme.",
+    "Give those of this scheme by '--set' if the defaults do not fit");
+
 inline const DiagnosticKind tool_smaller_than_facets(
     "tool-smaller-than-facets", Severity::warning,
     "A tool is smaller than the facets that it meets. It can enter between their nodes without a force.",
     "Use a finer mesh where the tool touches");
 
-inline const DiagnosticKind
-    many_steps("many-steps", Severity::warning, "The run takes more than 1e8 explicit steps.",
-               "Check the end time, densities, units and flat elements; 'Mass scaling "
-               "step' makes steps longer");
+inline const DiagnosticKind many_steps(
+    "many-steps", Severity::warning,
+    "The run takes more than 1e8 explicit steps. That takes days. Usually a unit is wrong, or one element is "
+    "flat.",
+    "Check the end time, densities, units and flat elements; 'Mass scaling step' makes steps longer");
 
-inline const DiagnosticKind implausible_yield_stress(
-    "implausible-yield-stress", Severity::warning,
-    "The yield stress is above a tenth, or below a ten-millionth, of Young's modulus.",
-    "Check the units of both: metals have ratios of 1e-4 to 1e-2");
+inline const DiagnosticKind
+    implausible_yield_stress("implausible-yield-stress", Severity::warning,
+                             "The yield stress is above a tenth, or below a ten-millionth, of Young's "
+                             "modulus. Usually the two have different units.",
+                             "Check the units of both: metals have ratios of 1e-4 to 1e-2");
 
 inline const DiagnosticKind
     implausible_speed("implausible-speed", Severity::warning,
-                      "A body or a tool moves with more than 0.3 of the speed of elastic waves.",
+                      "A body or a tool moves with more than 0.3 of the speed of elastic waves. Then shock "
+                      "waves deform it, which no law of the program describes, or a unit is wrong.",
                       "Check that the units of velocity, density and Young's modulus are consistent");
 
 inline const DiagnosticKind
     run_shorter_than_wave("run-shorter-than-wave", Severity::warning,
-                          "The run ends before an elastic wave has crossed a body once.",
+                          "The run ends before an elastic wave has crossed a body once. Then most of the "
+                          "body is still at rest at the end, or a unit is wrong.",
                           "Check that the units of time, density and Young's modulus are consistent");
 
 inline const DiagnosticKind step_longer_than_period(
     "step-longer-than-period", Severity::warning,
-    "Fixed steps are longer than 0.35 of the time in which an elastic wave crosses an impacting body.",
+    "Fixed steps are longer than 0.35 of the time in which an elastic wave crosses an impacting body. They "
+    "pass over the impact: its force and its duration are wrong.",
     "Reduce 'Initial step', or use 'Step control = automatic'");
 
-inline const DiagnosticKind implausible_travel(
-    "implausible-travel", Severity::warning,
-    "The travel of a tool is above ten times, or below a ten-millionth of, the size of all bodies.",
-    "Check the units of the mesh ('Scale') and of the motion");
+inline const DiagnosticKind
+    implausible_travel("implausible-travel", Severity::warning,
+                       "The travel of a tool is above ten times, or below a ten-millionth of, the size of "
+                       "all bodies. Usually mesh and motion have different units.",
+                       "Check the units of the mesh ('Scale') and of the motion");
 
-inline const DiagnosticKind starts_behind_tool("starts-behind-tool", Severity::warning,
-                                               "Nodes start more than two facet sizes behind the surface of "
-                                               "a tool, where initial penetration is allowed.",
-                                               "Check the side to which the tool faces and its position");
+inline const DiagnosticKind starts_behind_tool(
+    "starts-behind-tool", Severity::warning,
+    "Nodes start more than two facet sizes behind the surface of a tool, where initial penetration is "
+    "allowed. Allowed penetration exerts no force, so these nodes may be on the wrong side of the tool.",
+    "Check the side to which the tool faces and its position");
 
 inline const DiagnosticKind
     large_displacement("large-displacement", Severity::warning,
-                       "In a static scene a node has moved more than three times the size of all bodies.",
+                       "In a static scene a node has moved more than three times the size of all bodies. "
+                       "Usually a body moves freely.",
                        "Check supports, units and loads: a body may be without support");
 
 inline const DiagnosticKind implausible_force(
     "implausible-force", Severity::warning,
-    "A tool exerts more than ten times the force that the largest section of a body bears as it yields.",
+    "A tool exerts more than ten times the force that the largest section of a body bears as it yields. "
+    "Usually a unit is wrong, or the tool presses on something that cannot yield.",
     "Check the units of force and stress, and whether the tool closes on something rigid");
 
 inline const DiagnosticKind implausible_friction(
@@ -79,13 +106,15 @@ inline const DiagnosticKind unseen_motion(
     "A tool or support reverses, or turns fully, within a step. The step sees its final position only.",
     "Reduce the step, or use 'Step control = automatic'");
 
-inline const DiagnosticKind many_turns("many-turns", Severity::note,
-                                       "A tool turns more than four times during the run.",
-                                       "Check that 'Rotation angle' is in radians");
+inline const DiagnosticKind
+    many_turns("many-turns", Severity::note,
+               "A tool turns more than four times during the run. Usually the angle is in degrees.",
+               "Check that 'Rotation angle' is in radians");
 
 inline const DiagnosticKind
     outline_checked("outline-checked", Severity::note,
-                    "The check of a scene of more than 500,000 elements uses the outline of its meshes only.",
+                    "The check of a scene of more than 500,000 elements uses the outline of its meshes only. "
+                    "Overlaps of bodies and shapes of elements remain unchecked.",
                     "The run checks the rest before its first step");
 
 inline const DiagnosticKind
@@ -163,18 +192,22 @@ inline const DiagnosticKind coarse_on_tool(
     "Use a finer mesh where the pair touches");
 
 inline const DiagnosticKind pair_never_touched(
-    "pair-never-touched", Severity::warning, "A contact pair had no contact during the whole run.",
+    "pair-never-touched", Severity::warning,
+    "A contact pair had no contact during the whole run. Either the scene does not need it, or it moves "
+    "differently from what is meant.",
     "Check boundary ids, positions, the direction of motion and the side to which the tool faces");
 
 inline const DiagnosticKind
     tool_without_force("tool-without-force", Severity::warning,
-                       "No step of the run ended with a force on a tool.",
+                       "No step of the run ended with a force on a tool. Either the scene does not need it, "
+                       "or it misses the bodies.",
                        "Check its position, motion, units and the side to which it faces, or remove it");
 
-inline const DiagnosticKind missing_pair(
-    "missing-pair", Severity::warning,
-    "Two bodies, a body and a tool, or a body and itself penetrate where no contact pair connects them.",
-    "Add a contact pair of the two, or the missing faces to the existing pair");
+inline const DiagnosticKind
+    missing_pair("missing-pair", Severity::warning,
+                 "Two bodies, a body and a tool, or a body and itself penetrate where no contact pair "
+                 "connects them. They pass through each other without a force.",
+                 "Add a contact pair of the two, or the missing faces to the existing pair");
 
 inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warning,
                                              "A penalty is so high that the solution is slow: steps become "
@@ -183,8 +216,9 @@ inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warni
 
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
-    "Newton's method failed, so a penalty is reduced towards 10 E/h; augmentation enforces the constraint.",
-    "");
+    "Newton's method failed, so a penalty is reduced towards 10 E/h; augmentation enforces the "
+    "constraint. The result is that of the higher penalty.",
+    "Set 'Normal penalty' to that value, which saves the failed attempts");
 
 inline const DiagnosticKind
     penalty_raised("penalty-raised", Severity::note,
@@ -199,12 +233,13 @@ inline const DiagnosticKind
                        "how it opens and closes. The message names the cause.",
                        "If bodies should rebound, reduce 'Error tolerance', 'Maximum step' or the penalty");
 
-inline const DiagnosticKind
-    numerical_dissipation("numerical-dissipation", Severity::warning,
-                          "Implicit time integration dissipates, or creates, more than 5 % of the maximum "
-                          "energy: its steps do not resolve the motion.",
-                          "If the damped motion matters, reduce 'Error tolerance' or 'Maximum step'; 'Method "
-                          "= Newmark' dissipates nothing");
+inline const DiagnosticKind numerical_dissipation(
+    "numerical-dissipation", Severity::warning,
+    "Implicit time integration dissipates, or creates, more than 5 % of the maximum "
+    "energy: its steps do not resolve the motion.",
+    "If the damped motion matters, reduce 'Error tolerance' or 'Maximum step'; 'Method "
+    "= Newmark' with 'Gamma = 0.5' adds no damping, but contact that opens or closes within a step "
+    "dissipates with every method");
 
 inline const DiagnosticKind
     lumped_inertia("lumped-inertia", Severity::warning,
@@ -221,17 +256,18 @@ inline const DiagnosticKind nodes_behind_tool(
 
 // --- accuracy --------------------------------------------------------------------------------------------
 
-inline const DiagnosticKind round_off_limits_forces(
-    "round-off-limits-forces", Severity::warning,
-    "Round-off in the positions limits the residual to more than 'Force tolerance' allows.",
-    "Use a lower penalty, with a 'Penetration tolerance' if penetration is then too large, or place bodies "
-    "nearer to the origin");
-
 inline const DiagnosticKind
-    balanced_to_round_off("balanced-to-round-off", Severity::note,
-                          "Round-off in the positions limits the residual to more than 'Force tolerance' "
-                          "allows, but at most 1e-8 of the forces.",
-                          "");
+    round_off_limits_forces("round-off-limits-forces", Severity::warning,
+                            "Round-off in the positions limits the residual to more than 'Force tolerance' "
+                            "allows. Forces of that size are noise.",
+                            "Use a lower penalty, with a 'Penetration tolerance' if penetration is then too "
+                            "large, or place bodies nearer to the origin");
+
+inline const DiagnosticKind balanced_to_round_off(
+    "balanced-to-round-off", Severity::note,
+    "Round-off in the positions limits the residual to more than 'Force tolerance' allows, but at most 1e-8 "
+    "of the forces. The result is as accurate as these positions allow.",
+    "Place bodies nearer to the origin if less matters");
 
 inline const DiagnosticKind
     ill_conditioned("ill-conditioned", Severity::warning,
@@ -297,15 +333,19 @@ inline const DiagnosticKind flat_elements("flat-elements", Severity::warning,
 
 inline const DiagnosticKind
     error_estimate("error-estimate", Severity::note,
-                   "This is the estimated error of the run by source, and the cost of the run.", "");
+                   "This is the estimated error of the run by source, and the cost of the run.",
+                   "If it is too large, begin with the largest part");
 
 inline const DiagnosticKind
     target_error_missed("target-error-missed", Severity::warning,
-                        "The estimated error exceeds the 'Target error'. The program exits with code 7.", "");
+                        "The estimated error exceeds the 'Target error'. The program exits with code 7.",
+                        "Reduce the largest part of the error estimate first; the message names how");
 
 inline const DiagnosticKind
     target_error_unknown("target-error-unknown", Severity::warning,
-                         "The run has too few measurements to tell whether it meets the 'Target error'.", "");
+                         "The run has too few measurements to tell whether it meets the 'Target error'. The "
+                         "exit code is that of a run without one.",
+                         "Let the run take more steps, or compare it with a run of half the steps");
 
 inline const DiagnosticKind mesh_may_exceed_target(
     "mesh-may-exceed-target", Severity::note,
@@ -314,11 +354,13 @@ inline const DiagnosticKind mesh_may_exceed_target(
 
 inline const DiagnosticKind
     mesh_error("mesh-error", Severity::note,
-               "This is the estimated error that the size of the elements makes in the forces of the run.", "");
+               "This is the estimated error that the size of the elements makes in the forces of the run.",
+               "");
 
-inline const DiagnosticKind target_error_expensive("target-error-expensive", Severity::warning,
-                                                   "The allowed error requires very many steps.",
-                                                   "Choose a larger 'Target error' or 'Error tolerance'");
+inline const DiagnosticKind target_error_expensive(
+    "target-error-expensive", Severity::warning,
+    "The allowed error requires very many steps. The run continues, and may take very long.",
+    "Choose a larger 'Target error' or 'Error tolerance'");
 
 // --- solution --------------------------------------------------------------------------------------------
 
@@ -360,9 +402,11 @@ inline const DiagnosticKind needless_stabilisation("needless-stabilisation", Sev
                                                    "a body that supports and symmetry planes constrain.",
                                                    "Set 'Contact stabilisation = none'");
 
-inline const DiagnosticKind exact_tangent(
-    "exact-tangent", Severity::note,
-    "Newton's method failed with the chosen 'Contact tangent'; the run uses the exact one from here on.", "");
+inline const DiagnosticKind
+    exact_tangent("exact-tangent", Severity::note,
+                  "Newton's method failed with the chosen 'Contact tangent'; the run uses the exact one from "
+                  "here on. The result is the same; an iteration may take more time.",
+                  "Set 'Contact tangent = exact', which saves the failed attempts");
 
 inline const DiagnosticKind stalled_step(
     "stalled-step", Severity::warning,
@@ -382,13 +426,16 @@ inline const DiagnosticKind untracked_sliding(
     "over states of equilibrium.",
     "Use 'Step control = automatic', which cuts such steps");
 
-inline const DiagnosticKind direct_solver("direct-solver", Severity::note,
-                                          "The iterative linear solver failed, or the matrix is nearly "
-                                          "singular; a direct solver replaces it whenever that happens.",
-                                          "");
+inline const DiagnosticKind
+    direct_solver("direct-solver", Severity::note,
+                  "The iterative linear solver failed, or the matrix is nearly singular; a direct solver "
+                  "replaces it whenever that happens. The result is the same, and takes more memory.",
+                  "If that happens often, set 'Linear solver = MUMPS', which saves the failed attempts");
 
-inline const DiagnosticKind solver_memory("solver-memory", Severity::note,
-                                          "This is the memory of the iterative linear solver.", "");
+inline const DiagnosticKind solver_memory(
+    "solver-memory", Severity::note,
+    "This is the memory of the iterative linear solver. It is in addition to the memory of the matrix.",
+    "If it does not fit, use more ranks");
 
 inline const DiagnosticKind comparison_failed(
     "comparison-failed", Severity::warning,
@@ -405,10 +452,14 @@ inline const DiagnosticKind results_moved("results-moved", Severity::note,
                                           "name now.",
                                           "With '--force' a run replaces them");
 
-inline const DiagnosticKind resumed("resumed", Severity::note, "The run continues from a checkpoint.", "");
+inline const DiagnosticKind resumed("resumed", Severity::note, "The run continues from a checkpoint.",
+                                    "Without '--restart' it begins at time 0");
 
-inline const DiagnosticKind mass_scaling("mass-scaling", Severity::note,
-                                         "This is the mass that 'Mass scaling step' adds to the bodies.", "");
+inline const DiagnosticKind mass_scaling(
+    "mass-scaling", Severity::note,
+    "This is the mass that 'Mass scaling step' adds to the bodies. Added mass makes steps longer and changes "
+    "the motion.",
+    "Compare the kinetic with the internal energy in the history: above 5 %, reduce 'Mass scaling step'");
 
 inline const DiagnosticKind mass_scaling_too_strong(
     "mass-scaling-too-strong", Severity::warning,
@@ -417,18 +468,24 @@ inline const DiagnosticKind mass_scaling_too_strong(
     "Reduce 'Mass scaling step', or the speed of tools if the process is quasi-static");
 
 inline const DiagnosticKind checkpoint_failed("checkpoint-failed", Severity::warning,
-                                              "The program cannot write a checkpoint; the run continues.",
+                                              "The program cannot write a checkpoint; the run continues. If "
+                                              "it is interrupted, it resumes from the checkpoint before.",
                                               "Free disk space, or choose another folder");
 
-inline const DiagnosticKind run_stopped("run-stopped", Severity::note,
-                                        "A signal has stopped the run, which can be resumed.", "");
+inline const DiagnosticKind run_stopped(
+    "run-stopped", Severity::note,
+    "A signal has stopped the run, which can be resumed. Its last checkpoint has the state at that time.",
+    "Resume it by '--restart' and that checkpoint");
 
-inline const DiagnosticKind file_failed("file-failed", Severity::warning,
-                                        "The program cannot write a file that no result depends on.",
-                                        "Check whether the disk is full");
+inline const DiagnosticKind
+    file_failed("file-failed", Severity::warning,
+                "The program cannot write a file that no result depends on. The run continues without it.",
+                "Check whether the disk is full");
 
 inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
-                                            "The computation cannot continue.", "");
+                                            "The computation cannot continue. The message names the cause. "
+                                            "What was computed until then is in the output folder.",
+                                            "");
 
 inline const DiagnosticKind forces_do_not_balance(
     "forces-do-not-balance", Severity::warning,
@@ -438,11 +495,14 @@ inline const DiagnosticKind forces_do_not_balance(
 
 inline const DiagnosticKind
     energy_drift("energy-drift", Severity::error,
-                 "The energies fail to balance by more than 'Maximum energy drift' allows.", "");
+                 "The energies fail to balance by more than 'Maximum energy drift' allows. The solution has "
+                 "become unstable, and what follows would be wrong.",
+                 "");
 
-inline const DiagnosticKind internal_error("internal-error", Severity::error,
-                                           "The program or the machine has a defect.",
-                                           "Report it with the scene file");
+inline const DiagnosticKind internal_error(
+    "internal-error", Severity::error,
+    "The program or the machine has a defect. What was computed until then is in the output folder.",
+    "Report it with the scene file");
 
 } // namespace billet::diagnostic
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/body_checks.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/contact/facet_contact.h"
 
 #include <deal.II/base/mpi.h>
@@ -20,7 +21,7 @@ Explanation BodyChecks::describe_restless() const {
   }
   std::array<double, 5> worst{};
   double n_nodes = 0.;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator_, mine)) {
+  for (const auto &of_rank : all_gather(communicator_, mine)) {
     n_nodes += of_rank[4];
     if (of_rank[0] > worst[0])
       worst = of_rank;

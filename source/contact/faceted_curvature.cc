@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/faceted_curvature.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/contact/overlap.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
@@ -49,7 +50,7 @@ std::vector<CurvedFacet> collect_facets(const Discretization &discretization, co
   n_own_facets = own.size();
   const MPI_Comm communicator = discretization.communicator();
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-  auto parts = dealii::Utilities::MPI::all_gather(communicator, own);
+  auto parts = all_gather(communicator, own);
   std::swap(parts[0], parts[rank]); // own ones first
   std::vector<CurvedFacet> facets;
   for (const auto &part : parts)
@@ -176,7 +177,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
       }
   }
   ChordGap result;
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, worst))
+  for (const auto &of_rank : all_gather(communicator, worst))
     if (of_rank[0] > result.relative)
       result = {of_rank[1], of_rank[0], of_rank[2], Tensor<1, 3>({of_rank[3], of_rank[4], of_rank[5]})};
   result.fits = dealii::Utilities::MPI::max(fits ? 1 : 0, communicator) > 0;

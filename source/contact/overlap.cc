@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/overlap.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/contact/facet_overlaps.h"
 #include "billet/contact/faceted_curvature.h"
 #include "billet/discretization/boundary_facets.h"
@@ -141,7 +142,7 @@ std::vector<ProbedFacet> gather_facets(const std::vector<BoundaryFacet> &facets,
     own.push_back(numbers);
   }
   std::vector<ProbedFacet> all;
-  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+  for (const auto &part : all_gather(communicator, own))
     for (const auto &numbers : part) {
       ProbedFacet facet{{}, numbers[15], Tensor<1, 3>({numbers[12], numbers[13], numbers[14]})};
       for (std::size_t a = 0; a < 4; ++a)
@@ -195,7 +196,7 @@ public:
         });
       }
     std::map<std::array<double, 2>, std::vector<double>> sides;
-    for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+    for (const auto &part : all_gather(communicator, own))
       for (const auto &met : part)
         sides[{met[0], met[1]}].push_back(met[2]);
     for (auto &entry : sides) {

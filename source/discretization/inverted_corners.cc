@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/inverted_corners.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/discretization/element_key.h"
 
@@ -87,7 +88,7 @@ Inverted find(const Discretization &discretization, const std::size_t body, cons
   inverted.is_deformed = displacements != nullptr;
   inverted.of =
       dealii::Utilities::MPI::sum(discretization.elements(body).size(), discretization.communicator());
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(discretization.communicator(), own)) {
+  for (const auto &of_rank : all_gather(discretization.communicator(), own)) {
     inverted.number += of_rank[0];
     if (of_rank[1] < inverted.jacobian) {
       inverted.jacobian = of_rank[1];

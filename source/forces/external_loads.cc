@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/forces/external_loads.h"
 
+#include "billet/discretization/point_location.h"
 #include "billet/errors.h"
 #include "billet/forces/surface_coupling.h"
 #include "billet/mechanics/element_mass.h"
 #include "billet/usage.h"
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/fe/mapping_q1.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
+#include <type_traits>
 
 namespace billet {
 
@@ -52,6 +51,13 @@ LoadValues evaluate(const AppliedLoad &load, const double time, const std::vecto
   return values;
 }
 
+std::vector<double> values_of(const AppliedLoad &load, const double t) {
+  std::vector<double> values;
+  for (const Expression &expression : load.expressions)
+    values.push_back(expression.value(time_of_values(load, t)));
+  return values;
+}
+
 template <class Placed> std::size_t memory_of(const std::vector<Placed> &loads) {
   std::size_t bytes = 0;
   for (const Placed &placed : loads)
@@ -71,41 +77,6 @@ void add_with_factor(const AppliedLoad &load, const double t, NodalVectors &forc
   add(whole.data());
   for (std::size_t i = 0; i < forces.size(); ++i)
     forces[i] += factor * whole[i];
-}
-
-/// Point in an element's reference coordinates, and how far these are outside [0, 1].
-struct FoundPoint {
-  const Element *element = nullptr;
-  dealii::Point<3> coordinates;
-  double outside = std::numeric_limits<double>::infinity();
-};
-
-FoundPoint find_point(const std::vector<Element> &elements, const dealii::Point<3> &point) {
-  FoundPoint best;
-  for (const Element &element : elements) {
-    const auto &cell = element.cell;
-    if (cell->center().distance(point) > cell->diameter())
-      continue;
-    dealii::Point<3> at;
-    try {
-      at = dealii::StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, point);
-    } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // it is not there
-      continue;
-    }
-    const double outside = dealii::GeometryInfo<3>::distance_to_unit_cell(at);
-    if (outside < best.outside)
-      best = {&element, dealii::GeometryInfo<3>::project_to_unit_cell(at), outside};
-  }
-  return best;
-}
-
-/// Returns the first rank with the least first number, and its numbers.
-std::pair<unsigned int, std::vector<double>> find_least(const MPI_Comm communicator,
-                                                        const std::vector<double> &numbers) {
-  const auto all = dealii::Utilities::MPI::all_gather(communicator, numbers);
-  const auto least = std::min_element(all.begin(), all.end(),
-                                      [](const auto &a, const auto &b) { return a.front() < b.front(); });
-  return {static_cast<unsigned int>(least - all.begin()), *least};
 }
 
 } // namespace
@@ -209,39 +180,19 @@ void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, co
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
-  const Discretization &discretization = nodes_.discretization();
-  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(discretization.communicator());
-  const dealii::Point<3> point = action.position();
-  // The nearest node: its distance, position and number on its rank.
-  std::vector<double> nearest{std::numeric_limits<double>::infinity(), 0., 0., 0., 0.};
-  for (const auto &element : nodes_.elements(body))
-    for (const unsigned int node : element) {
-      const Tensor<1, 3> x = get_vector(nodes_.positions().data(), node);
-      const double distance = (x - point).norm();
-      if (distance < nearest[0])
-        nearest = {distance, x[0], x[1], x[2], static_cast<double>(node)};
-    }
-  const auto [rank_of_node, node] = find_least(discretization.communicator(), nearest);
-  constexpr double near = 0.1, inside = 1e-6; // of the scene's radius; in reference coordinates
-  const FoundPoint found = find_point(discretization.elements(body), point);
-  const auto [rank_of_point, outside] = find_least(discretization.communicator(), {found.outside});
-  const bool takes_node = action.takes_nearest_node();
-  if (takes_node ? node[0] > near * discretization.radius() : outside[0] > inside) {
-    std::ostringstream message;
-    message << load.origin << ": the point (" << point
-            << ") is not in the undeformed body; its nearest node, (" << node[1] << " " << node[2] << " "
-            << node[3] << "), is at a distance of " << node[0] << "; allowed is "
-            << (takes_node ? "a distance of at most a tenth of the scene's radius"
-                           : "a point of the body, or 'Place = nearest node'");
-    throw InputError(message.str());
-  }
+  const auto located = locate_points(nodes_.discretization(), body,
+                                     {{action.position()},
+                                      action.takes_nearest_node(),
+                                      scene_.bodies()[body].name,
+                                      load.origin,
+                                      "is a point of the body, or 'Place = nearest node'"});
   std::vector<WeightedNode> sites;
-  if (takes_node && rank == rank_of_node)
-    sites.push_back({static_cast<unsigned int>(node[4]), 1.});
-  if (!takes_node && rank == rank_of_point)
-    for (unsigned int a = 0; a < n_element_nodes; ++a)
-      sites.push_back({nodes_.find(found.element->dofs[std::size_t{3} * a]),
-                       dealii::GeometryInfo<3>::d_linear_shape_function(found.coordinates, a)});
+  if (const auto &point = located.front())
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const double weight = dealii::GeometryInfo<3>::d_linear_shape_function(point->coordinates, a);
+      if (weight != 0.)
+        sites.push_back({nodes_.elements(body)[point->element][a], weight});
+    }
   on_points_.push_back({&load, &action, std::move(sites), nullptr});
 }
 
@@ -253,6 +204,51 @@ void ExternalLoads::follow(const NodalVectors &displacements) {
     });
 }
 
+void ExternalLoads::add(const Placed<BodyLoad, WeightedNode> &placed, const double t, const NodalMotion &,
+                        NodalVectors &forces) const {
+  add_with_factor(*placed.load, t, forces, [&](double *sum) {
+    const Tensor<1, 3> a = placed.action->acceleration(values_of(*placed.load, t).data());
+    for (const auto &[node, weight] : placed.sites)
+      add_vector(sum, node, weight * a);
+  });
+}
+
+void ExternalLoads::add(const Placed<FaceLoad, LoadedFace> &placed, const double t, const NodalMotion &at,
+                        NodalVectors &forces) const {
+  add_with_factor(*placed.load, t, forces, [&](double *sum) {
+    placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
+  });
+}
+
+void ExternalLoads::add(const Placed<NodalLoad, LoadedNode> &placed, const double t, const NodalMotion &at,
+                        NodalVectors &forces) const {
+  add_with_factor(*placed.load, t, forces, [&](double *sum) {
+    placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
+  });
+}
+
+void ExternalLoads::add(const Placed<SurfaceLoad, LoadedFace> &placed, const double t, const NodalMotion &,
+                        NodalVectors &forces) const {
+  add_with_factor(*placed.load, t, forces, [&](double *sum) {
+    const LoadValues values = evaluate(*placed.load, t, placed.sites);
+    for (std::size_t f = 0; f < placed.sites.size(); ++f) {
+      const LoadedFace &face = placed.sites[f];
+      for (unsigned int a = 0; a < 4; ++a)
+        add_vector(sum, face.nodes[a],
+                   placed.action->force(placed.surface->shares[f][a], values.at(f), *placed.surface));
+    }
+  });
+}
+
+void ExternalLoads::add(const Placed<PointLoad, WeightedNode> &placed, const double t, const NodalMotion &,
+                        NodalVectors &forces) const {
+  add_with_factor(*placed.load, t, forces, [&](double *sum) {
+    const Tensor<1, 3> force = placed.action->force(values_of(*placed.load, t).data());
+    for (const auto &[node, weight] : placed.sites)
+      add_vector(sum, node, weight * force);
+  });
+}
+
 void ExternalLoads::add_forces(const double t, const NodalVectors &displacements,
                                const NodalVectors &velocities, NodalVectors &forces) const {
   std::size_t n_loads = on_bodies_.size() + on_faces_.size() + on_surfaces_.size() + on_points_.size();
@@ -260,42 +256,35 @@ void ExternalLoads::add_forces(const double t, const NodalVectors &displacements
     n_loads += placed.sites.size();
   Usage::count_if(n_loads > 0, Capability::loads, n_loads);
   const NodalMotion at = motion(displacements, velocities);
-  const auto values_of = [t](const AppliedLoad &load) {
-    std::vector<double> values;
-    for (const Expression &expression : load.expressions)
-      values.push_back(expression.value(time_of_values(load, t)));
-    return values;
+  visit([&](const auto &placed) { add(placed, t, at, forces); });
+}
+
+void ExternalLoads::add_forces_of(const AppliedLoad &load, const double t, const NodalVectors &displacements,
+                                  const NodalVectors &velocities, NodalVectors &forces) const {
+  const NodalMotion at = motion(displacements, velocities);
+  visit([&](const auto &placed) {
+    if (placed.load != &load)
+      return;
+    Usage::count_if(!placed.sites.empty(), Capability::loads, 1);
+    add(placed, t, at, forces);
+  });
+}
+
+std::vector<unsigned int> ExternalLoads::nodes_of(const AppliedLoad &load) const {
+  std::vector<unsigned int> nodes;
+  const auto add_nodes = [&nodes](const auto &site) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(site)>, LoadedFace>)
+      nodes.insert(nodes.end(), site.nodes.begin(), site.nodes.end());
+    else
+      nodes.push_back(site.node);
   };
-  for (const auto &placed : on_bodies_)
-    add_with_factor(*placed.load, t, forces, [&](double *sum) {
-      const Tensor<1, 3> a = placed.action->acceleration(values_of(*placed.load).data());
-      for (const auto &[node, weight] : placed.sites)
-        add_vector(sum, node, weight * a);
-    });
-  for (const auto &placed : on_faces_)
-    add_with_factor(*placed.load, t, forces, [&](double *sum) {
-      placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
-    });
-  for (const auto &placed : on_nodes_)
-    add_with_factor(*placed.load, t, forces, [&](double *sum) {
-      placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
-    });
-  for (const auto &placed : on_surfaces_)
-    add_with_factor(*placed.load, t, forces, [&](double *sum) {
-      const LoadValues values = evaluate(*placed.load, t, placed.sites);
-      for (std::size_t f = 0; f < placed.sites.size(); ++f) {
-        const LoadedFace &face = placed.sites[f];
-        for (unsigned int a = 0; a < 4; ++a)
-          add_vector(sum, face.nodes[a],
-                     placed.action->force(placed.surface->shares[f][a], values.at(f), *placed.surface));
-      }
-    });
-  for (const auto &placed : on_points_)
-    add_with_factor(*placed.load, t, forces, [&](double *sum) {
-      const Tensor<1, 3> force = placed.action->force(values_of(*placed.load).data());
-      for (const auto &[node, weight] : placed.sites)
-        add_vector(sum, node, weight * force);
-    });
+  visit([&](const auto &placed) {
+    if (placed.load == &load)
+      std::for_each(placed.sites.begin(), placed.sites.end(), add_nodes);
+  });
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 void ExternalLoads::add_tangent(const double t, const NodalVectors &displacements,

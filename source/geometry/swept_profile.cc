@@ -13,7 +13,12 @@ using dealii::Tensor;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double mesh_angle = M_PI / 36.; // maximum angle of facets that represent an arc
+/// Maximum angles of facets that represent an arc, whose chords are up to 0.015 % and 0.1 % of its radius
+/// away from it. The coarse one is for surfaces that would have more facets otherwise.
+struct FacetAngles {
+  static constexpr double fine = M_PI / 90., coarse = M_PI / 36.;
+  static constexpr std::size_t max_facets = 10000;
+};
 
 /// Returns a b, where 0 times infinity is 0.
 double product(const double a, const double b) { return std::abs(a) < 1e-14 ? 0. : a * b; }
@@ -105,9 +110,16 @@ void RevolvedProfile::draw(const OutputRegion &region, SurfaceMesh &surface_mesh
   const Tensor<1, 3> arm = region.centre - axes_.origin;
   const double height = arm * axes_.z;
   const double reach = (arm - height * axes_.z).norm() + region.radius;
-  const auto points = profile_.polyline(mesh_angle, Profile::Point({0., height}), reach);
   const double sweep = std::min(sweep_, 2. * M_PI);
-  const auto n = static_cast<unsigned int>(std::ceil(sweep / mesh_angle));
+  const auto profile = [&](const double angle) {
+    return profile_.polyline(angle, Profile::Point({0., height}), reach);
+  };
+  auto points = profile(FacetAngles::fine);
+  auto n = static_cast<unsigned int>(std::ceil(sweep / FacetAngles::fine));
+  if (n * points.size() > FacetAngles::max_facets) {
+    points = profile(FacetAngles::coarse);
+    n = static_cast<unsigned int>(std::ceil(sweep / FacetAngles::coarse));
+  }
   std::vector<std::vector<Tensor<1, 3>>> rows(n + 1);
   for (unsigned int i = 0; i <= n; ++i) {
     const double angle = from_ + i * sweep / n;
@@ -152,7 +164,7 @@ void ExtrudedProfile::draw(const OutputRegion &region, SurfaceMesh &surface_mesh
   const Tensor<1, 3> arm = region.centre - axes_.origin;
   const Profile::Point centre({arm * axes_.x, arm * axes_.y});
   const double z = arm * axes_.z;
-  const auto points = profile_.polyline(mesh_angle, centre, region.radius);
+  const auto points = profile_.polyline(FacetAngles::fine, centre, region.radius);
   const double low = low_ == -infinity ? std::min(z - region.radius, high_) : low_;
   const double high = high_ == infinity ? std::max(z + region.radius, low) : high_;
   std::vector<std::vector<Tensor<1, 3>>> rows(2);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Decks of Abaqus and CalculiX: nodes, elements, sets and surfaces; what concerns the analysis is skipped.
 #include "billet/mesh/abaqus_sets.h"
+#include "billet/mesh/boundary_groups.h"
 #include "billet/mesh/mesh_collector.h"
 #include "billet/mesh/mesh_cursor.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -177,6 +181,28 @@ private:
   bool has_line_ = false;
 };
 
+/// Numbers of groups: a name that is a number has this one, the others count from 1 beside these.
+class GroupNumbers {
+public:
+  /// Keeps the number for this name if it is one. All names are reserved before the first number is asked
+  /// for.
+  void reserve(const std::string &name) {
+    if (const std::optional<unsigned int> id = id_of_name(name))
+      reserved_.insert(*id);
+  }
+  unsigned int number(const std::string &name) {
+    if (const std::optional<unsigned int> id = id_of_name(name))
+      return *id;
+    while (reserved_.count(++last_) > 0) {
+    }
+    return last_;
+  }
+
+private:
+  std::set<unsigned int> reserved_;
+  unsigned int last_ = 0;
+};
+
 /// Reads a deck with the files that it includes.
 class AbaqusReader {
 public:
@@ -185,6 +211,7 @@ public:
 
   MeshFile read(const std::string &bytes) {
     read_file(bytes);
+    reserve_numbers();
     add_surfaces();
     add_shells();
     add_node_sets();
@@ -226,6 +253,8 @@ private:
   void read_section(const Keyword &keyword, DeckLines &lines) {
     const std::string &name = keyword.name;
     const bool is_outside = is_in_assembly_ && !is_in_instance_;
+    static const std::set<std::string> without_content{"heading",  "preprint", "part",
+                                                       "end part", "end step", "end instance"};
     if (name == "include")
       include(keyword, lines);
     else if (name == "node" && !is_outside)
@@ -249,6 +278,8 @@ private:
       lines.refuse("*" + name +
                    " makes or moves nodes or elements, which is not read; write them out (*NODE, "
                    "*ELEMENT)");
+    else if (without_content.count(name) == 0 && name != "node" && name != "element")
+      mesh_.leave_unread(name);
   }
 
   void include(const Keyword &keyword, DeckLines &lines) {
@@ -339,17 +370,19 @@ private:
       if (numbers.size() != shape.n_nodes + 1)
         lines.refuse("element " + std::to_string(numbers[0]) + " has " + std::to_string(numbers.size() - 1) +
                      " nodes, where its type " + type + " has " + std::to_string(shape.n_nodes));
-      add_element(shape, numbers);
+      add_element(shape, lower_case(type), numbers);
       if (!set.empty())
         element_sets_.add(set, numbers[0]);
     }
   }
 
-  void add_element(const CellShape &shape, const std::vector<long long> &numbers) {
+  void add_element(const CellShape &shape, const std::string &type, const std::vector<long long> &numbers) {
     Element element{shape.kind, 0, {}};
     std::copy_n(numbers.begin() + 1, std::min<std::size_t>(8, shape.n_nodes), element.nodes.begin());
     if (shape.kind == CellKind::hexahedron)
       element.hexahedron = n_hexahedra_++;
+    if (shape.kind == CellKind::ignored)
+      mesh_.leave_unread("element, type=" + type);
     if (!elements_.emplace(numbers[0], element).second)
       throw std::invalid_argument("element " + std::to_string(numbers[0]) + " of it is given twice");
     mesh_.add_cell(shape, numbers[0], numbers.data() + 1, {});
@@ -419,8 +452,10 @@ private:
 
   void read_surface(const Keyword &keyword, DeckLines &lines) {
     const std::string type = keyword.has("type") ? lower_case(keyword.get("type")) : "element";
-    if (type != "element" && type != "node")
-      return; // rigid surfaces and cuts are no faces of elements
+    if (type != "element" && type != "node") { // rigid surfaces and cuts are no faces of elements
+      mesh_.leave_unread("surface, type=" + type);
+      return;
+    }
     Surface surface{keyword.get("name"), type == "node", {}};
     if (surface.name.empty())
       lines.refuse("*SURFACE should have NAME=...");
@@ -458,15 +493,24 @@ private:
     long long number = 0;
     return is_integer(item, number) ? std::vector<long long>{number} : members(item);
   }
-  std::size_t group(const std::string &name) {
-    const auto [known, is_new] = numbers_.emplace(lower_case(name), numbers_.size() + 1);
-    return mesh_.group(is_new ? name : mesh_.mesh().groups[known->second - 1].name,
-                       static_cast<unsigned int>(known->second));
+  void reserve_numbers() {
+    for (const Surface &surface : surfaces_)
+      numbers_.reserve(surface.name);
+    for (const AbaqusSets *const sets : {&element_sets_, &node_sets_})
+      for (const std::string &name : sets->names())
+        numbers_.reserve(name);
+  }
+  /// Returns the index of a group; adds it if there is none.
+  std::size_t group(const std::string &kind, const std::string &name) {
+    const auto [known, is_new] = groups_.emplace(std::pair(kind, lower_case(name)), 0);
+    if (is_new)
+      known->second = mesh_.group(name, numbers_.number(name), kind);
+    return known->second;
   }
 
   void add_surfaces() {
     for (const Surface &surface : surfaces_) {
-      const std::size_t index = group(surface.name);
+      const std::size_t index = group("surface", surface.name);
       if (surface.of_nodes) {
         GroupedSet nodes{{}, index};
         for (const SurfaceItem &item : surface.items)
@@ -535,8 +579,6 @@ private:
   /// edges.
   void add_shells() {
     for (const std::string &name : element_sets_.names()) {
-      if (numbers_.count(lower_case(name)) > 0)
-        continue; // a surface has this name
       std::vector<const Element *> shells, lines;
       for (const long long number : elements_of(name)) {
         const Element &element = elements_.at(number);
@@ -547,7 +589,7 @@ private:
       }
       if (shells.empty() && lines.empty())
         continue;
-      const std::size_t index = group(name);
+      const std::size_t index = group("elset", name);
       for (const Element *const shell : shells)
         mesh_.add_face({shell->nodes[0], shell->nodes[1], shell->nodes[2], shell->nodes[3]}, index);
       const FaceGroup of_edge = mesh_.mesh().groups[index];
@@ -569,11 +611,8 @@ private:
         }
       }
     for (const std::string &name : node_sets_.names()) {
-      const std::vector<long long> &members = nodes_of(name);
-      if (numbers_.count(lower_case(name)) > 0)
-        continue; // a surface or a set of shells has this name
-      GroupedSet nodes{{}, group(name)};
-      for (const long long node : members)
+      GroupedSet nodes{{}, group("nset", name)};
+      for (const long long node : nodes_of(name))
         nodes.members.push_back(mesh_.node_index(node, "a set with node", node));
       mesh_.mesh().node_sets.push_back(nodes);
     }
@@ -585,7 +624,8 @@ private:
   std::unordered_map<long long, Element> elements_;
   std::vector<Surface> surfaces_;
   std::vector<std::pair<std::string, std::string>> nodes_of_elements_; ///< set of nodes, set of elements
-  std::map<std::string, std::size_t> numbers_;                         ///< of groups, by names in lower case
+  std::map<std::pair<std::string, std::string>, std::size_t> groups_;  ///< by kind, and name in lower case
+  GroupNumbers numbers_;
   std::array<double, 3> translation_{};
   std::size_t n_bytes_ = 0, n_files_ = 0, n_nodes_ = 0, n_members_ = 0, depth_ = 0;
   unsigned int n_hexahedra_ = 0, n_parts_ = 0, n_instances_ = 0;

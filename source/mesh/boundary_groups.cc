@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mesh/boundary_groups.h"
 
+#include "billet/mesh/mesh_cursor.h"
+
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <stdexcept>
 
@@ -19,6 +22,15 @@ struct SidedFace {
 };
 
 } // namespace
+
+std::optional<unsigned int> id_of_name(const std::string &name) {
+  constexpr long long max_id = 999999999; // as in scenes; 0 are faces in no group
+  long long value = 0;
+  const bool has_digits_only = name.find_first_not_of("0123456789") == std::string::npos;
+  if (!has_digits_only || !is_integer(name, value) || value == 0 || value > max_id)
+    return std::nullopt;
+  return static_cast<unsigned int>(value);
+}
 
 void BoundaryGroups::find_exterior(const MeshFile &mesh) {
   std::vector<SidedFace> all;
@@ -138,19 +150,54 @@ void BoundaryGroups::assign_ids(const std::vector<std::vector<unsigned int>> &gr
     if (std::count(ids.begin(), ids.end(), id) == 0)
       ids.push_back(id);
   };
-  for (const FaceGroup &group : mesh.groups)
-    if (!group.name.empty())
-      names_.ids_of_name[group.name];
-  for (const auto &[groups, id] : id_of) {
-    if (groups.empty() && std::count(ids_.begin(), ids_.end(), 0U) > 0)
-      add(names_.ids_of_number[0], 0);
-    for (const unsigned int g : groups) {
-      if (mesh.groups[g].number != FaceGroup::no_number)
-        add(names_.ids_of_number[mesh.groups[g].number], id);
-      if (!mesh.groups[g].name.empty())
-        add(names_.ids_of_name[mesh.groups[g].name], id);
+  std::vector<std::vector<unsigned int>> ids_of_group(mesh.groups.size());
+  if (std::count(ids_.begin(), ids_.end(), 0U) > 0)
+    add(names_.ids_of_number[0], 0);
+  for (const auto &[groups, id] : id_of)
+    for (const unsigned int g : groups)
+      add(ids_of_group[g], id);
+  const std::set<std::size_t> qualified = qualify_names(mesh, ids_of_group);
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+    const FaceGroup &group = mesh.groups[g];
+    const bool has_long_name = qualified.count(g) > 0;
+    if (!group.name.empty()) {
+      auto &named = names_.ids_of_name[has_long_name ? group.kind + " " + group.name : group.name];
+      for (const unsigned int id : ids_of_group[g])
+        add(named, id);
     }
+    if (group.number != FaceGroup::no_number && !(has_long_name && id_of_name(group.name)))
+      for (const unsigned int id : ids_of_group[g])
+        add(names_.ids_of_number[group.number], id);
   }
+}
+
+/// Finds the groups whose names need their kind in front of them.
+std::set<std::size_t>
+BoundaryGroups::qualify_names(const MeshFile &mesh,
+                              const std::vector<std::vector<unsigned int>> &ids_of_group) {
+  std::map<std::string, std::vector<std::size_t>> groups_of_name;
+  std::set<std::size_t> qualified;
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+    const FaceGroup &group = mesh.groups[g];
+    if (group.kind.empty())
+      continue;
+    const std::optional<unsigned int> id = id_of_name(group.name);
+    const bool has_letter = std::any_of(group.name.begin(), group.name.end(), [](const char c) {
+      return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) > 127;
+    });
+    if (!id && !has_letter)
+      qualified.insert(g); // a scene would read it as a number
+    else if (!ids_of_group[g].empty())
+      groups_of_name[id ? std::to_string(*id) : lower_case(group.name)].push_back(g);
+  }
+  for (const auto &[name, groups] : groups_of_name)
+    if (std::any_of(groups.begin(), groups.end(),
+                    [&](const std::size_t g) { return ids_of_group[g] != ids_of_group[groups[0]]; }))
+      for (const std::size_t g : groups) {
+        qualified.insert(g);
+        names_.ambiguous[name].push_back(mesh.groups[g].kind + " " + mesh.groups[g].name);
+      }
+  return qualified;
 }
 
 unsigned int BoundaryGroups::id(const Face &face) const {

@@ -34,13 +34,14 @@ void MeshCollector::add_edge(const std::array<long long, 2> &nodes, const FaceGr
   edges_.push_back({nodes, group});
 }
 
-std::size_t MeshCollector::group(const std::string &name, const unsigned int number) {
+std::size_t MeshCollector::group(const std::string &name, const unsigned int number,
+                                 const std::string &kind) {
   std::string printable = name; // names appear in messages
   for (char &c : printable)
     c = static_cast<unsigned char>(c) < ' ' || c == '\x7F' ? '?' : c;
-  const auto [found, is_new] = group_index_.emplace(std::pair(printable, number), mesh_.groups.size());
+  const auto [found, is_new] = group_index_.emplace(std::tuple(printable, number, kind), mesh_.groups.size());
   if (is_new)
-    mesh_.groups.push_back({printable, number});
+    mesh_.groups.push_back({printable, number, kind});
   return found->second;
 }
 
@@ -111,7 +112,7 @@ void MeshCollector::finish_plane() {
       check_number(edge.group.number);
     mesh_.plane.edges.push_back({{node_index(edge.nodes[0], "an edge at node", edge.nodes[0]),
                                   node_index(edge.nodes[1], "an edge at node", edge.nodes[0])},
-                                 group(edge.group.name, edge.group.number)});
+                                 group(edge.group.name, edge.group.number, edge.group.kind)});
   }
   mesh_.plane.n_triangles = count(CellKind::triangle);
 }

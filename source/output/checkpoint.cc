@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/checkpoint.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/errors.h"
 #include "billet/usage.h"
 #include "billet/version.h"
@@ -195,7 +196,7 @@ void CheckpointWriter::write_text(const std::string &name, const std::string &te
 void CheckpointWriter::write_rows(const std::string &name, const std::size_t width,
                                   const std::vector<std::uint64_t> &keys, const std::vector<double> &values) {
   const std::uint64_t n_own = keys.size();
-  const auto counts = dealii::Utilities::MPI::all_gather(communicator_, n_own);
+  const auto counts = all_gather(communicator_, n_own);
   std::uint64_t n_rows = 0;
   for (const auto count : counts)
     n_rows += count;

@@ -19,6 +19,7 @@ HistoryQuantity energy_ratio_quantity();
 HistoryQuantity probes_quantity();
 HistoryQuantity whole_section_quantity();
 HistoryQuantity mesh_error_quantity();
+HistoryQuantity loads_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -29,6 +30,8 @@ void HistoryQuantities::add(const HistoryQuantity &quantity) {
   for (const HistoryQuantity &other : quantities_)
     if (other.name == quantity.name)
       throw std::logic_error("the quantity '" + quantity.name + "' of the history is registered twice");
+  if (quantity.meanings.empty())
+    throw std::logic_error("the quantity '" + quantity.name + "' of the history has no meaning");
   quantities_.push_back(quantity);
 }
 
@@ -48,6 +51,7 @@ HistoryQuantities &history_quantities() {
     all.add(whole_section_quantity());
     all.add(mesh_error_quantity());
     all.add(penetration_between_nodes_quantity());
+    all.add(loads_quantity());
     return all;
   }();
   return quantities;

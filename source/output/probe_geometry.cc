@@ -3,15 +3,12 @@
 
 #include "billet/mechanics/reference_point.h"
 
-#include <deal.II/base/geometry_info.h>
-
 #include <algorithm>
 #include <cmath>
 
 namespace billet {
 
 using dealii::Tensor;
-using Unit = dealii::GeometryInfo<3>;
 
 namespace {
 
@@ -19,7 +16,7 @@ struct Limits {
   static constexpr unsigned int iterations = 30;
   static constexpr double converged = 1e-10; ///< last step of Newton's method, in reference coordinates
   static constexpr double diverged = 100.;   ///< step of Newton's method, in reference coordinates
-  static constexpr double outside = 1e-6;    ///< of the unit cube or square, as round-off
+  static constexpr double outside = 1e-6;    ///< of the unit square, as round-off
 };
 
 std::array<double, 4> shape_functions(const std::array<double, 2> &at) {
@@ -32,29 +29,6 @@ std::array<Tensor<1, 3>, 2> tangents(const FacetCorners &c, const std::array<dou
 }
 
 } // namespace
-
-Hexahedron::Hexahedron(const ElementVectors &corners) : corners_(corners) {
-  for (unsigned int i = 0; i < 3; ++i) {
-    double low = corners[i], high = corners[i];
-    for (unsigned int a = 1; a < n_element_nodes; ++a) {
-      low = std::min(low, corners[3 * a + i]);
-      high = std::max(high, corners[3 * a + i]);
-    }
-    const double margin = Limits::outside * (high - low);
-    low_[i] = low - margin;
-    high_[i] = high + margin;
-  }
-}
-
-std::optional<dealii::Point<3>> Hexahedron::find(const Tensor<1, 3> &point) const {
-  for (unsigned int i = 0; i < 3; ++i)
-    if (!(point[i] >= low_[i] && point[i] <= high_[i]))
-      return {};
-  const auto xi = find_reference_point(corners_, point);
-  if (!xi || Unit::distance_to_unit_cell(*xi) > Limits::outside)
-    return {};
-  return Unit::project_to_unit_cell(*xi);
-}
 
 Tensor<1, 3> point_of_facet(const FacetCorners &corners, const std::array<double, 2> &at) {
   const std::array<double, 4> N = shape_functions(at);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/probe_reader.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/discretization/node_keys.h"
+#include "billet/discretization/point_location.h"
 #include "billet/errors.h"
-#include "billet/geometry/surface_patch.h"
+#include "billet/mechanics/element_mass.h"
+#include "billet/mechanics/hexahedron.h"
 #include "billet/output/contact_fields.h"
 #include "billet/output/element_fields.h"
 #include "billet/output/probe_geometry.h"
@@ -12,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <set>
@@ -136,13 +138,23 @@ public:
       pressures_ = collect_contact_fields(discretization_, solution)[0];
     std::set<std::size_t> bodies;
     for (const parameters::Probe &probe : probes)
-      if (probe.probe.reads(Kind::stress) || probe.probe.reads(Kind::plastic_strain))
+      if (probe.probe.reads(Kind::stress) || probe.probe.reads(Kind::plastic_strain) ||
+          std::holds_alternative<ProbedMotion>(probe.probe.where))
         bodies.insert(scene.parameters().body_index(probe));
     for (const std::size_t body : bodies)
       summaries_[body] = solution.summarize(body);
   }
 
   const EnergyLedger &energies() const { return solution_.state().energies; }
+  const Vector &velocities() const { return solution_.state().velocities; }
+
+  /// Returns the energy in the elements of a body on this rank.
+  double internal_energy(const std::size_t body) const {
+    double sum = 0.;
+    for (const ElementSummary &summary : summaries_[body])
+      sum += summary.elastic_energy + summary.plastic_work + summary.hourglass_energy;
+    return sum;
+  }
 
   Tensor<1, 3> displacement(const std::array<DofIndex, 3> &dofs) const {
     return get(solution_.state().displacements, dofs);
@@ -257,95 +269,27 @@ ProbeReader::~ProbeReader() = default;
 
 namespace {
 
-/// Returns the bits of a number >= 0, which ascend as numbers do.
-std::uint64_t bits_of(const double number) {
-  std::uint64_t bits = 0;
-  static_assert(sizeof(bits) == sizeof(number));
-  std::memcpy(&bits, &number, sizeof(bits));
-  return bits;
-}
-
-/// Material point that may be read, and which of several is: that of the least rank.
-struct Candidate {
-  MaterialPoint point;
-  std::uint64_t rank; ///< key of the element, or bits of the distance
-};
-
-/// Returns for every point the elements of this rank that have it.
-std::vector<Candidate> find_elements(const std::vector<Element> &elements,
-                                     const std::vector<dealii::Point<3>> &points) {
-  std::vector<Candidate> found;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const Hexahedron hexahedron(nodal_positions(elements[e].cell));
-    const std::uint64_t key = element_key(elements[e].cell);
-    for (std::size_t p = 0; p < points.size(); ++p)
-      if (const auto coordinates = hexahedron.find(points[p]))
-        found.push_back({{p, key, e, *coordinates}, key});
-  }
-  return found;
-}
-
-/// Returns for every point the nearest nodes of this rank, if they are not further than `max_distance`.
-std::vector<Candidate> find_nodes(const std::vector<Element> &elements,
-                                  const std::vector<dealii::Point<3>> &points, const double max_distance) {
-  std::vector<Candidate> found;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    double least = max_distance;
-    for (const Element &element : elements)
-      for (unsigned int a = 0; a < n_element_nodes; ++a)
-        least = std::min(least, element.cell->vertex(a).distance(points[p]));
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (unsigned int a = 0; a < n_element_nodes; ++a)
-        if (elements[e].cell->vertex(a).distance(points[p]) <= least)
-          found.push_back(
-              {{p, element_key(elements[e].cell), e, dealii::GeometryInfo<3>::unit_cell_vertex(a)},
-               bits_of(elements[e].cell->vertex(a).distance(points[p]))});
-  }
-  return found;
-}
-
-/// Returns the bounding box of the undeformed elements of all ranks. Collective.
-BoundingBox bounding_box(const Discretization &discretization, const std::size_t body) {
-  BoundingBox box = BoundingBox::empty();
-  for (const Element &element : discretization.elements(body))
-    for (unsigned int a = 0; a < n_element_nodes; ++a)
-      box.add(element.cell->vertex(a));
-  for (unsigned int i = 0; i < 3; ++i) {
-    box.low[i] = dealii::Utilities::MPI::min(box.low[i], discretization.communicator());
-    box.high[i] = dealii::Utilities::MPI::max(box.high[i], discretization.communicator());
-  }
-  return box;
+/// Returns the coordinates of the point of a facet that is nearest to x. Exact if the facet is a plane
+/// rectangle, or if the point is not on its edge.
+std::array<double, 2> nearest_on_facet(const FacetCorners &corners, const Tensor<1, 3> &x) {
+  std::array<double, 2> at = middle;
+  if (const auto crossing = cross_facet(corners, x, normal_of_facet(corners, middle)))
+    for (unsigned int i = 0; i < 2; ++i)
+      at[i] = std::clamp(crossing->at[i], 0., 1.);
+  return at;
 }
 
 } // namespace
 
 void ProbeReader::place_points(Placed &placed) const {
   const auto &[points, place] = std::get<ProbedPoints>(placed.probe().where);
-  const auto &elements = discretization_.elements(placed.body);
-  const bool takes_nodes = place == ProbedPoints::Place::nearest_node;
-  const std::vector<Candidate> found = takes_nodes
-                                           ? find_nodes(elements, points, near * discretization_.radius())
-                                           : find_elements(elements, points);
-  ProbeRows rows(0);
-  for (const Candidate &candidate : found)
-    rows.add(candidate.point.number, candidate.rank, 1., {});
-  std::unordered_map<std::uint64_t, std::uint64_t> least;
-  for (const auto &row : rows.gather(discretization_.communicator()))
-    least[row.site] = row.owner;
-  const BoundingBox box = bounding_box(discretization_, placed.body);
+  const auto located =
+      locate_points(discretization_, placed.body,
+                    {points, place == ProbedPoints::Place::nearest_node, scene_.bodies()[placed.body].name,
+                     placed.input.origin, "are points of the body, or 'Place = nearest node' or 'space'"});
   for (std::size_t p = 0; p < points.size(); ++p)
-    if (least.count(p) == 0) {
-      std::ostringstream message;
-      message << placed.input.origin << ": the point (" << points[p] << ") is not in the undeformed body '"
-              << scene_.bodies()[placed.body].name << "', which reaches from (" << box.low << ") to ("
-              << box.high << "); allowed "
-              << (takes_nodes ? "is a distance from the nearest node of at most a tenth of the scene's radius"
-                              : "are points of the body, or 'Place = nearest node' or 'space'");
-      throw InputError(message.str());
-    }
-  for (const Candidate &candidate : found)
-    if (least.at(candidate.point.number) == candidate.rank)
-      placed.points.push_back(candidate.point);
+    if (const auto &point = located[p])
+      placed.points.push_back({p, point->key, point->element, point->coordinates});
 }
 
 void ProbeReader::place_faces(Placed &placed) const {
@@ -385,9 +329,7 @@ void ProbeReader::place_thickness(Placed &placed) const {
   ProbeRows rows(1);
   for (ProbedFace &face : placed.faces) {
     const FacetCorners corners = undeformed_corners(face.facet);
-    if (const auto crossing = cross_facet(corners, *point, normal_of_facet(corners, middle)))
-      for (unsigned int i = 0; i < 2; ++i)
-        face.at[i] = std::clamp(crossing->at[i], 0., 1.);
+    face.at = nearest_on_facet(corners, *point);
     rows.add(face.facet.key, 0, 1., {(point_of_facet(corners, face.at) - *point).norm()});
   }
   const auto all = rows.gather(discretization_.communicator());
@@ -465,7 +407,7 @@ ProbeRows ProbeReader::read_thickness(const Placed &placed, const State &state) 
   };
   constexpr std::size_t n_numbers = 12;
   std::vector<Opposite> opposite;
-  for (const auto &numbers : dealii::Utilities::MPI::all_gather(discretization_.communicator(), own))
+  for (const auto &numbers : all_gather(discretization_.communicator(), own))
     for (std::size_t first = 0; first + n_numbers <= numbers.size(); first += n_numbers) {
       Opposite facet{};
       for (unsigned int a = 0; a < 4; ++a)
@@ -506,6 +448,38 @@ ProbeRows ProbeReader::read_travel(const Placed &placed, const State &state) con
   return rows;
 }
 
+std::vector<double> ProbeReader::read_motion(const Placed &placed, const State &state) const {
+  const double density = scene_.bodies()[placed.body].density;
+  const bool is_lumped = scene_.parameters().is_explicit() || scene_.parameters().implicit_dynamics.mass ==
+                                                                  parameters::ImplicitDynamics::Mass::lumped;
+  std::vector<double> sums(6, 0.); // momentum, mass, kinetic and internal energy
+  sums[5] = state.internal_energy(placed.body);
+  if (state.velocities().size() > 0)
+    for (const Element &element : discretization_.elements(placed.body)) {
+      ReferenceElement reference{};
+      compute_reference_element(nodal_positions(element.cell), reference);
+      ElementMass mass = compute_element_mass(reference, density);
+      if (is_lumped)
+        lump(mass);
+      const ElementVectors v = gather(state.velocities(), element.dofs);
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        for (unsigned int b = 0; b < n_element_nodes; ++b) {
+          const double m = mass[std::size_t{n_element_nodes} * a + b];
+          sums[3] += m;
+          for (unsigned int i = 0; i < 3; ++i) {
+            sums[i] += m * v[3 * b + i];
+            sums[4] += 0.5 * m * v[3 * a + i] * v[3 * b + i];
+          }
+        }
+    }
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  std::vector<double> values;
+  for (unsigned int i = 0; i < 3; ++i)
+    values.push_back(sums[3] > 0. ? sums[i] / sums[3] : 0.);
+  values.insert(values.end(), {sums[0], sums[1], sums[2], sums[4], sums[5]});
+  return values;
+}
+
 ProbeRows ProbeReader::read_rows(const Placed &placed, const State &state) const {
   const Probe &probe = placed.probe();
   if (const auto *points = std::get_if<ProbedPoints>(&probe.where))
@@ -522,6 +496,8 @@ std::vector<double> ProbeReader::read(const Placed &placed, const State &state) 
   const Probe &probe = placed.probe();
   if (const auto *energies = std::get_if<ProbedEnergies>(&probe.where))
     return {energy_ratio(*energies, state.energies())};
+  if (std::holds_alternative<ProbedMotion>(probe.where))
+    return read_motion(placed, state);
   std::vector<std::vector<double>> values;
   std::vector<double> weights;
   // A point in space at which there is nothing has no row.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/probe_rows.h"
 
+#include "billet/algebra/gather.h"
+
 #include <algorithm>
 #include <tuple>
 
@@ -15,8 +17,8 @@ void ProbeRows::add(const std::uint64_t site, const std::uint64_t owner, const d
 }
 
 std::vector<ProbeRows::Row> ProbeRows::gather(const MPI_Comm communicator, const Weights weights) const {
-  const auto keys = dealii::Utilities::MPI::all_gather(communicator, keys_);
-  const auto numbers = dealii::Utilities::MPI::all_gather(communicator, numbers_);
+  const auto keys = all_gather(communicator, keys_);
+  const auto numbers = all_gather(communicator, numbers_);
   std::vector<Row> all;
   for (std::size_t rank = 0; rank < keys.size(); ++rank)
     for (std::size_t i = 0; 2 * i < keys[rank].size(); ++i) {

@@ -91,10 +91,12 @@ void Mesh::declare(ParameterHandler &prm) {
       "Mesh files: nodes within this distance of each other become one, in the file's unit of length, before "
       "'Scale'. Empty: nodes at the same place are refused. 0: they stay apart, for parts that only touch. "
       "[length]");
-  prm.declare_entry("Positions", "", Patterns::Anything(),
-                    "Three muParser expressions of x, y, z, separated by semicolons: new positions of the "
-                    "vertices, before scaling, rotation and translation. 'x*cos(y) ; x*sin(y) ; z' bends a "
-                    "box into a ring. Empty: no change. [length]");
+  prm.declare_entry(
+      "Positions", "", Patterns::Anything(),
+      "Three muParser expressions of x, y, z, separated by semicolons: new positions of the "
+      "vertices, before scaling, rotation and translation. 'x*cos(y) ; x*sin(y) ; z' bends a "
+      "box into a ring. Axisymmetric sections: two expressions, of x, the radius, and y, the height, "
+      "which move the section before it is turned. Empty: no change. [length]");
   prm.declare_entry("Scale", "1", Patterns::Double(),
                     "> 0. Factor of all positions of the mesh, before rotation and translation.");
   prm.declare_entry("Rotation axis", "0, 0, 1", Patterns::Anything(),
@@ -181,7 +183,12 @@ void Mesh::parse(Reader &reader) {
   n_layers = reader.count("Layers", 1);
   file_name = reader.located("File", reader.text("File"));
   positions = reader.located("Positions", reader.parts("Positions"));
-  if (!positions.value.empty() && positions.value.size() != 3)
+  const bool is_turned = section.value == Section::axisymmetric;
+  if (is_turned && !positions.value.empty() && positions.value.size() != 2)
+    reader.reject("Positions", "two expressions, separated by a semicolon, or nothing, since 'Section = "
+                               "axisymmetric': the new x, the radius, and the new y, the height, of the "
+                               "section before it is turned");
+  if (!is_turned && !positions.value.empty() && positions.value.size() != 3)
     reader.reject("Positions", "three expressions, separated by semicolons, or nothing");
   scale = reader.positive("Scale");
   rotation_axis = reader.direction("Rotation axis");

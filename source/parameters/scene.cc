@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/scene.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
 #include "billet/nearest_name.h"
@@ -208,7 +209,10 @@ void check_probe(const Scene &scene, const Probe &probe) {
 /// Refuses parameters of one scheme in scenes of another: a forgotten switch is the usual reason.
 class SchemeCheck {
 public:
-  SchemeCheck(const Scene &scene, const SceneFile &file) : scene_(scene), file_(file) {}
+  /// `notes`: gets a note for each subsection that is left out since the command line sets the scheme.
+  SchemeCheck(const Scene &scene, const SceneFile &file, DiagnosticList &notes)
+      : scene_(scene), file_(file), notes_(notes),
+        sets_scheme_(file.where(scheme_path, "Scheme").rfind("--set ", 0) == 0) {}
 
   void check() const {
     refuse_subsection({scene_.is_explicit() ? "Solver" : "Explicit dynamics"});
@@ -274,13 +278,29 @@ private:
       refuse_entry(path, key);
   }
   void refuse_subsection(const SceneFile::Path &path) const {
-    if (const SceneFile::Entry *entry = file_.first_entry(path))
+    const SceneFile::Entry *entry = file_.first_entry(path);
+    if (entry == nullptr)
+      return;
+    if (!sets_scheme_ || entry->files.empty())
       refuse_entry(path, entry->key);
+    notes_.push_back(Diagnostic(diagnostic::parameters_left_out,
+                                "The command line sets 'Scheme = " + name_of_scheme() +
+                                    "', so that the parameters of '" + path.back() + "' do not count")
+                         .origin(entry->where));
   }
   [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
     throw InputError(file_.where(path, key) + ": '" + key + "'" + in(file_.written_path(path, key)) +
                      " is '" + file_.value(path, key, "") +
-                     "'; allowed is no value: 'Scheme' in 'Time stepping' is " + name_of_scheme());
+                     "'; allowed is no value: 'Scheme' in 'Time stepping' is " + name_of_scheme() +
+                     (sets_scheme_ ? " (" + file_.where(scheme_path, "Scheme") + "). --set '" +
+                                         join(path, "/") + "/" + key + "=' takes the value away"
+                                   : ""));
+  }
+  static std::string join(const SceneFile::Path &path, const std::string &separator) {
+    std::string names;
+    for (const auto &name : path)
+      names += (names.empty() ? "" : separator) + name;
+    return names;
   }
   const std::string &name_of_scheme() const { return name_of(scene_.time_stepping.scheme); }
   static std::string in(const SceneFile::Path &path) {
@@ -296,9 +316,14 @@ private:
                        name_of_scheme());
   }
 
+  static const SceneFile::Path scheme_path;
   const Scene &scene_;
   const SceneFile &file_;
+  DiagnosticList &notes_;
+  bool sets_scheme_; ///< whether the command line does
 };
+
+const SceneFile::Path SchemeCheck::scheme_path{"Time stepping"};
 
 } // namespace
 
@@ -398,7 +423,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
   check_repeated_pairs(scene.pairs, false);
   for (const auto &probe : scene.probes)
     check_probe(scene, probe);
-  SchemeCheck(scene, file).check();
+  SchemeCheck(scene, file, scene.warnings).check();
   if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
     scene.output.every_steps = 0;
   for (const auto &tool : scene.tools)

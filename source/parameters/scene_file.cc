@@ -142,6 +142,9 @@ std::string join(const SceneFile::Path &path) {
   return result;
 }
 
+/// Whether an entry is one of the command line without a value, which takes away those of the files.
+static bool takes_away(const SceneFile::Entry &entry) { return entry.files.empty() && entry.value.empty(); }
+
 bool SceneFile::Entry::overrides(const Entry &other) const {
   return files.size() < other.files.size() && std::equal(files.begin(), files.end(), other.files.begin());
 }
@@ -293,6 +296,14 @@ void SceneFile::resolve_overrides() {
         else if (entries_[j].overrides(entries_[i]))
           overridden_at[i] = entries_[j].where;
       }
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (takes_away(entries_[i])) {
+      if (std::find(overridden_at.begin(), overridden_at.end(), entries_[i].where) == overridden_at.end())
+        note(entries_[i].where + ": the scene does not set '" + entries_[i].key + "'" +
+             (entries_[i].path.empty() ? "" : " in '" + join(entries_[i].path) + "'") +
+             "; allowed are a value, and no value where the scene has one that is to be taken away");
+      overridden_at[i] = entries_[i].where;
+    }
   std::vector<Entry> kept;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     if (!overridden_at[i].empty())

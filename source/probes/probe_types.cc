@@ -15,10 +15,11 @@ ProbeType set_type();
 ProbeType thickness_type();
 ProbeType draw_in_type();
 ProbeType energy_ratio_type();
+ProbeType body_type();
 
 TypeTable<Probe> &probe_types() {
-  static TypeTable<Probe> types{point_type(),     path_type(),    set_type(),
-                                thickness_type(), draw_in_type(), energy_ratio_type()};
+  static TypeTable<Probe> types{point_type(),   path_type(),         set_type(), thickness_type(),
+                                draw_in_type(), energy_ratio_type(), body_type()};
   return types;
 }
 
@@ -125,6 +126,9 @@ std::vector<std::string> Probe::components() const {
     return {"draw_in"};
   if (std::holds_alternative<ProbedEnergies>(where))
     return {"ratio"};
+  if (std::holds_alternative<ProbedMotion>(where))
+    return {"velocity_x", "velocity_y", "velocity_z",     "momentum_x",
+            "momentum_y", "momentum_z", "kinetic_energy", "internal_energy"};
   std::vector<std::string> names;
   for (const ProbeQuantity &quantity : quantities)
     names.insert(names.end(), quantity.components.begin(), quantity.components.end());
@@ -133,7 +137,7 @@ std::vector<std::string> Probe::components() const {
 
 std::vector<std::string> Probe::columns() const {
   const std::vector<std::string> names = components();
-  if (std::holds_alternative<ProbedEnergies>(where))
+  if (std::holds_alternative<ProbedEnergies>(where) || std::holds_alternative<ProbedMotion>(where))
     return names;
   const auto *points = std::get_if<ProbedPoints>(&where);
   std::vector<std::string> columns;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/approach.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/errors.h"
 #include "billet/geometry/rigid_surface.h"
 
@@ -163,7 +164,7 @@ public:
       offset += static_cast<double>(side.side().points.size());
     }
     double first = none;
-    for (const auto &of_rank : mpi::all_gather(communicator_, own)) {
+    for (const auto &of_rank : all_gather(communicator_, own)) {
       report.n_nodes += static_cast<std::size_t>(of_rank[4]);
       if (of_rank[0] < first) {
         first = of_rank[0];
@@ -231,7 +232,7 @@ GapReport measure_gaps(const std::vector<GapSide> &sides, const double t, const 
     offset += side.points.size();
   }
   mpi::sum(sums, communicator, sums);
-  for (const auto &of_rank : mpi::all_gather(communicator, least))
+  for (const auto &of_rank : all_gather(communicator, least))
     least = std::min(least, of_rank);
   report.n_nodes = offset;
   report.n_facing = static_cast<std::size_t>(sums[0]);

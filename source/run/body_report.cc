@@ -57,7 +57,7 @@ std::size_t count_parts(const Discretization &discretization, const std::size_t 
   DisjointSets sets;
   std::unordered_map<std::uint64_t, std::size_t> set_of_node;
   for (const auto &of_rank :
-       mpi::all_gather(discretization.communicator(), find_own_parts(discretization, body))) {
+       all_gather(discretization.communicator(), find_own_parts(discretization, body))) {
     const std::size_t first = sets.size();
     for (std::uint64_t i = 0; i < of_rank[0]; ++i)
       sets.add();
@@ -118,7 +118,7 @@ void measure_elements(const Discretization &discretization, const std::size_t bo
   const MPI_Comm communicator = discretization.communicator();
   mpi::sum(sums, communicator, sums);
   mpi::min(minima, communicator, minima);
-  for (const auto &of_rank : mpi::all_gather(communicator, worst))
+  for (const auto &of_rank : all_gather(communicator, worst))
     worst = std::min(worst, of_rank);
   report.n_elements = static_cast<std::size_t>(sums[0]);
   report.volume = sums[1];

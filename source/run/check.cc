@@ -81,7 +81,7 @@ void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator
   const std::unique_ptr<const Scene> built = build_scene(parameters, communicator);
   const Scene &scene = *built;
   constexpr std::size_t max_elements = 500000; // takes a minute and some GB on one rank
-  DiagnosticList messages = parameters.warnings;
+  DiagnosticList messages = scene.parameters().warnings;
   std::optional<SceneReport> report; // none of outlines
   if (scene.count_elements() <= max_elements)
     append(messages, check_start(scene, communicator, report.emplace()));

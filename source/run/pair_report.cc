@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/pair_report.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/errors.h"
@@ -19,7 +20,6 @@
 namespace billet {
 
 using dealii::Tensor;
-namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
@@ -129,8 +129,8 @@ PairSurface gather_surface(const Discretization &discretization, const NodeKeys 
         own_corners.push_back(facet.corners[v][i]);
     }
   }
-  const auto all_keys = mpi::all_gather(discretization.communicator(), own_keys);
-  const auto all_corners = mpi::all_gather(discretization.communicator(), own_corners);
+  const auto all_keys = all_gather(discretization.communicator(), own_keys);
+  const auto all_corners = all_gather(discretization.communicator(), own_corners);
   std::map<std::uint64_t, Tensor<1, 3>> nodes;
   std::map<std::uint64_t, std::array<Tensor<1, 3>, 4>> facets;
   std::map<std::uint64_t, std::array<std::uint64_t, 4>> nodes_of; // of facets

@@ -123,7 +123,7 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
   const std::unique_ptr<const Scene> built = build_scene(parameters, communicator);
   const Scene &scene = *built;
   const Discretization discretization(scene, communicator);
-  DiagnosticList messages = parameters.warnings;
+  DiagnosticList messages = scene.parameters().warnings;
   append(messages, check_plausibility(scene, discretization.dof_handler().get_triangulation(), communicator));
   append(messages, check_meshes(scene, discretization));
   const auto prepare = [&] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/run_forecast.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/errors.h"
 #include "billet/run/body_report.h"
 
@@ -45,7 +46,7 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
              cell->center()[0], cell->center()[1],
              cell->center()[2], least_edge(cell)};
   }
-  for (const auto &of_rank : mpi::all_gather(discretization.communicator(), least))
+  for (const auto &of_rank : all_gather(discretization.communicator(), least))
     least = std::min(least, of_rank);
   StableStepReport report;
   report.of_elements = least[0];

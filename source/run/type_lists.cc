@@ -118,8 +118,11 @@ std::vector<Named> list_fields() {
 
 std::vector<Named> list_history() {
   std::vector<Named> all;
-  for (const HistoryQuantity &quantity : history_quantities())
+  for (const HistoryQuantity &quantity : history_quantities()) {
     all.push_back({quantity.name, "Columns of history.csv.", "", {}, {}});
+    for (const HistoryColumns &columns : quantity.meanings)
+      all.back().parameters.push_back({columns.names, "", columns.meaning});
+  }
   return all;
 }
 
@@ -131,8 +134,7 @@ const std::vector<TypeList> &type_lists() {
       {"loads", "loads on bodies: 'Bodies / NAME / Loads / NAME'", types_of(&load_types, "Type")},
       {"surfaces", "surfaces of tools: 'Tools / NAME / Surfaces / NAME'", types_of(&surface_types, "Shape")},
       {"friction", "friction laws: 'Contact pairs / NAME'", types_of(&friction_law_types, "Friction law")},
-      {"integrators", "time integrators: 'Implicit dynamics'",
-       types_of(&time_integrator_types, "Time integrator")},
+      {"integrators", "time integrators: 'Implicit dynamics'", types_of(&time_integrator_types, "Method")},
       {"probes", "quantities at points, paths and sets: 'Probes / NAME'", types_of(&probe_types, "Type")},
       {"fields", "quantities of field output", &list_fields},
       {"history", "quantities of the history", &list_history}};
@@ -167,7 +169,9 @@ void print(std::ostream &stream, const Named &entry) {
   for (const auto &parameter : entry.parameters)
     width = std::max(width, parameter.key.size() + 3 + parameter.default_value.size());
   for (const auto &parameter : entry.parameters)
-    print_indented(stream, parameter.meaning, "      " + parameter.key + " = " + parameter.default_value,
+    print_indented(stream, parameter.meaning,
+                   entry.how.empty() ? "      " + parameter.key
+                                     : "      " + parameter.key + " = " + parameter.default_value,
                    std::min<std::size_t>(8 + width, 50));
   std::string faces;
   for (const auto &boundary : entry.boundaries)

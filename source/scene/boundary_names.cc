@@ -5,6 +5,7 @@
 #include "billet/mesh/mesh_cursor.h"
 #include "billet/nearest_name.h"
 #include "billet/scene/mesh_builder.h"
+#include "billet/scene/unread_keywords.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -21,9 +22,19 @@ void add_once(std::vector<unsigned int> &ids, const unsigned int id) {
     ids.push_back(id);
 }
 
+/// Throws the InputError for a name of several groups with different faces.
+[[noreturn]] void refuse_ambiguous(const std::string &name, const std::vector<std::string> &groups,
+                                   const std::string &origin, const std::string &body) {
+  std::string list;
+  for (const std::string &group : groups)
+    list += (list.empty() ? "" : ", ") + group;
+  throw InputError(origin + " names boundary '" + name + "', which body '" + body +
+                   "' has several times, with different faces; allowed are " + list);
+}
+
 /// Returns the name of the body that a scene means, though in other letters: Abaqus does not tell upper case
 /// from lower case. Throws InputError if there is none.
-const std::vector<unsigned int> &find_ids(const std::string &name, const BoundaryNames &known,
+const std::vector<unsigned int> &find_ids(const std::string &name, const GroupNames &known,
                                           const std::string &origin, const std::string &body) {
   const auto exact = known.ids_of_name.find(name);
   const std::vector<unsigned int> *found = exact != known.ids_of_name.end() ? &exact->second : nullptr;
@@ -36,6 +47,9 @@ const std::vector<unsigned int> &find_ids(const std::string &name, const Boundar
       found = &ids;
     }
   }
+  if (const auto several = known.ambiguous.find(lower_case(name));
+      found == nullptr && several != known.ambiguous.end())
+    refuse_ambiguous(name, several->second, origin, body);
   if (found == nullptr || n_similar > 1) {
     std::string list;
     for (const std::string &other : names)
@@ -54,9 +68,11 @@ const std::vector<unsigned int> &find_ids(const std::string &name, const Boundar
   return *found;
 }
 
-void resolve(BoundaryIds &boundaries, const BoundaryNames &known, const std::string &body) {
+void resolve(BoundaryIds &boundaries, const GroupNames &known, const std::string &body) {
   std::vector<unsigned int> ids;
   for (const unsigned int number : boundaries.value) {
+    if (const auto several = known.ambiguous.find(std::to_string(number)); several != known.ambiguous.end())
+      refuse_ambiguous(std::to_string(number), several->second, boundaries.origin, body);
     const auto group = known.ids_of_number.find(number);
     if (group == known.ids_of_number.end())
       add_once(ids, number);
@@ -88,14 +104,15 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 }
 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
-/// gives.
-BoundaryNames read_boundary_names(parameters::Mesh &mesh) {
+/// gives. Appends notes about the mesh file.
+GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, DiagnosticList &notes) {
   unsigned int new_id = least_new_id(mesh) + 1;
-  BoundaryNames names;
+  GroupNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
-    const BoundaryGroups groups = load_mesh_file(mesh).groups;
-    names = groups.names();
-    new_id = groups.new_id();
+    const LoadedMesh loaded = load_mesh_file(mesh);
+    append(notes, describe_unread_keywords(loaded.mesh.unread, mesh.file_name, body));
+    names = loaded.groups.names();
+    new_id = loaded.groups.new_id();
     if (mesh.section.value != parameters::Mesh::Section::solid)
       new_id += 2; // both sides of the section
   }
@@ -177,20 +194,21 @@ unsigned int least_new_id(const parameters::Mesh &mesh) {
 }
 
 parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<BoundaryNames> &names) {
-  names.clear();
+  std::vector<GroupNames> known;
   for (auto &body : scene.bodies) {
-    names.push_back(read_boundary_names(body.mesh));
+    known.push_back(read_boundary_names(body.mesh, body.name, scene.warnings));
     for (auto &support : body.supports)
-      resolve(support.boundary_ids, names.back(), body.name);
+      resolve(support.boundary_ids, known.back(), body.name);
     for (auto &load : body.loads)
-      resolve(load.boundary_ids, names.back(), body.name);
+      resolve(load.boundary_ids, known.back(), body.name);
   }
+  names.assign(known.begin(), known.end());
   ExteriorIds exterior(scene.bodies);
   const auto resolve_of_pair = [&](BoundaryIds &boundaries, const std::size_t body) {
     if (boundaries.are_all)
       boundaries.value = exterior.of(body);
     else
-      resolve(boundaries, names[body], scene.bodies[body].name);
+      resolve(boundaries, known[body], scene.bodies[body].name);
   };
   for (auto &pair : scene.pairs) {
     resolve_of_pair(pair.boundary_ids, scene.body_index(pair));
@@ -199,8 +217,8 @@ parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<Bounda
   }
   for (auto &probe : scene.probes) {
     const std::size_t body = scene.body_index(probe);
-    resolve(probe.boundary_ids, names[body], scene.bodies[body].name);
-    resolve(probe.opposite_ids, names[body], scene.bodies[body].name);
+    resolve(probe.boundary_ids, known[body], scene.bodies[body].name);
+    resolve(probe.opposite_ids, known[body], scene.bodies[body].name);
   }
   // Ids of pairs without names and groups have been compared when the scene was read.
   const bool has_names = std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const auto &pair) {

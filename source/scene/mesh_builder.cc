@@ -158,6 +158,29 @@ void name_sides(const LoadedMesh &loaded, const Triangulation<2> &section, Trian
       face->set_boundary_id(loaded.groups.new_id() + face->boundary_id() - largest - 1);
 }
 
+/// Moves the vertices by the mesh's 'Positions': x, y and z of a body, x and y of a section.
+template <int dim> void move_vertices(const parameters::Mesh &parameters, Triangulation<dim> &mesh) {
+  std::vector<Expression> components;
+  for (const auto &component : parameters.positions.value)
+    components.emplace_back(component, Expression::Variables::time_and_position,
+                            std::vector<parameters::Amplitude>(), parameters.positions.origin);
+  if (components.empty())
+    return;
+  check_before_start([&] {
+    dealii::GridTools::transform(
+        [&components](const dealii::Point<dim> &x) {
+          dealii::Point<3> before;
+          dealii::Point<dim> moved;
+          for (unsigned int i = 0; i < dim; ++i)
+            before[i] = x[i];
+          for (unsigned int i = 0; i < dim; ++i)
+            moved[i] = components[i].value(0., before);
+          return moved;
+        },
+        mesh);
+  });
+}
+
 void generate_extruded(const parameters::Mesh &parameters, const MeshDetail detail, Triangulation<3> &mesh) {
   Triangulation<2> refined, section;
   std::unique_ptr<const LoadedMesh> loaded;
@@ -174,6 +197,7 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
     dealii::GridTools::scale(std::sqrt(parameters.section_area.value / dealii::GridTools::volume(section)),
                              section);
   if (parameters.section.value == parameters::Mesh::Section::axisymmetric) {
+    move_vertices(parameters, section);
     turn_section(parameters, section, mesh);
   } else {
     const unsigned int n_layers = detail == MeshDetail::full ? parameters.n_layers : 1;
@@ -223,21 +247,6 @@ void flatten(Triangulation<3> &mesh) {
     mesh.copy_triangulation(copy);
   }
   mesh.reset_all_manifolds();
-}
-
-void move_vertices(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
-  std::vector<Expression> components;
-  for (const auto &component : parameters.positions.value)
-    components.emplace_back(component, Expression::Variables::time_and_position,
-                            std::vector<parameters::Amplitude>(), parameters.positions.origin);
-  check_before_start([&] {
-    dealii::GridTools::transform(
-        [&components](const dealii::Point<3> &x) {
-          return dealii::Point<3>(components[0].value(0., x), components[1].value(0., x),
-                                  components[2].value(0., x));
-        },
-        mesh);
-  });
 }
 
 void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
@@ -296,7 +305,7 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
     break;
   }
   flatten(mesh);
-  if (!parameters.positions.value.empty())
+  if (parameters.section.value != parameters::Mesh::Section::axisymmetric)
     move_vertices(parameters, mesh);
   if (parameters.scale != 1.)
     dealii::GridTools::scale(parameters.scale, mesh);

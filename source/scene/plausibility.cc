@@ -318,6 +318,47 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
   }
 }
 
+bool have_common(const std::vector<unsigned int> &a, const std::vector<unsigned int> &b) {
+  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
+}
+
+/// Warns of probes of the contact pressure where no pair has any: nodes of its first body alone have one.
+void check_pressure_probes(const Scene &of_run, DiagnosticList &diagnostics) {
+  const parameters::Scene &scene = of_run.parameters();
+  for (const parameters::Probe &probe : scene.probes) {
+    if (!probe.probe.reads(ProbeQuantity::Kind::contact_pressure))
+      continue;
+    const std::size_t body = scene.body_index(probe);
+    const bool has_faces = probe.probe.has_faces();
+    std::string of_second; // pair in which the probe's faces are the second ones
+    bool has_pressure = false;
+    const auto has_faces_of = [&](const std::size_t pair_body, const std::vector<unsigned int> &ids) {
+      return pair_body == body && (!has_faces || have_common(ids, probe.boundary_ids.value));
+    };
+    for (const ContactPair &pair : of_run.pairs())
+      has_pressure = has_pressure || has_faces_of(pair.body, pair.boundary_ids);
+    for (const BodyPair &pair : of_run.body_pairs()) {
+      const bool has_second = has_faces_of(pair.bodies[1], pair.boundary_ids[1]);
+      has_pressure = has_pressure || has_faces_of(pair.bodies[0], pair.boundary_ids[0]) ||
+                     (has_second && pair.two_passes);
+      if (has_second)
+        of_second = pair.name;
+    }
+    if (has_pressure)
+      continue;
+    Diagnostic message(diagnostic::probe_without_contact,
+                       "The probe '" + probe.name + "' reads a contact pressure of 0 " +
+                           (of_second.empty()
+                                ? "where no pair has its 'Boundary ids'"
+                                : "on the second body of a pair, where no pressure is computed"));
+    message.body(scene.bodies[body].name).pair(of_second).origin(probe.origin);
+    if (!of_second.empty())
+      message.advice("Probe the faces of the pair's 'Body', on which the same pressure acts, swap 'Body' and "
+                     "'Second body', or set 'Passes = two'");
+    diagnostics.push_back(message);
+  }
+}
+
 } // namespace
 
 double borne_force(const Body &body, const double section) {
@@ -343,6 +384,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
     check_force(scene, t, start, diagnostics);
   }
   check_held_nodes(scene, mesh, communicator, diagnostics);
+  check_pressure_probes(scene, diagnostics);
   constexpr double deep = 2.;
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
     if (start.penetrations[p] > deep)

@@ -306,7 +306,7 @@ MissingPairs::Deepest MissingPairs::find_deepest(const Couple &couple, const boo
     nearest.push_back(found);
   }
   Deepest deepest;
-  const auto of_ranks = dealii::Utilities::MPI::all_gather(communicator, nearest);
+  const auto of_ranks = all_gather(communicator, nearest);
   for (std::size_t p = 0; p < inside.size(); ++p) {
     std::array<double, 3> found = of_ranks[0][p];
     for (const auto &of_rank : of_ranks)
@@ -387,7 +387,7 @@ MissingPairs::Deepest MissingPairs::enter_tool(Couple &couple, const Positions &
       own = std::max(own, {penetrations[n] / allowed, penetrations[n], x[0], x[1], x[2]});
   }
   couple.is_in_front = std::move(is_in_front);
-  const auto of_ranks = dealii::Utilities::MPI::all_gather(discretization_.communicator(), own);
+  const auto of_ranks = all_gather(discretization_.communicator(), own);
   const auto deepest = *std::max_element(of_ranks.begin(), of_ranks.end());
   return {deepest[1], deepest[0], Tensor<1, 3>({deepest[2], deepest[3], deepest[4]})};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/motion_watch.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/errors.h"
 
 #include <algorithm>
@@ -101,7 +102,7 @@ std::string MotionWatch::find_unseen(const double from, const double to) const {
       break;
     }
   }
-  for (const std::string &of_rank : dealii::Utilities::MPI::all_gather(communicator_, found))
+  for (const std::string &of_rank : all_gather(communicator_, found))
     if (!of_rank.empty())
       return of_rank;
   return {};

@@ -26,6 +26,14 @@ ContactLoad about_origin(ContactLoad load, const Placement &placement) {
   return load;
 }
 
+std::vector<std::string> named_loads(const Scene &scene) {
+  std::vector<std::string> names;
+  for (const parameters::Body &body : scene.parameters().bodies)
+    for (const parameters::Load &load : body.loads)
+      names.push_back(body.name + ".load " + load.name);
+  return names;
+}
+
 DiagnosticList check_force_balance(const ForceBalance &balance, const double time, const bool in_float) {
   const double defect = balance.defect();
   if (defect <= (in_float ? Limits::in_float : Limits::in_double) ||

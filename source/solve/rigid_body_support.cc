@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/rigid_body_support.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/geometry/frame.h"
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -339,7 +340,7 @@ RigidBodySupport::Unresisted RigidBodySupport::find_unresisted_both_ways() const
 std::vector<RigidBodySupport::Row> RigidBodySupport::gather_one_way() const {
   Rows rows;
   const auto size = static_cast<std::ptrdiff_t>(n());
-  for (const auto &part : dealii::Utilities::MPI::all_gather(communicator_, one_way_))
+  for (const auto &part : all_gather(communicator_, one_way_))
     for (auto row = part.begin(); row != part.end(); row += size)
       rows.emplace_back(row, row + size);
   return rows;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/stability_watch.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/material/elasticity.h"
 
@@ -86,9 +87,9 @@ StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
     if (stiffness < weakest.stiffness)
       weakest = {stiffness, stretches};
   }
-  const auto of_ranks = dealii::Utilities::MPI::all_gather(
-      discretization_.communicator(), std::array<double, 4>{weakest.stiffness, weakest.stretches[0],
-                                                            weakest.stretches[1], weakest.stretches[2]});
+  const auto of_ranks = all_gather(discretization_.communicator(),
+                                   std::array<double, 4>{weakest.stiffness, weakest.stretches[0],
+                                                         weakest.stretches[1], weakest.stretches[2]});
   const auto &minimum = *std::min_element(of_ranks.begin(), of_ranks.end());
   return {minimum[0], {minimum[1], minimum[2], minimum[3]}};
 }

@@ -27,6 +27,7 @@ from checks import (
     Program,
     enter_folder,
     equal,
+    near,
     read_text,
     require,
     rows_of,
@@ -220,6 +221,57 @@ def _() -> None:
     billet("--output", "again", "half/scene.prm")
     equal("history of the copy", read_text("again/history.csv"), read_text("half/history.csv"))
     says(r"^Time +0 to 0\.25, ", billet("--check", "--set", "Time stepping/End time=0.25", "cup1.prm").output)
+
+
+@check("messages have a meaning and a remedy")
+def _() -> None:
+    for kind in json.loads(billet("--print-diagnostics", "--json").output):
+        require(kind["meaning"].endswith("."), kind["key"])
+        # These name the cause, and what to do, in each message.
+        is_in_text = kind["key"] in ("bad-input", "solution-failed", "energy-drift")
+        require(kind["remedy"] or is_in_text, f"{kind['key']} has no remedy")
+
+
+@check("'Positions' of an axisymmetric section move the section")
+def _() -> None:
+    section = "subdivided_hyper_rectangle\n      set Section = axisymmetric"
+    scene = BLOCK.replace("subdivided_hyper_rectangle", section).replace(
+        "= primitive", "= extruded primitive"
+    )
+    scene = scene.replace("set Symmetry planes", "# set Symmetry planes")
+    meshes = {
+        "moved": "2, 2 : 0, 0 : 1, 1 : true\n      set Positions = x*(1 + y) ; 2*y",
+        "plain": "2, 2 : 0, 0 : 1, 2 : true",
+    }
+    reports = {}
+    for name, arguments in meshes.items():
+        write_text(f"{name}.prm", scene.replace("2, 1, 2 : 0, 0, 0 : 2, 1, 2 : true", arguments))
+        reports[name] = json.loads(billet("--check", "--json", f"{name}.prm").output)["report"]["bodies"][0]
+    # A frustum of the radii 1 and 2 has 7/3 of the volume of the cylinder, also as a wedge of flat facets.
+    near("volume", reports["moved"]["volume"], 7 / 3 * reports["plain"]["volume"], 1e-9)
+    near("height", reports["moved"]["high"][2], 2.0, 1e-12)
+    near("radius", reports["moved"]["high"][0], 2.0, 1e-12)
+
+
+@check("--set takes parameters away, and leaves out those of another scheme")
+def _() -> None:
+    scene = read_text(HERE / "block.prm") + "subsection Implicit dynamics\n  set Mass = lumped\nend\n"
+    scene = scene.replace("Law ", "Density = 1\n      set Law ", 1)
+    write_text("dynamic.prm", scene.replace("set End time", "set Scheme = implicit dynamics\n  set End time"))
+    statics = ("--set", "Time stepping/Scheme=quasi-static")
+    told = billet("--check", *statics, "dynamic.prm").output
+    says(r"^note\[parameters-left-out\]: .* the parameters of 'Implicit dynamics' do not count", told)
+    write_text(
+        "fast.prm",
+        read_text("dynamic.prm").replace(
+            "set Symmetry", "set Initial velocity = 0 ; 0 ; 1\n    set Symmetry"
+        ),
+    )
+    refused = billet("--check", *statics, "fast.prm", code=2).errors
+    says(r"--set 'Bodies/block/Initial velocity=' takes the value away", refused)
+    billet("--check", *statics, "--set", "Bodies/block/Initial velocity=", "fast.prm")
+    refused = billet("--check", "--set", "Bodies/block/Initial velocity=", "dynamic.prm", code=2).errors
+    says("the scene does not set 'Initial velocity' in 'Bodies / block'", refused)
 
 
 @check("--set says what is wrong with it")

@@ -59,7 +59,7 @@ def require_message(key: str, printed: list[str], said: str) -> None:
     name, value, part, words = match.groups()
     require(name in printed, f"does not tell of {name}, but of ({' '.join(printed)})")
     if words is not None:
-        pattern = rf"^(?:warning|error)\[{re.escape(name)}\].*{re.escape(words)}"
+        pattern = rf"^(?:note|warning|error)\[{re.escape(name)}\].*{re.escape(words)}"
         require(re.search(pattern, said, re.MULTILINE), f"{name} does not say '{words}'")
     if value is not None:
         pattern = rf"^warning\[{re.escape(name)}\]: [^\d\n]*?([\d.]+(?:e[-+]?\d+)?)"

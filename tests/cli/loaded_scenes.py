@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import re
 import sys
+from pathlib import Path
 
 from checks import (
     SHIPPED,
@@ -195,6 +196,87 @@ def _() -> None:
     rebound = 2 * rows[-1]["momentum_z"] / mass + g * (times[-1] - touching[-1])
     require(0.99 < rebound / speed < 1, f"it rebounds with {rebound / speed} of its speed")
     require(abs(rows[-1]["energy_drift"]) < 1e-3, f"energy drifts by {rows[-1]['energy_drift']}")
+
+
+SPRING = """subsection Bodies
+  subsection cube
+    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1 : true
+    end
+    set Symmetry planes = x = 0 ; y = 0
+    subsection Material
+      set Young modulus = 1000
+      set Poisson ratio = 0.3
+      set Density       = 1
+    end
+    subsection Loads
+      subsection base
+        set Type         = spring
+        set Boundary ids = 4
+        set Direction    = 0, 0, 1
+        set Stiffness    = 100
+      end
+      subsection push
+        set Type         = dead traction
+        set Boundary ids = 5
+        set Traction     = 0 ; 0 ; -10*t
+      end
+    end
+  end
+end
+subsection Probes
+  subsection all
+    set Type = body
+  end
+end
+subsection Time stepping
+  set Scheme   = {}
+  set End time = 1
+end
+subsection Output
+  subsection Checkpoint
+    set Step interval = 1
+    set Keep          = 100
+  end
+end
+"""
+
+
+def run_written(file: str, *options: str) -> dict[str, float]:
+    """Runs a scene of the current folder, and returns the last line of its history."""
+    equal("exit code", run(program, file, *options).code, 0)
+    return history(options[-1])[-1]
+
+
+@check("loads have their forces and works, and the body its motion and energies")
+def _() -> None:
+    for scheme in ("quasi-static", "implicit dynamics", "explicit"):
+        name = scheme.replace(" ", "_")
+        write_text(f"{name}.prm", SPRING.format(scheme))
+        row = run_written(f"{name}.prm", "--output", name)
+        works = row["cube.load base.work"] + row["cube.load push.work"]
+        near(f"{scheme}: sum of works", works, row["external_work"], 1e-9)
+        near(f"{scheme}: traction", row["cube.load push.force_z"], -10.0, 1e-9)
+        if scheme == "quasi-static":  # force and spring, 10 on 100 per area 1
+            near("force of the spring", row["cube.load base.force_z"], 10.0, 1e-5)
+            near("work of the spring", row["cube.load base.work"], -0.5, 1e-5)
+        else:
+            near(f"{scheme}: momentum", row["all.momentum_z"], row["momentum_z"], 1e-9)
+            near(f"{scheme}: velocity", row["all.velocity_z"], row["momentum_z"], 1e-9)
+            near(f"{scheme}: kinetic energy", row["all.kinetic_energy"], row["kinetic_energy"], 1e-3)
+        near(f"{scheme}: internal energy", row["all.internal_energy"], row["elastic_energy"], 1e-9)
+
+
+@check("works of loads continue after a restart")
+def _() -> None:
+    for scheme in ("quasi-static", "implicit dynamics", "explicit"):
+        name = scheme.replace(" ", "_")
+        middle = sorted(Path(name).rglob("checkpoint_*.h5"))[1]
+        row = run_written(f"{name}.prm", "--restart", str(middle), "--output", f"{name}_again")
+        first = history(name)[-1]
+        for column in ("cube.load base.work", "cube.load push.work", "cube.load base.force_z"):
+            near(f"{scheme}: {column}", row[column], first[column], 1e-12)
 
 
 @check("pages")

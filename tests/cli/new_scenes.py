@@ -11,8 +11,10 @@ from __future__ import annotations
 import json
 import re
 import sys
+from pathlib import Path
 
 from checks import (
+    HERE,
     SHIPPED,
     Checks,
     enter_folder,
@@ -25,6 +27,7 @@ from checks import (
     says,
     write_text,
 )
+from edits import edit
 
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
 PARTS = {"drawing": 0.1, "rolling": 0.1, "bending": 0.2, "impact": 0.25}  # of the time
@@ -137,6 +140,57 @@ def _() -> None:
         require(entries, f"{name} is empty")
         for entry in entries:
             says(rf"^{re.escape(entry['name'])}$", ended.output)
+
+
+# How a scene of block.prm names an entry of each list, KEY = NAME.
+USES = {
+    "primitives": "Mesh: - Arguments & Mesh: - Boundary ids & Mesh: {}",
+    "materials": "Material: - Hardening & Material: {}",
+    "elements": "block: {}",
+    "loads": "block: + subsection Loads\n subsection x\n set {}\n end\nend",
+    "surfaces": "Plane: - Point & Plane: {}",
+    "friction": "top on die: - Friction coefficient & top on die: {}",
+    "integrators": "+ subsection Implicit dynamics\n set {}\nend & Time stepping: Scheme = implicit dynamics",
+    "probes": "+ subsection Probes\n subsection x\n set {}\n end\nend",
+}
+
+
+@check("what the lists say is what scenes may say")
+def _() -> None:
+    base = read_text(HERE / "block.prm")
+    for name, use in USES.items():
+        for entry in json.loads(run(program, "--list", name, "--json").output):
+            statement = next(
+                part
+                for part in entry["use"].split("; ")
+                if not part.startswith(("set Source", "set Arguments"))
+            )
+            setting = statement.removeprefix("set ")
+            text = edit(base, use.format(setting)).text
+            if "Source = extruded" in entry["use"]:
+                text = text.replace("= primitive", "= extruded primitive")
+            write_text("listed.prm", text)
+            key = re.escape(setting.split(" = ")[0])
+            errors = run(program, "--check", "listed.prm").errors
+            wrong = re.search(
+                rf"no parameter '{key}'|'{key}' in '[^']*' is [^;]*; (allowed is one of|did you)", errors
+            )
+            require(wrong is None, f"{name}: {errors}")
+
+
+@check("columns of histories have a meaning")
+def _() -> None:
+    known = []
+    for entry in json.loads(run(program, "--list", "history", "--json").output):
+        require(entry["parameters"], f"{entry['name']} has no columns")
+        for columns in entry["parameters"]:
+            require(columns["meaning"].endswith(("]", ".")), columns["name"])
+            known += columns["name"].split(", ")
+    patterns = [re.sub(r"\\b[A-Z]+\\b", ".+", re.escape(name)) for name in known]
+    for kind in PARTS:
+        header = read_text(next(Path("results").glob(f"{kind}*/history.csv"))).split("\n")[0]
+        for column in header.split(","):
+            require(any(re.fullmatch(one, column) for one in patterns), f"{column} has no meaning")
 
 
 @check("one entry of a list")

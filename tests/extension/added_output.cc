@@ -41,7 +41,9 @@ NodalQuantity doubled_displacement() {
 }
 
 HistoryQuantity total_energy() {
-  return {"total energy", [](const Scene &) -> std::vector<std::string> { return {"total_energy"}; },
+  return {"total energy",
+          {{"total_energy", "Sum of all energies. [energy]"}},
+          [](const Scene &) -> std::vector<std::string> { return {"total_energy"}; },
           [](const HistorySample &sample) -> std::vector<double> { return {sample.state.energies.total()}; }};
 }
 

@@ -96,5 +96,20 @@ int main() {
                                      binder->project(Tensor<1, 3>({6.6, 0., -0.1})).exists);
   const auto box = binder->bounding_box();
   check("the box contains it", box.low[0] <= -15. && box.high[1] >= 13.);
+  // Pictures: chords near their arcs, at a bounded number of facets.
+  const auto roll =
+      testing::make_surface("cylinder", "set Point = 0, 0, 0\nset Axis = 0, 1, 0\nset Radius = 3");
+  const SurfaceMesh drawn = roll->surface_mesh({Tensor<1, 3>(), 1.});
+  double sagitta = 0.;
+  for (const auto &facet : drawn.facets) {
+    Tensor<1, 3> middle;
+    for (const unsigned int corner : facet)
+      middle += drawn.points[corner] / static_cast<double>(facet.size());
+    sagitta = std::max(sagitta, std::abs(roll->project(middle).gap) / 3.);
+  }
+  check("chords of a cylinder", sagitta > 0. && sagitta < 2e-4);
+  const auto ring = testing::make_surface(
+      "torus", "set Centre = 0, 0, 0\nset Axis = 0, 0, 1\nset Ring radius = 3\nset Tube radius = 1");
+  check("facets of a torus", ring->surface_mesh({Tensor<1, 3>(), 4.}).facets.size() <= 10000);
   return billet::testing::exit_code();
 }

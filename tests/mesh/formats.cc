@@ -20,9 +20,38 @@ void check_areas(const std::string &sample, const std::map<std::string, double> 
   }
 }
 
+/// Sets and surfaces of one name, and names that are numbers.
+void check_names_of_decks() {
+  std::string deck = read_text("part.inp");
+  const std::string end = "*End Assembly";
+  const auto place = deck.find(end);
+  check("the deck has an assembly", place != std::string::npos);
+  if (place == std::string::npos)
+    return;
+  const std::string set = ", instance=Block-1, generate\n";
+  deck.insert(place, "*Nset, nset=TOP" + set + "1, 6, 1\n*Nset, nset=2" + set + "1, 6, 1\n*Nset, nset=7" +
+                         set + "13, 18, 1\n*Nset, nset=Skin" + set + "1, 18, 1\n*Nset, nset=1.5" + set +
+                         "1, 6, 1\n");
+  const MeshFile mesh = load(deck);
+  const BoundaryGroups groups(mesh);
+  const auto &names = groups.names();
+  check("surface and set with different faces", names.ids_of_name.count("top") == 0 &&
+                                                    names.ids_of_name.count("TOP") == 0 &&
+                                                    names.ambiguous.at("top").size() == 2);
+  check("both by their kinds", near(area(mesh, groups, names.ids_of_name.at("surface top")), 2.) &&
+                                   near(area(mesh, groups, names.ids_of_name.at("nset TOP")), 2.) &&
+                                   names.ids_of_name.at("surface top") != names.ids_of_name.at("nset TOP"));
+  check("surface and set with the same faces", names.ids_of_name.at("skin") == names.ids_of_name.at("Skin"));
+  check("numbers as names", names.ids_of_number.at(2) == names.ids_of_name.at("nset TOP") &&
+                                names.ids_of_number.at(7) == names.ids_of_name.at("surface top"));
+  check("a name without letters", names.ids_of_name.at("nset 1.5") == names.ids_of_number.at(2));
+  check("what is not read", mesh.unread.at("static") == 1 && mesh.unread.count("nset") == 0);
+}
+
 } // namespace
 
 int main() {
+  check_names_of_decks();
   for (const std::string &sample : samples()) {
     const MeshFile mesh = load(read_text(sample));
     check(sample + " volume", near(volume(mesh), 4.));

@@ -7,6 +7,7 @@
 #include "billet/discretization/supports.h"
 #include "billet/usage.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,12 @@ public:
   /// Adds the forces [force] at time t.
   void add_forces(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                   NodalVectors &forces) const;
+
+  /// Adds the forces of one load of the scene.
+  void add_forces_of(const AppliedLoad &load, double t, const NodalVectors &displacements,
+                     const NodalVectors &velocities, NodalVectors &forces) const;
+  /// Returns the nodes on which a load acts, sorted.
+  std::vector<unsigned int> nodes_of(const AppliedLoad &load) const;
 
   /// Adds −∂F/∂u − `damping_factor` ∂F/∂v [force/length]. Collective.
   void add_tangent(double t, const NodalVectors &displacements, const NodalVectors &velocities,
@@ -54,6 +61,24 @@ private:
   void place(const AppliedLoad &load, const NodalLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const SurfaceLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const PointLoad &action, std::size_t body);
+  /// Calls visit(placed) for each load, in their order.
+  template <class Visit> void visit(const Visit &visit) const {
+    std::for_each(on_bodies_.begin(), on_bodies_.end(), visit);
+    std::for_each(on_faces_.begin(), on_faces_.end(), visit);
+    std::for_each(on_nodes_.begin(), on_nodes_.end(), visit);
+    std::for_each(on_surfaces_.begin(), on_surfaces_.end(), visit);
+    std::for_each(on_points_.begin(), on_points_.end(), visit);
+  }
+  void add(const Placed<BodyLoad, WeightedNode> &placed, double t, const NodalMotion &at,
+           NodalVectors &forces) const;
+  void add(const Placed<FaceLoad, LoadedFace> &placed, double t, const NodalMotion &at,
+           NodalVectors &forces) const;
+  void add(const Placed<NodalLoad, LoadedNode> &placed, double t, const NodalMotion &at,
+           NodalVectors &forces) const;
+  void add(const Placed<SurfaceLoad, LoadedFace> &placed, double t, const NodalMotion &at,
+           NodalVectors &forces) const;
+  void add(const Placed<PointLoad, WeightedNode> &placed, double t, const NodalMotion &at,
+           NodalVectors &forces) const;
   std::unique_ptr<LoadedSurface> measure_surface(const std::vector<BoundaryFacet> &facets) const;
   void add_surface_tangents(double t, const NodalMotion &motion, const TangentSystem &system) const;
   NodalMotion motion(const NodalVectors &displacements, const NodalVectors &velocities) const {

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,20 @@ struct BoundaryNames {
   std::map<unsigned int, std::vector<unsigned int>> ids_of_number;
 };
 
+/// The same, and the names that do not tell which group is meant.
+struct GroupNames : BoundaryNames {
+  /// Names, in lower case, and numbers that groups of several kinds have with different faces, and the names
+  /// of these groups in `ids_of_name`, such as "surface top" and "nset top".
+  std::map<std::string, std::vector<std::string>> ambiguous;
+};
+
+/// Returns the boundary id that a scene means if it writes the name of a group; none if it is no such number.
+std::optional<unsigned int> id_of_name(const std::string &name);
+
 /// Boundary ids of the exterior faces of a mesh. A face has one id but may be in several groups: faces that
 /// are in the same groups share an id, and a group stands for the ids of all its faces. A face in one group
-/// with a number has this number as its id; one in no group has id 0.
+/// with a number has this number as its id; one in no group has id 0. Groups of different kinds may have one
+/// name: it stands for all of them if their faces are the same, and needs the kind in front of it if not.
 class BoundaryGroups {
 public:
   /// Nodes of a face in ascending order.
@@ -31,18 +44,20 @@ public:
 
   /// Returns the id of an exterior face; 0 for others.
   unsigned int id(const Face &face) const;
-  const BoundaryNames &names() const { return names_; }
+  const GroupNames &names() const { return names_; }
   /// Returns an id that no face and no group has.
   unsigned int new_id() const { return new_id_; }
 
 private:
   void find_exterior(const MeshFile &mesh);
   std::size_t index(const Face &face) const;
+  std::set<std::size_t> qualify_names(const MeshFile &mesh,
+                                      const std::vector<std::vector<unsigned int>> &ids_of_group);
   void assign_ids(const std::vector<std::vector<unsigned int>> &groups_of_face, const MeshFile &mesh);
 
   std::vector<Face> faces_; ///< exterior, sorted
   std::vector<unsigned int> elements_, ids_;
-  BoundaryNames names_;
+  GroupNames names_;
   unsigned int new_id_;
 };
 

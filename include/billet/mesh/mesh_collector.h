@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -49,10 +50,13 @@ public:
   /// Adds an edge of a group, which counts in a file without hexahedra only.
   void add_edge(const std::array<long long, 2> &nodes, const FaceGroup &group);
 
-  /// Returns the index of the group with this name and number; adds it if there is none.
-  std::size_t group(const std::string &name, unsigned int number);
+  /// Returns the index of the group with this name, number and kind; adds it if there is none.
+  std::size_t group(const std::string &name, unsigned int number, const std::string &kind = "");
   /// Returns the index of the group without a name and with this number. Throws if it is no boundary id.
   std::size_t numbered_group(long long number);
+
+  /// Counts something of the file that is not read.
+  void leave_unread(const std::string &keyword) { ++mesh_.unread[keyword]; }
 
   bool has_node(const long long number) const { return node_index_.count(number) > 0; }
   unsigned int node_index(long long number, const char *named_by, long long name) const;
@@ -92,7 +96,7 @@ private:
   std::vector<Quadrilateral> quadrilaterals_;
   std::vector<Edge> edges_;
   std::map<CellKind, std::size_t> n_cells_;
-  std::map<std::pair<std::string, unsigned int>, std::size_t> group_index_;
+  std::map<std::tuple<std::string, unsigned int, std::string>, std::size_t> group_index_;
 };
 
 } // namespace billet

@@ -28,6 +28,8 @@ struct FaceGroup {
 
   std::string name; ///< empty: a number only
   unsigned int number;
+  /// What has this name, such as "surface", in formats where others of another kind may have it, too.
+  std::string kind = {};
 };
 
 /// Quadrilateral of a file that is in a group.
@@ -73,6 +75,8 @@ struct MeshFile {
   std::vector<FaceGroup> groups;
   std::vector<GroupedFace> faces;
   std::vector<GroupedSet> node_sets, element_sets;
+  /// Keywords of which nothing is read, in lower case, and how often each stands there.
+  std::map<std::string, std::size_t> unread;
   PlaneMesh plane; ///< empty if there are hexahedra
 };
 

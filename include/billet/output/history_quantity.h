@@ -32,9 +32,17 @@ struct HistorySample {
   double mesh_error = 0.; ///< from MeshErrors::error()
 };
 
+/// Columns of the history by their names, in which NAME and the like stand for names of the scene, and what
+/// they have.
+struct HistoryColumns {
+  std::string names; ///< separated by commas
+  std::string meaning;
+};
+
 /// Columns of the history that belong together.
 struct HistoryQuantity {
   std::string name;
+  std::vector<HistoryColumns> meanings; ///< of all its columns
   /// Returns the columns' names; none if the scene does not have the quantity.
   std::function<std::vector<std::string>(const Scene &)> columns;
   /// Returns one value for each column.
@@ -48,7 +56,7 @@ class HistoryQuantities {
 public:
   explicit HistoryQuantities(const std::vector<HistoryQuantity> &quantities);
 
-  /// Adds a quantity. Throws std::logic_error if the name is taken.
+  /// Adds a quantity. Throws std::logic_error if the name is taken, or if no column has a meaning.
   void add(const HistoryQuantity &quantity);
 
   auto begin() const { return quantities_.begin(); }

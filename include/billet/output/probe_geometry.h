@@ -2,28 +2,12 @@
 #ifndef BILLET_OUTPUT_PROBE_GEOMETRY_H
 #define BILLET_OUTPUT_PROBE_GEOMETRY_H
 
-#include "billet/mechanics/mean_dilatation.h"
-
-#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
 
 #include <array>
 #include <optional>
 
 namespace billet {
-
-/// Trilinear hexahedron.
-class Hexahedron {
-public:
-  explicit Hexahedron(const ElementVectors &corners);
-
-  /// Returns the reference coordinates of a point, in the unit cube; none if it is outside by more than
-  /// round-off.
-  std::optional<dealii::Point<3>> find(const dealii::Tensor<1, 3> &point) const;
-
-private:
-  ElementVectors corners_;
-  dealii::Tensor<1, 3> low_, high_; ///< of its bounding box, with a margin for round-off
-};
 
 /// Corners of a facet, in the order of BoundaryFacet.
 using FacetCorners = std::array<dealii::Tensor<1, 3>, 4>;

@@ -40,6 +40,7 @@ private:
   ProbeRows read_faces(const Placed &placed, const State &state) const;
   ProbeRows read_thickness(const Placed &placed, const State &state) const;
   ProbeRows read_travel(const Placed &placed, const State &state) const;
+  std::vector<double> read_motion(const Placed &placed, const State &state) const;
   ProbeRows read_rows(const Placed &placed, const State &state) const;
   std::vector<double> read(const Placed &placed, const State &state) const;
 

@@ -79,11 +79,14 @@ struct ProbedEnergies {
   Denominator denominator;
 };
 
+/// Motion and energies of a whole body.
+struct ProbedMotion {};
+
 /// What a probe reads, and where. Its values are columns of the history.
 struct Probe {
-  std::variant<ProbedPoints, ProbedFaces, ProbedThickness, ProbedTravel, ProbedEnergies> where;
+  std::variant<ProbedPoints, ProbedFaces, ProbedThickness, ProbedTravel, ProbedEnergies, ProbedMotion> where;
   std::vector<ProbeQuantity> quantities = {};  ///< only of points and faces
-  std::vector<ProbeStatistic> statistics = {}; ///< without energies
+  std::vector<ProbeStatistic> statistics = {}; ///< of what has sites
   Axes axes = {};           ///< of the components of displacement, velocity, stress and strain
   bool names_sites = false; ///< whether `each` numbers its columns
 

@@ -8,6 +8,7 @@
 #include "billet/discretization/support_reactions.h"
 #include "billet/geometry/placement.h"
 
+#include <string>
 #include <vector>
 
 namespace billet {
@@ -28,12 +29,22 @@ struct ForceBalance {
   double defect() const;
 };
 
+/// Force of a load on its body, and the work that it has done on it since the start.
+struct LoadResult {
+  dealii::Tensor<1, 3> force; ///< [force]
+  double work = 0.;           ///< [energy]
+};
+
+/// Returns the names of the loads of all bodies, "BODY.load NAME", body by body in the order of Body::loads.
+std::vector<std::string> named_loads(const Scene &scene);
+
 /// Forces on the bodies at the end of the last step, the same on all ranks.
 struct Reactions {
   std::vector<Resultant> of_supports;     ///< in the order of named_supports()
   std::vector<ContactLoad> of_tool_pairs; ///< in the order of Scene::pairs(), moments about the origin
   ForceBalance balance;
   std::vector<FacetPenetration> between_nodes; ///< of `of_tool_pairs`
+  std::vector<LoadResult> of_loads;            ///< in the order of named_loads()
 };
 
 /// Returns the load with its moment about the origin. `placement`: that of the tool, about whose moved centre

@@ -23,10 +23,11 @@ bool has_stabilised_bodies(const Scene &scene) {
                      [](const parameters::Body &body) { return body.is_stabilised.value; });
 }
 
-HistoryQuantity energy(const std::string &name, const std::string &column, bool (*has_it)(const Scene &),
-                       double EnergyLedger::*value) {
+HistoryQuantity energy(const std::string &name, const std::string &column, const std::string &meaning,
+                       bool (*has_it)(const Scene &), double EnergyLedger::*value) {
   return {
       name,
+      {{column, meaning + " [energy]"}},
       [column, has_it](const Scene &scene) {
         return has_it(scene) ? std::vector<std::string>{column} : std::vector<std::string>();
       },
@@ -38,17 +39,29 @@ HistoryQuantity energy(const std::string &name, const std::string &column, bool 
 std::vector<HistoryQuantity> energy_quantities() {
   using E = EnergyLedger;
   return {
-      energy("kinetic energy", "kinetic_energy", is_dynamic, &E::kinetic),
-      energy("elastic energy", "elastic_energy", is_any, &E::elastic),
-      energy("plastic work", "plastic_work", is_any, &E::plastic),
-      energy("contact energy", "contact_energy", is_any, &E::contact),
-      energy("friction dissipation", "friction_dissipation", is_any, &E::friction),
-      energy("dissipation by bulk viscosity", "viscous_dissipation", is_explicit, &E::viscous),
-      energy("numerical dissipation", "numerical_dissipation", is_implicit_dynamics, &E::numerical),
-      energy("hourglass energy", "hourglass_energy", has_hourglass_modes, &E::hourglass),
-      energy("dissipation by stabilisation", "viscous_dissipation", has_stabilised_bodies, &E::viscous),
-      energy("external work", "external_work", is_any, &E::external),
-      {"energy drift", [](const Scene &) -> std::vector<std::string> { return {"energy_drift"}; },
+      energy("kinetic energy", "kinetic_energy",
+             "Dynamic scenes: kinetic energy of all bodies and free tools.", is_dynamic, &E::kinetic),
+      energy("elastic energy", "elastic_energy", "Elastic energy of all bodies.", is_any, &E::elastic),
+      energy("plastic work", "plastic_work", "Energy dissipated by yielding.", is_any, &E::plastic),
+      energy("contact energy", "contact_energy", "Energy stored in the penalty springs of contact.", is_any,
+             &E::contact),
+      energy("friction dissipation", "friction_dissipation", "Energy dissipated by friction.", is_any,
+             &E::friction),
+      energy("dissipation by bulk viscosity", "viscous_dissipation",
+             "Explicit scenes: energy dissipated by bulk viscosity.", is_explicit, &E::viscous),
+      energy("numerical dissipation", "numerical_dissipation",
+             "Energy dissipated by the time integrator, and by contact that opens or closes within a step.",
+             is_implicit_dynamics, &E::numerical),
+      energy("hourglass energy", "hourglass_energy",
+             "Energy stored in the stabilisation of one-point elements.", has_hourglass_modes, &E::hourglass),
+      energy("dissipation by stabilisation", "viscous_dissipation",
+             "Static scenes: work of the viscous forces that stabilise bodies.", has_stabilised_bodies,
+             &E::viscous),
+      energy("external work", "external_work", "Work of tools, supports and loads.", is_any, &E::external),
+      {"energy drift",
+       {{"energy_drift",
+         "Energy at the start and external work, less all energies: what the balance lacks. [energy]"}},
+       [](const Scene &) -> std::vector<std::string> { return {"energy_drift"}; },
        [](const HistorySample &sample) -> std::vector<double> { return {sample.state.energies.drift()}; }}};
 }
 

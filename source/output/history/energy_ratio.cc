@@ -7,6 +7,8 @@ HistoryQuantity energy_ratio_quantity();
 
 HistoryQuantity energy_ratio_quantity() {
   return {"kinetic to internal energy",
+          {{"kinetic_to_internal",
+            "Dynamic scenes: kinetic energy over the energy in elements, stored or dissipated by yielding."}},
           [](const Scene &scene) -> std::vector<std::string> {
             if (!scene.parameters().is_dynamic())
               return {};

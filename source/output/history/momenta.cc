@@ -7,6 +7,10 @@ HistoryQuantity momenta_quantity();
 
 HistoryQuantity momenta_quantity() {
   return {"momenta",
+          {{"momentum_x, momentum_y, momentum_z",
+            "Dynamic scenes: momentum of all bodies and free tools. [mass velocity]"},
+           {"angular_momentum_x, angular_momentum_y, angular_momentum_z",
+            "Their angular momentum about the origin. [mass velocity length]"}},
           [](const Scene &scene) -> std::vector<std::string> {
             if (!scene.parameters().is_dynamic())
               return {};

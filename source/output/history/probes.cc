@@ -7,7 +7,9 @@ namespace billet {
 HistoryQuantity probes_quantity();
 
 HistoryQuantity probes_quantity() {
-  return {"probes", [](const Scene &scene) { return probe_columns(scene); },
+  return {"probes",
+          {{"PROBE.VALUE", "What the scene's 'Probes' read; 'billet --list probes' lists them."}},
+          [](const Scene &scene) { return probe_columns(scene); },
           [](const HistorySample &sample) { return sample.probes; }};
 }
 

@@ -30,6 +30,16 @@ void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values)
 
 HistoryQuantity support_reactions_quantity() {
   return {"reactions of supports",
+          {{"BODY.support NAME.force_x, BODY.support NAME.force_y, BODY.support NAME.force_z",
+            "Force of a support on its body. [force]"},
+           {"BODY.support NAME.moment_x, BODY.support NAME.moment_y, BODY.support NAME.moment_z",
+            "Its moment about the origin. [force length]"},
+           {"BODY.symmetry plane NAME.force_x, BODY.symmetry plane NAME.force_y, BODY.symmetry plane "
+            "NAME.force_z",
+            "Force of a symmetry plane on its body. [force]"},
+           {"BODY.symmetry plane NAME.moment_x, BODY.symmetry plane NAME.moment_y, BODY.symmetry plane "
+            "NAME.moment_z",
+            "Its moment about the origin. [force length]"}},
           [](const Scene &scene) {
             std::vector<std::string> columns;
             for (const NamedSupport &support : named_supports(scene))
@@ -50,6 +60,12 @@ HistoryQuantity support_reactions_quantity() {
 
 HistoryQuantity tool_pair_loads_quantity() {
   return {"loads of pairs with tools",
+          {{"pair PAIR.force_x, pair PAIR.force_y, pair PAIR.force_z",
+            "Force of the tool on the body through this pair. [force]"},
+           {"pair PAIR.moment_x, pair PAIR.moment_y, pair PAIR.moment_z",
+            "Its moment about the origin. [force length]"},
+           {"pair PAIR.contact_area", "Area in contact. [length^2]"},
+           {"pair PAIR.deepest_penetration", "Maximum penetration. [length]"}},
           [](const Scene &scene) {
             std::vector<std::string> columns;
             for (const ContactPair &pair : scene.pairs()) {
@@ -91,6 +107,10 @@ HistoryQuantity penetration_between_nodes_quantity() {
 
 HistoryQuantity force_balance_quantity() {
   return {"balance of forces",
+          {{"free_residual_x, free_residual_y, free_residual_z",
+            "Sum of the forces that are out of balance at unconstrained nodes. [force]"},
+           {"force_balance_defect", "Sum of reactions, contact forces, loads and inertia less the free "
+                                    "residual, over the nodal forces: round-off."}},
           [](const Scene &) -> std::vector<std::string> {
             return {"free_residual_x", "free_residual_y", "free_residual_z", "force_balance_defect"};
           },

@@ -8,6 +8,9 @@ HistoryQuantity solver_quantity();
 
 HistoryQuantity step_quantity() {
   return {"step",
+          {{"step", "Number of the step."},
+           {"time", "Time at its end. [time]"},
+           {"step_length", "Length of the step; in explicit scenes of the next one. [time]"}},
           [](const Scene &) -> std::vector<std::string> {
             return {"step", "time", "step_length"};
           },
@@ -18,6 +21,11 @@ HistoryQuantity step_quantity() {
 
 HistoryQuantity solver_quantity() {
   return {"solver",
+          {{"iterations", "Iterations of Newton's method in the step."},
+           {"residual", "Final residual over the forces."},
+           {"total_iterations", "Iterations since the start, those of failed steps included."},
+           {"total_cuts", "Steps that were cut since the start."},
+           {"linear_iterations", "Iterations of the linear solver in the step; 0 of a direct one."}},
           [](const Scene &scene) -> std::vector<std::string> {
             if (scene.parameters().is_explicit())
               return {};

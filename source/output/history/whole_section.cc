@@ -19,6 +19,10 @@ std::string column_name(std::string name) {
 
 HistoryQuantity whole_section_quantity() {
   return {"forces in the whole of a section",
+          {{"NAME.force_per_width_x, NAME.force_per_width_y, NAME.force_per_width_z",
+            "Plane strain: force of a tool, pair or support per unit of width. [force/length]"},
+           {"NAME.full_circle_force_x, NAME.full_circle_force_y, NAME.full_circle_force_z",
+            "Axisymmetric sections: its force over the full circle. [force]"}},
           [](const Scene &scene) {
             std::vector<std::string> columns;
             const WholeSection::Kind kind = scene.whole_section().kind;

@@ -46,7 +46,12 @@ void ExplicitDynamics::prepare_step(const double event) {
   parts_.motion.kick(parts_.clock, parts_.masses, parts_.forces.values());
   parts_.tools.kick(parts_.clock);
   if (!parts_.clock.is_at_start())
-    ledger_.add_works(parts_.motion.velocities_before(), 0.5 * parts_.clock.step_before());
+    add_works(parts_.motion.velocities_before(), 0.5 * parts_.clock.step_before());
+}
+
+void ExplicitDynamics::add_works(const NodalVectors &velocities, const double half) {
+  ledger_.add_works(velocities, half);
+  parts_.forces.of_loads().add_works(velocities, half);
 }
 
 void ExplicitDynamics::raise_penalties() {
@@ -60,7 +65,7 @@ void ExplicitDynamics::finish_step() {
   raise_penalties(); // energy added to springs shows in the next ledger: this one is written
   parts_.motion.move(parts_.clock.step());
   parts_.tools.move(parts_.clock);
-  ledger_.add_works(parts_.motion.velocities(), 0.5 * parts_.clock.step());
+  add_works(parts_.motion.velocities(), 0.5 * parts_.clock.step());
   const double t_forces = time();
   parts_.clock.advance();
   parts_.motion.switch_supports(t_forces, time());
@@ -100,6 +105,7 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   parts_.clock.save(writer);
   parts_.motion.save(writer, rows, parts_.clock.step());
   ledger_.save(writer, state_.energies);
+  parts_.forces.of_loads().save(writer);
   penalties_.save(writer);
   parts_.elements.save(writer);
   parts_.tools.save(writer, rows, parts_.forces.loaded_nodes());
@@ -132,6 +138,8 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   parts_.tools.load(reader, rows, is_exact, time());
   load_contacts(reader, rows.keys());
   state_.energies = ledger_.load(reader, is_exact);
+  if (is_exact)
+    parts_.forces.of_loads().load(reader);
   if (is_exact)
     penalties_.load(reader);
   report.time = time();

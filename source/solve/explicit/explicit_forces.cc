@@ -34,7 +34,7 @@ NodalVectors mark_boundaries(const LocalNodes &nodes, const std::size_t n_bodies
 
 ExplicitForces::ExplicitForces(const Scene &scene, const LocalNodes &nodes, const ExplicitElements &elements,
                                const double contact_resolution)
-    : nodes_(nodes), loads_(scene, nodes, elements.lumped_masses()),
+    : nodes_(nodes), loads_(scene, nodes, elements.lumped_masses()), of_loads_(scene, nodes, loads_),
       bound_factor_(contact_resolution * contact_resolution), forces_(nodes.make_vectors()),
       external_(forces_), bounds_(forces_) {
   find_touched_nodes(scene);
@@ -102,7 +102,7 @@ ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, cons
     tools.remove_due(clock.time(), contacts, loaded_nodes_, external_, works.external);
     motion.add_fading(clock.time(), external_);
     element_step_ = elements.add_forces({u.data(), v.data(), forces_.data()}, clock, works);
-    loads_.add_forces(clock.time(), u, v, external_);
+    of_loads_.evaluate(clock.time(), u, v, external_);
   } catch (const SolutionFailure &) { // of this rank
     failure = std::current_exception();
   }

@@ -54,6 +54,7 @@ void ExplicitReactions::update() {
     values_.between_nodes[i] = parts_.contacts.of_tools()[i].measures().penetration_between_nodes();
     values_.balance.contact += load.force;
   }
+  values_.of_loads = parts_.forces.of_loads().results();
   sum_forces();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/body_freedom.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 #include "billet/scene/rigid_motions.h"
@@ -79,7 +80,7 @@ std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std
   }
   resistances.clear();
   BoundingBox box = BoundingBox::empty();
-  for (const auto &part : dealii::Utilities::MPI::all_gather(problem.communicator(), numbers))
+  for (const auto &part : all_gather(problem.communicator(), numbers))
     for (auto x = part.begin(); x != part.end(); x += 7) {
       resistances.push_back({dealii::Tensor<1, 3>({x[0], x[1], x[2]}),
                              dealii::Tensor<1, 3>({x[3], x[4], x[5]}),

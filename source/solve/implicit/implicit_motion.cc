@@ -176,8 +176,9 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
   return error_.of_step(integrator_.error_factor() * step_.length * step_.length, change, displacements);
 }
 
-void ImplicitMotion::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
-                            const double /*touching*/, EnergyLedger &energies) {
+std::vector<LoadResult> ImplicitMotion::commit(const Vector &displacements, const Vector &increment,
+                                               const Vector &mean_forces, const double /*touching*/,
+                                               EnergyLedger &energies) {
   // With p = M Δv and the mean forces F̄, the part of v̄·p + F̄·Δu on prescribed motions is the supports'
   // work. The rest, with opposite sign, is the dissipation of the integrator.
   Vector change = trial_.velocity, mean_velocity = trial_.velocity;
@@ -196,6 +197,7 @@ void ImplicitMotion::commit(const Vector &displacements, const Vector &increment
   start_.acceleration = end_accelerations();
   held_.commit();
   error_.commit(displacements);
+  return loads_.results();
 }
 
 double ImplicitMotion::follow_supports(const double t) {

@@ -31,6 +31,7 @@ ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
   values_.of_supports.resize(named_supports(problem.scene()).size());
   values_.of_tool_pairs.resize(problem.scene().pairs().size());
   values_.between_nodes.resize(problem.scene().pairs().size());
+  values_.of_loads.resize(named_loads(problem.scene()).size());
 }
 
 void ImplicitReactions::start() {

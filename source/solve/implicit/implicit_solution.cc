@@ -230,8 +230,8 @@ void ImplicitSolution::commit_works(const double t) {
   mean_forces += step.start.supports;
   mean_forces *= 0.5;
   mean_forces.add(0.5 - before, step.trial.contact, before - 0.5, step.start.contact);
-  problem_.scheme().commit(step.start.displacements, step.last_increment, mean_forces, works.touching,
-                           state.energies);
+  reactions_.set_loads(problem_.scheme().commit(step.start.displacements, step.last_increment, mean_forces,
+                                                works.touching, state.energies));
   state.energies.external += works.ramp;
   step.start.internal = step.trial.internal;
   step.start.supports = step.trial.supports;

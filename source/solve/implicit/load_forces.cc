@@ -15,7 +15,7 @@ LoadForces::LoadForces(const Scene &scene, const Discretization &discretization,
   if (std::any_of(scene.bodies().begin(), scene.bodies().end(),
                   [](const Body &body) { return !body.loads.empty(); })) {
     check_surface_couplings(scene, discretization);
-    loads_ = std::make_unique<ExternalLoads>(scene, nodes, masses(nodes));
+    loads_ = std::make_unique<Loads>(scene, nodes, masses(nodes));
   }
 }
 
@@ -33,11 +33,13 @@ double LoadForces::subtract(const double t, const Vector &displacements, const V
                             Vector &residual) {
   if (loads_ == nullptr)
     return 0.;
+  loads_->time = t;
   displaced_ = nodal(displacements);
   rates_ = nodal(velocities);
-  loads_->follow(displaced_);
+  loads_->all.follow(displaced_);
   NodalVectors forces = nodes_.make_vectors();
-  fail_together(discretization_.communicator(), [&] { loads_->add_forces(t, displaced_, rates_, forces); });
+  fail_together(discretization_.communicator(),
+                [&] { loads_->all.add_forces(t, displaced_, rates_, forces); });
   Vector sum = discretization_.make_additive_vector();
   for (unsigned int node = 0; node < nodes_.size(); ++node)
     sum.add(3, nodes_.dofs(node).data(), &forces[std::size_t{nodal_stride} * node]);
@@ -49,7 +51,15 @@ double LoadForces::subtract(const double t, const Vector &displacements, const V
 
 void LoadForces::add_tangent(const double t, const double damping_factor, const TangentSystem &system) const {
   if (loads_ != nullptr)
-    loads_->add_tangent(t, displaced_, rates_, damping_factor, system);
+    loads_->all.add_tangent(t, displaced_, rates_, damping_factor, system);
+}
+
+void LoadForces::start() {
+  forces_n_ = forces_;
+  if (displaced_.empty())
+    return;
+  NodalVectors sum = nodes_.make_vectors();
+  loads_->works.evaluate(loads_->time, displaced_, rates_, sum);
 }
 
 double LoadForces::commit(const Vector &increment) {
@@ -57,16 +67,31 @@ double LoadForces::commit(const Vector &increment) {
     return 0.;
   forces_n_ += forces_;
   const double work = 0.5 * (forces_n_ * increment);
-  forces_n_ = forces_;
+  const NodalVectors moved = nodal(increment);
+  loads_->works.add_works(moved, 0.5);
+  start();
+  loads_->works.add_works(moved, 0.5);
   return work;
+}
+
+std::vector<LoadResult> LoadForces::results() const {
+  return loads_ != nullptr ? loads_->works.results() : std::vector<LoadResult>();
 }
 
 void LoadForces::save(StateWriter &writer, const OwnedNodes &nodes) const {
   save_nodal(writer, "load forces", nodes, forces_n_);
+  if (loads_ == nullptr)
+    return;
+  loads_->works.save(writer);
+  loads_->works.save_forces(writer, nodes);
 }
 
 void LoadForces::load(const StateReader &reader, const OwnedNodes &nodes) {
   load_nodal(reader, "load forces", nodes, forces_n_);
+  if (loads_ == nullptr)
+    return;
+  loads_->works.load(reader);
+  loads_->works.load_forces(reader, nodes);
 }
 
 } // namespace billet

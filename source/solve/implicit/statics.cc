@@ -41,10 +41,12 @@ void Statics::add_tangent(const double t, const TangentSystem &system) const {
   loads_.add_tangent(t, length_ > 0. ? 1. / length_ : 0., system);
 }
 
-void Statics::commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
-                     const double touching, EnergyLedger &energies) {
+std::vector<LoadResult> Statics::commit(const Vector &displacements, const Vector &increment,
+                                        const Vector &mean_forces, const double touching,
+                                        EnergyLedger &energies) {
   ImplicitScheme::commit(displacements, increment, mean_forces, touching, energies);
   energies.external += loads_.commit(increment);
+  return loads_.results();
 }
 
 void Statics::save(StateWriter &writer, const OwnedNodes &nodes) const { loads_.save(writer, nodes); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/step_diagnosis.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/diagnostic_kinds.h"
 
 #include <array>
@@ -77,7 +78,7 @@ Explanation StepDiagnosis::describe_residual() {
           mine = {square, position[0], position[1], position[2], static_cast<double>(body)};
       }
   std::array<double, 5> worst{};
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
+  for (const auto &of_rank : all_gather(communicator, mine))
     if (of_rank[0] > worst[0])
       worst = of_rank;
   if (!(worst[0] > 0.))

@@ -89,6 +89,8 @@ public:
 private:
   /// Computes forces and bounds on the step at t_n. Throws any failure on all ranks.
   void compute_forces();
+  /// Adds the works in a half step of length `half` at these velocities.
+  void add_works(const NodalVectors &velocities, double half);
   /// Raises penalties now and then, with the present forces. Collective.
   void raise_penalties();
   void load_contacts(StateReader &reader, const NodeKeys &keys);

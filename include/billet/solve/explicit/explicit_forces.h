@@ -6,6 +6,7 @@
 #include "billet/solve/explicit/explicit_motion.h"
 #include "billet/solve/explicit/explicit_tools.h"
 #include "billet/solve/explicit/stable_step.h"
+#include "billet/solve/load_works.h"
 
 #include <exception>
 #include <string>
@@ -32,6 +33,9 @@ public:
   NodalVectors &values() { return forces_; }
   /// Returns the part of F_n by loads and removed tools on this rank. It is zero except at loaded_nodes().
   const NodalVectors &external() const { return external_; }
+  /// Returns forces and works of each load.
+  LoadWorks &of_loads() { return of_loads_; }
+  const LoadWorks &of_loads() const { return of_loads_; }
   const std::vector<unsigned int> &loaded_nodes() const { return loaded_nodes_; }
   /// Returns the nodes of this rank that come through surfaces at t_n.
   const Crossings &crossings() const { return crossings_; }
@@ -48,6 +52,7 @@ private:
 
   const LocalNodes &nodes_;
   ExternalLoads loads_;
+  LoadWorks of_loads_;
   double bound_factor_; ///< of contacts
   NodalVectors forces_, external_;
   NodalVectors bounds_; ///< of stiffness and damping beside the elements' own; zero except at bounded_nodes_

@@ -86,8 +86,8 @@ public:
   double remove_tool(const std::size_t tool) override { return tools_.remove(tool); }
 
   /// Makes the state of the last add_loads() the start of the next step.
-  void commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
-              double touching, EnergyLedger &energies) override;
+  std::vector<LoadResult> commit(const Vector &displacements, const Vector &increment,
+                                 const Vector &mean_forces, double touching, EnergyLedger &energies) override;
   void update_state(SolutionState &state) const override;
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const override;

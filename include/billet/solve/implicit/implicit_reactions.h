@@ -18,6 +18,8 @@ public:
   /// Computes the reactions of supports from the last residual, before anything is committed; contact comes
   /// by set_pair(). Collective.
   void start();
+  /// Sets force and work of each load; none: the scene has no loads.
+  void set_loads(const std::vector<LoadResult> &of_loads) { values_.of_loads = of_loads; }
   /// Sets the load and the penetration of a pair with a tool, whose placement is that at the end of the step.
   void set_pair(std::size_t pair, const ContactLoad &load, const FacetPenetration &between_nodes,
                 const Placement &placement);

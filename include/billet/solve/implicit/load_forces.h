@@ -4,6 +4,7 @@
 
 #include "billet/forces/external_loads.h"
 #include "billet/forces/inertia.h"
+#include "billet/solve/load_works.h"
 #include "billet/solve/restart.h"
 
 #include <functional>
@@ -27,21 +28,32 @@ public:
   /// Returns the forces at the start of the step.
   const Vector &at_start() const { return forces_n_; }
   /// Makes the forces of the last subtract() those at the start of the step.
-  void start() { forces_n_ = forces_; }
+  void start();
   /// Does the same after a step. Returns the work of the forces, by the trapezoidal rule.
   double commit(const Vector &increment);
+
+  /// Returns force and work of each load at the start of the step. Collective.
+  std::vector<LoadResult> results() const;
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const;
   void load(const StateReader &reader, const OwnedNodes &nodes);
 
 private:
+  struct Loads {
+    Loads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses)
+        : all(scene, nodes, std::move(masses)), works(scene, nodes, all) {}
+
+    ExternalLoads all;
+    LoadWorks works;
+    double time = 0.; ///< of the last subtract()
+  };
   NodalVectors nodal(const Vector &field) const;
 
   const Discretization &discretization_;
   const LocalNodes &nodes_;
-  std::unique_ptr<ExternalLoads> loads_; ///< null without loads
-  Vector forces_n_, forces_;             ///< F
-  NodalVectors displaced_, rates_;       ///< at the last subtract()
+  std::unique_ptr<Loads> loads_;   ///< null without loads
+  Vector forces_n_, forces_;       ///< F
+  NodalVectors displaced_, rates_; ///< at the last subtract()
 };
 
 } // namespace billet

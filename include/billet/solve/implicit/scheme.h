@@ -77,10 +77,12 @@ public:
   virtual double remove_tool(std::size_t /*tool*/) { return 0.; }
 
   /// Accepts the step, with its increment and mean forces, and records their works. `touching` is the work of
-  /// springs in contact, see StepWorks.
-  virtual void commit(const Vector & /*displacements*/, const Vector &increment, const Vector &mean_forces,
-                      const double touching, EnergyLedger &energies) {
+  /// springs in contact, see StepWorks. Returns force and work of each load. Collective.
+  virtual std::vector<LoadResult> commit(const Vector & /*displacements*/, const Vector &increment,
+                                         const Vector &mean_forces, const double touching,
+                                         EnergyLedger &energies) {
     energies.external += mean_forces * increment + touching;
+    return {};
   }
   /// Sets velocities, kinetic energy and momenta.
   virtual void update_state(SolutionState &) const {}

@@ -21,8 +21,8 @@ public:
   void add_tangent(double t, const TangentSystem &system) const override;
   /// Makes the loads of the last add_loads() those at the start of the step.
   void start_loads() override { loads_.start(); }
-  void commit(const Vector &displacements, const Vector &increment, const Vector &mean_forces,
-              double touching, EnergyLedger &energies) override;
+  std::vector<LoadResult> commit(const Vector &displacements, const Vector &increment,
+                                 const Vector &mean_forces, double touching, EnergyLedger &energies) override;
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const override;
   void load(const StateReader &reader, const OwnedNodes &nodes) override;
