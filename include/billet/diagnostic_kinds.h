@@ -189,6 +189,13 @@ inline const DiagnosticKind
                           "If the damped motion matters, reduce 'Error tolerance' or 'Maximum step'; 'Method "
                           "= Newmark' dissipates nothing");
 
+inline const DiagnosticKind bulk_viscosity(
+    "bulk-viscosity", Severity::note,
+    "The bulk viscosity of explicit dynamics dissipates more than 5 % of the maximum energy. It "
+    "spreads shocks, and damps waves that few elements resolve.",
+    "If bodies should rebound, or waves go on, use smaller elements, or reduce 'Linear bulk "
+    "viscosity'; the energies show whether that makes them ring");
+
 inline const DiagnosticKind
     lumped_inertia("lumped-inertia", Severity::warning,
                    "Lumped masses have at least 1.6 times the kinetic energy of the bricks, in the motion of "
