@@ -241,6 +241,13 @@ inline const DiagnosticKind numerical_dissipation(
     "= Newmark' with 'Gamma = 0.5' adds no damping, but contact that opens or closes within a step "
     "dissipates with every method");
 
+inline const DiagnosticKind bulk_viscosity(
+    "bulk-viscosity", Severity::note,
+    "The bulk viscosity of explicit dynamics dissipates more than 5 % of the maximum energy. It "
+    "spreads shocks, and damps waves that few elements resolve.",
+    "If bodies should rebound, or waves go on, use smaller elements, or reduce 'Linear bulk "
+    "viscosity'; the energies show whether that makes them ring");
+
 inline const DiagnosticKind
     lumped_inertia("lumped-inertia", Severity::warning,
                    "Lumped masses have at least 1.6 times the kinetic energy of the bricks, in the motion of "

@@ -4,6 +4,8 @@
 #include "billet/algebra/gather.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/disjoint_sets.h"
+#include "billet/errors.h"
+#include "billet/scene/smooth_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +87,7 @@ double unit_volume(const std::array<Tensor<1, 3>, 3> &edges) {
 /// Measures the elements of a body, over all ranks.
 void measure_elements(const Discretization &discretization, const std::size_t body, BodyReport &report) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> sums(4, 0.); // elements, volume, edges, nodes
+  std::vector<double> sums(5, 0.); // elements, volume, edges, nodes, number of edges
   std::vector<double> minima(8,
                              infinity); // low corner, minus the high one, least edge, minus the largest one
   std::array<double, 4> worst{infinity, 0., 0., 0.};
@@ -97,7 +99,10 @@ void measure_elements(const Discretization &discretization, const std::size_t bo
     for (unsigned int i = 0; i < 3; ++i)
       for_each_edge(i, [&](const unsigned int a, const unsigned int b) {
         const double length = cell->vertex(a).distance(cell->vertex(b));
+        if (!(length > 0.)) // of a prism on the axis
+          return;
         sums[2] += length;
+        sums[4] += 1.;
         minima[6] = std::min(minima[6], length);
         minima[7] = std::min(minima[7], -length);
       });
@@ -122,7 +127,7 @@ void measure_elements(const Discretization &discretization, const std::size_t bo
     worst = std::min(worst, of_rank);
   report.n_elements = static_cast<std::size_t>(sums[0]);
   report.volume = sums[1];
-  report.mean_edge = sums[2] / (12. * sums[0]);
+  report.mean_edge = sums[2] / sums[4];
   report.n_nodes = static_cast<std::size_t>(sums[3]);
   for (unsigned int i = 0; i < 3; ++i) {
     report.low[i] = minima[i];
@@ -193,6 +198,8 @@ double scaled_jacobian(const CellIterator &cell) {
     for (unsigned int i = 0; i < 3; ++i) {
       const unsigned int bit = 1U << i;
       edges[i] = cell->vertex(v | bit) - cell->vertex(v & ~bit);
+      if (!(edges[i].norm() > 0.)) // of a prism on the axis
+        edges[i] = axes[i];
     }
     least = std::min(least, unit_volume(edges));
   }
@@ -203,7 +210,8 @@ double least_edge(const CellIterator &cell) {
   double least = std::numeric_limits<double>::infinity();
   for (unsigned int i = 0; i < 3; ++i)
     for_each_edge(i, [&](const unsigned int a, const unsigned int b) {
-      least = std::min(least, cell->vertex(a).distance(cell->vertex(b)));
+      const double length = cell->vertex(a).distance(cell->vertex(b));
+      least = length > 0. ? std::min(least, length) : least;
     });
   return least;
 }
@@ -216,6 +224,10 @@ std::vector<BodyReport> report_bodies(const Scene &scene, const Discretization &
     report.name = body.name;
     measure_elements(discretization, b, report);
     report.mass = body.density * report.volume;
+    fail_together(discretization.communicator(),
+                  [&] { report.smooth_volume = find_smooth_volume(scene.parameters().bodies[b]); });
+    if (scene.whole_section().kind == WholeSection::Kind::full_circle)
+      report.circle_factor = scene.whole_section().factor;
     report.n_parts = count_parts(discretization, b);
     for (const unsigned int id : find_boundary_ids(discretization, b)) {
       report.boundaries.push_back(measure_boundary(discretization, b, id));

@@ -46,13 +46,14 @@ DiagnosticList check_start(const Scene &scene, MPI_Comm communicator, SceneRepor
   if (scene.parameters().is_explicit()) {
     ExplicitDynamics problem(scene, discretization);
     append(messages, problem.initial_diagnostics());
-    report.run = forecast_run(scene, problem);
+    report.pairs = report_pairs(scene, discretization, report.bodies);
+    report.run = forecast_run(scene, problem, report);
   } else {
     const ImplicitSolution problem(scene, discretization);
     append(messages, problem.initial_diagnostics());
     report.run = forecast_run(scene, problem);
+    report.pairs = report_pairs(scene, discretization, report.bodies);
   }
-  report.pairs = report_pairs(scene, discretization, report.bodies);
   append(messages, check_meshes(scene, discretization));
   return messages;
 }

@@ -50,7 +50,8 @@ DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunRevi
 } // namespace
 
 ExplicitRun::ExplicitRun(const Scene &scene, const MPI_Comm communicator, Resumption *resumption)
-    : Run(scene, communicator), problem_(scene, discretization_), stops_(scene), history_times_(parameters_) {
+    : Run(scene, communicator), problem_(scene, discretization_), stops_(scene),
+      history_times_(stops_.end(), parameters_.output.history_interval), watch_times_(stops_.end(), 0.) {
   if (parameters_.target_error > 0.)
     errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
   if (resumption != nullptr)
@@ -69,6 +70,8 @@ void ExplicitRun::load(Resumption &resumption) {
     // If the interval has changed, the next row is due at once.
     if (reader.number("interval") == history_times_.interval())
       history_times_.begin_after(reader.number("last"));
+    if (reader.number("interval of checks") == watch_times_.interval())
+      watch_times_.begin_after(reader.number("last check"));
     balanced_step_ = reader.count("balanced step");
     review_.load(reader);
     mesh_errors_.load(reader);
@@ -84,6 +87,8 @@ void ExplicitRun::save_method(StateWriter &writer) const {
   writer.in("rows", [&] {
     writer.write("interval", {history_times_.interval()});
     writer.write("last", {history_times_.last()});
+    writer.write("interval of checks", {watch_times_.interval()});
+    writer.write("last check", {watch_times_.last()});
     writer.write("balanced step", {static_cast<double>(balanced_step_)});
     review_.save(writer);
     mesh_errors_.save(writer);
@@ -125,13 +130,17 @@ bool ExplicitRun::step(RunOutput &output) {
 void ExplicitRun::after_step(RunOutput &output) {
   if (problem_.n_steps() == 0)
     show_number_of_steps(output);
-  const bool is_row_due = history_times_.is_due(problem_.time()) || problem_.n_steps() == 0;
+  const bool is_start = problem_.n_steps() == 0;
+  const bool is_row_due = history_times_.is_due(problem_.time()) || is_start;
+  const bool is_watch_due = watch_times_.is_due(problem_.time()) || is_start;
   const bool is_check_due = problem_.n_steps() % steps_between_checks == 0;
   if (is_row_due)
     write_row(output);
-  else if (is_check_due)
+  if (is_watch_due)
+    watch(output);
+  if (!is_row_due && !is_watch_due && is_check_due)
     problem_.update_ledger();
-  if (is_row_due || is_check_due) {
+  if (is_row_due || is_watch_due || is_check_due) {
     output.report(problem_.check_steps());
     check_stability(output);
     check_drift(output);
@@ -162,6 +171,10 @@ void ExplicitRun::write_row(RunOutput &output) {
   });
   output.progress().set_probes(probes);
   output.progress().show(problem_.n_steps(), problem_.step_length(), problem_);
+}
+
+void ExplicitRun::watch(RunOutput &output) {
+  problem_.update_state();
   output.report(
       check_force_balance(problem_.reactions().balance, problem_.time(),
                           parameters_.explicit_dynamics.number_type == NumberType::float_precision));

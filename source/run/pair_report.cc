@@ -9,6 +9,7 @@
 #include "billet/geometry/facet_tree.h"
 #include "billet/geometry/rigid_surface.h"
 #include "billet/run/approach.h"
+#include "billet/run/body_course.h"
 
 #include <algorithm>
 #include <array>
@@ -22,92 +23,6 @@ namespace billet {
 using dealii::Tensor;
 
 namespace {
-
-/// Translation of a body by its supports and its initial velocity.
-class BodyCourse {
-public:
-  BodyCourse(const Scene &scene, const std::size_t body, const BodyReport &extent) {
-    constexpr double rounding = 1e-12;
-    const Body &of_scene = scene.bodies()[body];
-    for (const Hold &hold : of_scene.holds) {
-      const bool is_known = hold.value == nullptr || hold.value->is_uniform();
-      is_rigid_ = is_rigid_ && is_known;
-      bool has_axis = false;
-      for (unsigned int i = 0; i < 3 && !hold.axes; ++i)
-        if (std::abs(hold.normal[i]) > 1. - rounding) {
-          values_[i].push_back({is_known ? hold.value : nullptr, hold.normal[i]});
-          has_axis = true;
-        }
-      if (hold.value != nullptr && !has_axis)
-        is_rigid_ = false;
-    }
-    if (scene.parameters().is_dynamic())
-      set_velocity(of_scene, extent);
-    constexpr unsigned int n_samples = 20;
-    for (unsigned int k = 0; k <= n_samples && is_rigid_; ++k)
-      for (unsigned int i = 0; i < 3; ++i)
-        try {
-          is_rigid_ =
-              is_rigid_ && have_one_value(i, scene.parameters().time_stepping.end_time * k / n_samples);
-        } catch (const SolutionFailure &) { // the run will report it
-          is_rigid_ = false;
-        }
-  }
-
-  /// Returns the displacement. Where supports deform the body, it counts as 0. Throws SolutionFailure if a
-  /// value is undefined.
-  Tensor<1, 3> displacement(const double t) const {
-    Tensor<1, 3> sum;
-    for (unsigned int i = 0; i < 3; ++i)
-      if (values_[i].empty())
-        sum[i] = velocity_[i] * t;
-      else if (have_one_value(i, t))
-        sum[i] = value(values_[i].front(), t);
-    return sum;
-  }
-  /// Whether supports and velocities move the body without deformation, as far as known.
-  bool is_rigid() const { return is_rigid_; }
-
-private:
-  struct Value {
-    const Expression *expression; ///< null: 0
-    double sign;
-  };
-
-  static double value(const Value &of, const double t) {
-    return of.expression != nullptr ? of.sign * of.expression->value(t) : 0.;
-  }
-
-  bool have_one_value(const unsigned int component, const double t) const {
-    constexpr double rounding = 1e-9;
-    for (const Value &other : values_[component]) {
-      const double first = value(values_[component].front(), t);
-      if (std::abs(value(other, t) - first) > rounding * std::abs(first))
-        return false;
-    }
-    return true;
-  }
-
-  void set_velocity(const Body &body, const BodyReport &extent) {
-    constexpr double rounding = 1e-9;
-    const auto at = [&body](const unsigned int i, const Tensor<1, 3> &x) {
-      return body.initial_velocity[i].value(0., dealii::Point<3>(x));
-    };
-    for (unsigned int i = 0; i < 3; ++i)
-      try {
-        const double velocity = at(i, 0.5 * (extent.low + extent.high));
-        for (const Tensor<1, 3> &corner : {extent.low, extent.high})
-          is_rigid_ = is_rigid_ && std::abs(at(i, corner) - velocity) <= rounding * std::abs(velocity);
-        velocity_[i] = velocity;
-      } catch (const SolutionFailure &) { // these points may lie outside the body
-        is_rigid_ = false;
-      }
-  }
-
-  std::array<std::vector<Value>, 3> values_; ///< of the supports, by component
-  Tensor<1, 3> velocity_;
-  bool is_rigid_ = true;
-};
 
 /// One surface of a pair, undeformed, from all ranks.
 struct PairSurface {
@@ -255,10 +170,8 @@ class PairReporter {
 public:
   PairReporter(const Scene &scene, const Discretization &discretization,
                const std::vector<BodyReport> &bodies)
-      : scene_(scene), discretization_(discretization), keys_(discretization) {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      courses_.emplace_back(scene, b, bodies[b]);
-  }
+      : scene_(scene), discretization_(discretization), keys_(discretization),
+        courses_(find_courses(scene, bodies)) {}
 
   PairReport report(const ContactPair &pair) const {
     const Tool &tool = scene_.tools()[pair.tool];
@@ -341,7 +254,7 @@ private:
   const Scene &scene_;
   const Discretization &discretization_;
   const NodeKeys keys_;
-  std::vector<BodyCourse> courses_;
+  const std::vector<BodyCourse> courses_;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "billet/algebra/gather.h"
 #include "billet/errors.h"
+#include "billet/run/body_course.h"
 #include "billet/run/body_report.h"
 
 #include <algorithm>
@@ -56,9 +57,37 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
   return report;
 }
 
+/// Counts the steps. Where a pair meets, nodes that are near limit them from then on.
+double count_steps(const Scene &scene, ExplicitDynamics &problem, const SceneReport &of_scene,
+                   StableStepReport &stable) {
+  const double end = scene.parameters().time_stepping.end_time;
+  std::vector<double> times;
+  for (const PairReport &pair : of_scene.pairs)
+    if (pair.meeting)
+      times.push_back(pair.meeting->time);
+  std::sort(times.begin(), times.end());
+  const std::vector<BodyCourse> courses = find_courses(scene, of_scene.bodies);
+  stable.shortest = stable.step;
+  constexpr double shorter = 0.99; // of a step: less does not count
+  double n = 0., before = 0.;
+  for (const double t : times) {
+    std::vector<dealii::Tensor<1, 3>> translations;
+    for (const BodyCourse &course : courses)
+      translations.push_back(course.displacement(t));
+    const double step = problem.usual_step_at(t, translations);
+    if (!(step < shorter * stable.shortest))
+      continue;
+    n += (t - before) / stable.shortest;
+    before = t;
+    stable.shortest = step;
+    stable.shortest_from = t;
+  }
+  return count_steps(end, end / (n + (end - before) / stable.shortest));
+}
+
 } // namespace
 
-RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem) {
+RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const SceneReport &of_scene) {
   const Discretization &discretization = problem.discretization();
   const double end = scene.parameters().time_stepping.end_time;
   RunReport report;
@@ -69,7 +98,7 @@ RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem) {
     StableStepReport stable = find_limiting_element(scene, problem);
     problem.prepare_step(end);
     stable.step = problem.usual_step();
-    report.n_steps = count_steps(end, stable.step);
+    report.n_steps = count_steps(scene, problem, of_scene, stable);
     report.stable_step = stable;
   } catch (const SolutionFailure &) { // on all ranks
     report.is_minimum = true;

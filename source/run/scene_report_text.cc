@@ -69,8 +69,18 @@ void print(const BodyReport &body, std::ostream &stream) {
     stream << (i > 0 ? ", " : "") << "xyz"[i] << " " << number(body.low[i], size) << " to "
            << number(body.high[i], size);
   stream << "; volume " << number(body.volume)
-         << (body.mass > 0. ? ", mass " + number(body.mass) : ", no mass without 'Density'") << "\n"
-         << label("") << count(body.n_elements, "element") << ", " << count(body.n_nodes, "node") << ", "
+         << (body.mass > 0. ? ", mass " + number(body.mass) : ", no mass without 'Density'") << "\n";
+  if (body.circle_factor > 1.)
+    stream << label("") << "the full circle has " << number(body.circle_factor) << " times that: volume "
+           << number(body.circle_factor * body.volume)
+           << (body.mass > 0. ? ", mass " + number(body.circle_factor * body.mass) : "") << "\n";
+  constexpr double much = 5e-3; // of the volume
+  if (const double lacks = body.smooth_volume ? 1. - body.volume / *body.smooth_volume : 0.;
+      std::abs(lacks) > much)
+    stream << label("") << "its facets make it " << std::round(1e3 * std::abs(lacks)) / 10. << " % too "
+           << (lacks > 0. ? "small" : "large") << ": the smooth shape has volume "
+           << number(*body.smooth_volume) << "\n";
+  stream << label("") << count(body.n_elements, "element") << ", " << count(body.n_nodes, "node") << ", "
          << count(body.n_parts, "part") << "; edges " << number(body.least_edge) << " to "
          << number(body.largest_edge) << ", mean " << number(body.mean_edge) << "; least scaled Jacobian "
          << number(body.least_quality, 1.) << ", at " << vector(body.worst_element, size) << "\n";
@@ -120,7 +130,10 @@ void print(const RunReport &run, const double size, std::ostream &stream) {
   const StableStepReport &stable = *run.stable_step;
   stream << label("Stable step") << number(stable.of_elements) << " of the elements, set by that of '"
          << stable.body << "' at " << vector(stable.element, size) << " with its least edge "
-         << number(stable.least_edge) << "; first steps " << number(stable.step) << "\n";
+         << number(stable.least_edge) << "; first steps " << number(stable.step);
+  if (stable.shortest < stable.step)
+    stream << ", by contact " << number(stable.shortest) << " from time " << number(stable.shortest_from);
+  stream << "\n";
 }
 
 Json to_json(const Tensor<1, 3> &x) { return Json::array({x[0], x[1], x[2]}); }
@@ -143,6 +156,8 @@ Json to_json(const BodyReport &body) {
           {"high", to_json(body.high)},
           {"volume", body.volume},
           {"mass", body.mass},
+          {"smooth volume", body.smooth_volume ? Json(*body.smooth_volume) : Json()},
+          {"full circle factor", body.circle_factor},
           {"least edge", body.least_edge},
           {"mean edge", body.mean_edge},
           {"largest edge", body.largest_edge},
@@ -184,7 +199,9 @@ Json to_json(const RunReport &run) {
                              {"body", run.stable_step->body},
                              {"element", to_json(run.stable_step->element)},
                              {"least edge", run.stable_step->least_edge},
-                             {"first steps", run.stable_step->step}};
+                             {"first steps", run.stable_step->step},
+                             {"shortest steps", run.stable_step->shortest},
+                             {"shortest steps from", run.stable_step->shortest_from}};
   return object;
 }
 

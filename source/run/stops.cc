@@ -22,11 +22,7 @@ double Stops::next(const double time) const {
   return *std::upper_bound(stops_.begin(), stops_.end() - 1, time);
 }
 
-HistoryTimes::HistoryTimes(const parameters::Scene &parameters)
-    : end_(parameters.time_stepping.end_time),
-      interval_(parameters.output.history_interval > 0. ? parameters.output.history_interval : end_ / 200.) {}
-
-bool HistoryTimes::is_due(const double time) {
+bool RegularTimes::is_due(const double time) {
   constexpr double rounding = 1e-9; // relative to the interval
   const double n = std::floor(time / interval_ + rounding);
   const bool is_due = n > last_ || time >= end_;

@@ -316,6 +316,24 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
   rename_boundaries(parameters, mesh);
 }
 
+namespace {
+
+template <int dim> bool has_curves_in(const parameters::Mesh &parameters) {
+  Triangulation<dim> mesh;
+  generate_primitive(parameters, mesh);
+  const auto ids = mesh.get_manifold_ids();
+  return std::any_of(ids.begin(), ids.end(),
+                     [](const auto id) { return id != dealii::numbers::flat_manifold_id; });
+}
+
+} // namespace
+
+bool has_curves(const parameters::Mesh &parameters) {
+  const bool is_section = parameters.source == parameters::Mesh::Source::extruded ||
+                          parameters.section.value != parameters::Mesh::Section::solid;
+  return is_section ? has_curves_in<2>(parameters) : has_curves_in<3>(parameters);
+}
+
 std::size_t count_full_elements(const parameters::Mesh &parameters, const Triangulation<3> &outline) {
   const bool is_extruded = parameters.source == parameters::Mesh::Source::extruded ||
                            parameters.section.value != parameters::Mesh::Section::solid;

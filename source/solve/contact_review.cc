@@ -28,6 +28,9 @@ struct SpreadLimits {
   static constexpr double enough = 5.;
   /// Indentation, as part of the deformation, below which the number of nodes does not matter.
   static constexpr double counts = 0.05;
+  /// Force over its maximum so far, below which that maximum is past, and the part of all energy that the
+  /// deformation at the maximum has at least. Lesser maxima are those of waves before the impact's own.
+  static constexpr double past = 0.5, of_all_energy = 0.1;
   /// Part of the force on curves with coarse facets above which they are reported.
   static constexpr double much = 0.5;
 };
@@ -129,9 +132,12 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
     const double pressure = force / area;
     own[0] += images * force;
     own[1] += images * force * force;
-    own[2] += 1.;
-    own[3] += pressure;
-    own[4] += pressure * pressure;
+    // On the axis of a wedge two nodes are at one place.
+    const double counts =
+        scene_.whole_section().kind == WholeSection::Kind::full_circle && on_it > 2. ? 0.5 : 1.;
+    own[2] += counts;
+    own[3] += counts * pressure;
+    own[4] += counts * pressure * pressure;
     if (node.facet_size * node.curvature > coarse)
       own[5] += images * force;
     own[6] += 0.5 * on_it * force * force / (young_modulus * node.facet_size);
@@ -148,10 +154,11 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
           own[6]};
 }
 
-void ContactReview::add(const Solution &solution) {
+DiagnosticList ContactReview::add(const Solution &solution) {
   constexpr double grown = 1.02; // of the force: then the nodes are evaluated again
+  DiagnosticList diagnostics;
   if (pairs_.empty())
-    return;
+    return diagnostics;
   const SolutionState &state = solution.state();
   for (std::size_t i = 0; i < tool_forces_.size(); ++i)
     tool_forces_[i] = std::max(tool_forces_[i], state.tool_loads[i].force.norm());
@@ -170,6 +177,12 @@ void ContactReview::add(const Solution &solution) {
     const double of_all = p < n_with_tools ? 0. : state.body_pair_loads[p - n_with_tools].force.norm();
     pair.has_touched = pair.has_touched || force > 0. || of_all > 0.;
     pair.max_of_edges = std::max(pair.max_of_edges, of_all - force);
+    if (force < SpreadLimits::past * pair.max_force &&
+        pair.spread.deformation > SpreadLimits::of_all_energy * state.energies.total()) {
+      const DiagnosticList few = judge_spread(pair);
+      pair.is_spread_reported = pair.is_spread_reported || !few.empty();
+      append(diagnostics, few);
+    }
     if (!(force > grown * pair.max_force))
       continue;
     pair.max_force = force;
@@ -191,6 +204,7 @@ void ContactReview::add(const Solution &solution) {
     if (std::isfinite(penetration + deformation + all))
       softness_[i].add(state.time, penetration, deformation, all);
   }
+  return diagnostics;
 }
 
 double ContactReview::penalty_error() const {
@@ -232,6 +246,19 @@ void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
   }
 }
 
+DiagnosticList ContactReview::judge_spread(const Pair &pair) {
+  if (pair.is_spread_reported || !pair.spread.has_few_nodes())
+    return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << "At the maximum of the force, it acts on the equivalent of " << pair.spread.effective_nodes()
+       << " nodes, including mirror images";
+  return {Diagnostic(diagnostic::few_contact_nodes, text.str())
+              .pair(pair.name)
+              .time(pair.time)
+              .value("nodes", pair.spread.effective_nodes())};
+}
+
 void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
   for (std::size_t t = 0; t < scene_.tools().size(); ++t) {
     const auto is_of_tool = [t](const Pair &pair) { return pair.tool == t; };
@@ -265,16 +292,7 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
           Diagnostic(diagnostic::pair_never_touched, "The pair has no contact in the whole run")
               .pair(pair.name));
     const ForceSpread &spread = pair.spread;
-    if (spread.has_few_nodes()) {
-      std::ostringstream text;
-      text.precision(2);
-      text << "At the maximum of the force, it acts on the equivalent of " << spread.effective_nodes()
-           << " nodes, including mirror images";
-      diagnostics.push_back(Diagnostic(diagnostic::few_contact_nodes, text.str())
-                                .pair(pair.name)
-                                .time(pair.time)
-                                .value("nodes", spread.effective_nodes()));
-    }
+    append(diagnostics, judge_spread(pair));
     if (pair.max_of_edges > pair.max_force) {
       std::ostringstream text;
       text.precision(3);
@@ -340,16 +358,17 @@ void ContactReview::save(StateWriter &writer) const {
   for (const auto &softness : softness_)
     softness.save(numbers);
   for (const Pair &pair : pairs_)
-    numbers.insert(numbers.end(), {pair.has_touched ? 1. : 0., pair.max_force, pair.time, pair.spread.force,
-                                   pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
-                                   pair.spread.pressure_squares, pair.spread.on_coarse_curves,
-                                   pair.spread.coarsest, pair.spread.indentation, pair.spread.deformation,
-                                   pair.max_friction.friction, pair.max_friction.lost, pair.max_of_edges});
+    numbers.insert(numbers.end(),
+                   {pair.has_touched ? 1. : 0., pair.max_force, pair.time, pair.spread.force,
+                    pair.spread.squares, pair.spread.nodes, pair.spread.pressures,
+                    pair.spread.pressure_squares, pair.spread.on_coarse_curves, pair.spread.coarsest,
+                    pair.spread.indentation, pair.spread.deformation, pair.max_friction.friction,
+                    pair.max_friction.lost, pair.max_of_edges, pair.is_spread_reported ? 1. : 0.});
   writer.write("contact review", numbers);
 }
 
 void ContactReview::load(const StateReader &reader) {
-  constexpr std::size_t of_pair = 15;
+  constexpr std::size_t of_pair = 16;
   const std::vector<double> numbers = reader.read("contact review");
   if (numbers.size() !=
       tool_forces_.size() + PathSoftness::n_numbers * softness_.size() + of_pair * pairs_.size())
@@ -369,6 +388,7 @@ void ContactReview::load(const StateReader &reader) {
     pair.max_friction.friction = next[12];
     pair.max_friction.lost = next[13];
     pair.max_of_edges = next[14];
+    pair.is_spread_reported = next[15] > 0.;
     next += of_pair;
   }
 }

@@ -24,14 +24,16 @@ DiagnosticList RunReview::start() const {
 }
 
 DiagnosticList RunReview::after_step(const Solution &solution, const bool is_last) {
-  contacts_.add(solution);
+  DiagnosticList diagnostics = contacts_.add(solution);
   inertia_.add(solution.state());
   const EnergyLedger &energies = solution.state().energies;
   max_kinetic_ = std::max(max_kinetic_, energies.kinetic);
   max_internal_ = std::max(max_internal_, energies.of_elements());
   max_energy_ = std::max(max_energy_, energies.total());
   numerical_ = energies.numerical;
-  DiagnosticList diagnostics = elements_.watch(solution.state(), is_last);
+  if (scene_.parameters().is_explicit()) // elsewhere it is the work of stabilisation
+    viscous_ = energies.viscous;
+  append(diagnostics, elements_.watch(solution.state(), is_last));
   append(diagnostics, missing_pairs_.check(solution.state()));
   for (Diagnostic &inverted :
        find_inverted_corners(scene_, discretization_, solution.state().displacements, is_last))
@@ -64,6 +66,13 @@ DiagnosticList RunReview::finish() const {
          << " % of the maximum energy";
     diagnostics.push_back(Diagnostic(diagnostic::numerical_dissipation, text.str())
                               .measure("part of the largest energy", size / max_energy_));
+  }
+  if (viscous_ > much * max_energy_) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Bulk viscosity dissipates " << 100. * viscous_ / max_energy_ << " % of the maximum energy";
+    diagnostics.push_back(Diagnostic(diagnostic::bulk_viscosity, text.str())
+                              .measure("part of the largest energy", viscous_ / max_energy_));
   }
   return diagnostics;
 }

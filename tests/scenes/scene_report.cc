@@ -20,7 +20,10 @@ template <class Problem> SceneReport make_report(const Scene &scene, const MPI_C
   report.bodies = report_bodies(scene, discretization);
   report.pairs = report_pairs(scene, discretization, report.bodies);
   Problem problem(scene, discretization);
-  report.run = forecast_run(scene, problem);
+  if constexpr (std::is_same_v<Problem, ExplicitDynamics>)
+    report.run = forecast_run(scene, problem, report);
+  else
+    report.run = forecast_run(scene, problem);
   return report;
 }
 
@@ -117,7 +120,11 @@ void check_run(const RunReport &run, const double safety_factor) {
   check("first steps: within the stable step",
         stable.step > 0.3 * stable.of_elements &&
             stable.step < 1.000001 * safety_factor * stable.of_elements);
-  check("run: number of steps", std::abs(run.n_steps - 1. / stable.step), 1.);
+  check("shortest steps: from where the turning die meets the block",
+        std::abs(stable.shortest_from - std::atan(0.25)), 1e-8);
+  check("shortest steps: by its penalty", stable.shortest < 0.9 * stable.step);
+  const double n_steps = stable.shortest_from / stable.step + (1. - stable.shortest_from) / stable.shortest;
+  check("run: number of steps", std::abs(run.n_steps - n_steps), 1.);
   check("run: memory", run.memory > 1e8 && run.memory < 1e9);
 }
 
@@ -170,6 +177,21 @@ void check_lifted(const MPI_Comm communicator) {
   check("lifted: no stable step", !report.run->stable_step);
 }
 
+/// A ball and a plate as one wedge, with prisms on the axis.
+void check_wedge(const MPI_Comm communicator) {
+  const Scene scene(testing::read_test_scene("wedge_impact.prm"));
+  const SceneReport report = make_report<ExplicitDynamics>(scene, communicator);
+  const BodyReport &ball = report.bodies.at(0), &plate = report.bodies.at(1);
+  const double angle = M_PI / 6., factor = 2. * M_PI / std::sin(angle), sphere = 4000. / 3. * M_PI;
+  check("wedge: full circle", std::abs(plate.circle_factor * plate.volume / (8000. * M_PI) - 1.), tolerance);
+  check("wedge: volume of the smooth ball", std::abs(factor * ball.smooth_volume.value_or(0.) / sphere - 1.),
+        1e-4);
+  check("wedge: the polyhedron is smaller", ball.volume < 0.98 * ball.smooth_volume.value_or(0.));
+  check("wedge: the plate has no curves", !plate.smooth_volume);
+  check("wedge: least edge of prisms", std::abs(plate.least_edge - 4. * std::sin(0.5 * angle)), tolerance);
+  check("wedge: quality of prisms", std::abs(plate.least_quality - std::cos(0.5 * angle)), tolerance);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -184,6 +206,7 @@ int main(int argc, char *argv[]) {
   check_pairs(report.pairs);
   check_run(*report.run, scene.parameters().explicit_dynamics.safety_factor);
   check_lifted(MPI_COMM_WORLD);
+  check_wedge(MPI_COMM_WORLD);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   for (unsigned int n = 1; n <= n_ranks; ++n)
     testing::on_ranks(n, [&](const MPI_Comm some) {

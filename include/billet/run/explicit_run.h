@@ -38,6 +38,8 @@ private:
   template <class Part> void attempt(RunOutput &output, const Part &part);
   void show_number_of_steps(RunOutput &output) const;
   void write_row(RunOutput &output);
+  /// Reports what the state shows of contact, elements and energies.
+  void watch(RunOutput &output);
   void write_fields(RunOutput &output);
   void check_stability(RunOutput &output);
   /// Returns advice on the law if it may cause the energy imbalance; otherwise an empty text.
@@ -49,7 +51,8 @@ private:
 
   ExplicitDynamics problem_;
   const Stops stops_;
-  HistoryTimes history_times_;
+  RegularTimes history_times_;
+  RegularTimes watch_times_;                            ///< the same whatever the history's interval
   std::unique_ptr<EnergyErrors> errors_;                ///< only for scenes that control their errors
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
   Stopwatch stopwatch_;                                 ///< for the steps, without output

@@ -8,9 +8,10 @@
 
 namespace billet {
 
-/// Returns what an explicit run will be like. Computes the forces at the start, so that `problem` is then in
-/// its first step. Without a stable step if that fails, as the run will. Collective.
-RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem);
+/// Returns what an explicit run will be like. Computes the forces at the start, and the steps where the pairs
+/// meet, as far as `report` knows; `problem` cannot continue then. Without a stable step if the start fails,
+/// as the run will. Collective.
+RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const SceneReport &report);
 
 /// Returns what an implicit run will be like. Collective.
 RunReport forecast_run(const Scene &scene, const ImplicitSolution &problem);

@@ -31,10 +31,15 @@ struct BodyReport {
   dealii::Tensor<1, 3> low, high;
   double volume = 0.;
   double mass = 0.; ///< 0 without a density
-  /// Edges of the elements [length]; in the mean, each element counts its twelve.
+  /// Volume without facets, where it is known; see find_smooth_volume().
+  std::optional<double> smooth_volume;
+  /// Volume and mass of the full circle over those of the body, which is a wedge; 1 if it is none.
+  double circle_factor = 1.;
+  /// Edges of the elements [length], without those of no length that prisms on an axis have; in the mean,
+  /// each element counts its own.
   double least_edge = 0., mean_edge = 0., largest_edge = 0.;
   /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three axes
-  /// through the centre. 1 for a box, <= 0 if inverted.
+  /// through the centre. An axis stands for an edge of no length. 1 for a box, <= 0 if inverted.
   double least_quality = 0.;
   dealii::Tensor<1, 3> worst_element;     ///< centre of the element that has it
   std::vector<BoundaryReport> boundaries; ///< by ascending id
@@ -74,6 +79,9 @@ struct StableStepReport {
   dealii::Tensor<1, 3> element; ///< its centre
   double least_edge = 0.;       ///< of this element [length]
   double step = 0.;             ///< with contact, loads and 'Safety factor' [time]
+  /// Where contact makes later steps shorter, as the prescribed motions bring pairs together: the shortest,
+  /// and when they begin.
+  double shortest = 0., shortest_from = 0.;
 };
 
 /// What the run will be like.

@@ -22,13 +22,15 @@ private:
   std::vector<double> stops_; ///< ascending; the last is the end
 };
 
-/// Schedule of the history of an explicit scene: a row at the start, at the end of the first step that
+/// Schedule of what an explicit scene does at intervals: at the start, at the end of the first step that
 /// reaches the next multiple of the interval, and at the end.
-class HistoryTimes {
+class RegularTimes {
 public:
-  explicit HistoryTimes(const parameters::Scene &parameters);
+  /// `interval`: 0 for a two hundredth of the time to the end [time].
+  RegularTimes(const double end, const double interval)
+      : end_(end), interval_(interval > 0. ? interval : end / 200.) {}
 
-  /// Whether a row is due at this time. Call it once for each time.
+  /// Whether something is due at this time. Call it once for each time.
   bool is_due(double time);
 
   double last() const { return last_; } ///< multiple of the interval reached last

@@ -28,6 +28,9 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters);
 /// Builds the mesh of one body. Throws InputError.
 void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh);
 
+/// Whether the primitive of a mesh has curves, which refinement follows. Throws InputError.
+bool has_curves(const parameters::Mesh &parameters);
+
 /// Returns the number of elements of the full mesh, from its outline and the requested refinements.
 std::size_t count_full_elements(const parameters::Mesh &parameters, const dealii::Triangulation<3> &outline);
 

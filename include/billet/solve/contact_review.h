@@ -43,8 +43,9 @@ class ContactReview {
 public:
   ContactReview(const Scene &scene, const Discretization &discretization);
 
-  /// Adds an accepted step; in explicit scenes a step now and then. Collective.
-  void add(const Solution &solution);
+  /// Adds an accepted step; in explicit scenes a step now and then. Returns what it shows of forces that are
+  /// past their maximum. Collective.
+  DiagnosticList add(const Solution &solution);
   /// Returns the diagnostics at the end of the run.
   DiagnosticList finish() const;
 
@@ -68,10 +69,13 @@ private:
     ForceSpread spread;               ///< at the largest force
     StickSoftness max_friction;       ///< largest friction and largest lost friction, each over the run
     double max_of_edges = 0.;         ///< lower bound of the force on crossing edges [force]
+    bool is_spread_reported = false;  ///< whether few nodes at the largest force so far were reported
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   ForceSpread spread_of(const Pair &pair, const std::vector<ContactNodeReport> &reports) const;
+  /// Returns the message if few nodes bear the largest force of a pair and none was reported.
+  static DiagnosticList judge_spread(const Pair &pair);
   void judge_pairs(DiagnosticList &diagnostics) const;
   void judge_paths(DiagnosticList &diagnostics) const;
   void judge_forces(DiagnosticList &diagnostics) const;

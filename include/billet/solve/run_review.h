@@ -46,6 +46,7 @@ private:
   double max_kinetic_ = 0., max_internal_ = 0.,
          max_energy_ = 0.; ///< max_energy_: total
   double numerical_ = 0.;  ///< dissipated by implicit time integration so far
+  double viscous_ = 0.;    ///< dissipated by bulk viscosity so far
 };
 
 } // namespace billet

@@ -54,6 +54,22 @@ void ExplicitDynamics::add_works(const NodalVectors &velocities, const double ha
   parts_.forces.of_loads().add_works(velocities, half);
 }
 
+double ExplicitDynamics::usual_step_at(const double t,
+                                       const std::vector<dealii::Tensor<1, 3>> &translations) {
+  NodalVectors displacements = parts_.nodes.make_vectors();
+  for (std::size_t b = 0; b < translations.size(); ++b)
+    for (const auto &element : parts_.nodes.elements(b))
+      for (const unsigned int node : element)
+        for (unsigned int i = 0; i < 3; ++i)
+          displacements[std::size_t{nodal_stride} * node + i] = translations[b][i];
+  std::vector<Placement> placements;
+  for (const Tool &tool : parts_.scene.tools())
+    placements.push_back(tool.placement(t));
+  return stable_step_.usual_with(
+      parts_.forces.frequency_square_at(displacements, placements, parts_.contacts, parts_.masses.inverse()),
+      parts_.communicator());
+}
+
 void ExplicitDynamics::raise_penalties() {
   if (!penalties_.are_controlled() || !ledger_.is_due())
     return;

@@ -133,6 +133,24 @@ StepBounds ExplicitForces::bounds(const std::vector<double> &inverse_masses) con
   return bounds;
 }
 
+double ExplicitForces::frequency_square_at(const NodalVectors &displacements,
+                                           const std::vector<Placement> &placements, Contacts &contacts,
+                                           const std::vector<double> &inverse_masses) {
+  NodalVectors ignored = nodes_.make_vectors(), bounds = nodes_.make_vectors();
+  const ContactStep step{0., 0., 0., placements, placements};
+  for (auto &contact : contacts) {
+    contact.start_step(step);
+    contact.update(displacements);
+    contact.add_forces(ignored, bounds);
+  }
+  nodes_.sum_shared(bounds);
+  double maximum = 0.;
+  for (const unsigned int node : bounded_nodes_)
+    maximum =
+        std::max(maximum, bound_factor_ * bounds[std::size_t{nodal_stride} * node] * inverse_masses[node]);
+  return maximum;
+}
+
 double ExplicitForces::max_stiffness() const {
   double maximum = 0.;
   for (const unsigned int node : bounded_nodes_)

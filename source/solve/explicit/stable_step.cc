@@ -48,6 +48,11 @@ bool StableStep::update(const StepBounds &own, const double of_tools, const MPI_
   return true;
 }
 
+double StableStep::usual_with(const double frequency_square, const MPI_Comm communicator) const {
+  const double of_contact = dealii::Utilities::MPI::max(frequency_square, communicator);
+  return factor_ * safety_factor_ / std::sqrt(1. / (of_elements_ * of_elements_) + 0.25 * of_contact);
+}
+
 double StableStep::allowed(const double crossing_step) const {
   const double stable = usual();
   return std::min(stable, std::max(factor_ * crossing_step, Limits::shortest * stable));

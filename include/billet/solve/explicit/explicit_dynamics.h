@@ -34,6 +34,9 @@ public:
   double step_length() const { return parts_.clock.step(); }
   /// Returns the maximum step while no node comes through a surface.
   double usual_step() const { return std::max(step_length(), stable_step_.usual()); }
+  /// Returns the maximum step, as usual_step(), if at time t the bodies had moved without deformation by
+  /// these translations; for forecasts, after which there are no further steps. Collective.
+  double usual_step_at(double t, const std::vector<dealii::Tensor<1, 3>> &translations);
   unsigned int n_steps() const { return parts_.clock.n_steps(); }
   /// Returns this rank's element with the shortest stable step at the start.
   LimitingElement find_limiting_element() const {

@@ -41,6 +41,10 @@ public:
   const Crossings &crossings() const { return crossings_; }
   /// Returns the bounds on the step on this rank at the last forces. A rank that failed has a negative step.
   StepBounds bounds(const std::vector<double> &inverse_masses) const;
+  /// Returns the largest Σ k/m of contacts at a node of this rank if the nodes were displaced so, and the
+  /// tools so placed. Histories stay. Collective.
+  double frequency_square_at(const NodalVectors &displacements, const std::vector<Placement> &placements,
+                             Contacts &contacts, const std::vector<double> &inverse_masses);
   /// Returns the largest bound on the stiffness of contacts and springs at a node [force/length].
   double max_stiffness() const;
 

@@ -34,6 +34,9 @@ public:
   double allowed(double crossing_step) const;
   /// Returns the maximum step while no node comes through a surface [time].
   double usual() const { return factor_ * safety_factor_ * value_; }
+  /// Returns the same if contact had this frequency_square on this rank, and there were no dashpots.
+  /// Collective.
+  double usual_with(double frequency_square, MPI_Comm communicator) const;
   /// Multiplies all further steps by this factor, beside the safety factor.
   void shorten(const double factor) { factor_ = factor; }
 
