@@ -7,10 +7,10 @@ scene, and what it must come to:
 
   SCENE -> RESULTS
 
-SCENE is a file in a folder beside TABLE, such as joints/clamp, and files that it names stand beside it.
-RESULTS are separated by commas. 'column = 10 +- 0.2' is the last value of this column of the history, to this part;
-'max column', 'min column' and 'mean column' are those over the run. Other results are as in doubtful.py. '#'
-begins a comment.
+SCENE is a file in a folder beside TABLE, such as joints/clamp; files that it names stand beside it.
+RESULTS are separated by commas. 'column = 10 +- 0.2' is the last value of this column of the history, to
+this part; 'max column', 'min column' and 'mean column' are those over the run. Other results are as in
+doubtful.py. '#' begins a comment.
 """
 
 from __future__ import annotations
