@@ -79,7 +79,7 @@ std::array<Number, 2> PlanedFacetOf<Number>::compute_parameters(const InPlane &x
   const auto along = [](const InPlane &e, const Number &at, const InPlane &e_3) {
     return InPlane{e[0] + at * e_3[0], e[1] + at * e_3[1]};
   };
-  const auto square_of = [](const InPlane &e) { return e[0] * e[0] + e[1] * e[1]; };
+  const auto square_of = [](const InPlane &e) -> Number { return e[0] * e[0] + e[1] * e[1]; };
   // See ExpansionOf::undefined_at().
   const double no_length = facet::tip * facet::tip * value_of(square_of(e_1_) + square_of(e_2_));
   const auto find_xi = [&]() {
