@@ -120,12 +120,18 @@ public:
   bool has_met_round_off() const { return n_in_round_off_ > 0; }
 
 private:
+  /// Returns a residual over the forces, or over those that round-off of displacements causes, if the forces
+  /// are smaller: then there are none to relate it to.
+  double relative(const double norm, const double scale) const {
+    const double reference = std::max(scale, problem_.round_off_force());
+    return reference > 0. ? norm / reference : 0.;
+  }
   /// Sets the report's measures, and appends the iteration that led here. Returns R · δu.
   double measure(const NewtonState &now, const NewtonCorrection *last) {
     const double norm = now.norm, scale = now.scale;
     ConvergenceMeasures &measures = report_.measures;
     measures = {};
-    measures.force = report_.force = scale > 0. ? norm / scale : 0.;
+    measures.force = report_.force = relative(norm, scale);
     Vector increment = now.x;
     increment -= x_n_;
     increment_ = increment.l2_norm();
@@ -136,8 +142,7 @@ private:
     correction -= before.x;
     const double residual_work = now.residual * correction;
     const double length = correction.l2_norm(), full_length = last->full.l2_norm();
-    report_.iterations.push_back({before.scale > 0. ? before.norm / before.scale : 0.,
-                                  std::abs(before.residual * last->full),
+    report_.iterations.push_back({relative(before.norm, before.scale), std::abs(before.residual * last->full),
                                   full_length > 0. ? length / full_length : 1.});
     // The full correction counts, even if it was shortened: the shortened length does not measure the
     // remaining distance.

@@ -38,7 +38,7 @@ public:
       dx.begin()[i] = residual.begin()[i] / springs_[i].tangent(x_.begin()[i]);
     return true;
   }
-  double force_scale() const override { return 1.; }
+  double force_scale() const override { return scale; }
   double round_off_force() const override { return round_off; }
   double contact_round_off_force() const override { return contact_round_off; }
   StatusChanges status_changes() const override {
@@ -46,7 +46,7 @@ public:
   }
 
   unsigned int n_tangents = 0, n_changing = 0;
-  double round_off = 0., contact_round_off = 0.;
+  double round_off = 0., contact_round_off = 0., scale = 1.;
 
 private:
   std::vector<Spring> springs_;
@@ -236,6 +236,14 @@ int main(int argc, char *argv[]) {
       check("a residual that stalls where corrections do not is not accepted",
             !result.report.converged && !result.report.is_stalled && result.report.iterations.size() == 30);
     }
+  }
+  {
+    Springs free({linear(1.)});
+    free.scale = 1e-4;
+    free.round_off = 0.1;
+    const Result result = solve(free, {1. - 5e-5});
+    check("where there are no forces, residuals are parts of those by round-off",
+          result.report.converged && near(result.report.force, 5e-4, 1e-9));
   }
   {
     Springs springs({slow(1., 0.9)});

@@ -83,6 +83,18 @@ std::vector<std::vector<SlaveForce>> ContactSet::slave_forces() const {
   return collect([](const auto &contact) { return contact.measures().slave_forces(); });
 }
 
+std::vector<FrictionUse> ContactSet::friction_uses() const {
+  std::vector<FrictionUse> uses =
+      collect([](const auto &contact) { return contact.measures().friction_use(); });
+  std::vector<double> sums;
+  for (const FrictionUse &use : uses)
+    sums.insert(sums.end(), {use.tangential, use.limit, use.slipping});
+  dealii::Utilities::MPI::sum(sums, communicator_, sums);
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    uses[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
+  return uses;
+}
+
 std::vector<double> ContactSet::stored_energies() const {
   return collect([](const auto &contact) { return contact.measures().compute_load().stored_energy; });
 }

@@ -167,18 +167,6 @@ void RigidBodyModes::hold_unloaded_bodies() {
   }
 }
 
-std::vector<FrictionUse> RigidBodyModes::sum_friction() const {
-  std::vector<FrictionUse> uses =
-      problem_.contacts().collect([](const auto &contact) { return contact.measures().friction_use(); });
-  std::vector<double> sums;
-  for (const FrictionUse &use : uses)
-    sums.insert(sums.end(), {use.tangential, use.limit, use.slipping});
-  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
-  for (std::size_t i = 0; i < uses.size(); ++i)
-    uses[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
-  return uses;
-}
-
 std::string RigidBodyModes::describe_friction(const std::size_t body,
                                               const std::vector<FrictionUse> &uses) const {
   std::ostringstream text;
@@ -217,7 +205,8 @@ bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, Ne
   text << "body '" << problem_.scene().bodies()[mode.body].name << "' has no support at time " << t
        << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
        << " opens, or slides at the limit of friction";
-  if (const std::string friction = describe_friction(mode.body, sum_friction()); !friction.empty())
+  if (const std::string friction = describe_friction(mode.body, problem_.contacts().friction_uses());
+      !friction.empty())
     text << ": " << friction;
   const Explanation why{text.str(), "Add a support or a symmetry plane, keep a contact longer, or increase "
                                     "friction; use 'Scheme = implicit dynamics' for free motion"};
@@ -244,7 +233,7 @@ bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
     max_forces_[body] = std::max(max_forces_[body], forces_n_[body]);
   support_ = found;
-  friction_n_ = sum_friction();
+  friction_n_ = problem_.contacts().friction_uses();
   hold_unloaded_bodies();
   report_let_go(t, report);
   if (!support_.sliding)

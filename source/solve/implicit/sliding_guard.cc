@@ -62,6 +62,10 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
     text << (advice.empty() ? "" : ", and ") << "tool '" << which.name() << "' finds no resistance to its "
          << (turns ? "moment" : "force") << " of " << which.load(t) << " at time " << t << " and a "
          << (turns ? "turn" : "travel") << " of " << problem_.tools().start_offsets()[tool] << ": it jumps";
+    for (std::size_t i = 0; i < friction_.size(); ++i)
+      if (problem_.contacts()[i].rigid_tool() == tool && friction_[i].limit > 0.)
+        text << ", while contact pair '" << problem_.contacts()[i].name() << "' bears a friction force of "
+             << friction_[i].tangential << " of at most " << friction_[i].limit;
     advice = std::string("Move the tool by its ") + (turns ? "'Rotation angle'" : "'Translation'") +
              " instead of its load";
   }
@@ -75,8 +79,11 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
   return {text.str(), advice};
 }
 
-void SlidingGuard::check(const double t, NewtonReport &report) const {
-  if (!has_fixed_steps() || problem_.contacts().empty() || !has_forces())
+void SlidingGuard::check(const double t, NewtonReport &report) {
+  if (problem_.contacts().empty() || !has_forces())
+    return;
+  friction_ = problem_.contacts().friction_uses();
+  if (!has_fixed_steps())
     return;
   const Sliding sliding = measure();
   if (sliding.facets <= Limits::max_sliding)

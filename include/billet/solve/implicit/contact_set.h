@@ -53,6 +53,8 @@ public:
   /// Returns the names of the pairs whose penalties cause most of the round-off. Collective.
   std::string stiffest_pairs() const;
   std::vector<std::vector<SlaveForce>> slave_forces() const;
+  /// Returns the friction of each contact at the last update. Collective.
+  std::vector<FrictionUse> friction_uses() const;
   /// Returns the energy in the springs of each contact. Collective.
   std::vector<double> stored_energies() const;
   /// Returns the works of all contacts in the step, before commit(); `weight` as in ContactMeasures.

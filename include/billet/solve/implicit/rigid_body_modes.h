@@ -70,8 +70,6 @@ private:
   /// Returns a text about the friction of the contacts of a body: "contact pair 'a' bears ...". Of pairs
   /// without friction or pressure it says nothing.
   std::string describe_friction(std::size_t body, const std::vector<FrictionUse> &uses) const;
-  /// Returns the friction of each contact at the last update. Collective.
-  std::vector<FrictionUse> sum_friction() const;
   /// Σ |f| of the nodes of contacts, by body [force]. Collective.
   std::vector<double> contact_forces_on_bodies() const;
   /// Stabilises the free body of this mode from now on, if contact bore next to no force at the end of the

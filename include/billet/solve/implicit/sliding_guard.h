@@ -5,6 +5,7 @@
 #include "billet/solve/implicit/implicit_problem.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace billet {
 
@@ -18,8 +19,9 @@ public:
 
   /// Begins an attempt of a step.
   void begin() { n_refused_ = 0; }
-  /// Adds a warning if nodes slide too far in a converged step of fixed length. Collective.
-  void check(double t, NewtonReport &report) const;
+  /// Records the friction of a converged step, and adds a warning if nodes slide too far in one of fixed
+  /// length. Collective.
+  void check(double t, NewtonReport &report);
   /// Explains a step that failed after trial states slid too far; empty if none did. `cause`: why bodies
   /// slide, if it is known.
   Explanation explain(double t, const Explanation &cause) const;
@@ -44,8 +46,9 @@ private:
   Explanation describe(std::size_t contact, double t, const Explanation &cause) const;
 
   ImplicitProblem &problem_;
-  unsigned int n_refused_ = 0; ///< trial states of this attempt that slid too far
-  std::size_t refused_ = 0;    ///< contact pair of the last one
+  std::vector<FrictionUse> friction_; ///< of the contacts in the last converged step
+  unsigned int n_refused_ = 0;        ///< trial states of this attempt that slid too far
+  std::size_t refused_ = 0;           ///< contact pair of the last one
 };
 
 } // namespace billet
