@@ -128,7 +128,8 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
   return has_softened;
 }
 
-Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs) const {
+Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs,
+                                                 const unsigned int n) const {
   Demands demands;
   demands.of_contacts = problem_.contacts().augmentation_errors();
   for (double &demand : demands.of_contacts) {
@@ -138,7 +139,10 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
   demands.maximum = demands.by_tolerances;
   if (springs.empty())
     return demands;
-  const std::vector<double> excess = softness_.excess(springs);
+  // Equilibrium within its tolerance leaves friction this uncertain: further augmentations would only follow
+  // the iterations, and raise penalties for that.
+  const double resolved = n > 0 ? problem_.parameters().solver.force_tolerance * solver_.accuracy() : 0.;
+  const std::vector<double> excess = softness_.excess(springs, resolved);
   for (std::size_t i = 0; i < excess.size(); ++i) {
     demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
     demands.maximum = std::max(demands.maximum, excess[i]);
@@ -220,7 +224,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
   softness_.begin();
   series.springs = contact_springs();
   for (unsigned int n = 0; report.converged; ++n) {
-    const Demands demands = find_demands(series.springs);
+    const Demands demands = find_demands(series.springs, n);
     const double error = demands.maximum;
     const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)
