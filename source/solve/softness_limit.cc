@@ -64,7 +64,8 @@ bool SoftnessLimit::is_used() const {
   return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.limits; });
 }
 
-std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs) const {
+std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs,
+                                          const double resolved) const {
   const double minimum = Limits::min_of_max * max_force(springs);
   std::vector<double> result(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -80,7 +81,7 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
                                  Limits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
       result[i] += of_pressure / (Limits::allowed * pressure);
-    if (of_friction > 0.)
+    if (of_friction > resolved * pressure)
       result[i] += of_friction / left;
   }
   return result;
@@ -94,10 +95,10 @@ void SoftnessLimit::learn(const std::vector<ContactSprings> &before,
   }
 }
 
-void SoftnessLimit::commit(const std::vector<ContactSprings> &springs) {
+void SoftnessLimit::commit(const std::vector<ContactSprings> &springs, const double resolved) {
   if (springs.empty())
     return;
-  const std::vector<double> excess_left = excess(springs);
+  const std::vector<double> excess_left = excess(springs, resolved);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     Pair &pair = pairs_[i];
     pair.let_in += pair.tangential.counts * springs[i].tangential.held;

@@ -149,12 +149,12 @@ void test_between_nodes() {
     for (unsigned int node = 0; node < block.nodes.size(); ++node) {
       const Tensor<1, 3> at = get_vector(block.nodes.positions().data(), node);
       const double x = 1.6 * at[0];
-      add_vector(block.u.data(), node, {x - at[0], 0., sign * (std::sqrt(1. - x * x) - 1.)});
+      add_vector(block.u.data(), node, Tensor<1, 3>({x - at[0], 0., sign * (std::sqrt(1. - x * x) - 1.)}));
     }
     block.press();
     return block.contact.measures().penetration_between_nodes();
   };
-  const std::string axis = "set Axis = 0, 1, 0\nset Radius = 1\nset Centre = 0, 0, ";
+  const std::string axis = "set Axis = 0, 1, 0\nset Radius = 1\nset Point = 0, 0, ";
   const FacetPenetration roll = measure({"cylinder", axis + "-1"}, 1.);
   const double length = std::sqrt(0.8), depth = 1. - std::sqrt(0.8);
   check("stretched over a roll: depth between nodes", std::abs(roll.length - depth), 1e-12);
@@ -162,8 +162,6 @@ void test_between_nodes() {
   check("stretched over a roll: length of the facet", std::abs(roll.facet_length - length), 1e-12);
   check("stretched over a roll: in the middle of a side",
         std::abs(std::abs(roll.position[0]) - 0.4) + std::abs(roll.position[2] + 0.2), 1e-12);
-  const FacetPenetration cavity = measure({"cylinder", axis + "1\nset Side = inside"}, -1.);
-  check("in a cavity: none", cavity.length == 0. && cavity.of_facet == 0.);
   check("on a plane: none", measure({"plane", ""}, 0.).length == 0.);
 }
 

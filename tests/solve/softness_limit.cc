@@ -132,6 +132,9 @@ void check_formula() {
         is(sticks.excess({springs_of(50., 0., 0., 2e-4)})[0], 0.5));
   check("and in its own proportion where it is more",
         is(sticks.excess({springs_of(50., 0., 10., 2e-3)})[0], 0.5));
+  check("but not what iterations do not resolve: 0.01 of a pressure of 50",
+        is(sticks.excess({springs_of(50., 0., 10., 2e-3)}, 1.9e-4)[0], 0.5) &&
+            sticks.excess({springs_of(50., 0., 10., 2e-3)}, 2.1e-4)[0] == 0.);
   // Friction of 1: slip has used half of its 0.002, then all.
   SoftnessLimit slips({true});
   slips.commit({springs_of(1., 0., 1., 1e-3)});

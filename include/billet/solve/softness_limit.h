@@ -23,16 +23,17 @@ public:
   /// Begins after Newton's method has converged in a step, before any augmentation.
   void begin();
   /// Returns, for each pair, the missing part of its forces over the allowed part; 0 for pairs without a
-  /// limit. `springs` are summed over all ranks.
-  std::vector<double> excess(const std::vector<ContactSprings> &springs) const;
+  /// limit. `springs` are summed over all ranks. `resolved`: part of the normal force up to which missing
+  /// friction does not count, since iterations do not resolve it.
+  std::vector<double> excess(const std::vector<ContactSprings> &springs, double resolved = 0.) const;
   /// Change of a pair's force by an augmentation, in normal or tangential direction, once all pairs have been
   /// augmented and are in equilibrium again.
   struct Change {
     double of_nodes = 0., in_all = 0.; ///< Σ |ΔF|; the largest of |Σ ΔF| and |Δ Σ |F|| [force]
   };
   void learn(const std::vector<ContactSprings> &before, const std::vector<std::array<Change, 2>> &changes);
-  /// Accepts a step with these springs; they are empty if no pair limits softness.
-  void commit(const std::vector<ContactSprings> &springs);
+  /// Accepts a step with these springs; they are empty if no pair limits softness. `resolved` as in excess().
+  void commit(const std::vector<ContactSprings> &springs, double resolved = 0.);
   /// Returns the largest change of each pair's normal force by the last augmentation of a step that ended
   /// above the limit, over the largest force. It is 0 if all steps reached the limit.
   std::vector<double> unsettled() const;

@@ -6,8 +6,12 @@ namespace billet {
 HistoryQuantity mesh_error_quantity();
 
 HistoryQuantity mesh_error_quantity() {
-  return {"error of the mesh", [](const Scene &) -> std::vector<std::string> { return {"mesh_error"}; },
-          [](const HistorySample &sample) -> std::vector<double> { return {sample.mesh_error}; }};
+  return {
+      "error of the mesh",
+      {{"mesh_error", "Estimated error that the size of the elements makes in the forces so far, relative to "
+                      "them (0 while nothing has deformed)."}},
+      [](const Scene &) -> std::vector<std::string> { return {"mesh_error"}; },
+      [](const HistorySample &sample) -> std::vector<double> { return {sample.mesh_error}; }};
 }
 
 } // namespace billet

@@ -91,6 +91,8 @@ HistoryQuantity tool_pair_loads_quantity() {
 
 HistoryQuantity penetration_between_nodes_quantity() {
   return {"penetration between nodes",
+          {{"pair NAME.penetration_between_nodes",
+            "Largest depth of the tool in facets between their nodes, beyond that of the nodes. [length]"}},
           [](const Scene &scene) {
             std::vector<std::string> columns;
             for (const ContactPair &pair : scene.pairs())

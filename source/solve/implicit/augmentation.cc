@@ -144,21 +144,30 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
   return has_softened;
 }
 
-Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs) const {
+Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs,
+                                                 const unsigned int n) const {
   Demands demands;
   demands.of_contacts = problem_.contacts().augmentation_errors();
-  const std::vector<double> excess = springs.empty() ? std::vector<double>() : softness_.excess(springs);
+  const auto is_idle = [this](const std::size_t i) {
+    return bears_nothing(problem_, problem_.contacts()[i].rigid_tool());
+  };
   for (std::size_t i = 0; i < demands.of_contacts.size(); ++i) {
     double &demand = demands.of_contacts[i];
-    if (bears_nothing(problem_, problem_.contacts()[i].rigid_tool())) {
-      demand = 0.;
-      continue;
-    }
-    demand /= penetration_allowed_;
+    demand = is_idle(i) ? 0. : demand / penetration_allowed_;
     demands.by_tolerances = std::max(demands.by_tolerances, demand);
-    if (!excess.empty())
-      demand = std::max(demand, excess[i]);
-    demands.maximum = std::max(demands.maximum, demand);
+  }
+  demands.maximum = demands.by_tolerances;
+  if (springs.empty())
+    return demands;
+  // Equilibrium within its tolerance leaves friction this uncertain: further augmentations would only follow
+  // the iterations, and raise penalties for that.
+  const double resolved = n > 0 ? problem_.parameters().solver.force_tolerance * solver_.accuracy() : 0.;
+  const std::vector<double> excess = softness_.excess(springs, resolved);
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    if (is_idle(i))
+      continue;
+    demands.of_contacts[i] = std::max(demands.of_contacts[i], excess[i]);
+    demands.maximum = std::max(demands.maximum, excess[i]);
   }
   return demands;
 }
@@ -237,7 +246,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
   softness_.begin();
   series.springs = contact_springs();
   for (unsigned int n = 0; report.converged; ++n) {
-    const Demands demands = find_demands(series.springs);
+    const Demands demands = find_demands(series.springs, n);
     const double error = demands.maximum;
     const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)

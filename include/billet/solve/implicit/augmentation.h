@@ -32,7 +32,7 @@ public:
   const SoftnessLimit &softness() const { return softness_; }
   void set_softness(const SoftnessLimit &softness) { softness_ = softness; }
   /// Accepts the step. Collective.
-  void commit() { softness_.commit(contact_springs()); }
+  void commit() { softness_.commit(contact_springs(), problem_.parameters().solver.force_tolerance); }
   /// Returns messages at the end about pairs whose augmentation ended while it still changed forces.
   DiagnosticList finish() const;
 
@@ -50,8 +50,8 @@ private:
     std::vector<double> of_contacts;
     double by_tolerances = 0., maximum = 0.; ///< over all contacts
   };
-  /// Returns the demands at the trial state. Collective.
-  Demands find_demands(const std::vector<ContactSprings> &springs) const;
+  /// Returns the demands at the trial state after n augmentations. Collective.
+  Demands find_demands(const std::vector<ContactSprings> &springs, unsigned int n) const;
   /// Returns the springs of each contact; empty if no pair limits softness. Collective.
   std::vector<ContactSprings> contact_springs() const;
   /// Returns the changes of the forces of each contact by an augmentation. Collective.
