@@ -147,7 +147,7 @@ publish(
         " ∫|F*| dt of the forces of a tool or support, against those of the finest mesh of the scene, or of"
         " the work of deformation where loads drive it. The finest mesh has an error of its own, so that the"
         " last difference of each scene is too small: by a third if errors fall fourfold, by half if"
-        " they fall to a half. Estimated: the last value of `mesh_error` in the history. Ratio: estimated over"
+        " they fall to a half. Estimated: the last value of `mesh_error`. Ratio: estimated over"
         " difference."
     ),
     f"{n_within} of {len(ratios)} ratios are from 0.5 to 3; {n_below} estimates are below the difference.",
