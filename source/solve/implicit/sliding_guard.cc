@@ -14,15 +14,20 @@ SlidingGuard::SlidingGuard(ImplicitProblem &problem) : problem_(problem) {
   if (has_fixed_steps() || problem.contacts().empty())
     return;
   problem.judge_trials([this]() -> std::string {
-    if (!has_forces())
+    if (n_attempts_ % 2 == 1 || !has_forces())
       return "";
     const Sliding sliding = measure();
     if (sliding.facets <= Limits::max_sliding && n_refused_ <= Limits::max_refused)
       return "";
-    ++n_refused_;
-    refused_ = sliding.contact;
-    return "nodes of contact pair '" + problem_.contacts()[sliding.contact].name() + "' slide too far";
+    return refuse(sliding);
   });
+}
+
+std::string SlidingGuard::refuse(const Sliding &sliding) {
+  ++n_refused_;
+  slides_too_far_ = true;
+  refused_ = sliding.contact;
+  return "nodes of contact pair '" + problem_.contacts()[sliding.contact].name() + "' slide too far";
 }
 
 bool SlidingGuard::has_fixed_steps() const {
@@ -79,25 +84,32 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
   return {text.str(), advice};
 }
 
-void SlidingGuard::check(const double t, NewtonReport &report) {
-  if (problem_.contacts().empty() || !has_forces())
-    return;
+bool SlidingGuard::rejects(const double t, NewtonReport &report) {
+  const bool is_idle = problem_.contacts().empty() || !has_forces();
+  const Sliding sliding = is_idle ? Sliding() : measure();
+  if (sliding.facets > Limits::max_sliding && !has_fixed_steps()) {
+    report.converged = false;
+    report.failure = refuse(sliding);
+    return true;
+  }
+  n_attempts_ = 0;
+  slides_too_far_ = false;
+  if (is_idle)
+    return false;
   friction_ = problem_.contacts().friction_uses();
-  if (!has_fixed_steps())
-    return;
-  const Sliding sliding = measure();
   if (sliding.facets <= Limits::max_sliding)
-    return;
+    return false;
   const Explanation why = describe(sliding.contact, t, {});
   report.diagnostics.push_back(
       Diagnostic(diagnostic::untracked_sliding, why.what)
           .time(t)
           .measure("sliding [facet sizes]", sliding.facets)
           .advice("Use 'Step control = automatic', which cuts such steps. " + why.advice));
+  return false;
 }
 
 Explanation SlidingGuard::explain(const double t, const Explanation &cause) const {
-  return n_refused_ > 0 ? describe(refused_, t, cause) : Explanation();
+  return slides_too_far_ ? describe(refused_, t, cause) : Explanation();
 }
 
 } // namespace billet

@@ -73,8 +73,8 @@ void StaticRules::check_next_step() const {
 }
 
 bool StaticRules::rejects(const double t, NewtonReport &report) {
-  sliding_.check(t, report);
-  return raises_.is_needed(report) || balance_.rejects(t, report) || modes_.rejects(t, report);
+  return sliding_.rejects(t, report) || raises_.is_needed(report) || balance_.rejects(t, report) ||
+         modes_.rejects(t, report);
 }
 
 DiagnosticList StaticRules::raise_penalties() {

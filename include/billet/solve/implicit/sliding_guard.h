@@ -5,23 +5,28 @@
 #include "billet/solve/implicit/implicit_problem.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace billet {
 
 /// Bounds how far forces slide bodies over each other, or over tools, in a static step. If an equilibrium is
 /// lost, Newton's method may find another one far away, and contact has not seen what is between them. With
-/// automatic steps, trial states that slide too far are not admissible, so that the iterations find an
-/// equilibrium that is near.
+/// automatic steps, a solution that slides too far is rejected. Iterations may slide further, and return. If
+/// they fail, the next attempt takes trial states that slide too far as inadmissible, so that it finds an
+/// equilibrium that is near; the one after that does not, and so on in turn.
 class SlidingGuard {
 public:
   explicit SlidingGuard(ImplicitProblem &problem);
 
   /// Begins an attempt of a step.
-  void begin() { n_refused_ = 0; }
-  /// Records the friction of a converged step, and adds a warning if nodes slide too far in one of fixed
-  /// length. Collective.
-  void check(double t, NewtonReport &report);
+  void begin() {
+    ++n_attempts_;
+    n_refused_ = 0;
+  }
+  /// Records the friction of a converged step. If nodes slide too far, rejects it, or adds a warning if its
+  /// length is fixed. Returns whether it is rejected. Collective.
+  bool rejects(double t, NewtonReport &report);
   /// Explains a step that failed after trial states slid too far; empty if none did. `cause`: why bodies
   /// slide, if it is known.
   Explanation explain(double t, const Explanation &cause) const;
@@ -38,6 +43,8 @@ private:
     std::size_t contact = 0; ///< pair with the maximum
   };
   bool has_fixed_steps() const;
+  /// Counts a state that slides too far. Returns the reason.
+  std::string refuse(const Sliding &sliding);
   bool has_loads() const;
   /// Whether a force moves something in the step: a driven tool with a load, or a load on a body.
   bool has_forces() const;
@@ -47,8 +54,10 @@ private:
 
   ImplicitProblem &problem_;
   std::vector<FrictionUse> friction_; ///< of the contacts in the last converged step
-  unsigned int n_refused_ = 0;        ///< trial states of this attempt that slid too far
+  unsigned int n_refused_ = 0;        ///< states of this attempt that slid too far
   std::size_t refused_ = 0;           ///< contact pair of the last one
+  unsigned int n_attempts_ = 0;       ///< since the last accepted step
+  bool slides_too_far_ = false;       ///< whether any state did since then
 };
 
 } // namespace billet
