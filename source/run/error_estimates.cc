@@ -67,11 +67,13 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Sc
   constexpr double much = 0.05; // in proportion to what other sources usually make
   std::ostringstream text;
   text.precision(2);
-  text << "The size of the elements makes an error of about " << 100. * mesh.error() << " % of the forces";
+  text << "By the jumps of stress between elements, their size makes an error of about "
+       << 100. * mesh.error() << " % of the forces";
   const std::vector<double> parts = mesh.of_bodies();
   for (std::size_t body = 0; parts.size() > 1 && body < parts.size(); ++body)
     text << (body == 0 ? ": " : ", ") << "body '" << parameters.bodies[body].name << "' "
          << 100. * parts[body] << " %";
+  text << ". Curved surfaces that elements cut short, contact between nodes, and folds are not in it";
   Diagnostic message(diagnostic::mesh_error, text.str());
   message.value("error", mesh.error());
   if (mesh.error() > much)
