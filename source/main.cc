@@ -235,10 +235,27 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
   return command;
 }
 
+/// Returns a text as one word of a shell.
+std::string quote(const std::string &text) {
+  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%") ==
+      std::string::npos)
+    return text;
+  std::string quoted = "'";
+  for (const char c : text)
+    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 billet::parameters::Scene read_scene(const std::string &file, const CommandLine &command) {
   billet::parameters::Scene parameters;
   billet::fail_together(MPI_COMM_WORLD, [&] {
     parameters = billet::parameters::Scene::read(file, command.restart_file, command.settings);
+    for (const auto &setting : command.settings) {
+      const std::string::size_type value = setting.where.find(' ');
+      parameters.options += setting.where.substr(0, value) +
+                            (value == std::string::npos ? "" : " " + quote(setting.where.substr(value + 1))) +
+                            " ";
+    }
   });
   return parameters;
 }

@@ -178,7 +178,8 @@ inline const DiagnosticKind
                                "The tangential penalty is too low beside the stiffness of the bodies. "
                                "Friction forces while sticking are too small by more than 3 %.",
                                "Increase 'Tangential penalty', or leave it out: it then equals the normal "
-                               "penalty, and rises in slow motion");
+                               "penalty, and rises in slow motion. If it is left out, increase 'Normal "
+                               "penalty'");
 
 inline const DiagnosticKind
     few_contact_nodes("few-contact-nodes", Severity::warning,
@@ -218,7 +219,9 @@ inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
     "Newton's method failed, so a penalty is reduced towards 10 E/h; augmentation enforces the "
     "constraint. The result is that of the higher penalty.",
-    "Set 'Normal penalty' to that value, which saves the failed attempts");
+    "If the lower penalty helped, set 'Normal penalty' to it and 'Penetration tolerance' to 1e-3, which "
+    "saves "
+    "the failed attempts");
 
 inline const DiagnosticKind
     penalty_raised("penalty-raised", Severity::note,
@@ -276,11 +279,12 @@ inline const DiagnosticKind balanced_to_round_off(
     "of the forces. The result is as accurate as these positions allow.",
     "Place bodies nearer to the origin if less matters");
 
-inline const DiagnosticKind
-    ill_conditioned("ill-conditioned", Severity::warning,
-                    "The matrix is nearly singular: few of the sixteen digits of a correction are correct.",
-                    "Check for a body with weak constraints, for penalties or moduli that are far apart, and "
-                    "for elements much longer than thick");
+inline const DiagnosticKind ill_conditioned(
+    "ill-conditioned", Severity::warning,
+    "The matrix is nearly singular: few of the sixteen digits of a correction are correct.",
+    "Check for a body with weak constraints, for penalties or moduli that are far apart, and "
+    "for elements much longer than thick. 'Contact stabilisation' holds a body by weak forces: "
+    "while it acts, this is to be expected");
 
 inline const DiagnosticKind
     energy_imbalance("energy-imbalance", Severity::warning,

@@ -324,6 +324,8 @@ CheckpointReader::CheckpointReader(MPI_Comm communicator, const std::string &fil
     std::string fault;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       fault = find_fault(file_name);
+    if (!fault.empty() && !std::filesystem::exists(file_name))
+      fault = "does not exist";
     if (!fault.empty())
       throw InputError(origin + ": '" + file_name + "' " + fault +
                        "; allowed is a complete checkpoint of this program");

@@ -206,6 +206,8 @@ void TimeStepping::parse(Reader &reader) {
   if (control == Control::automatic) {
     if (min_step > initial_step)
       reader.reject("Minimum step", "a number not above the initial step, " + print(initial_step));
+    if (max_step < initial_step && !reader.is_set("Initial step"))
+      initial_step = max_step; // of a profile
     if (max_step < initial_step)
       reader.reject("Maximum step", "a number not below the initial step, " + print(initial_step));
   }

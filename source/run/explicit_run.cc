@@ -155,7 +155,7 @@ void ExplicitRun::after_step(RunOutput &output) {
 }
 
 void ExplicitRun::show_number_of_steps(RunOutput &output) const {
-  const double n_steps = stops_.end() / problem_.usual_step();
+  const double n_steps = (stops_.end() - problem_.time()) / problem_.usual_step();
   output.progress().show_number_of_steps(n_steps, problem_.usual_step());
   if (n_steps > too_many_steps && !output.has(diagnostic::many_steps))
     output.report(Diagnostic(diagnostic::many_steps, "The run takes " + std::to_string(n_steps) + " steps")

@@ -132,8 +132,8 @@ ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bo
         (checkpoints_.last().empty() ? "" : "; the last complete one is " + checkpoints_.last()));
   if (is_first_)
     std::cerr << Diagnostic(diagnostic::run_stopped, what)
-                     .advice("Resume by 'billet --restart " + checkpoints_.last() + " " +
-                             scene_.parameters().file_name + "'")
+                     .advice("Resume by: billet --restart " + checkpoints_.last() + " " +
+                             scene_.parameters().options + scene_.parameters().file_name)
                      .text()
               << std::endl;
   return ExitCode::stopped;

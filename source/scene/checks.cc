@@ -237,7 +237,9 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
       throw InputError(parameters_.bodies[b].origin +
                        ": the body has no support: at the start neither supports, nor symmetry planes, "
                        "nor tools in contact constrain its rigid-body mode with " +
-                       print(*free_motion) + ". A static scene allows no free mode");
+                       print(*free_motion) +
+                       ". A static scene allows no free mode. Add a support or a symmetry plane; if only "
+                       "contact or loads hold it, set 'Contact stabilisation = until contact'");
 
     double last_removal = 0.; // of the tools in its pairs; infinite if one is never removed
     for (const auto &pair : pairs_)

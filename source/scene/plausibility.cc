@@ -247,7 +247,8 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
           if (is_of_pair && tool.surface().project(placement.to_tool(face->vertex(v))).exists)
             pressed.insert(face->vertex_index(v));
         for (std::size_t h = 0; h < holds.size(); ++h)
-          if (holds_face(holds[h], face, 1e-8 * face->diameter()))
+          if (holds[h].times.from < tool.removal_time() &&
+              holds_face(holds[h], face, 1e-8 * face->diameter()))
             for (const unsigned int v : face->vertex_indices())
               if (std::abs(holds[h].direction(face->vertex(v)) * tool.force_direction()) > along)
                 held[h].insert(face->vertex_index(v));
@@ -261,7 +262,7 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
       if (n[1] == 0.)
         continue;
       std::ostringstream text;
-      text.precision(2);
+      text.precision(3);
       text
           << "The " << holds[h].name << " holds " << std::ceil(100. * n[1] / n[0])
           << " % of the nodes that the tool may press on, along its 'Force direction'. There it, and not the "

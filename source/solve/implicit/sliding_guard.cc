@@ -94,6 +94,7 @@ bool SlidingGuard::rejects(const double t, NewtonReport &report) {
   }
   n_attempts_ = 0;
   slides_too_far_ = false;
+  cause_ = {};
   if (is_idle)
     return false;
   friction_ = problem_.contacts().friction_uses();
@@ -108,8 +109,10 @@ bool SlidingGuard::rejects(const double t, NewtonReport &report) {
   return false;
 }
 
-Explanation SlidingGuard::explain(const double t, const Explanation &cause) const {
-  return slides_too_far_ ? describe(refused_, t, cause) : Explanation();
+Explanation SlidingGuard::explain(const double t, const Explanation &cause) {
+  if (!cause.empty())
+    cause_ = cause;
+  return slides_too_far_ ? describe(refused_, t, cause_) : Explanation();
 }
 
 } // namespace billet

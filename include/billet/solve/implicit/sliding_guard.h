@@ -27,9 +27,9 @@ public:
   /// Records the friction of a converged step. If nodes slide too far, rejects it, or adds a warning if its
   /// length is fixed. Returns whether it is rejected. Collective.
   bool rejects(double t, NewtonReport &report);
-  /// Explains a step that failed after trial states slid too far; empty if none did. `cause`: why bodies
-  /// slide, if it is known.
-  Explanation explain(double t, const Explanation &cause) const;
+  /// Explains a step that failed after states slid too far; empty if none did. `cause`: why bodies slide, if
+  /// it is known; from one attempt it holds for those after it.
+  Explanation explain(double t, const Explanation &cause);
 
 private:
   struct Limits {
@@ -57,6 +57,7 @@ private:
   unsigned int n_refused_ = 0;        ///< states of this attempt that slid too far
   std::size_t refused_ = 0;           ///< contact pair of the last one
   unsigned int n_attempts_ = 0;       ///< since the last accepted step
+  Explanation cause_;                 ///< why bodies slide, since the last accepted step
   bool slides_too_far_ = false;       ///< whether any state did since then
 };
 
