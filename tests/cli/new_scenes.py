@@ -158,6 +158,7 @@ USES = {
 @check("what the lists say is what scenes may say")
 def _() -> None:
     base = read_text(HERE / "block.prm")
+    keys: dict[str, str] = {}  # of each scene
     for name, use in USES.items():
         for entry in json.loads(run(program, "--list", name, "--json").output):
             statement = next(
@@ -169,13 +170,14 @@ def _() -> None:
             text = edit(base, use.format(setting)).text
             if "Source = extruded" in entry["use"]:
                 text = text.replace("= primitive", "= extruded primitive")
-            write_text("listed.prm", text)
-            key = re.escape(setting.split(" = ")[0])
-            errors = run(program, "--check", "listed.prm").errors
-            wrong = re.search(
-                rf"no parameter '{key}'|'{key}' in '[^']*' is [^;]*; (allowed is one of|did you)", errors
-            )
-            require(wrong is None, f"{name}: {errors}")
+            file = f"listed_{len(keys)}.prm"
+            write_text(file, text)
+            keys[file] = setting.split(" = ")[0]
+    errors = run(program, "--check", *keys).errors
+    for file, key in keys.items():
+        unknown = rf"^error.*{file}.*(no parameter '{key}'|'{key}' in '[^']*' is [^;]*; (allowed is one of|did you))"
+        wrong = re.search(unknown, errors, re.MULTILINE)
+        require(wrong is None, wrong[0] if wrong else "")
 
 
 @check("columns of histories have a meaning")
