@@ -188,7 +188,7 @@ def _() -> None:
         for columns in entry["parameters"]:
             require(columns["meaning"].endswith(("]", ".")), columns["name"])
             known += columns["name"].split(", ")
-    patterns = [re.sub(r"\\b[A-Z]+\\b", ".+", re.escape(name)) for name in known]
+    patterns = [re.sub(r"\b[A-Z]+\b", ".+", re.escape(name)) for name in known]
     for kind in PARTS:
         header = read_text(next(Path("results").glob(f"{kind}*/history.csv"))).split("\n")[0]
         for column in header.split(","):
