@@ -30,7 +30,7 @@ from checks import (
 from edits import edit
 
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
-PARTS = {"drawing": 0.1, "rolling": 0.1, "bending": 0.2, "impact": 0.25}  # of the time
+PARTS = {"drawing": 0.1, "rolling": 0.1, "impact": 0.25}  # of the time
 MAX_LINES = 90
 LISTS = "primitives materials elements loads surfaces friction integrators probes fields history".split()
 
