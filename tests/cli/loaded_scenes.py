@@ -256,7 +256,8 @@ def _() -> None:
         write_text(f"{name}.prm", SPRING.format(scheme))
         row = run_written(f"{name}.prm", "--output", name)
         works = row["cube.load base.work"] + row["cube.load push.work"]
-        near(f"{scheme}: sum of works", works, row["external_work"], 1e-9)
+        # In implicit schemes the residual that Newton's method leaves does work, too.
+        near(f"{scheme}: sum of works", works, row["external_work"], 1e-9 if scheme == "explicit" else 1e-5)
         near(f"{scheme}: traction", row["cube.load push.force_z"], -10.0, 1e-9)
         if scheme == "quasi-static":  # force and spring, 10 on 100 per area 1
             near("force of the spring", row["cube.load base.force_z"], 10.0, 1e-5)
