@@ -90,8 +90,8 @@ std::vector<FacetMeasures::NodeReport> FacetMeasures::report() const {
   return reports;
 }
 
-std::vector<FacetMeasures::Restless> FacetMeasures::find_restless() const {
-  std::vector<Restless> restless;
+std::vector<RestlessNode> FacetMeasures::find_restless() const {
+  std::vector<RestlessNode> restless;
   parts_.restless.visit([&](const std::size_t s, const unsigned int n_changes) {
     restless.push_back({parts_.surfaces.positions()[parts_.slaves.node(s)], n_changes});
   });

@@ -65,6 +65,14 @@ bool RigidContactParts::allows(const RigidSurface::Projection &projection) const
          ((pair.overlap.is_allowed && projection.gap < 0.) || pair.overlap.closes(projection.gap));
 }
 
+void RigidContactParts::count_changes() {
+  std::vector<std::uint64_t> changing(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i].pressure > 0.)
+      changing[i] = 4 * std::uint64_t{states[i].patch} + static_cast<std::uint64_t>(states[i].status) + 1;
+  restless.count(std::move(changing));
+}
+
 void RigidContactParts::remove_tool() {
   step.is_removed = true;
   for (auto &state : states)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/tool_checks.h"
 
+#include "billet/contact/restless_report.h"
 #include "billet/diagnostic_kinds.h"
 
 #include <deal.II/base/mpi.h>
@@ -66,6 +67,20 @@ DiagnosticList ToolChecks::check_start() const {
               .pair(parts_.pair.name)
               .tool(parts_.tool.name())
               .value("facet length", length)};
+}
+
+Explanation ToolChecks::describe_restless() const {
+  std::vector<RestlessNode> nodes;
+  parts_.restless.visit([&](const std::size_t i, const unsigned int n_changes) {
+    nodes.push_back({parts_.states[i].position, n_changes});
+  });
+  const std::string what =
+      describe_restless_nodes(nodes, parts_.pair.name, "status or surface", parts_.communicator);
+  if (what.empty())
+    return {};
+  return {
+      what,
+      "Try smaller bricks where the tool is curved, a lower penalty, or a radius where the tool has an edge"};
 }
 
 bool ToolChecks::has_node_on_edge(const Tensor<1, 3> &position) const {

@@ -5,6 +5,7 @@
 #include "billet/contact/contact_load.h"
 #include "billet/contact/facet_contact_parts.h"
 #include "billet/contact/friction_use.h"
+#include "billet/contact/restless_report.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/supporting_point.h"
 
@@ -43,12 +44,8 @@ public:
   /// Reports each of this rank's nodes.
   std::vector<NodeReport> report() const;
 
-  /// Chattering node: it has exceeded the maximum number of changes of facet or status since restart().
-  struct Restless {
-    dealii::Tensor<1, 3> position;
-    unsigned int n_changes;
-  };
-  std::vector<Restless> find_restless() const;
+  /// Returns the nodes that have exceeded the maximum number of changes of facet or status since restart().
+  std::vector<RestlessNode> find_restless() const;
 
   /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {

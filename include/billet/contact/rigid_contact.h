@@ -61,14 +61,20 @@ public:
   void set_friction_account(double start_weight, bool is_static) override;
   /// Sets the placement of the tool at the end of the step.
   void set_placement(const Placement &to) { parts_.step.placement = to; }
-  void restart() override { penalties_.take_back_augmentation(); }
+  void restart() override {
+    penalties_.take_back_augmentation();
+    parts_.restless.restart();
+  }
   void commit() override { parts_.commit(); }
   /// Removes the tool: from now on no node touches it.
   void remove_tool() { parts_.remove_tool(); }
   /// Links each tool contact of a scene to the others of its body. The addresses must stay valid.
   static void link_neighbours(std::deque<RigidContact> &contacts);
 
-  void update(const Vector &displacements) override { evaluation_->run(displacements); }
+  void update(const Vector &displacements) override {
+    evaluation_->run(displacements);
+    parts_.count_changes();
+  }
   void add_forces(Vector &residual) const override;
   void set_tangent(ContactTangent tangent) override;
   void add_tangent(const TangentSystem &system) const override { tangents_->add(system); }

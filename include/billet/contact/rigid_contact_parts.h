@@ -5,6 +5,7 @@
 #include "billet/contact/contact_interface.h"
 #include "billet/contact/missed_edge.h"
 #include "billet/contact/projected_areas.h"
+#include "billet/contact/restless_nodes.h"
 #include "billet/contact/thin_tool_watch.h"
 #include "billet/contact/tool_friction.h"
 
@@ -41,6 +42,7 @@ struct RigidContactParts {
   ToolStep step;
   NeighbouringTools neighbours;
   MissedEdge missed_edge;
+  RestlessNodes restless{max_changes};    ///< in iterations
   PressureRecord pressures;               ///< not known in explicit schemes
   std::optional<ToolFriction> friction;   ///< none without friction
   std::optional<ThinToolWatch> thin_tool; ///< none unless the tool is thin on any rank
@@ -60,6 +62,8 @@ struct RigidContactParts {
         visit(node, std::abs(states[i].gap + node.multiplier_offset));
   }
 
+  /// Counts the changes of patch and status since the last iteration.
+  void count_changes();
   /// Removes the tool: from now on no node touches it.
   void remove_tool();
   /// Makes the state of the last update() the start of the next step.
@@ -68,6 +72,9 @@ struct RigidContactParts {
   void begin(const ContactStep &at, const std::vector<dealii::Tensor<1, 3>> &displacements);
 
 private:
+  /// Changes in the iterations of a step above which a node is restless.
+  static constexpr unsigned int max_changes = 8;
+
   /// Whether an initial gap counts as closed, or an initial penetration as allowed.
   bool allows(const RigidSurface::Projection &projection) const;
   /// Starts the histories of friction at the current positions.
