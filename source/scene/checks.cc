@@ -53,6 +53,16 @@ void check_ids(const BoundaryIds &asked, const std::set<unsigned int> &present, 
     }
 }
 
+InputError lacks_support(const std::string &body, const std::string &motion) {
+  return InputError(
+      body +
+      ": the body has no support: at the start neither supports, nor symmetry planes, nor tools "
+      "in contact constrain its rigid-body mode with " +
+      motion +
+      ". A static scene allows no free mode. Add a support or a symmetry plane; if only contact "
+      "holds it, set 'Contact stabilisation = until contact'");
+}
+
 } // namespace
 
 /// Refuses supports in cylindrical axes that hold a node on the line, where no direction is radial.
@@ -234,13 +244,7 @@ void Scene::check_supports(const Triangulation<3> &mesh) const {
         std::any_of(pairs_.begin(), pairs_.end(), [b](const auto &pair) { return pair.body == b; });
     const auto free_motion = find_free_motion(touching, centre, size);
     if (free_motion && !may_touch && !is_stabilised.value)
-      throw InputError(
-          parameters_.bodies[b].origin +
-          ": the body has no support: at the start neither supports, nor symmetry planes, "
-          "nor tools in contact constrain its rigid-body mode with " +
-          print(*free_motion) +
-          ". A static scene allows no free mode. Add a support or a "
-          "symmetry plane; if only contact holds it, set 'Contact stabilisation = until contact'");
+      throw lacks_support(parameters_.bodies[b].origin, print(*free_motion));
 
     double last_removal = 0.; // of the tools in its pairs; infinite if one is never removed
     for (const auto &pair : pairs_)
