@@ -366,7 +366,7 @@ inline const DiagnosticKind mesh_may_exceed_target(
 inline const DiagnosticKind
     mesh_error("mesh-error", Severity::note,
                "This is the estimated error that the size of the elements makes in the forces of the run.",
-               "");
+               "Use finer elements where the field 'mesh_error' is large");
 
 inline const DiagnosticKind target_error_expensive(
     "target-error-expensive", Severity::warning,

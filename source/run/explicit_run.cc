@@ -134,6 +134,10 @@ void ExplicitRun::after_step(RunOutput &output) {
   const bool is_row_due = history_times_.is_due(problem_.time()) || is_start;
   const bool is_watch_due = watch_times_.is_due(problem_.time()) || is_start;
   const bool is_check_due = problem_.n_steps() % steps_between_checks == 0;
+  if (is_watch_due) {
+    problem_.update_state();
+    mesh_errors_.add(problem_);
+  }
   if (is_row_due)
     write_row(output);
   if (is_watch_due)
@@ -163,8 +167,10 @@ void ExplicitRun::show_number_of_steps(RunOutput &output) const {
 }
 
 void ExplicitRun::write_row(RunOutput &output) {
-  problem_.update_state(); // the errors of the mesh, and probes, read the fields
-  mesh_errors_.add(problem_);
+  if (probes_.empty())
+    problem_.update_ledger();
+  else
+    problem_.update_state(); // probes read the fields, too
   const std::vector<double> probes = probes_.read(problem_);
   output.write_row([&](HistoryFile &history) {
     history.write(problem_.n_steps(), problem_.step_length(), problem_, probes);

@@ -84,6 +84,12 @@ void LoadWorks::load(const StateReader &reader) {
 }
 
 void LoadWorks::save_forces(StateWriter &writer, const OwnedNodes &nodes) const {
+  std::vector<double> shares; // of this rank
+  for (const OfLoad &of_load : of_loads_)
+    for (const Tensor<1, 3> &force : of_load.forces)
+      RowWriter(shares).vector(force);
+  write_list(writer, "shares of loads",
+             dealii::Utilities::MPI::this_mpi_process(nodes_.discretization().communicator()), shares);
   for (std::size_t i = 0; i < of_loads_.size(); ++i) {
     Vector sum = nodes_.discretization().make_additive_vector();
     for (std::size_t k = 0; k < of_loads_[i].nodes.size(); ++k)
@@ -96,6 +102,17 @@ void LoadWorks::save_forces(StateWriter &writer, const OwnedNodes &nodes) const 
 }
 
 void LoadWorks::load_forces(const StateReader &reader, const OwnedNodes &nodes) {
+  const MPI_Comm communicator = nodes_.discretization().communicator();
+  if (reader.has("shares of loads") &&
+      reader.n_ranks() == dealii::Utilities::MPI::n_mpi_processes(communicator)) {
+    const std::vector<double> shares =
+        read_list(reader, "shares of loads", dealii::Utilities::MPI::this_mpi_process(communicator));
+    RowReader row(shares);
+    for (OfLoad &of_load : of_loads_)
+      for (Tensor<1, 3> &force : of_load.forces)
+        row.vector(force);
+    return;
+  }
   for (std::size_t i = 0; i < of_loads_.size(); ++i) {
     const std::string name = "forces of load " + std::to_string(i);
     if (!reader.has(name))
