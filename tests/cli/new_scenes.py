@@ -175,7 +175,8 @@ def _() -> None:
             keys[file] = setting.split(" = ")[0]
     errors = run(program, "--check", *keys).errors
     for file, key in keys.items():
-        unknown = rf"^error.*{file}.*(no parameter '{key}'|'{key}' in '[^']*' is [^;]*; (allowed is one of|did you))"
+        wrong_value = rf"'{key}' in '[^']*' is [^;]*; (allowed is one of|did you)"
+        unknown = rf"^error.*{file}.*(no parameter '{key}'|{wrong_value})"
         wrong = re.search(unknown, errors, re.MULTILINE)
         require(wrong is None, wrong[0] if wrong else "")
 

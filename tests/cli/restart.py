@@ -237,10 +237,8 @@ def _() -> None:
     text = runs(0, 1, "named.prm")
     rows = rows_of("named/history.csv")
     start = rows_of("block1.whole/history.csv")[2][1]
-    says(
-        rf"^note\[resumed\]: The run resumes from .*checkpoint_00001.h5 at time {re.escape(start)}\. Without ",
-        text,
-    )
+    resumed = rf"The run resumes from .*checkpoint_00001.h5 at time {re.escape(start)}\. Without "
+    says(rf"^note\[resumed\]: {resumed}", text)
     equal("first step", f"{float(rows[1][1]) - float(start):.6g}", "0.05")
     equal("end", rows[-1][1], "1")
 
