@@ -246,16 +246,21 @@ std::string quote(const std::string &text) {
   return quoted + "'";
 }
 
+/// Returns the options that changed the scene, as a shell reads them, each with a blank behind.
+std::string changes_of(const CommandLine &command) {
+  std::string options;
+  for (const auto &setting : command.settings) {
+    const std::string::size_type value = setting.where.find(' ');
+    options += setting.where.substr(0, value) +
+               (value == std::string::npos ? "" : " " + quote(setting.where.substr(value + 1))) + " ";
+  }
+  return options;
+}
+
 billet::parameters::Scene read_scene(const std::string &file, const CommandLine &command) {
   billet::parameters::Scene parameters;
   billet::fail_together(MPI_COMM_WORLD, [&] {
     parameters = billet::parameters::Scene::read(file, command.restart_file, command.settings);
-    for (const auto &setting : command.settings) {
-      const std::string::size_type value = setting.where.find(' ');
-      parameters.options += setting.where.substr(0, value) +
-                            (value == std::string::npos ? "" : " " + quote(setting.where.substr(value + 1))) +
-                            " ";
-    }
   });
   return parameters;
 }
@@ -378,7 +383,7 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
     break;
   case Task::run:
     code = billet::run_simulation(read_scene(command.scenes.front(), command), MPI_COMM_WORLD,
-                                  {command.replaces_results, log, command.is_quiet});
+                                  {command.replaces_results, log, command.is_quiet, changes_of(command)});
     break;
   }
   return code;

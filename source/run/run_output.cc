@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <unistd.h>
+#include <utility>
 
 namespace billet {
 
@@ -34,8 +35,8 @@ double seconds_between_checks(const parameters::Scene &parameters) {
 } // namespace
 
 RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostics &diagnostics,
-                     Resumption *resumption, std::ostream *const steps)
-    : scene_(scene), communicator_(communicator),
+                     Resumption *resumption, std::ostream *const steps, std::string changes)
+    : scene_(scene), changes_(std::move(changes)), communicator_(communicator),
       is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
       writer_(scene, communicator, scene.parameters().output.folder.value),
       snapshots_(scene.parameters(), writer_),
@@ -132,8 +133,8 @@ ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bo
         (checkpoints_.last().empty() ? "" : "; the last complete one is " + checkpoints_.last()));
   if (is_first_)
     std::cerr << Diagnostic(diagnostic::run_stopped, what)
-                     .advice("Resume by: billet --restart " + checkpoints_.last() + " " +
-                             scene_.parameters().options + scene_.parameters().file_name)
+                     .advice("Resume by: billet --restart " + checkpoints_.last() + " " + changes_ +
+                             scene_.parameters().file_name)
                      .text()
               << std::endl;
   return ExitCode::stopped;

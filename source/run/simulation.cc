@@ -46,7 +46,7 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
                           earlier == EarlierResults::continued);
     });
     std::ostream *const steps = options.is_quiet && options.log != nullptr ? &options.log->file() : nullptr;
-    RunOutput output(scene, communicator, diagnostics, resumption.get(), steps);
+    RunOutput output(scene, communicator, diagnostics, resumption.get(), steps, options.changes);
     if (!moved.empty()) // no message of the run: it depends on what was there before
       output.progress().show_diagnostic(
           Severity::note,

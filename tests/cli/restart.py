@@ -326,7 +326,7 @@ for sent, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGUSR1, 2)
         require(code == 5, f"exit code is '{code}', not '5'\n{text}")
         how = (
             rf"^note\[run-stopped\]: long.prm: {sent.name} stops the run at time \S+ after \d+ steps."
-            r" Resume by: billet (--restart \S+ \S+)\.$"
+            r" Resume by: billet (--restart \S+ .*\S+)\.$"
         )
         runs(0, ranks, *says(how, text)[1].split(" "))
         is_same = read_text(f"{folder}/history.csv") == read_text(f"{folder}.whole/history.csv")

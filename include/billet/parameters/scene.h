@@ -18,7 +18,6 @@ namespace billet::parameters {
 struct Scene {
   std::string title;
   std::string file_name;
-  std::string options; ///< of the command line that changed the scene, as a shell reads them
   std::string text; ///< the file as read
   std::string profile;
   double target_error = 0.; ///< relative to the forces; 0: none

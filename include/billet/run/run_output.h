@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <sstream>
+#include <string>
 
 namespace billet {
 
@@ -21,9 +22,10 @@ namespace billet {
 class RunOutput {
 public:
   /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0. `steps`
-  /// gets lines of steps in place of the console; null: the console gets them. Collective.
+  /// gets lines of steps in place of the console; null: the console gets them. `changes`: see RunOptions.
+  /// Collective.
   RunOutput(const Scene &scene, MPI_Comm communicator, Diagnostics &diagnostics, Resumption *resumption,
-            std::ostream *steps = nullptr);
+            std::ostream *steps = nullptr, std::string changes = {});
   ~RunOutput() { diagnostics_.set_print({}); }
   RunOutput(const RunOutput &) = delete;
   RunOutput &operator=(const RunOutput &) = delete;
@@ -54,6 +56,7 @@ private:
   std::string format() const;
 
   const Scene &scene_;
+  std::string changes_;
   MPI_Comm communicator_;
   bool is_first_;
   std::ostringstream silence_; ///< console of the other ranks

@@ -7,6 +7,8 @@
 
 #include <mpi.h>
 
+#include <string>
+
 namespace billet {
 
 class ConsoleLog;
@@ -16,6 +18,7 @@ struct RunOptions {
   bool replaces_results = false; ///< rather than to move those of an earlier run aside
   ConsoleLog *log = nullptr;     ///< to be opened in the output folder; null: none
   bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
+  std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
 };
 
 /// Runs a scene from start to end, or from a checkpoint. Throws InputError before anything is written,
