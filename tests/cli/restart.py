@@ -376,7 +376,7 @@ ELASTIC = (
 UNFIT = "does not match this scene: its body"
 REFUSED = [
     Refused(
-        "no such file", "nowhere.h5", "", "cannot be read; allowed is a complete checkpoint of this program"
+        "no such file", "nowhere.h5", "", "does not exist; allowed is a complete checkpoint of this program"
     ),
     Refused("a folder", "folder.h5", "", "is a folder;"),
     Refused("a scene", "block1.prm", "", "is not a checkpoint of billet;"),
