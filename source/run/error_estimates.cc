@@ -62,9 +62,9 @@ void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretizat
 }
 
 DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Scene &parameters) {
-  if (!mesh.is_known())
+  constexpr double rounding = 1e-6;
+  if (!(mesh.error() > rounding))
     return {};
-  constexpr double much = 0.05; // in proportion to what other sources usually make
   std::ostringstream text;
   text.precision(2);
   text << "By the jumps of stress between elements, their size makes an error of about "
@@ -76,8 +76,6 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Sc
   text << ". Curved surfaces that elements cut short, contact between nodes, and folds are not in it";
   Diagnostic message(diagnostic::mesh_error, text.str());
   message.value("error", mesh.error());
-  if (!(mesh.error() > much))
-    message.advice("");
   return {message};
 }
 
