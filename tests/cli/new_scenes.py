@@ -4,6 +4,7 @@
 
 Runs in an empty current folder. Each template of prm/templates must be what --new writes, pass --check, and
 run to its end; those that take long run over a part of their time. --list must name all registered types.
+Parts of scenes in the user guide must set parameters of the program, and whole ones run.
 """
 
 from __future__ import annotations
