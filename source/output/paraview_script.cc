@@ -321,8 +321,8 @@ def trim(part, name, box):
 
 def show_tool(part, view, name, box, colour, opacity):
     """Returns what is shown of a tool. In a section it is a line: its surface is seen from the side."""
+    part = trim(part, name, box)
     if SECTION == "solid":
-        part = trim(part, name, box)
         show_plain(part, view, colour, opacity, 0.003 * math.dist(*box))
         return part
     cut = simple.Slice(registrationName=SECTION + " of " + name, Input=part)
@@ -456,6 +456,7 @@ def show_preview(results, view, box, labels):
     """
     boxes = []
     for name, tool in extract_each(results, "Tools at end"):
+        simple.RenameSource(name + " at the end", tool)
         boxes.append(box_of(show_tool(tool, view, name + " at the end", box, TOOL_AT_END, 0.2)))
     supports = extract(results, "Supports")
     if supports:
@@ -575,14 +576,16 @@ def main():
         shown = show_tool(tool, view, name, box, TOOL, 0.2)
         if PREVIEW:
             low, high = box_of(shown)
-            labels.add(name, [0.5 * (a + b) for a, b in zip(low, high)], TOOL)
+            if low[0] <= high[0]:  # else a section does not meet it
+                labels.add(name, [0.5 * (a + b) for a, b in zip(low, high)], TOOL)
         boxes.append(box_of(shown))
     if PREVIEW:
         boxes += show_preview(results, view, box, labels)
     elif bodies:
         show_bodies(bodies, view, field, max(tops.values()))
-        label_bodies(bodies, labels)
         simple.SetActiveSource(bodies)
+    if bodies:
+        label_bodies(bodies, labels)
     show_title(results, view)
     simple.Render(view)  # the first time it chooses a camera of its own
     if not PREVIEW:  # tools that have left are not worth a small picture
