@@ -132,7 +132,7 @@ def extract_each(results, group):
     names = [name for name, _ in blocks_of(servermanager.Fetch(part))]
     parts = [(name, extract(results, group, name)) for name in names] if len(set(names)) == len(names) else []
     if not parts or not all(block for _, block in parts):
-        return [("", part)]
+        return [(group, part)]
     simple.Delete(part)
     return parts
 
