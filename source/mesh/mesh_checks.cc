@@ -254,8 +254,9 @@ void check_inverted(MeshFile &mesh) {
         "four around one face, then the four above them");
 }
 
-/// Finds nodes that are close to each other for the edges there. No edge of an element is as short as that.
-NearNodes find_near_nodes(const MeshFile &mesh) {
+/// Finds nodes that are close to each other for the edges there, or within `same_place`. No edge of an
+/// element is as short as that.
+NearNodes find_near_nodes(const MeshFile &mesh, const double same_place) {
   constexpr double near = 1e-3; // of the shortest edge at a node
   constexpr unsigned int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                                          {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
@@ -267,6 +268,8 @@ NearNodes find_near_nodes(const MeshFile &mesh) {
       radii[a] = std::min(radii[a], length);
       radii[b] = std::min(radii[b], length);
     }
+  for (double &radius : radii)
+    radius = std::max(radius, same_place);
   const std::vector<unsigned int> first = nearest_first(mesh, radii);
   NearNodes found;
   Examples examples;
@@ -292,19 +295,23 @@ NearNodes mend_and_check(MeshFile &mesh, const DoubledNodes doubled, const doubl
       most[c] = std::max(most[c], position[c]);
     }
   const double same_place = 1e-10 * norm(difference(most, least));
+  NearNodes near_nodes;
   if (doubled == DoubledNodes::merged) {
     check_collapsed(mesh, -1., false);
     renumber(mesh, nearest_first(mesh, std::max(distance, same_place)));
     check_collapsed(mesh, -1., true);
     drop_unused_nodes(mesh);
+    near_nodes = find_near_nodes(mesh, same_place);
   } else {
     check_collapsed(mesh, same_place, false);
     if (doubled == DoubledNodes::refused)
+      near_nodes = find_near_nodes(mesh, same_place);
+    if (near_nodes.n_pairs > 0) // these include those at the same place
       refuse_doubled(mesh, nearest_first(mesh, same_place));
   }
   check_repeated(mesh);
   check_inverted(mesh);
-  return doubled == DoubledNodes::kept ? NearNodes() : find_near_nodes(mesh);
+  return near_nodes;
 }
 
 } // namespace billet
