@@ -87,6 +87,12 @@ void Mesh::declare(ParameterHandler &prm) {
                     "CalculiX's .inp, UCD. "
                     "The content tells the format. Groups of faces give boundary ids and names.");
   prm.declare_entry(
+      "Volumes", "", Patterns::Anything(),
+      "Mesh files: names or numbers of the volumes that are this body, separated by commas: physical volumes "
+      "of Gmsh, sets of elements of a deck, numbers of materials in other formats; of a 'Section', "
+      "physical surfaces. Faces beside other volumes are boundary faces of this body, with the names "
+      "'interface' and 'interface NAME', where NAME is the other volume. Empty: the whole file is one body.");
+  prm.declare_entry(
       "Merge nodes within", "", Patterns::Anything(),
       "Mesh files: nodes within this distance of each other become one, in the file's unit of length, before "
       "'Scale'. Empty: nodes at the same place are refused. 0: they stay apart, for parts that only touch. "
@@ -182,6 +188,7 @@ void Mesh::parse(Reader &reader) {
   height = reader.positive("Height");
   n_layers = reader.count("Layers", 1);
   file_name = reader.located("File", reader.text("File"));
+  volumes = reader.located("Volumes", reader.parts("Volumes", ','));
   positions = reader.located("Positions", reader.parts("Positions"));
   const bool is_turned = section.value == Section::axisymmetric;
   if (is_turned && !positions.value.empty() && positions.value.size() != 2)
@@ -202,6 +209,8 @@ void Mesh::parse(Reader &reader) {
         throw std::invalid_argument("no condition");
       const std::string name = dealii::Utilities::trim(part.substr(0, colon));
       const bool is_name = is_boundary_name(name);
+      if (name == "all") // in pairs these are all faces
+        throw std::invalid_argument("reserved");
       boundary_ids.value.emplace_back(is_name ? 0 : parse_count(name),
                                       dealii::Utilities::trim(part.substr(colon + 1)));
       boundary_names.push_back(is_name ? name : "");
@@ -209,7 +218,7 @@ void Mesh::parse(Reader &reader) {
       reader.reject(
           "Boundary ids",
           "'id : condition', separated by semicolons, the id a whole number up to 999999999 or a name "
-          "with a letter and without a comma");
+          "with a letter and without a comma, but 'all'");
     }
   }
   const bool is_extruded = source == Source::extruded || section.value != Section::solid;
@@ -224,7 +233,7 @@ void Mesh::parse(Reader &reader) {
       reader.reject("File", "the name of a mesh file, since 'Source = file'");
     file_name.value = reader.file("File");
   } else {
-    for (const std::string key : {"File", "Merge nodes within"})
+    for (const std::string key : {"File", "Volumes", "Merge nodes within"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the mesh does not come from a file");
     arguments = read_arguments(reader, is_extruded ? 2 : 3);

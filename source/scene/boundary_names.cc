@@ -5,7 +5,7 @@
 #include "billet/mesh/mesh_cursor.h"
 #include "billet/nearest_name.h"
 #include "billet/scene/mesh_builder.h"
-#include "billet/scene/unread_keywords.h"
+#include "billet/scene/mesh_file_notes.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -104,13 +104,13 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 }
 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
-/// gives. Appends notes about the mesh file.
-GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, DiagnosticList &notes) {
+/// gives. Adds what is to be said of the mesh file to the notes.
+GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
   unsigned int new_id = least_new_id(mesh) + 1;
   GroupNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
     const LoadedMesh loaded = load_mesh_file(mesh);
-    append(notes, describe_unread_keywords(loaded.mesh.unread, mesh.file_name, body));
+    notes.add(loaded, mesh, body);
     names = loaded.groups.names();
     new_id = loaded.groups.new_id();
     if (mesh.section.value != parameters::Mesh::Section::solid)
@@ -195,13 +195,15 @@ unsigned int least_new_id(const parameters::Mesh &mesh) {
 
 parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<BoundaryNames> &names) {
   std::vector<GroupNames> known;
+  MeshFileNotes notes;
   for (auto &body : scene.bodies) {
-    known.push_back(read_boundary_names(body.mesh, body.name, scene.warnings));
+    known.push_back(read_boundary_names(body.mesh, body.name, notes));
     for (auto &support : body.supports)
       resolve(support.boundary_ids, known.back(), body.name);
     for (auto &load : body.loads)
       resolve(load.boundary_ids, known.back(), body.name);
   }
+  append(scene.warnings, notes.all());
   names.assign(known.begin(), known.end());
   ExteriorIds exterior(scene.bodies);
   const auto resolve_of_pair = [&](BoundaryIds &boundaries, const std::size_t body) {

@@ -2,7 +2,6 @@
 #include "billet/scene/mesh_builder.h"
 
 #include "billet/errors.h"
-#include "billet/mesh/mesh_checks.h"
 #include "billet/scene/boundary_names.h"
 #include "billet/scene/expression.h"
 
@@ -261,6 +260,15 @@ void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mes
   }
 }
 
+/// Keeps the volumes of a mesh file that the body takes.
+VolumeChoice take_volumes(const parameters::Mesh &parameters, MeshFile &mesh) {
+  try {
+    return choose_volumes(mesh, parameters.volumes.value);
+  } catch (const std::invalid_argument &error) {
+    throw InputError(parameters.volumes.origin + " " + error.what());
+  }
+}
+
 } // namespace
 
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
@@ -268,14 +276,15 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
   try {
     MeshFile mesh = is_plane ? read_plane_mesh_file(parameters.file_name.value)
                              : read_mesh_file(parameters.file_name.value);
+    VolumeChoice volumes = take_volumes(parameters, mesh);
     const auto &distance = parameters.merged_distance.value;
-    mend_and_check(mesh,
-                   !distance        ? DoubledNodes::refused
-                   : *distance > 0. ? DoubledNodes::merged
-                                    : DoubledNodes::kept,
-                   distance.value_or(0.));
+    NearNodes near_nodes = mend_and_check(mesh,
+                                          !distance        ? DoubledNodes::refused
+                                          : *distance > 0. ? DoubledNodes::merged
+                                                           : DoubledNodes::kept,
+                                          distance.value_or(0.));
     BoundaryGroups groups(mesh, least_new_id(parameters));
-    return {std::move(mesh), std::move(groups)};
+    return {std::move(mesh), std::move(groups), std::move(volumes), std::move(near_nodes)};
   } catch (const std::invalid_argument &error) {
     throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
                      "'; allowed is a mesh of " + (is_plane ? "quadrilaterals" : "hexahedra") +

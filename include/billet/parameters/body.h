@@ -31,6 +31,7 @@ struct Mesh {
   double height;
   unsigned int n_layers;
   Located<std::string> file_name;              ///< relative to the scene file
+  Located<std::vector<std::string>> volumes;   ///< of the file, by their names; empty: all of it
   Located<std::vector<std::string>> positions; ///< three expressions of x, y, z, or none
   double scale;
   dealii::Tensor<1, 3> rotation_axis;

@@ -3,6 +3,8 @@
 #define BILLET_SCENE_MESH_BUILDER_H
 
 #include "billet/mesh/boundary_groups.h"
+#include "billet/mesh/mesh_checks.h"
+#include "billet/mesh/mesh_volumes.h"
 #include "billet/parameters/body.h"
 
 #include <deal.II/grid/tria.h>
@@ -19,6 +21,8 @@ enum class MeshDetail {
 struct LoadedMesh {
   MeshFile mesh;
   BoundaryGroups groups;
+  VolumeChoice volumes;
+  NearNodes near_nodes;
 };
 
 /// Reads the mesh file of a body: of a section, as extrude_plane() makes it a layer. The first two new ids of
