@@ -166,9 +166,9 @@ void check_viscous_faces() {
   text.close();
   testing::ExplicitRun run(parameters::Scene::read("viscous.prm"));
   run.finish(1e-6, [] {});
-  check("viscous faces: stable, without momentum at the end",
-        std::abs(run.state().momentum[2]) < 0.02 * density &&
-            run.state().energies.kinetic < 0.1 * 0.5 * density);
+  // A wave loses a third of its energy at each of the five times that it comes to a face.
+  const double energy = run.state().energies.kinetic + run.state().energies.elastic;
+  check("viscous faces: they take most of the energy, in stable steps", energy < 0.25 * 0.5 * density);
 }
 
 /// Stretch λ of E ln λ/λ = t, the nominal stress of uniaxial Hencky tension.
