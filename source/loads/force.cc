@@ -9,7 +9,7 @@ namespace {
 
 /// F_a = A_a/A F: the force is spread evenly over all faces. Its line of action passes through their
 /// centroid.
-class SpreadForce final : public NodalLoad {
+class SpreadForce final : public DeadLoad<NodalLoad> {
 public:
   explicit SpreadForce(const Axes &axes) : axes_(axes) {}
 
@@ -21,7 +21,6 @@ public:
                  nodes[k].area / surface.area * axes_.to_global(values.at(k), surface.centre));
     }
   }
-  LoadTangent tangent() const override { return LoadTangent::none; }
 
 private:
   Axes axes_;

@@ -389,11 +389,8 @@ void require(const bool holds, const char *reason) {
 
 } // namespace
 
-std::string describe(const ExplicitFormulation &formulation, const PointLaw &law) {
-  std::string words = std::string("explicit, ") + formulation.element.name() + ", " + law.name();
-  if (formulation.number_type == NumberType::float_precision)
-    words += ", float";
-  return words;
+bool has_kernel(const BrickElement &element, const PointLaw &law) {
+  return element.lanes().has_value() && law.lane_law().has_value();
 }
 
 std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const PointLaw> &law,
@@ -404,15 +401,15 @@ std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const P
   require(formulation.linear_viscosity >= 0. && formulation.quadratic_viscosity >= 0.,
           "bulk viscosity must not be negative");
   const bool in_float = formulation.number_type == NumberType::float_precision;
-  const std::optional<LaneLaw> lane_law = law->lane_law();
-  const std::optional<LaneElement> lane_element = formulation.element.lanes();
-  if (!lane_law || !lane_element) {
+  if (!has_kernel(formulation.element, *law)) {
     require(!in_float, "'Number type = float' is for laws and elements that the kernels have");
     return make_elementwise_block(law, density, formulation);
   }
+  const LaneLaw lane_law = *law->lane_law();
+  const LaneElement lane_element = *formulation.element.lanes();
   if (in_float)
-    return std::make_unique<Block<float>>(law, *lane_law, *lane_element, density, formulation);
-  return std::make_unique<Block<double>>(law, *lane_law, *lane_element, density, formulation);
+    return std::make_unique<Block<float>>(law, lane_law, lane_element, density, formulation);
+  return std::make_unique<Block<double>>(law, lane_law, lane_element, density, formulation);
 }
 
 } // namespace billet

@@ -135,6 +135,19 @@ KernelUnits choose_units(const double length, const double stress, const double 
   return units;
 }
 
+/// Returns the number of constants that kernels keep of an element.
+std::size_t n_constants_of(const LaneElement element, const bool is_rate) {
+  switch (element) {
+  case LaneElement::one_point:
+    return one_point::modes;
+  case LaneElement::assumed_strain:
+    return assumed_strain::modes;
+  case LaneElement::mean_dilatation:
+    break;
+  }
+  return eight_point_modes + (is_rate ? 0 : n_element_points);
+}
+
 template <class Number>
 ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ElasticModuli &elastic,
                                          const LaneLaw law, const LaneElement element,
@@ -147,10 +160,7 @@ ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const Elast
   layout_.n_point_history = n_tensor_ + n_alpha + (keeps_yield_stress ? 1 : 0);
   first_point_ = last::n + (is_one_point ? 12 : 0);
   layout_.n_history = first_point_ + (is_one_point ? 1 : n_element_points) * layout_.n_point_history;
-  layout_.n_constants = is_one_point ? one_point::modes
-                        : element == Element::assumed_strain
-                            ? assumed_strain::modes
-                            : eight_point_modes + (is_rate() ? 0 : n_element_points);
+  layout_.n_constants = n_constants_of(element, is_rate());
   if (is_single)
     layout_.n_constants += n_mode_numbers;
   history_units_.assign(layout_.n_history, 1.);

@@ -282,7 +282,7 @@ private:
     else if (name == "end instance")
       assembly_.is_in_instance = false;
     else if (name == "ngen" || name == "nfill" || name == "elgen" || name == "ncopy" || name == "elcopy" ||
-             name == "system" || name == "nmap" || name == "elcopy")
+             name == "system" || name == "nmap")
       lines.refuse("*" + name +
                    " makes or moves nodes or elements, which is not read; write them out (*NODE, "
                    "*ELEMENT)");

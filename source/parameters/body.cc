@@ -266,18 +266,23 @@ void Material::declare(ParameterHandler &prm) {
                     "of the scene is that of the process.");
 }
 
-bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set) {
-  return find_value(laws, law)
-      .value_or(std::nullopt)
+namespace {
+
+/// Whether the material has plasticity: as 'Law' says, or else if a parameter of plasticity is set.
+bool wants_plasticity(const Reader &reader) {
+  const auto is_set = [&](const std::string &key) { return reader.is_set(key); };
+  return chosen(laws, reader.text("Law"))
       .value_or(is_set("Hardening") || is_set("Rate factor") ||
                 join_parameters(hardening_types()).is_any_set(is_set) ||
                 join_parameters(rate_factor_types()).is_any_set(is_set));
 }
 
+} // namespace
+
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
-  if (!has_plasticity(reader.text("Law"), [&](const std::string &key) { return reader.is_set(key); })) {
+  if (!wants_plasticity(reader)) {
     // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
       if (reader.is_set(key))

@@ -4,6 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
+#include "billet/mechanics/explicit_block.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/declaration.h"
 #include "billet/parameters/general_contact.h"
@@ -263,6 +264,14 @@ private:
     if (scene_.is_explicit() && body.points_through.value > 2)
       throw InputError(body.points_through.origin + " is '" + std::to_string(body.points_through.value) +
                        "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
+    const bool in_float = scene_.explicit_dynamics.number_type == NumberType::float_precision;
+    if (scene_.is_explicit() && in_float && !has_kernel(body.element.value, *body.material.law))
+      throw InputError(
+          file_.where({"Explicit dynamics"}, "Number type") +
+          ": 'Number type' in 'Explicit dynamics' is 'float'; allowed is double, since no kernel "
+          "computes body '" +
+          body.name + "' in float: " + body.element.value.name() + ", " + body.material.law->name() + ", " +
+          body.material.law->description());
     if (scene_.is_explicit())
       return;
     if (!scene_.is_dynamic())

@@ -20,20 +20,6 @@ namespace billet {
 
 namespace {
 
-std::string describe(const DirectMethod method) {
-  switch (method) {
-  case DirectMethod::mumps_symmetric:
-    return "MUMPS, which factorises half";
-  case DirectMethod::mumps:
-  case DirectMethod::klu:
-    break;
-  }
-  return name_of(method);
-}
-std::string describe(const IterativeMethod method) {
-  return std::string(name_of(method)) + " with multigrid";
-}
-
 /// Returns the scheme of time integration in the summary of a scene.
 const char *describe_scheme(const parameters::TimeStepping::Scheme scheme) {
   using Scheme = parameters::TimeStepping::Scheme;
@@ -51,10 +37,10 @@ const char *describe_scheme(const parameters::TimeStepping::Scheme scheme) {
 /// `method`: none if the choice is automatic.
 std::string describe_solver(const std::optional<LinearMethod> &method, const bool unsymmetric) {
   if (method)
-    return std::visit([](const auto chosen) { return describe(chosen); }, *method);
-  return describe(unsymmetric ? DirectMethod::mumps : DirectMethod::mumps_symmetric) + ", above " +
+    return describe(*method);
+  return describe(default_direct_method(!unsymmetric)) + ", above " +
          std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
-         describe(unsymmetric ? IterativeMethod::gmres : IterativeMethod::conjugate_gradients);
+         describe(default_iterative_method(!unsymmetric));
 }
 
 /// Whether the solver that the scene names is for symmetric matrices only.
@@ -62,10 +48,13 @@ bool wants_symmetry(const parameters::Solver &solver) {
   return solver.linear_solver.value && requires_symmetry(*solver.linear_solver.value);
 }
 
-/// Returns the beginning of a message: place and name of the linear solver.
-std::string quote_linear_solver(const parameters::Solver &solver) {
-  return solver.linear_solver.origin + " is '" +
-         parameters::name_in(parameters::linear_methods(), solver.linear_solver.value) + "'";
+/// Refuses the linear solver of the scene, which is for symmetric matrices. `reason` follows "but ";
+/// `otherwise` is what else would help, such as ", or ...".
+[[noreturn]] void refuse_symmetric_solver(const parameters::Solver &solver, const std::string &reason,
+                                          const std::string &otherwise = "") {
+  throw InputError(solver.linear_solver.origin + " is '" +
+                   parameters::name_in(parameters::linear_methods(), solver.linear_solver.value) + "', but " +
+                   reason + "; allowed are " + parameters::methods_for_unsymmetric() + otherwise);
 }
 
 struct ControlWords {
@@ -324,9 +313,8 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
        (capabilities_.friction &&
         (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
   if (capabilities_.unsymmetric_matrix && is_symmetric)
-    throw InputError(quote_linear_solver(parameters.solver) +
-                     ", but this scene's contact tangent is unsymmetric; "
-                     "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
+    refuse_symmetric_solver(parameters.solver, "this scene's contact tangent is unsymmetric",
+                            ", or a symmetrised 'Contact tangent'");
   if (!parameters.is_explicit()) {
     allow_for_loads();
     choose_material_tangents();
@@ -348,10 +336,9 @@ void Scene::choose_material_tangents() {
     if (body.formulation.is_symmetrised)
       continue;
     if (wants_symmetry(parameters_.solver))
-      throw InputError(quote_linear_solver(parameters_.solver) +
-                       ", but the exact material tangent of body '" + body.name +
-                       "' is unsymmetric; allowed are automatic, MUMPS, KLU, GMRES, or another 'Material "
-                       "tangent'");
+      refuse_symmetric_solver(parameters_.solver,
+                              "the exact material tangent of body '" + body.name + "' is unsymmetric",
+                              ", or another 'Material tangent'");
     capabilities_.unsymmetric_matrix = true;
   }
 }
@@ -362,9 +349,8 @@ void Scene::allow_for_loads() {
       if (load.load.has_unsymmetric_tangent()) {
         capabilities_.unsymmetric_matrix = true;
         if (wants_symmetry(parameters_.solver))
-          throw InputError(quote_linear_solver(parameters_.solver) + ", but the " + load.type + " on body '" +
-                           body.name +
-                           "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU, GMRES");
+          refuse_symmetric_solver(parameters_.solver, "the " + load.type + " on body '" + body.name +
+                                                          "' makes the matrix unsymmetric");
       }
 }
 

@@ -119,8 +119,9 @@ public:
   virtual StateAverages average_states(std::size_t element, const double *displacements) const = 0;
 };
 
-/// Returns text that identifies the meaning of a history: element, elasticity and number type.
-std::string describe(const ExplicitFormulation &formulation, const PointLaw &law);
+/// Whether the kernels compute this element with this law; other ones are computed one by one, in double
+/// only.
+bool has_kernel(const BrickElement &element, const PointLaw &law);
 
 /// Makes the block; `density` is per reference volume. Throws std::invalid_argument, with the reason, for an
 /// unavailable instruction set and for numbers out of range. Every element supports every law: if the kernels

@@ -9,7 +9,6 @@
 #include "billet/parameters/reader.h"
 
 #include <array>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -53,10 +52,6 @@ struct Mesh {
 private:
   void parse_section(const Reader &reader);
 };
-
-/// Whether a material has plasticity. `law`: value of 'Law', which is automatic by default; `is_set`: whether
-/// the scene sets a parameter of the material.
-bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set);
 
 /// Subsection Material.
 struct Material {
