@@ -82,7 +82,7 @@ void RateDependentFlow::advance(const double alpha_n, const double delta_alpha, 
 LaneHardening RateDependentFlow::lane_form() const {
   LaneHardening form = hardening_->lane_form();
   form.rate = factor_->lane_form();
-  return form.kind == HardeningKind::other || form.rate.kind == RateKind::other ? LaneHardening() : form;
+  return form.rate.kind == RateKind::other ? LaneHardening() : form;
 }
 
 std::shared_ptr<const FlowStress> make_flow_stress(std::shared_ptr<const HardeningLaw> hardening,

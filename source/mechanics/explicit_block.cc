@@ -24,20 +24,31 @@ namespace {
 
 using Material = explicit_kernels::BasicMaterial<double>;
 
-explicit_kernels::LaneFlow harden(const void *flow, const double q, const double m, const double alpha,
-                                  const double dt, double *state) {
+double harden(const void *flow, const double q, const double m, const double alpha, double &yield_stress) {
+  const auto &law = *static_cast<const FlowStress *>(flow);
+  const double delta = law.solve(q, m, alpha, 0.).strain;
+  yield_stress = law.stress(alpha + delta);
+  return delta;
+}
+
+explicit_kernels::LaneFlow find_flow(const void *flow, const double q, const double m, const double alpha,
+                                     const double dt, double *state) {
   const auto &law = *static_cast<const FlowStress *>(flow);
   const double delta = law.solve(q, m, alpha, dt).strain;
-  explicit_kernels::LaneFlow result{delta, law.stress(alpha + delta), q - m * delta, 0.};
-  if (const std::size_t n = law.n_state(); n > 0 && delta > 0.) {
-    FlowStress::State before{{}};
-    std::copy_n(state, n, before.begin());
-    FlowStress::State after = before;
+  FlowStress::State before{{}};
+  std::copy_n(state, law.n_state(), before.begin());
+  FlowStress::State after = before;
+  if (delta > 0.)
     law.advance(alpha, delta, dt, before, after);
-    result.plastic_work = law.plastic_work(alpha + delta, after) - law.plastic_work(alpha, before);
-    std::copy_n(after.begin(), n, state);
-  }
-  return result;
+  std::copy_n(after.begin(), law.n_state(), state);
+  return {delta, law.stress(alpha + delta), q - m * delta,
+          law.plastic_work(alpha + delta, after) - law.plastic_work(alpha, before)};
+}
+
+double find_yield_stress(const void *flow, const double alpha, double &slope) {
+  const auto &law = *static_cast<const FlowStress *>(flow);
+  slope = law.slope(alpha);
+  return law.stress(alpha);
 }
 
 /// Returns what a point stores for a flow stress, null for elastic bodies.
@@ -48,7 +59,9 @@ PlasticNumbers plastic_numbers(const FlowStress *flow) {
 }
 
 /// Sets the parameters of a flow stress, as far as kernels support it.
-void set_hardening(const LaneHardening &form, Material &material) {
+void set_hardening(const FlowStress &flow, Material &material) {
+  const LaneHardening form = flow.lane_form();
+  const bool by_lane = form.kind == HardeningKind::other && form.rate.kind == RateKind::none;
   material.hardening_kind = form.kind;
   material.yield_stress = form.yield_stress;
   material.hardening_modulus = form.hardening_modulus;
@@ -57,7 +70,7 @@ void set_hardening(const LaneHardening &form, Material &material) {
   material.strength = form.strength;
   material.prestrain = form.prestrain;
   material.exponent = form.exponent;
-  material.rate_kind = form.rate.kind;
+  material.rate_kind = by_lane && flow.n_state() > 0 ? RateKind::other : form.rate.kind;
   material.rate_exponent = form.rate.exponent;
 }
 
@@ -168,11 +181,13 @@ public:
     material_.linear_viscosity = formulation.linear_viscosity;
     material_.quadratic_viscosity = formulation.quadratic_viscosity;
     if (flow_ != nullptr) {
-      set_hardening(flow_->lane_form(), material_);
+      set_hardening(*flow_, material_);
       reference_rate_ = flow_->lane_form().rate.reference;
       material_.hardening = flow_;
       material_.n_flow_state = static_cast<unsigned int>(flow_->n_state());
       functions_.harden = &harden;
+      functions_.flow = &find_flow;
+      functions_.yield_stress = &find_yield_stress;
     }
     functions_.logarithm = &compute_logarithm;
   }

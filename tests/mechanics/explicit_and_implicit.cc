@@ -23,8 +23,8 @@ ElementVectors gather(const Mesh &mesh, const std::size_t element, const NodalAr
 }
 
 /// Twelve elements that share nodes, along a path towards a random target of the given size, and back, in
-/// steps of dt. With a rate factor, kernels integrate the plastic work of their nonlinear hardening laws by
-/// the trapezoidal rule; then it is not compared, since these steps are large.
+/// steps of dt. With a rate factor that kernels have, they integrate the plastic work of nonlinear hardening
+/// by the trapezoidal rule; then it is not compared, since these steps are large.
 void test_path(const std::string &name, const Formulation &chosen, const MaterialLaw &material,
                const double size, const double scatter, const double tolerance, const double dt = 1e-6,
                const bool compares_work = true) {
@@ -156,12 +156,13 @@ void test_rates(const Formulation &formulation) {
     test("linear hardening, steep rate", at_rate(linear, cowper_symonds(1e-3, 60.)), true);
     test("Voce hardening, rate", at_rate(voce, power), false);
     test("steep power law, rate", at_rate(steep_power_law, power), false);
-    test("table, rate", at_rate(table, power), true);
+    test("table, rate", at_rate(table, power), false);
     test("Voce hardening, logarithm of the rate", at_rate(voce, logarithm), true);
   }
   test_plastic_work("linear hardening, rate", formulation, {steel, at_rate(linear, power)}, 1e-11);
   test_plastic_work("Voce hardening, rate", formulation, {steel, at_rate(voce, power)}, 2e-6);
   test_plastic_work("power law, rate", formulation, {steel, at_rate(power_law, power)}, 2e-6);
+  test_plastic_work("table, rate", formulation, {steel, at_rate(table, power)}, 2e-6);
   test_plastic_work("table, logarithm of the rate", formulation, {steel, at_rate(table, logarithm)}, 1e-11);
 }
 

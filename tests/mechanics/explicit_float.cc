@@ -108,6 +108,7 @@ template <class Function> void for_each_law(const Function &run) {
   run(MaterialLaw{steel, at_rate(linear, cowper_symonds(40., 5.))});
   run(MaterialLaw{steel, at_rate(voce, cowper_symonds(40., 5.))});
   run(MaterialLaw{steel, at_rate(table, cowper_symonds(40., 5.))});
+  run(MaterialLaw{steel, at_rate(table, std::make_shared<const LogarithmicFactor>(2., 0.1))});
 }
 
 /// A mesh elsewhere: nodes are moved before all displacements, and once more by them.

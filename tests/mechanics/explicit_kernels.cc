@@ -159,6 +159,8 @@ int main() {
     test_instruction_sets(formulation, "Voce hardening", {steel, voce});
     test_instruction_sets(formulation, "rate factor", {steel, at_rate(voce, cowper_symonds(40., 5.))});
     test_instruction_sets(formulation, "rate factor, lane by lane",
+                          {steel, at_rate(table, std::make_shared<const LogarithmicFactor>(2., 0.1))});
+    test_instruction_sets(formulation, "rate factor of a table",
                           {steel, at_rate(table, cowper_symonds(40., 5.))});
     test_masses(formulation);
     test_inverted(formulation);

@@ -77,8 +77,11 @@ public:
   virtual bool is_bounded() const = 0;
 
   /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
-  /// time. With a rate factor that kernels know, the state is the plastic work alone.
+  /// time. With a rate factor that kernels have, the state is the plastic work alone.
   virtual LaneHardening lane_form() const { return {}; }
+
+  /// Returns the derivative of stress(), from the right where it has a kink [stress].
+  virtual double slope(double alpha) const = 0;
 };
 
 } // namespace billet

@@ -5,11 +5,12 @@
 namespace billet {
 
 /// Hardening laws that the explicit kernels compute for several elements at once. They evaluate `other`
-/// through a callback, one lane at a time. σ_y(α) is concave except for `other`.
+/// through a callback, one lane at a time, but a rate factor of it at once. σ_y(α) is concave except for
+/// `other`.
 enum class HardeningKind { linear, voce, power_law, other };
 
 /// Rate factors that the explicit kernels compute for several elements at once: 1, and 1 + (ε̇/D)^{1/p}.
-/// Kernels evaluate a flow stress with any `other` through a callback, one lane at a time.
+/// Kernels evaluate a flow stress with an `other` through a callback, one lane at a time.
 enum class RateKind { none, power_law, other };
 
 /// Maximum count of numbers that a flow stress stores at a point beside α.

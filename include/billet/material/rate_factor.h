@@ -46,7 +46,8 @@ public:
   double plastic_work(double, const State &state) const override { return state[0]; }
   double plastic_work_at_rest(const double alpha) const override { return hardening_->work(alpha); }
   bool is_bounded() const override { return hardening_->is_bounded(); }
-  /// Returns a form if both hardening and factor have one.
+  double slope(double alpha) const override { return hardening_->slope(alpha); }
+  /// Returns a form if the factor has one.
   LaneHardening lane_form() const override;
 
 private:

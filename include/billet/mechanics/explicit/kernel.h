@@ -19,14 +19,18 @@ struct LaneFlow {
   double strain;       ///< Δα ≥ 0
   double yield_stress; ///< at the end of the step, at rest
   double flow_stress;  ///< at the end of the step
-  double plastic_work; ///< of the step, per volume; only with a state
+  double plastic_work; ///< of the step, per volume
 };
 
 /// Callbacks of a kernel for one lane at a time, where there is no vectorised form.
 struct LaneFunctions {
+  /// Solves q − m Δα − σ_y(α + Δα) = 0 for the Δα > 0; `yield_stress` becomes σ_y(α + Δα).
+  double (*harden)(const void *hardening, double q, double m, double alpha, double &yield_stress);
   /// Solves q − m Δα = flow stress for the Δα > 0 of a step of dt, and advances the flow stress' `state`, see
   /// FlowStress.
-  LaneFlow (*harden)(const void *hardening, double q, double m, double alpha, double dt, double *state);
+  LaneFlow (*flow)(const void *hardening, double q, double m, double alpha, double dt, double *state);
+  /// Returns σ_y(α), at rest; `slope` becomes its derivative.
+  double (*yield_stress)(const void *hardening, double alpha, double &slope);
   /// Computes dev ln b and tr ln b / 3 of a symmetric b (11, 22, 33, 12, 13, 23). Returns false if b is not
   /// positive definite.
   bool (*logarithm)(const double *b, double *deviator, double &mean);
@@ -39,13 +43,13 @@ template <class Number> struct BasicMaterial {
   Number yield_stress, hardening_modulus;    ///< linear; Voce
   Number saturation_stress, saturation_rate; ///< Voce
   Number prestrain, exponent, strength;      ///< power law
-  RateKind rate_kind;
-  Number rate_exponent;       ///< p of the rate factor
-  Number reference_increment; ///< D Δt of the step: the Δα at which the rate factor is 2
-  double dt;                  ///< of the step, in the user's units
-  const void *hardening;      ///< the flow stress, for LaneFunctions
-  unsigned int n_flow_state;  ///< count of numbers of its state
-  double stress_unit;         ///< unit of the kernel's stresses
+  RateKind rate_kind;                        ///< other: the flow stress as a whole is computed lane by lane
+  Number rate_exponent;                      ///< p of the rate factor
+  Number reference_increment;                ///< D Δt of the step: the Δα at which the rate factor is 2
+  double dt;                                 ///< of the step, in the user's units
+  const void *hardening;                     ///< the flow stress, for LaneFunctions
+  unsigned int n_flow_state;                 ///< count of numbers of its state
+  double stress_unit;                        ///< unit of the kernel's stresses
   Number density;
   Number wave_speed;
   Number linear_viscosity, quadratic_viscosity;

@@ -168,9 +168,22 @@ constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r; ///< rela
 
 /// Solves q − m Δα = σ_y(α + Δα) for Δα > 0 in the lanes that yield; `yield_stress` becomes the new one. With
 /// a concave σ_y Newton's method approaches the root from one side.
-BILLET_INLINE Real solve_consistency(const Material &material, const Mask yields, const Real q, const Real m,
-                                     const Real alpha, Real &yield_stress) {
+BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctions &functions,
+                                     const Mask yields, const Real q, const Real m, const Real alpha,
+                                     Real &yield_stress) {
   Real delta{};
+  if (material.hardening_kind == HardeningKind::other) {
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      if (get_mask(yields, lane)) {
+        double value = 0.;
+        const double unit = material.stress_unit;
+        set(delta, lane,
+            static_cast<Number>(functions.harden(material.hardening, unit * get(q, lane), unit * get(m, lane),
+                                                 get(alpha, lane), value)));
+        set(yield_stress, lane, static_cast<Number>(value / unit));
+      }
+    return delta;
+  }
   Real excess = select(yields, q - yield_stress, Real{});
   for (unsigned int iteration = 0; iteration < 50 && any(excess > consistency_tolerance * q); ++iteration) {
     delta += excess / (m + compute_slope(material, alpha + delta, yield_stress));
@@ -222,8 +235,8 @@ BILLET_INLINE Flow flow_by_lane(const Material &material, const LaneFunctions &f
         for (std::size_t part = 0; part < n_parts; ++part)
           numbers[k] += state[(k * n_parts + part) * n_lanes + lane];
       const double unit = material.stress_unit;
-      const LaneFlow own = functions.harden(material.hardening, unit * get(q, lane), unit * get(m, lane),
-                                            history[lane], material.dt, numbers);
+      const LaneFlow own = functions.flow(material.hardening, unit * get(q, lane), unit * get(m, lane),
+                                          history[lane], material.dt, numbers);
       set(flow.strain, lane, static_cast<Number>(own.strain));
       set(flow.yield_stress, lane, static_cast<Number>(own.yield_stress / unit));
       set(flow.flow_stress, lane, static_cast<Number>(own.flow_stress / unit));
@@ -235,10 +248,25 @@ BILLET_INLINE Flow flow_by_lane(const Material &material, const LaneFunctions &f
           numbers[k] -= stored;
         }
     }
-  if (material.n_flow_state == 0)
-    flow.plastic_work = flow.strain * (0.5_r * (before + flow.yield_stress));
   yields = flow.strain > Real{};
   return flow;
+}
+
+/// Computes σ_y(α) and its slope in the lanes that yield.
+BILLET_INLINE void evaluate_hardening(const Material &material, const LaneFunctions &functions,
+                                      const Mask yields, const Real alpha, Real &yield, Real &slope) {
+  if (material.hardening_kind != HardeningKind::other) {
+    yield = compute_yield_stress(material, alpha);
+    slope = compute_slope(material, alpha, yield);
+    return;
+  }
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    if (get_mask(yields, lane)) {
+      double own_slope = 0.;
+      const double own = functions.yield_stress(material.hardening, get(alpha, lane), own_slope);
+      set(yield, lane, static_cast<Number>(own / material.stress_unit));
+      set(slope, lane, static_cast<Number>(own_slope / material.stress_unit));
+    }
 }
 
 /// Returns x^p for positive x.
@@ -251,8 +279,8 @@ constexpr Number root_tolerance = is_single ? 1e-3_r : 6e-8_r;
 /// yield; `before` is σ_y(α). In x the slope at rest is finite. Each side alone bounds x from above; Halley's
 /// method starts at the smaller bound, and bisects where it would leave the bracket. Without time to flow no
 /// lane yields.
-BILLET_INLINE Flow flow_at_rate(const Material &material, const Real all_q, const Real m, const Real alpha,
-                                const Real before, Mask &yields) {
+BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &functions, const Real all_q,
+                                const Real m, const Real alpha, const Real before, Mask &yields) {
   const Number p = material.rate_exponent, unit = material.reference_increment;
   if (!(unit > 0._r)) {
     yields = Mask{};
@@ -260,11 +288,10 @@ BILLET_INLINE Flow flow_at_rate(const Material &material, const Real all_q, cons
   }
   const Real q = select(yields, all_q, 2._r * before), excess = q - before; // other lanes: any number
   Real x = min(excess / before, power(excess / (unit * m), 1._r / p));
-  Real low{}, high = x, step{}, delta{}, yield{}, slope{};
+  Real low{}, high = x, step{}, delta{}, yield = before, slope{};
   for (unsigned int iteration = 0; iteration < 60; ++iteration) {
     delta = unit * power(x, p);
-    yield = compute_yield_stress(material, alpha + delta);
-    slope = compute_slope(material, alpha + delta, yield);
+    evaluate_hardening(material, functions, yields, alpha + delta, yield, slope);
     const Real residual = q - m * delta - yield * (1._r + x);
     const Real stiffness = m + slope * (1._r + x), change = p * delta / x;  // dΔα/dx
     const Real descent = stiffness * change + yield;                        // −d residual/dx
@@ -294,10 +321,10 @@ __attribute__((noinline)) Flow flow_with_state(const Material &material, const L
                                                const Real q, const Real m, const Real before, Number *history,
                                                Mask &yields) {
   Flow flow;
-  if (material.hardening_kind == HardeningKind::other)
+  if (material.rate_kind != RateKind::power_law)
     flow = flow_by_lane(material, functions, q, m, before, history, yields);
   else {
-    flow = flow_at_rate(material, q, m, load(history), before, yields);
+    flow = flow_at_rate(material, functions, q, m, load(history), before, yields);
     accumulate(static_cast<Number>(material.stress_unit) * flow.plastic_work,
                history + place_of_state(material) * n_lanes);
   }
@@ -322,7 +349,7 @@ BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &fun
   if (!any(yields))
     return broadcast(1._r);
   Real delta{};
-  if (material.rate_kind != RateKind::none || material.hardening_kind == HardeningKind::other) {
+  if (material.rate_kind != RateKind::none) {
     const Flow flow = flow_with_state(material, functions, q, m, yield, history, yields);
     delta = flow.strain;
     watch.plastic_work = flow.plastic_work;
@@ -334,7 +361,7 @@ BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &fun
       yield += material.hardening_modulus * delta;
   } else {
     const Real before = yield;
-    delta = solve_consistency(material, yields, q, m, alpha, yield);
+    delta = solve_consistency(material, functions, yields, q, m, alpha, yield);
     store(history + place_of_yield_stress * n_lanes, yield);
     watch.plastic_work = delta * (0.5_r * (before + yield));
   }
