@@ -62,7 +62,9 @@ public:
   struct StepResult {
     double stable_step;    ///< stable for every element, including viscosity [time]
     double elastic_energy; ///< current, without the stabilisation's [energy]
-    double plastic_work; ///< in this step: mean of both ends' yield stress times the plastic strain [energy]
+    /// In this step [energy]: mean of both ends' yield stress times the plastic strain; what the flow stress
+    /// says if it has a state, as with a rate factor.
+    double plastic_work;
     /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, by the trapezoidal rule, as
     /// for all works. It can be negative for a step in which the rate changes sign. The sum over equal steps
     /// from rest is non-negative if viscosity is linear.
