@@ -4,6 +4,7 @@
 
 #include "billet/mesh/boundary_groups.h"
 #include "billet/parameters/body.h"
+#include "billet/scene/node_sets.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -25,8 +26,9 @@ struct LoadedMesh {
 /// its groups are then those of both sides. Throws InputError.
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters);
 
-/// Builds the mesh of one body. Throws InputError.
-void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh);
+/// Builds the mesh of one body. `sets`: if given, gets the node sets of its file. Throws InputError.
+void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh,
+                     NodeSets *sets = nullptr);
 
 /// Whether the primitive of a mesh has curves, which refinement follows. Throws InputError.
 bool has_curves(const parameters::Mesh &parameters);
