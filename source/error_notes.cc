@@ -12,9 +12,9 @@ void ErrorNotes::add(const DiagnosticList &errors) {
       errors_.push_back(error);
 }
 
-const Diagnostic *ErrorNotes::find(const std::string &beginning) const {
+const Diagnostic *ErrorNotes::find(const std::string &text) const {
   for (const Diagnostic &error : errors_)
-    if (std::string(error.what()).rfind(beginning, 0) == 0)
+    if (error.what().find(text) != std::string::npos)
       return &error;
   return nullptr;
 }

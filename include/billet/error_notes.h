@@ -21,8 +21,8 @@ public:
   }
   /// Adds those that are not noted yet: subsections that take the same value repeat its error.
   void add(const DiagnosticList &errors);
-  /// Returns the first error that begins with this text; null if there is none.
-  const Diagnostic *find(const std::string &beginning) const;
+  /// Returns the first error that contains this text; null if there is none.
+  const Diagnostic *find(const std::string &text) const;
   bool is_empty() const { return errors_.empty(); }
   /// Throws InputError with all errors, if there are any.
   void require_none() const;

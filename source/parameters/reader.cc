@@ -25,6 +25,10 @@ bool is_beyond_reach(const double value) {
   return std::abs(value) > max_number || (value != 0. && std::abs(value) < min_number);
 }
 
+InputError refuse(const std::string &origin, const std::string &value, const std::string &allowed) {
+  return InputError(origin + " is '" + value + "'; allowed is " + allowed);
+}
+
 } // namespace
 
 void Reader::enter(const std::string &name) {
@@ -38,11 +42,10 @@ void Reader::leave() {
 }
 
 double Reader::replace(const std::string &key, const std::string &allowed, const double value) const {
-  const auto refuse = [&] { reject(key, allowed); };
-  if (collects_)
-    errors_.note(refuse);
-  else
-    refuse();
+  const InputError error = refuse(origin(key), prm_.get(key), allowed);
+  if (!collects_)
+    throw error;
+  errors_.add(error.diagnostics());
   return value;
 }
 
@@ -54,10 +57,11 @@ std::string Reader::origin(const std::string &key) const {
 std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }
 
 void Reader::reject(const std::string &key, const std::string &allowed) const {
-  const std::string found = origin(key) + " is '" + prm_.get(key) + "'; allowed is ";
-  if (const Diagnostic *const known = errors_.find(found)) // it was replaced, and what stands for it is wrong
+  // A number that stands for a wrong one in this subsection may be the reason: then that error stays alone.
+  const Diagnostic *const known = path_.empty() ? nullptr : errors_.find(" in '" + join(path_) + "' is '");
+  if (known != nullptr)
     throw InputError(*known);
-  throw InputError(found + allowed);
+  throw refuse(origin(key), prm_.get(key), allowed);
 }
 
 std::string Reader::text(const std::string &key) const { return prm_.get(key); }
