@@ -11,9 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 namespace billet {
 
+using dealii::Point;
 using dealii::Tensor;
 
 namespace {
@@ -25,8 +28,8 @@ std::array<unsigned int, 4> local_corners(const BoundaryFacet &facet, const Loca
   return corners;
 }
 
-dealii::Point<3> centre_of(const BoundaryFacet &facet) {
-  dealii::Point<3> centre;
+Point<3> centre_of(const BoundaryFacet &facet) {
+  Point<3> centre;
   for (const auto &corner : facet.corners)
     centre += 0.25 * corner;
   return centre;
@@ -188,9 +191,27 @@ void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, co
   on_surfaces_.push_back({&load, &action, std::move(faces), std::move(surface)});
 }
 
+void ExternalLoads::place_on_nodes(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
+  std::set<unsigned int> found;
+  for (const auto &element : nodes_.elements(body))
+    for (const unsigned int node : element)
+      if (nodes_.is_owned(node) &&
+          load.nodes->contains(Point<3>(get_vector(nodes_.positions().data(), node))))
+        found.insert(node);
+  const double n =
+      dealii::Utilities::MPI::sum(static_cast<double>(found.size()), nodes_.discretization().communicator());
+  std::vector<WeightedNode> sites;
+  for (const unsigned int node : found)
+    sites.push_back({node, 1. / n});
+  on_points_.push_back({&load, &action, std::move(sites), nullptr});
+}
+
 void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
+  const std::optional<Point<3>> position = action.position();
+  if (!position)
+    return place_on_nodes(load, action, body);
   const auto located = locate_points(nodes_.discretization(), body,
-                                     {{action.position()},
+                                     {{*position},
                                       action.takes_nearest_node(),
                                       scene_.bodies()[body].name,
                                       load.origin,

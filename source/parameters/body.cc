@@ -308,6 +308,8 @@ void Support::declare(ParameterHandler &prm) {
       "Boundary ids", "", Patterns::Anything(),
       "Boundary ids or names of the faces whose nodes have prescribed displacements, separated by "
       "commas. Names are those of the mesh file's groups and of 'Boundary ids' in Mesh.");
+  prm.declare_entry("Nodes", "", Patterns::Anything(),
+                    std::string(node_selection_meaning) + " It takes the place of 'Boundary ids'.");
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
                     "Components of the displacement that are prescribed: x, y and z are the first, second "
                     "and third of 'Axes'.");
@@ -375,8 +377,11 @@ template <class Timed> void parse_times(const Reader &reader, const std::string 
 
 void Support::parse(Reader &reader) {
   boundary_ids = reader.boundaries("Boundary ids");
-  if (boundary_ids.is_empty())
-    reader.reject("Boundary ids", "at least one boundary id");
+  nodes = read_nodes(reader, "Nodes");
+  if (boundary_ids.is_empty() && nodes.is_empty())
+    reader.reject("Boundary ids", "at least one boundary id, or 'Nodes'");
+  if (!boundary_ids.is_empty() && !nodes.is_empty())
+    reader.reject("Nodes", "no value: 'Boundary ids' says which nodes the support holds");
   for (const auto &component : reader.parts("Components", ',')) {
     if (component.size() != 1 || component[0] < 'x' || component[0] > 'z')
       reader.reject("Components", "a list of x, y and z");
@@ -411,6 +416,7 @@ void Load::parse(Reader &reader) {
   join_parameters(load_types())
       .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it");
   boundary_ids = reader.boundaries("Boundary ids");
+  nodes = read_nodes(reader, "Nodes");
   load = chosen->make(reader);
   if (load.acts_on_faces() && boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");

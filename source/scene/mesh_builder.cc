@@ -206,8 +206,9 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
     name_sides(*loaded, section, mesh);
 }
 
-void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
+void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh, NodeSets &sets) {
   const LoadedMesh loaded = load_mesh_file(parameters);
+  sets.take(loaded.mesh);
   std::vector<dealii::Point<3>> vertices;
   for (const auto &x : loaded.mesh.positions)
     vertices.emplace_back(x[0], x[1], x[2]);
@@ -292,8 +293,10 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
   }
 }
 
-void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Triangulation<3> &mesh) {
+void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Triangulation<3> &mesh,
+                     NodeSets *const sets) {
   const parameters::Mesh &parameters = body.mesh;
+  NodeSets unused, &of_file = sets != nullptr ? *sets : unused;
   switch (parameters.source) {
   case parameters::Mesh::Source::extruded:
     generate_extruded(parameters, detail, mesh);
@@ -308,9 +311,11 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
       generate_extruded(parameters, detail, mesh);
       break;
     }
-    read_file(parameters, mesh);
-    if (detail == MeshDetail::full)
-      mesh.refine_global(parameters.refinements);
+    read_file(parameters, mesh, of_file);
+    for (unsigned int i = 0; detail == MeshDetail::full && i < parameters.refinements; ++i) {
+      mesh.refine_global(1);
+      of_file.refine(mesh);
+    }
     break;
   }
   flatten(mesh);

@@ -12,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -134,11 +135,11 @@ public:
   virtual bool is_per_volume() const { return false; }
 };
 
-/// Force of fixed direction on a material point of a body.
+/// Force of fixed direction on a material point of a body, or on nodes that the scene selects.
 class PointLoad : public DeadLoad<LoadAction> {
 public:
-  /// Returns the undeformed position.
-  virtual dealii::Point<3> position() const = 0;
+  /// Returns the undeformed position; none if it acts on selected nodes, in equal parts.
+  virtual std::optional<dealii::Point<3>> position() const = 0;
   /// Whether it acts on the node nearest to it; otherwise on the nodes of its element, by their shape
   /// functions there.
   virtual bool takes_nearest_node() const = 0;
@@ -213,6 +214,8 @@ struct Load {
   bool acts_on_mass() const;
   /// Returns the directions in which it supports a node of a face with this normal.
   std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const;
+  /// Whether it supports nodes at all.
+  bool is_spring() const { return !supports(dealii::Tensor<1, 3>({1., 0., 0.})).empty(); }
   bool has_unsymmetric_tangent() const;
   /// Whether the load limits the explicit time step.
   bool limits_steps() const;

@@ -6,6 +6,7 @@
 #include "billet/loads/load.h"
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_type.h"
+#include "billet/parameters/node_selection.h"
 #include "billet/parameters/reader.h"
 
 #include <array>
@@ -67,7 +68,8 @@ struct Material {
 /// One named subsection of Supports.
 struct Support {
   std::string name;
-  BoundaryIds boundary_ids;
+  BoundaryIds boundary_ids; ///< or, if they are empty, `nodes`
+  NodeSelection nodes;
   std::array<bool, 3> components{};
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
@@ -86,6 +88,7 @@ struct Load {
   billet::Load load;
   std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
   BoundaryIds boundary_ids;         ///< only for loads on faces
+  NodeSelection nodes;              ///< only for forces on nodes
   double from = 0., until = std::numeric_limits<double>::infinity();
   std::optional<double> fade_time; ///< none: automatic
   std::string origin;
