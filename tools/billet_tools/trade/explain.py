@@ -199,13 +199,13 @@ class Explanation:
         low, high = sum(b.low for b in counted), sum(b.high for b in counted)
         reach = f"{percent(low)} or more" if math.isinf(high) else f"{percent(low)} to {percent(high)}"
         said = [
-            f"The scene is about {percent(self.sum)} off in {names} ({reach}) if the errors of all sources add"
-            f" up, and {percent(self.signed_sum)} with their signs.",
+            f"The scene is about {percent(self.sum)} off in {names} ({reach}) if the errors of all sources"
+            f" add up, and {percent(self.signed_sum)} with their signs.",
             f"The largest source is {largest.source.name}, {percent(largest.error)}.",
         ]
         if len(counted) > 1 and largest.low < counted[1].high:
             said.append(
-                f"Its range overlaps that of the next one, {counted[1].source.name}: their order is uncertain."
+                f"Its range overlaps that of {counted[1].source.name}, the next one: their order is open."
             )
         if largest.price > 0.0:
             said.append(gain_of(largest)[:1].upper() + gain_of(largest)[1:])
@@ -290,7 +290,7 @@ class Explanation:
         parts.append(f"![Errors by source]({picture})")
         parts.append(table(self.HEAD, self.rows()))
         parts.append(
-            f"Errors: {weights}. In each run one source alone is reduced, and all take the steps of the scene."
+            f"Errors: {weights}. Each run reduces one source alone, and all take the steps of the scene."
             " Costs are core-seconds over those of the scene,"
             f" {number(self.base.core_seconds)}; the cost of the run is the price to halve the error, or to"
             " remove what a run removes. With three levels the order is observed, from 1/2 to 2 used, and the"
@@ -395,8 +395,8 @@ def explain(
         [1.0] * len(usable) if budget.is_of_runs else costs,
     )
     print(
-        f"By the first run, {base.core_seconds:.2g} core-s, {len(usable)} runs take about {clock(sum(costs))}:"
-        f" {', '.join(usable[i][1].label for i in order)}",
+        f"By the first run, {base.core_seconds:.2g} core-s, {len(usable)} runs take about"
+        f" {clock(sum(costs) / options.jobs)}: {', '.join(usable[i][1].label for i in order)}",
         file=sys.stderr,
         flush=True,
     )

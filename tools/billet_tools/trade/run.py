@@ -111,6 +111,14 @@ class Runner:
         kept = read_json(place / "result.json")
         return kept is not None and kept["status"] != "crashed" and self._enough(kept, repeat or self.repeat)
 
+    def times_left(self, scene: Scene, repeat: int) -> int:
+        """How often it must run until it is timed that often."""
+        if self.finished(scene, repeat):
+            return 0
+        kept = read_json(self.folder / "runs" / self.key(self.prepared(scene)) / "result.json")
+        done = len(kept["seconds"]) if kept is not None and kept["status"] == "ok" else 0
+        return max(1, repeat - done)
+
     def _enough(self, kept: Mapping[str, Any], repeat: int, limit: float | None = None) -> bool:
         if kept["status"] == "out of time" and (limit or self.limit) > 1.01 * kept["limit"]:
             return False
@@ -185,16 +193,10 @@ class Progress:
         """Seconds on the clock for one that was expected."""
         return self.spent / self.expected_so_far if self.expected_so_far > 0 else 1.0
 
-    def leave_out(self, label: str, planned: float) -> None:
-        """A run that the budget does not reach."""
-        self.done += 1
+    def leave_out(self, planned: float) -> None:
+        """Takes a run that the budget does not reach off those to go."""
+        self.total -= 1
         self.left = max(0.0, self.left - planned)
-        print(
-            f"[{self.done:>{len(str(self.total))}}/{self.total}] {label}: left out, about"
-            f" {clock(planned * self.pace())} exceed what is left of the budget",
-            file=sys.stderr,
-            flush=True,
-        )
 
     def report(self, label: str, result: Result, planned: float, took: float, was_kept: bool) -> None:
         self.done += 1
@@ -259,23 +261,24 @@ class Work:
             key = self.runner.key(self.runner.prepared(scene))
             known = planned.get(key)
             planned[key] = (known[0] if known else label, scene, max(repeats, known[2] if known else 0))
-        left = {key: self.expected(scene, repeats) for key, (_, scene, repeats) in planned.items()}
+        times = {key: self.runner.times_left(scene, repeats) for key, (_, scene, repeats) in planned.items()}
+        left = {key: self.expected(scene, max(1, times[key])) for key, (_, scene, _) in planned.items()}
         for seconds in left.values():
             self.progress.plan(seconds)
 
         def one(key: str) -> tuple[str, Result | None, float, bool]:
             label, scene, repeats = planned[key]
-            was_kept = self.runner.finished(scene, repeats)
             begin = time.monotonic()
-            if was_kept:
+            if times[key] == 0:
                 return key, self.runner.run(scene, repeats), 0.0, True
-            if not self.budget.take(left[key] * self.progress.pace(), repeats):
+            if not self.budget.take(left[key] * self.progress.pace(), times[key]):
                 return key, None, 0.0, False
             limit = max(1.0, min(self.runner.limit, self.budget.seconds_left()))
             result = self.runner.run(scene, repeats, limit)
             is_cut = result.status == "out of time" and limit < self.runner.limit
             return key, None if is_cut else result, time.monotonic() - begin, False
 
+        beyond = 0
         with ThreadPoolExecutor(jobs) as pool:
             futures = [pool.submit(one, key) for key in planned]
             try:
@@ -289,7 +292,8 @@ class Work:
                     label = planned[key][0]
                     if result is None:
                         self.left_out[label] = left[key]
-                        self.progress.leave_out(label, left[key])
+                        self.progress.leave_out(left[key])
+                        beyond += 1
                     else:
                         found[key] = result
                         self.progress.report(label, result, left[key], took, was_kept)
@@ -297,6 +301,8 @@ class Work:
                 self.runner.stop.set()
                 pool.shutdown(wait=True, cancel_futures=True)
                 raise
+        if beyond:
+            print(f"{beyond} runs are left out: they exceed what is left of the budget", file=sys.stderr)
         return found
 
     def has(self, found: Mapping[str, Result], scene: Scene) -> bool:

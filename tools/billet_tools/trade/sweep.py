@@ -13,7 +13,7 @@ from typing import Callable, Mapping, Sequence
 from .. import UserError
 from ..program import Stopped
 from ..scene import Scene
-from ..text import number, table
+from ..text import number, percent, table
 from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
 from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
@@ -216,6 +216,7 @@ def sweep_over(
         plan = affordable_plan(plan, coarser_plan(plan_on, scene), work)
     tasks = [("as written", scene, 1)]
     tasks += [(f"reference, {label}", level, 1) for label, level in plan.runs()]
+    of_reference = len(tasks)
     ordered = most_promising_first(points[1:]) if budget.is_limited else points[1:]
     tasks += [(p.label, p.scene, 1) for p in ordered]
     different = {level.text: level for _, level, _ in tasks}
@@ -225,7 +226,7 @@ def sweep_over(
     )
     if options.jobs > 1:
         say(f"{options.jobs} runs at a time: core-seconds are blurred by each other")
-    found = work.run(tasks, options.jobs)
+    found = work.run(tasks[:of_reference], options.jobs)
 
     def result_of(level: Scene) -> Result | None:
         return work.result(found, level) if work.has(found, level) else None
@@ -244,6 +245,12 @@ def sweep_over(
         if not (work.was_stopped or work.left_out):
             raise
         return write_costs(points, result_of, str(error), options, runner, scene, file, arguments, work)
+    uncertainty = report.uncertainty_of(reference, outputs, weights)
+    is_hopeless = budget.is_limited and options.target is not None and uncertainty >= options.target
+    if is_hopeless:
+        say(f"The reference is known to {percent(uncertainty)} only: the budget is not spent on points")
+    elif not work.was_stopped:
+        found.update(work.run(tasks[of_reference:], options.jobs))
     forces = judging_forces(plan, reference_results, force, reference)
     limits = report.Limits(
         options.largest_drift,
@@ -303,7 +310,7 @@ def sweep_over(
         scene,
         file,
         arguments,
-        what_is_missing(points, run_points, work),
+        what_is_missing(points, run_points, work, is_hopeless),
     )
     say(f"({clock(time.monotonic() - started)})")
     if work.was_stopped:
@@ -319,12 +326,15 @@ def coarser_plan(plan_on: Callable[[str | None], Plan], scene: Scene) -> Plan | 
         return None
 
 
-def what_is_missing(points: Sequence[Point], run_points: Sequence[Point], work: Work) -> list[str]:
+def what_is_missing(
+    points: Sequence[Point], run_points: Sequence[Point], work: Work, is_hopeless: bool
+) -> list[str]:
     """Sentences on the points that did not run."""
     missing = [p.label for p in points if all(p is not q for q in run_points)]
     if not missing:
         return []
-    why = "the study was stopped" if work.was_stopped else "beyond the budget"
+    unknown = "the reference is not known well enough for the target"
+    why = "the study was stopped" if work.was_stopped else unknown if is_hopeless else "beyond the budget"
     return [f"Not run, {why}: " + ", ".join(f"`{label}`" for label in missing) + "."]
 
 
