@@ -146,8 +146,9 @@ class TestCommand(unittest.TestCase):
         """Stopped in the middle, taken up again, and all errors as they must be."""
         stopped = self.trade(*WHOLE, FAKE_INTERRUPT="7")
         self.assertEqual(stopped.returncode, 5, stopped.stderr)
-        # one timed twice
-        self.assertIn("stopped; 5 runs are kept in sweep, and the same command goes on", stopped.stderr)
+        self.assertIn("stopped; 6 runs are kept in sweep, and the same command goes on", stopped.stderr)
+        # The reference is not made yet: costs alone.
+        self.assertIn("No error is known yet", (self.folder / "sweep/trade.md").read_text())
         self.assertFalse((self.folder / "sweep/trade.csv").exists())
         before = self.runs()
 
@@ -163,6 +164,11 @@ class TestCommand(unittest.TestCase):
         different = {row["changes"]: int(row["timed"]) for row in points}
         self.assertLess(whole - before, sum(int(row["timed"]) for row in rows))
         self.assertGreater(len(different), 12)
+        # What others dominate is not timed again.
+        self.assertEqual(
+            {int(row["timed"]) for row in points if row["on_front"] == "1" or row["kind"] == "scene"}, {2}
+        )
+        self.assertIn("1", {row["timed"] for row in points if row["status"] == "ok"})
 
         # The limit: F = 1 + t, to which all sequences go with exact orders, so that errors are known.
         found = {(row["knob"], row["value"]): row for row in points}
@@ -226,6 +232,7 @@ class TestCommand(unittest.TestCase):
         ]
         (chosen,) = [row for row in points if row["chosen"] == "1"]
         self.assertEqual(chosen["work"], str(min(int(row["work"]) for row in good)))
+        self.assertIn("To paste at the end of the scene:\n", done.stdout)
         self.assertIn("Only the cost, not the result, changes with `predictor`", done.stdout)
         self.assertEqual(len(reference), 8)
         page = (self.folder / "sweep/trade.md").read_text()
@@ -325,6 +332,61 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("locked", done.stdout)
 
+    def test_explanation(self) -> None:
+        """Each source against what it makes, stopped in the middle and taken up again."""
+        scene = ("--explain", "--folder", "explained")
+        stopped = self.trade(*scene, "--budget", "20 minutes", FAKE_INTERRUPT="5")
+        self.assertEqual(stopped.returncode, 5, stopped.stderr)
+        self.assertIn("Budget: 6 runs at most, the scene as it is and 5 others", stopped.stderr)
+        self.assertIn("By the first run, ", stopped.stderr)
+        page = (self.folder / "explained/explain.md").read_text()
+        self.assertIn("the study was stopped", page)
+        self.assertEqual(sum(bool(row["error"]) for row in self.rows("explained/explain")), 2)
+
+        done = self.trade(*scene)
+        self.assertEqual((done.returncode, self.runs()), (0, 7), done.stderr)  # one of them was stopped
+        found = {row["source"]: row for row in self.rows("explained/explain")}
+        whole = 1 + error()
+        expected = {"mesh": 0.3 / 16, "steps": 0.2 * 0.1, "penetration": 0.05 / 10, "iterations": 0.0}
+        for name, value in expected.items():
+            self.assertAlmostEqual(float(found[name]["error"]), value / whole, delta=2e-6, msg=name)
+        self.assertAlmostEqual(float(found["mesh"]["order"]), 2.0, delta=1e-3)
+        self.assertAlmostEqual(float(found["mesh"]["own_estimate"]), 0.3 / 16)
+        self.assertIn("The largest source is steps", done.stdout)
+        self.assertIn(f"{100 * error() / whole:.2g} % off in force", done.stdout)
+        self.assertIn("\n  set Maximum step = 0.05\n", done.stdout)
+        self.assertGreater((self.folder / "explained/explain.png").stat().st_size, 10000)
+
+        few = self.trade("--explain", "--folder", "few", "--budget", "3 runs")
+        self.assertEqual((few.returncode, self.runs()), (0, 10), few.stderr)
+        found = {row["source"]: row for row in self.rows("few/explain")}
+        self.assertAlmostEqual(float(found["mesh"]["error"]), 0.3 / 16 / whole, delta=2e-6)
+        self.assertEqual(found["steps"]["error"], "")
+        self.assertIn("beyond the budget", found["steps"]["how"])
+        none = self.trade("--explain", "--folder", "none", "--budget", "1 run")
+        self.assertEqual((none.returncode, self.runs()), (3, 11), none.stderr)
+
+    def test_budget(self) -> None:
+        """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
+        sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
+        few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
+        self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
+        self.assertIn("limited to 11 runs", few.stderr)
+        ran = [row["knob"] for row in self.rows("limited/trade") if row["kind"] == "sweep"]
+        self.assertEqual(sorted(ran), ["penalty", "steps"])  # the first of each, before the second ones
+        self.assertIn("Not run, beyond the budget: `penalty = 10`, `steps = 40`, `predictor", few.stdout)
+        stopped = self.trade(*sweep, "--folder", "limited", FAKE_INTERRUPT="13")
+        self.assertEqual((stopped.returncode, self.runs()), (5, 13), stopped.stderr)
+        self.assertIn("Not run, the study was stopped: ", (self.folder / "limited/trade.md").read_text())
+        self.assertEqual(len([r for r in self.rows("limited/trade") if r["kind"] == "sweep"]), 3)
+        # No points where the reference cannot show that any is within the target.
+        hopeless = self.trade(*sweep, "--folder", "hopeless", "--budget", "5 h", "--target", "0.1%")
+        self.assertEqual((hopeless.returncode, self.runs()), (3, 22), hopeless.stderr)
+        # The reference itself is beyond the budget.
+        short = self.trade(*sweep, "--folder", "short", "--budget", "3 runs")
+        self.assertEqual((short.returncode, self.runs()), (3, 25), short.stderr)
+        self.assertIn("No error is known yet", (self.folder / "short/trade.md").read_text())
+
     def test_combination(self) -> None:
         done = self.trade(
             "--parameters",
@@ -399,6 +461,8 @@ class TestCommand(unittest.TestCase):
             (["--time-limit", "0"], "--time-limit is 0; allowed are seconds > 0"),
             (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line is '0,0 to 1,1'"),
             (["--target", "200%"], "--target is '200%'; allowed is an error below 100 %"),
+            (["--budget", "soon"], "--budget is 'soon'; allowed are times and runs"),
+            (["--explain", "--target", "1%"], "--explain changes one source of error at a time"),
             (["--combine"], "--combine wants a --target"),
             (
                 ["--reference-mesh", "1,2,3"],
