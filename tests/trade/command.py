@@ -357,14 +357,20 @@ class TestCommand(unittest.TestCase):
         self.assertIn("\n  set Maximum step = 0.05\n", done.stdout)
         self.assertGreater((self.folder / "explained/explain.png").stat().st_size, 10000)
 
+        target = self.trade(*scene, "--target", "3.3%")
+        self.assertEqual((target.returncode, self.runs()), (3, 8), target.stderr)  # one more
+        self.assertIn("Nothing is shown to be within 3.3 %", target.stdout)
+        self.assertIn("To paste at the end of the scene:\n", target.stdout)
+        self.assertIn("## The cheapest way to 3.3 %", (self.folder / "explained/explain.md").read_text())
+
         few = self.trade("--explain", "--folder", "few", "--budget", "3 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 10), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
         found = {row["source"]: row for row in self.rows("few/explain")}
         self.assertAlmostEqual(float(found["mesh"]["error"]), 0.3 / 16 / whole, delta=2e-6)
         self.assertEqual(found["steps"]["error"], "")
         self.assertIn("beyond the budget", found["steps"]["how"])
         none = self.trade("--explain", "--folder", "none", "--budget", "1 run")
-        self.assertEqual((none.returncode, self.runs()), (3, 11), none.stderr)
+        self.assertEqual((none.returncode, self.runs()), (3, 12), none.stderr)
 
     def test_budget(self) -> None:
         """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
@@ -462,7 +468,7 @@ class TestCommand(unittest.TestCase):
             (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line is '0,0 to 1,1'"),
             (["--target", "200%"], "--target is '200%'; allowed is an error below 100 %"),
             (["--budget", "soon"], "--budget is 'soon'; allowed are times and runs"),
-            (["--explain", "--target", "1%"], "--explain changes one source of error at a time"),
+            (["--explain", "--combine", "--target", "1%"], "--explain changes one source of error at a time"),
             (["--combine"], "--combine wants a --target"),
             (
                 ["--reference-mesh", "1,2,3"],

@@ -10,9 +10,10 @@ from typing import Mapping, cast
 import modules  # noqa: F401  finds the next ones
 from billet_tools import UserError
 from billet_tools.scene import Scene, entries
-from billet_tools.trade import bars, sources
+from billet_tools.trade import bars, cheapest, sources
 from billet_tools.trade.budget import Budget
-from billet_tools.trade.explain import Explanation, in_order
+from billet_tools.trade.explain import in_order
+from billet_tools.trade.explanation import Explanation
 from billet_tools.trade.outputs import Output
 from billet_tools.trade.paste import lines_to_paste
 from billet_tools.trade.results import Result
@@ -254,6 +255,62 @@ class TestBars(unittest.TestCase):
         whole = explained(found, Run(1.0), fine=Run(1.05), strain=Run(1.03))
         self.assertAlmostEqual(whole.sum, 0.1)
         self.assertEqual(whole.rows()[1][0], "elements (part of the mesh's)")
+
+
+class TestCheapest(unittest.TestCase):
+    """Steps that are cheap to halve, and a mesh that is not."""
+
+    def whole(self, **more: Run) -> Explanation:
+        scene = Scene(BAR, DEFAULTS)
+        given = Given([0.25, 0.5, 1.0])
+        mesh, steps = sources.mesh_source(scene), sources.step_source(scene, given)
+        runs = {
+            "mesh, one level finer": Run(1.03, 10.0),
+            "mesh, one level coarser": Run(0.88),
+            "steps of half the length": Run(1.04, 1.5),
+        }
+        results = {label: cast(Result, run) for label, run in {**runs, **more}.items()}
+        return Explanation(
+            scene, cast(Result, Run(1.0)), [Number()], {"force": 1.0}, [mesh, steps], results, {}
+        )
+
+    def test_prediction(self) -> None:
+        """Errors of 4 % and 8 %; halved steps leave 4 %, a level of the mesh 1 %."""
+        given = Given([0.25, 0.5, 1.0])
+        whole = self.whole()
+        self.assertAlmostEqual(whole.sum, 0.12)
+        for target, error, price, largest in ((0.061, 0.06, 2.25, "0.125"), (0.13, 0.12, 1.0, None)):
+            found = cheapest.predict(whole, given, target)
+            assert found is not None
+            self.assertAlmostEqual(found.predicted, error)
+            self.assertAlmostEqual(found.price, price)
+            self.assertEqual(found.changes.get("Time stepping/Maximum step"), largest)
+        both = cheapest.predict(whole, given, 0.04)
+        assert both is not None
+        self.assertEqual(both.changes["Bodies/bar/Mesh/Refinements"], 2)
+        self.assertIn("steps of half the length (2 times so)", both.label)
+        self.assertIsNone(cheapest.predict(whole, given, 0.001))
+
+    def test_choice(self) -> None:
+        """The limit is 1.12, known to the ranges of both."""
+        whole = self.whole()
+        good, dear = cheapest.Candidate("good", {"A": 1}), cheapest.Candidate("dear", {"A": 2})
+        late = cheapest.Candidate("late", {"A": 3})
+        runs = {"good": cast(Result, Run(1.10, 3.0)), "dear": cast(Result, Run(1.12, 5.0))}
+
+        def choose(target: float) -> cheapest.Cheapest:
+            return cheapest.Cheapest(whole, [good, dear, late], runs, {"late": "beyond the budget"}, target)
+
+        self.assertAlmostEqual(choose(0.2).uncertainty, 0.0025 + 0.04 * (1 / (1 - math.sqrt(0.5)) - 2))
+        self.assertIs(choose(0.09).chosen, good)
+        self.assertTrue(choose(0.09).is_shown)
+        self.assertIn("cheapest that was tried is good**: 2 % off, 3 times", choose(0.09).words())
+        self.assertIs(choose(0.01).chosen, dear)
+        self.assertFalse(choose(0.01).is_shown)
+        self.assertIn("Nothing is shown to be within 1 %", choose(0.01).words())
+        self.assertEqual(choose(0.01).lines(), "set A = 2\n")
+        self.assertEqual(choose(0.2).lines(), "")  # the scene as it is
+        self.assertEqual(choose(0.2).rows()[-1][2], "beyond the budget")
 
 
 class TestBudget(unittest.TestCase):

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from ..text import number, percent
 
 if TYPE_CHECKING:
-    from .explain import Explanation
+    from .explanation import Explanation
 
 
 def draw(explanation: Explanation, file: Path, title: str) -> None:

@@ -37,7 +37,7 @@ def parse(arguments: Sequence[str]) -> Options:
         action="store_true",
         help=(
             "how far off the scene is, and what makes it so: one run for each source of error, without a"
-            " reference"
+            " reference; with --target, also the cheapest way there by these runs"
         ),
     )
     group = parser.add_argument_group("what is changed")
@@ -207,10 +207,8 @@ def parse(arguments: Sequence[str]) -> Options:
         raise UserError(f"--until is {options.until:g}; allowed is a part of the end time, > 0 and <= 1")
     if options.combine and not options.target:
         raise UserError("--combine wants a --target to stay within")
-    if options.explain and (options.target or options.parameters or options.parameter or options.product):
-        raise UserError(
-            "--explain changes one source of error at a time: it takes no --target, nor parameters of a study"
-        )
+    if options.explain and (options.parameters or options.parameter or options.product or options.combine):
+        raise UserError("--explain changes one source of error at a time: it takes no parameters of a study")
     if options.reference_mesh == GIVEN and any(
         k.partition("=")[0] == "mesh" for k in (options.parameters or []) + sum(options.product, [])
     ):
