@@ -363,20 +363,30 @@ class TestCommand(unittest.TestCase):
         self.assertIn("To paste at the end of the scene:\n", target.stdout)
         self.assertIn("## The cheapest way to 3.3 %", (self.folder / "explained/explain.md").read_text())
 
+        # Five layers have no half: a coarser mesh would feign an order.
+        odd = self.trade("--explain", "--folder", "odd", "--set", "Bodies/bar/Mesh/Layers=5")
+        self.assertEqual((odd.returncode, self.runs()), (0, 13), odd.stderr)
+        self.assertIn(
+            "2, 5 and 10 elements have no common ratio", (self.folder / "odd/explain.md").read_text()
+        )
+        found = {row["source"]: row for row in self.rows("odd/explain")}
+        fall = 2 * 0.3 * (1 / 25 - 1 / 100)  # of order 1, as assumed
+        self.assertAlmostEqual(float(found["mesh"]["error"]), fall / (1 + error(5)), delta=2e-6)
+
         few = self.trade("--explain", "--folder", "few", "--budget", "3 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 16), few.stderr)
         found = {row["source"]: row for row in self.rows("few/explain")}
         self.assertAlmostEqual(float(found["mesh"]["error"]), 0.3 / 16 / whole, delta=2e-6)
         self.assertEqual(found["steps"]["error"], "")
         self.assertIn("beyond the budget", found["steps"]["how"])
         none = self.trade("--explain", "--folder", "none", "--budget", "1 run")
-        self.assertEqual((none.returncode, self.runs()), (3, 12), none.stderr)
+        self.assertEqual((none.returncode, self.runs()), (3, 17), none.stderr)
 
     def test_budget(self) -> None:
         """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
         sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
         few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 16), few.stderr)
         self.assertIn("limited to 11 runs", few.stderr)
         ran = [row["knob"] for row in self.rows("limited/trade") if row["kind"] == "sweep"]
         self.assertEqual(sorted(ran), ["penalty", "steps"])  # the first of each, before the second ones
@@ -388,9 +398,14 @@ class TestCommand(unittest.TestCase):
         # No points where the reference cannot show that any is within the target.
         hopeless = self.trade(*sweep, "--folder", "hopeless", "--budget", "5 h", "--target", "0.1%")
         self.assertEqual((hopeless.returncode, self.runs()), (3, 22), hopeless.stderr)
+        # All of the reference but the run off its axes.
+        part = self.trade(*sweep, "--folder", "part", "--budget", "8 runs")
+        self.assertEqual((part.returncode, self.runs()), (0, 30), part.stderr)
+        self.assertEqual([r["kind"] for r in self.rows("part/trade")].count("reference"), 7)
+        self.assertIn("all of them: no run", (self.folder / "part/trade.md").read_text())
         # The reference itself is beyond the budget.
         short = self.trade(*sweep, "--folder", "short", "--budget", "3 runs")
-        self.assertEqual((short.returncode, self.runs()), (3, 25), short.stderr)
+        self.assertEqual((short.returncode, self.runs()), (3, 33), short.stderr)
         self.assertIn("No error is known yet", (self.folder / "short/trade.md").read_text())
 
     def test_combination(self) -> None:

@@ -154,8 +154,8 @@ class Cheapest:
             )
         return (
             f"**Nothing is shown to be within {percent(self.target)}.** {limit}. Beside this limit the"
-            f" cheapest within the target is {self.chosen.label}: {cost}. A finer scene (--mesh 2), explained again,"
-            " narrows the ranges."
+            f" cheapest within the target is {self.chosen.label}: {cost}."
+            " A finer scene (--mesh 2), explained again, narrows the ranges."
         )
 
     def lines(self) -> str:

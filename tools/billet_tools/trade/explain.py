@@ -5,7 +5,7 @@ with a target, what may be the cheapest way to it runs as well."""
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Sequence
+from typing import Sequence, Tuple
 
 from .. import UserError
 from ..program import Stopped
@@ -19,7 +19,7 @@ from .options import Options, read_outputs
 from .plan import read_presets
 from .results import Result
 from .run import Progress, Runner, Task, Work, clock
-from .sources import Given, Source, Variant, same_steps, sources_of
+from .sources import MESH, Given, Source, Variant, same_steps, sources_of
 from .sweep import command_text, make_force, make_outputs, refuse_outputs, remarks_of, say, write_files
 
 
@@ -32,6 +32,29 @@ def without_ladder(scene: Scene, runner: Runner) -> tuple[Scene, list[str]]:
     given = scene.changed({"Target error of": None, "Finest mesh level": None, "Target error": part})
     given.presets = read_presets(runner.check(given)[2])
     return given, ["'Target error of = everything' is left out: the bars are those of the mesh as given"]
+
+
+Usable = Tuple[Source, Variant, Scene]
+
+
+def without_odd_levels(
+    usable: Sequence[Usable], elements: int, runner: Runner, why_not: dict[str, str]
+) -> list[Usable]:
+    """Those without a coarser mesh that is no whole level, as where five layers became two, if there is a
+    finer one: its difference would feign an order."""
+    counts = {variant.label: runner.elements(changed) for _, variant, changed in usable}
+    left = []
+    for source, variant, changed in usable:
+        is_coarser_mesh = source.name == MESH and variant is source.coarser
+        fine = counts.get(source.finer.label) if source.finer else None
+        if is_coarser_mesh and fine and counts[variant.label] * fine != elements**2:
+            why_not[variant.label] = (
+                f"it is no whole level: {counts[variant.label]}, {elements} and {fine} elements have no"
+                " common ratio"
+            )
+        else:
+            left.append((source, variant, changed))
+    return left
 
 
 def in_order(variants: Sequence[tuple[Source, Variant]], costs: Sequence[float]) -> list[int]:
@@ -54,7 +77,8 @@ def explain(
         + (f", and {more} on the way to {percent(options.target)}" if more else "")
         + (f"; limited to {budget.text}" if budget.is_limited else "")
     )
-    budget.take(0.0)  # without it nothing can be said
+    if not runner.finished(scene, options.repeat):
+        budget.take(0.0)  # without it nothing can be said
     base = runner.run(scene, options.repeat, max(1.0, min(runner.limit, budget.seconds_left())))
     if base.status != "ok":
         raise UserError(f"the scene as it is {base.status} ({base.reason}): its error is not known", 3)
@@ -79,6 +103,7 @@ def explain(
                 why_not[variant.label] = f"billet refuses it: {against}"
             else:
                 usable.append((source, variant, changed))
+    usable = without_odd_levels(usable, elements, runner, why_not)
     costs = [work.expected(changed, options.repeat) for _, _, changed in usable]
     order = in_order(
         [(source, variant) for source, variant, _ in usable],

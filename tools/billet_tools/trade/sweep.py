@@ -199,7 +199,8 @@ def sweep_over(
         + (f"; points that others do not dominate {options.repeat} times" if options.repeat > 1 else "")
         + (f"; limited to {budget.text}" if budget.is_limited else "")
     )
-    budget.take(0.0)  # without it nothing can be said
+    if not runner.finished(scene, 1):
+        budget.take(0.0)  # without it nothing can be said
     base.result = runner.run(scene, 1, max(1.0, min(runner.limit, budget.seconds_left())))
     if base.result.status == "ok":
         # before all else runs: it may have no such column, or nothing that yields
