@@ -21,7 +21,8 @@ from tempfile import TemporaryDirectory
 from modules import HERE, ROOT, TRADE
 from billet_tools.trade import parameters
 from billet_tools.trade.command import run
-from billet_tools.trade.plan import pilot, read_presets
+from billet_tools.trade.options import parse
+from billet_tools.trade.plan import pilot, read_presets, with_value
 from billet_tools.scene import Scene, read_scene
 
 SCENE = """set Title = A bar
@@ -358,14 +359,14 @@ class TestCommand(unittest.TestCase):
         self.assertGreater((self.folder / "explained/explain.png").stat().st_size, 10000)
 
         target = self.trade(*scene, "--target", "3.3%")
-        self.assertEqual((target.returncode, self.runs()), (3, 8), target.stderr)  # one more
+        self.assertEqual((target.returncode, self.runs()), (3, 10), target.stderr)  # three more
         self.assertIn("Nothing is shown to be within 3.3 %", target.stdout)
         self.assertIn("To paste at the end of the scene:\n", target.stdout)
         self.assertIn("## The cheapest way to 3.3 %", (self.folder / "explained/explain.md").read_text())
 
         # Five layers have no half: a coarser mesh would feign an order.
         odd = self.trade("--explain", "--folder", "odd", "--set", "Bodies/bar/Mesh/Layers=5")
-        self.assertEqual((odd.returncode, self.runs()), (0, 13), odd.stderr)
+        self.assertEqual((odd.returncode, self.runs()), (0, 15), odd.stderr)
         self.assertIn(
             "2, 5 and 10 elements have no common ratio", (self.folder / "odd/explain.md").read_text()
         )
@@ -374,19 +375,19 @@ class TestCommand(unittest.TestCase):
         self.assertAlmostEqual(float(found["mesh"]["error"]), fall / (1 + error(5)), delta=2e-6)
 
         few = self.trade("--explain", "--folder", "few", "--budget", "3 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 16), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 18), few.stderr)
         found = {row["source"]: row for row in self.rows("few/explain")}
         self.assertAlmostEqual(float(found["mesh"]["error"]), 0.3 / 16 / whole, delta=2e-6)
         self.assertEqual(found["steps"]["error"], "")
         self.assertIn("beyond the budget", found["steps"]["how"])
         none = self.trade("--explain", "--folder", "none", "--budget", "1 run")
-        self.assertEqual((none.returncode, self.runs()), (3, 17), none.stderr)
+        self.assertEqual((none.returncode, self.runs()), (3, 19), none.stderr)
 
     def test_budget(self) -> None:
         """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
         sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
         few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 16), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 18), few.stderr)
         self.assertIn("limited to 11 runs", few.stderr)
         ran = [row["knob"] for row in self.rows("limited/trade") if row["kind"] == "sweep"]
         self.assertEqual(sorted(ran), ["penalty", "steps"])  # the first of each, before the second ones
@@ -407,6 +408,35 @@ class TestCommand(unittest.TestCase):
         short = self.trade(*sweep, "--folder", "short", "--budget", "3 runs")
         self.assertEqual((short.returncode, self.runs()), (3, 33), short.stderr)
         self.assertIn("No error is known yet", (self.folder / "short/trade.md").read_text())
+
+    def test_target_of_everything(self) -> None:
+        """The levels that the program runs count, and the last one is judged; the user's target is tried."""
+        done = self.trade(
+            "--parameters",
+            "mesh=2",
+            "--parameter",
+            "Solver/Predictor=tangent",
+            "--product",
+            "target error of everything=0.1",
+            "--repeat",
+            "1",
+            "--folder",
+            "ladder",
+            "--cost",
+            "work",
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = {row["knob"]: row for row in self.rows("ladder/trade")}
+        ladder = found["target error of everything"]
+        self.assertEqual((ladder["elements"], ladder["work"]), ("8", str((8 + 4) * 50)))
+        self.assertAlmostEqual(float(ladder["difference_force"]), error(8), delta=3e-6)
+        self.assertEqual(found["mesh"]["work"], str(8 * 50))
+        options = parse(["bar.prm", "--target", "2%"])
+        self.assertEqual(
+            with_value(parameters.PARAMETERS["target error of everything"], options.target).arguments,
+            ["0.02", "0.1", "0.03", "0.01"],
+        )
+        self.assertEqual(with_value(parameters.PARAMETERS["mesh"], 0.5).arguments, ["0.5", "1", "2"])
 
     def test_combination(self) -> None:
         done = self.trade(

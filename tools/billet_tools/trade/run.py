@@ -302,7 +302,7 @@ class Work:
                 pool.shutdown(wait=True, cancel_futures=True)
                 raise
         if beyond:
-            print(f"{beyond} runs are left out: they exceed what is left of the budget", file=sys.stderr)
+            print(f"beyond what is left of the budget, and left out: {beyond} of the runs", file=sys.stderr)
         return found
 
     def has(self, found: Mapping[str, Result], scene: Scene) -> bool:
