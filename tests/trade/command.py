@@ -367,27 +367,34 @@ class TestCommand(unittest.TestCase):
         # Five layers have no half: a coarser mesh would feign an order.
         odd = self.trade("--explain", "--folder", "odd", "--set", "Bodies/bar/Mesh/Layers=5")
         self.assertEqual((odd.returncode, self.runs()), (0, 15), odd.stderr)
-        self.assertIn(
-            "2, 5 and 10 elements have no common ratio", (self.folder / "odd/explain.md").read_text()
-        )
+        self.assertIn("one level coarser: no whole level", (self.folder / "odd/explain.md").read_text())
         found = {row["source"]: row for row in self.rows("odd/explain")}
         fall = 2 * 0.3 * (1 / 25 - 1 / 100)  # of order 1, as assumed
         self.assertAlmostEqual(float(found["mesh"]["error"]), fall / (1 + error(5)), delta=2e-6)
 
+        # Unless the finer one fails.
+        rest = self.trade(
+            "--explain", "--folder", "rest", "--set", "Bodies/bar/Mesh/Layers=5", FAKE_FAILS="10"
+        )
+        self.assertEqual((rest.returncode, self.runs()), (0, 21), rest.stderr)
+        found = {row["source"]: row for row in self.rows("rest/explain")}
+        fall = 0.3 * (1 / 4 - 1 / 25)
+        self.assertAlmostEqual(float(found["mesh"]["error"]), fall / (1 + error(5)), delta=2e-6)
+
         few = self.trade("--explain", "--folder", "few", "--budget", "3 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 18), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 24), few.stderr)
         found = {row["source"]: row for row in self.rows("few/explain")}
         self.assertAlmostEqual(float(found["mesh"]["error"]), 0.3 / 16 / whole, delta=2e-6)
         self.assertEqual(found["steps"]["error"], "")
         self.assertIn("beyond the budget", found["steps"]["how"])
         none = self.trade("--explain", "--folder", "none", "--budget", "1 run")
-        self.assertEqual((none.returncode, self.runs()), (3, 19), none.stderr)
+        self.assertEqual((none.returncode, self.runs()), (3, 25), none.stderr)
 
     def test_budget(self) -> None:
         """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
         sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
         few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 18), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 24), few.stderr)
         self.assertIn("limited to 11 runs", few.stderr)
         ran = [row["knob"] for row in self.rows("limited/trade") if row["kind"] == "sweep"]
         self.assertEqual(sorted(ran), ["penalty", "steps"])  # the first of each, before the second ones

@@ -117,6 +117,16 @@ class TestSources(unittest.TestCase):
         self.assertIn("has the volume of the smooth", by_name(area, checked(3.0, 3.0))["geometry"].remarks[0])
         self.assertNotIn("geometry", by_name(Scene(BAR, DEFAULTS), checked(3.0, None)))
 
+    def test_section_that_grows_into_its_neighbour(self) -> None:
+        def report(*gaps: float) -> dict[str, sources.Any]:
+            pairs = [{"name": f"pair {i}", "gap": {"least": gap}} for i, gap in enumerate(gaps)]
+            bodies = [{"low": [0, 0, 0], "high": [1, 1, 5]}]
+            return {"report": {"pairs": [*pairs, {"name": "self"}], "bodies": bodies}}
+
+        self.assertEqual(sources.moved_pair(report(0.0, 0.2), report(0.0, 0.1)), "pair 1")
+        self.assertEqual(sources.moved_pair(report(0.0, 0.2), report(1e-7, 0.2)), "")
+        self.assertEqual(sources.moved_pair({}, {}), "")
+
     def test_explicit(self) -> None:
         scene = Scene(BAR, DEFAULTS).changed(
             {

@@ -19,7 +19,17 @@ from .options import Options, read_outputs
 from .plan import read_presets
 from .results import Result
 from .run import Progress, Runner, Task, Work, clock
-from .sources import MESH, Given, Source, Variant, same_steps, sources_of
+from .sources import (
+    GEOMETRY,
+    MESH,
+    UNKNOWN_GEOMETRY,
+    Given,
+    Source,
+    Variant,
+    moved_pair,
+    same_steps,
+    sources_of,
+)
 from .sweep import command_text, make_force, make_outputs, refuse_outputs, remarks_of, say, write_files
 
 
@@ -37,24 +47,20 @@ def without_ladder(scene: Scene, runner: Runner) -> tuple[Scene, list[str]]:
 Usable = Tuple[Source, Variant, Scene]
 
 
-def without_odd_levels(
-    usable: Sequence[Usable], elements: int, runner: Runner, why_not: dict[str, str]
-) -> list[Usable]:
+def without_odd_level(
+    usable: Sequence[Usable], elements: int, runner: Runner
+) -> tuple[list[Usable], Usable | None]:
     """Those without a coarser mesh that is no whole level, as where five layers became two, if there is a
-    finer one: its difference would feign an order."""
+    finer one: beside that its difference would feign an order. It is returned, too, for want of the finer
+    one."""
     counts = {variant.label: runner.elements(changed) for _, variant, changed in usable}
-    left = []
-    for source, variant, changed in usable:
-        is_coarser_mesh = source.name == MESH and variant is source.coarser
+    for item in usable:
+        source, variant, _ = item
         fine = counts.get(source.finer.label) if source.finer else None
+        is_coarser_mesh = source.name == MESH and variant is source.coarser
         if is_coarser_mesh and fine and counts[variant.label] * fine != elements**2:
-            why_not[variant.label] = (
-                f"it is no whole level: {counts[variant.label]}, {elements} and {fine} elements have no"
-                " common ratio"
-            )
-        else:
-            left.append((source, variant, changed))
-    return left
+            return [other for other in usable if other is not item], item
+    return list(usable), None
 
 
 def in_order(variants: Sequence[tuple[Source, Variant]], costs: Sequence[float]) -> list[int]:
@@ -101,9 +107,11 @@ def explain(
             against = runner.check(changed)[1]
             if against:
                 why_not[variant.label] = f"billet refuses it: {against}"
+            elif source.name == GEOMETRY and (pair := moved_pair(checked, runner.check(changed)[2])):
+                why_not[variant.label] = f"it would change the gap of '{pair}'; {UNKNOWN_GEOMETRY}"
             else:
                 usable.append((source, variant, changed))
-    usable = without_odd_levels(usable, elements, runner, why_not)
+    usable, spare = without_odd_level(usable, elements, runner)
     costs = [work.expected(changed, options.repeat) for _, _, changed in usable]
     order = in_order(
         [(source, variant) for source, variant, _ in usable],
@@ -116,6 +124,12 @@ def explain(
     results = run_all(
         work, [(usable[i][1].label, usable[i][2], options.repeat) for i in order], options.jobs, why_not
     )
+    if spare is not None:
+        source, variant, changed = spare
+        if source.finer is not None and source.finer.label in results:
+            why_not[variant.label] = "no whole level: its numbers of elements have no ratio of two"
+        elif not work.was_stopped:
+            results.update(run_all(work, [(variant.label, changed, options.repeat)], options.jobs, why_not))
     explanation = Explanation(scene, base, outputs, weights, sources, results, why_not)
     cheapest = None
     if options.target is not None and explanation.counted and not work.was_stopped:

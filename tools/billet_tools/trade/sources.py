@@ -196,6 +196,23 @@ def formulation_sources(scene: Scene) -> list[Source]:
 UNKNOWN_GEOMETRY = "the error of its geometry is in that of the mesh, and cannot be told apart"
 
 
+def moved_pair(before: Mapping[str, Any], after: Mapping[str, Any]) -> str:
+    """The first pair whose least gap at the start differs between two scenes, by what --check says of them;
+    '' if none does. A section that grows into its neighbour changes more than its area."""
+
+    def gaps(checked: Mapping[str, Any]) -> dict[str, float]:
+        pairs = checked.get("report", {}).get("pairs", [])
+        return {pair["name"]: pair["gap"]["least"] for pair in pairs if "least" in pair.get("gap", {})}
+
+    def size(checked: Mapping[str, Any]) -> float:
+        bodies = checked.get("report", {}).get("bodies", [])
+        return max((b - a for body in bodies for a, b in zip(body["low"], body["high"])), default=1.0)
+
+    new = gaps(after)
+    tolerance = 1e-6 * size(before)
+    return next((n for n, gap in gaps(before).items() if abs(new.get(n, gap) - gap) > tolerance), "")
+
+
 def geometry_source(scene: Scene, given: Given) -> Source | None:
     """Of curved primitives, whose facets cut off volume. An extruded section can be scaled to the area of the
     smooth one; for others the volume alone is told."""
