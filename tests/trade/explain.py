@@ -237,6 +237,13 @@ class TestBars(unittest.TestCase):
         clear = explained(found, Run(1.0), half=Run(1.04), fine=Run(1.001))
         self.assertNotIn("overlaps", " ".join(clear.words()))
 
+    def test_large_difference(self) -> None:
+        found = [Source("mesh", variant("fine")), Source("geometry", variant("missing"))]
+        words = " ".join(explained(found, Run(1.0), fine=Run(1.3)).words())
+        self.assertIn("A difference of 60 % is too large to extrapolate", words)
+        self.assertNotIn("for want of a run", words)  # the geometry is in the mesh's bar
+        self.assertNotIn("too large", " ".join(explained(found, Run(1.0), fine=Run(1.2)).words()))
+
     def test_no_convergence(self) -> None:
         bar = explained(
             [Source("mesh", variant("fine"), variant("coarse"))], Run(1.0), fine=Run(1.1), coarse=Run(0.95)

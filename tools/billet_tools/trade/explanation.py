@@ -23,6 +23,7 @@ from .results import Result
 from .sources import GEOMETRY, MESH, Source, Variant
 
 WIDTH = 30  # of the longest bar in text
+USELESS = 0.5  # error beyond which differences are not extrapolated with reason
 
 
 @dataclass
@@ -217,7 +218,16 @@ class Explanation:
             best = max(bought, key=lambda b: (b.error - (b.left or 0.0)) / max(0.05, b.price - 1.0))
             if best is not largest:
                 said.append("The cheapest gain: " + gain_of(best))
-        missing = [bar for bar in self.bars if not bar.is_known and bar.source.variants]
+        if largest.error > USELESS:
+            said.append(
+                f"A difference of {percent(largest.error)} is too large to extrapolate: it tells the order of"
+                " the sources at most. Other --outputs, such as shape, may be known better."
+            )
+        missing = [
+            bar
+            for bar in self.bars
+            if not bar.is_known and bar.source.variants and bar.source.name != GEOMETRY
+        ]
         if missing:
             said.append(
                 f"Not in the sum, for want of a run: {', '.join(bar.source.name for bar in missing)}."
