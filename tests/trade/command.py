@@ -394,7 +394,7 @@ class TestCommand(unittest.TestCase):
         """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
         sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
         few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
-        self.assertEqual((few.returncode, self.runs()), (0, 24), few.stderr)
+        self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
         self.assertIn("limited to 11 runs", few.stderr)
         ran = [row["knob"] for row in self.rows("limited/trade") if row["kind"] == "sweep"]
         self.assertEqual(sorted(ran), ["penalty", "steps"])  # the first of each, before the second ones
