@@ -233,7 +233,9 @@ class TestCommand(unittest.TestCase):
         ]
         (chosen,) = [row for row in points if row["chosen"] == "1"]
         self.assertEqual(chosen["work"], str(min(int(row["work"]) for row in good)))
-        self.assertIn("To paste at the end of the scene:\n", done.stdout)
+        self.assertIn(
+            "To paste into the scene; lines with 'in place of' replace those that it has:\n", done.stdout
+        )
         self.assertIn("Only the cost, not the result, changes with `predictor`", done.stdout)
         self.assertEqual(len(reference), 8)
         page = (self.folder / "sweep/trade.md").read_text()
@@ -361,7 +363,9 @@ class TestCommand(unittest.TestCase):
         target = self.trade(*scene, "--target", "3.3%")
         self.assertEqual((target.returncode, self.runs()), (3, 10), target.stderr)  # three more
         self.assertIn("Nothing is shown to be within 3.3 %", target.stdout)
-        self.assertIn("To paste at the end of the scene:\n", target.stdout)
+        self.assertIn(
+            "To paste into the scene; lines with 'in place of' replace those that it has:\n", target.stdout
+        )
         self.assertIn("## The cheapest way to 3.3 %", (self.folder / "explained/explain.md").read_text())
 
         # Five layers have no half: a coarser mesh would feign an order.

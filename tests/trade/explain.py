@@ -362,6 +362,8 @@ class TestPaste(unittest.TestCase):
         text = lines_to_paste(changes, scene)
         self.assertTrue(text.startswith("# remove 'Profile' from the scene\n"))
         self.assertEqual(entries(text), {"Bodies/bar/Mesh/Layers": "8", "Solver/Force tolerance": "1e-8"})
+        self.assertIn("set Layers = 8  # in place of 4\n", text)
+        self.assertIn("set Force tolerance = 1e-8\n", text)
         both = entries(scene.text + text)
         self.assertEqual((both["Bodies/bar/Mesh/Layers"], both["Bodies/bar/Mesh/Height"]), ("8", "2"))
         self.assertEqual(lines_to_paste({"Bodies/bar/Mesh/Layers": 4}, scene), "")

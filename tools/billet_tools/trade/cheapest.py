@@ -12,7 +12,7 @@ from typing import Mapping, Sequence
 from ..scene import Changes, Scene
 from ..text import number, percent, table
 from .explanation import Bar, Explanation
-from .paste import lines_to_paste
+from .paste import HOW, lines_to_paste
 from .results import Result
 from .sources import MESH, Given, Source, midpoints, sources_of
 
@@ -181,5 +181,5 @@ class Cheapest:
         """Parts of a page."""
         parts = [f"## The cheapest way to {percent(self.target)}", self.words(), self.table()]
         if self.lines():
-            parts.append(f"To paste at the end of the scene:\n\n```prm\n{self.lines()}```")
+            parts.append(f"{HOW}:\n\n```prm\n{self.lines()}```")
         return parts

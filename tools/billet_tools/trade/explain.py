@@ -16,6 +16,7 @@ from .budget import Budget
 from .cheapest import Cheapest, by_program, predict
 from .explanation import Explanation
 from .options import Options, read_outputs
+from .paste import HOW
 from .plan import read_presets
 from .results import Result
 from .run import Progress, Runner, Task, Work, clock
@@ -209,5 +210,5 @@ def write(
     if cheapest is not None:
         print(f"\n{cheapest.table()}\n\n{cheapest.words()}")
         if cheapest.lines():
-            print(f"\nTo paste at the end of the scene:\n\n{cheapest.lines()}", end="")
+            print(f"\n{HOW}:\n\n{cheapest.lines()}", end="")
     print(f"\n{name}.csv, {name}.md, {drawn}")

@@ -18,7 +18,7 @@ from ..scene import Scene
 from ..text import number, percent, table
 from . import measure
 from .outputs import Output
-from .paste import lines_to_paste
+from .paste import HOW, lines_to_paste
 from .results import Result
 from .sources import GEOMETRY, MESH, Source, Variant
 
@@ -313,7 +313,7 @@ class Explanation:
         if notes:
             parts.append("\n".join(f"- {note}" for note in notes))
         for label, text in self.lines():
-            parts += [f"To paste at the end of the scene for {label}:", f"```prm\n{text}```"]
+            parts += [f"{HOW}, for {label}:", f"```prm\n{text}```"]
         parts += self.more
         return "\n\n".join(parts) + "\n"
 

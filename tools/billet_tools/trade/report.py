@@ -14,7 +14,7 @@ from ..scene import Changes, Scene
 from ..text import big, first_sentence, number, percent, table
 from . import measure
 from .outputs import Force, Output
-from .paste import lines_to_paste
+from .paste import HOW, lines_to_paste
 from .reference import Reference
 from .results import Result
 
@@ -578,7 +578,7 @@ class Sweep:
         parts = [f"# What accuracy costs: {title}", f"Written by `{command}`."]
         parts += [" ".join(self.words())]
         if self.lines():
-            parts.append(f"To paste at the end of the scene:\n\n```prm\n{self.lines()}```")
+            parts.append(f"{HOW}:\n\n```prm\n{self.lines()}```")
         if picture:
             parts.append(f"![Error over cost]({picture})")
         parts += [

@@ -17,6 +17,7 @@ from ..text import number, percent, table
 from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
 from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
+from .paste import HOW
 from .plan import Candidates
 from .reference import GIVEN, Plan, Reference
 from .report import Forces, Point, Sweep
@@ -442,5 +443,5 @@ def write(
     print(table(sweep.head(), sweep.rows()) + "\n")
     print("\n".join([*sweep.words(), *remarks]))
     if sweep.lines():
-        print(f"\nTo paste at the end of the scene:\n\n{sweep.lines()}", end="")
+        print(f"\n{HOW}:\n\n{sweep.lines()}", end="")
     print(f"\n{name}.csv, {name}.md, {drawn}")
