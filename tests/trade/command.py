@@ -21,7 +21,8 @@ from tempfile import TemporaryDirectory
 from modules import HERE, ROOT, TRADE
 from billet_tools.trade import parameters
 from billet_tools.trade.command import run
-from billet_tools.trade.plan import pilot, read_presets
+from billet_tools.trade.options import parse
+from billet_tools.trade.plan import pilot, read_presets, with_value
 from billet_tools.scene import Scene, read_scene
 
 SCENE = """set Title = A bar
@@ -146,8 +147,9 @@ class TestCommand(unittest.TestCase):
         """Stopped in the middle, taken up again, and all errors as they must be."""
         stopped = self.trade(*WHOLE, FAKE_INTERRUPT="7")
         self.assertEqual(stopped.returncode, 5, stopped.stderr)
-        # one timed twice
-        self.assertIn("stopped; 5 runs are kept in sweep, and the same command goes on", stopped.stderr)
+        self.assertIn("stopped; 6 runs are kept in sweep, and the same command goes on", stopped.stderr)
+        # The reference is not made yet: costs alone.
+        self.assertIn("No error is known yet", (self.folder / "sweep/trade.md").read_text())
         self.assertFalse((self.folder / "sweep/trade.csv").exists())
         before = self.runs()
 
@@ -163,6 +165,11 @@ class TestCommand(unittest.TestCase):
         different = {row["changes"]: int(row["timed"]) for row in points}
         self.assertLess(whole - before, sum(int(row["timed"]) for row in rows))
         self.assertGreater(len(different), 12)
+        # What others dominate is not timed again.
+        self.assertEqual(
+            {int(row["timed"]) for row in points if row["on_front"] == "1" or row["kind"] == "scene"}, {2}
+        )
+        self.assertIn("1", {row["timed"] for row in points if row["status"] == "ok"})
 
         # The limit: F = 1 + t, to which all sequences go with exact orders, so that errors are known.
         found = {(row["knob"], row["value"]): row for row in points}
@@ -226,6 +233,9 @@ class TestCommand(unittest.TestCase):
         ]
         (chosen,) = [row for row in points if row["chosen"] == "1"]
         self.assertEqual(chosen["work"], str(min(int(row["work"]) for row in good)))
+        self.assertIn(
+            "To paste into the scene; lines with 'in place of' replace those that it has:\n", done.stdout
+        )
         self.assertIn("Only the cost, not the result, changes with `predictor`", done.stdout)
         self.assertEqual(len(reference), 8)
         page = (self.folder / "sweep/trade.md").read_text()
@@ -325,6 +335,120 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("locked", done.stdout)
 
+    def test_explanation(self) -> None:
+        """Each source against what it makes, stopped in the middle and taken up again."""
+        scene = ("--explain", "--folder", "explained")
+        stopped = self.trade(*scene, "--budget", "20 minutes", FAKE_INTERRUPT="5")
+        self.assertEqual(stopped.returncode, 5, stopped.stderr)
+        self.assertIn("Budget: 6 runs at most, the scene as it is and 5 others", stopped.stderr)
+        self.assertIn("By the first run, ", stopped.stderr)
+        page = (self.folder / "explained/explain.md").read_text()
+        self.assertIn("the study was stopped", page)
+        self.assertEqual(sum(bool(row["error"]) for row in self.rows("explained/explain")), 2)
+
+        done = self.trade(*scene)
+        self.assertEqual((done.returncode, self.runs()), (0, 7), done.stderr)  # one of them was stopped
+        found = {row["source"]: row for row in self.rows("explained/explain")}
+        whole = 1 + error()
+        expected = {"mesh": 0.3 / 16, "steps": 0.2 * 0.1, "penetration": 0.05 / 10, "iterations": 0.0}
+        for name, value in expected.items():
+            self.assertAlmostEqual(float(found[name]["error"]), value / whole, delta=2e-6, msg=name)
+        self.assertAlmostEqual(float(found["mesh"]["order"]), 2.0, delta=1e-3)
+        self.assertAlmostEqual(float(found["mesh"]["own_estimate"]), 0.3 / 16)
+        self.assertIn("The largest source is steps", done.stdout)
+        self.assertIn(f"{100 * error() / whole:.2g} % off in force", done.stdout)
+        self.assertIn("\n  set Maximum step = 0.05\n", done.stdout)
+        self.assertGreater((self.folder / "explained/explain.png").stat().st_size, 10000)
+
+        target = self.trade(*scene, "--target", "3.3%")
+        self.assertEqual((target.returncode, self.runs()), (3, 10), target.stderr)  # three more
+        self.assertIn("Nothing is shown to be within 3.3 %", target.stdout)
+        self.assertIn(
+            "To paste into the scene; lines with 'in place of' replace those that it has:\n", target.stdout
+        )
+        self.assertIn("## The cheapest way to 3.3 %", (self.folder / "explained/explain.md").read_text())
+
+        # Five layers have no half: a coarser mesh would feign an order.
+        odd = self.trade("--explain", "--folder", "odd", "--set", "Bodies/bar/Mesh/Layers=5")
+        self.assertEqual((odd.returncode, self.runs()), (0, 15), odd.stderr)
+        self.assertIn("one level coarser: no whole level", (self.folder / "odd/explain.md").read_text())
+        found = {row["source"]: row for row in self.rows("odd/explain")}
+        fall = 2 * 0.3 * (1 / 25 - 1 / 100)  # of order 1, as assumed
+        self.assertAlmostEqual(float(found["mesh"]["error"]), fall / (1 + error(5)), delta=2e-6)
+
+        # Unless the finer one fails.
+        rest = self.trade(
+            "--explain", "--folder", "rest", "--set", "Bodies/bar/Mesh/Layers=5", FAKE_FAILS="10"
+        )
+        self.assertEqual((rest.returncode, self.runs()), (0, 21), rest.stderr)
+        found = {row["source"]: row for row in self.rows("rest/explain")}
+        fall = 0.3 * (1 / 4 - 1 / 25)
+        self.assertAlmostEqual(float(found["mesh"]["error"]), fall / (1 + error(5)), delta=2e-6)
+
+        few = self.trade("--explain", "--folder", "few", "--budget", "3 runs")
+        self.assertEqual((few.returncode, self.runs()), (0, 24), few.stderr)
+        found = {row["source"]: row for row in self.rows("few/explain")}
+        self.assertAlmostEqual(float(found["mesh"]["error"]), 0.3 / 16 / whole, delta=2e-6)
+        self.assertEqual(found["steps"]["error"], "")
+        self.assertIn("beyond the budget", found["steps"]["how"])
+        none = self.trade("--explain", "--folder", "none", "--budget", "1 run")
+        self.assertEqual((none.returncode, self.runs()), (3, 25), none.stderr)
+
+    def test_budget(self) -> None:
+        """Of a sweep: what it does not reach is named, and what was stopped gives a page."""
+        sweep = ("--parameters", "penalty=3,10", "steps=20,40", "predictor=tangent", "--repeat", "1")
+        few = self.trade(*sweep, "--folder", "limited", "--budget", "11 runs")
+        self.assertEqual((few.returncode, self.runs()), (0, 11), few.stderr)
+        self.assertIn("limited to 11 runs", few.stderr)
+        ran = [row["knob"] for row in self.rows("limited/trade") if row["kind"] == "sweep"]
+        self.assertEqual(sorted(ran), ["penalty", "steps"])  # the first of each, before the second ones
+        self.assertIn("Not run, beyond the budget: `penalty = 10`, `steps = 40`, `predictor", few.stdout)
+        stopped = self.trade(*sweep, "--folder", "limited", FAKE_INTERRUPT="13")
+        self.assertEqual((stopped.returncode, self.runs()), (5, 13), stopped.stderr)
+        self.assertIn("Not run, the study was stopped: ", (self.folder / "limited/trade.md").read_text())
+        self.assertEqual(len([r for r in self.rows("limited/trade") if r["kind"] == "sweep"]), 3)
+        # No points where the reference cannot show that any is within the target.
+        hopeless = self.trade(*sweep, "--folder", "hopeless", "--budget", "5 h", "--target", "0.1%")
+        self.assertEqual((hopeless.returncode, self.runs()), (3, 22), hopeless.stderr)
+        # All of the reference but the run off its axes.
+        part = self.trade(*sweep, "--folder", "part", "--budget", "8 runs")
+        self.assertEqual((part.returncode, self.runs()), (0, 30), part.stderr)
+        self.assertEqual([r["kind"] for r in self.rows("part/trade")].count("reference"), 7)
+        self.assertIn("all of them: no run", (self.folder / "part/trade.md").read_text())
+        # The reference itself is beyond the budget.
+        short = self.trade(*sweep, "--folder", "short", "--budget", "3 runs")
+        self.assertEqual((short.returncode, self.runs()), (3, 33), short.stderr)
+        self.assertIn("No error is known yet", (self.folder / "short/trade.md").read_text())
+
+    def test_target_of_everything(self) -> None:
+        """The levels that the program runs count, and the last one is judged; the user's target is tried."""
+        done = self.trade(
+            "--parameters",
+            "mesh=2",
+            "--parameter",
+            "Solver/Predictor=tangent",
+            "--product",
+            "target error of everything=0.1",
+            "--repeat",
+            "1",
+            "--folder",
+            "ladder",
+            "--cost",
+            "work",
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = {row["knob"]: row for row in self.rows("ladder/trade")}
+        ladder = found["target error of everything"]
+        self.assertEqual((ladder["elements"], ladder["work"]), ("8", str((8 + 4) * 50)))
+        self.assertAlmostEqual(float(ladder["difference_force"]), error(8), delta=3e-6)
+        self.assertEqual(found["mesh"]["work"], str(8 * 50))
+        options = parse(["bar.prm", "--target", "2%"])
+        self.assertEqual(
+            with_value(parameters.PARAMETERS["target error of everything"], options.target).arguments,
+            ["0.02", "0.1", "0.03", "0.01"],
+        )
+        self.assertEqual(with_value(parameters.PARAMETERS["mesh"], 0.5).arguments, ["0.5", "1", "2"])
+
     def test_combination(self) -> None:
         done = self.trade(
             "--parameters",
@@ -399,6 +523,8 @@ class TestCommand(unittest.TestCase):
             (["--time-limit", "0"], "--time-limit is 0; allowed are seconds > 0"),
             (["--outputs", "strain", "--line", "0,0 to 1,1"], "--line is '0,0 to 1,1'"),
             (["--target", "200%"], "--target is '200%'; allowed is an error below 100 %"),
+            (["--budget", "soon"], "--budget is 'soon'; allowed are times and runs"),
+            (["--explain", "--combine", "--target", "1%"], "--explain changes one source of error at a time"),
             (["--combine"], "--combine wants a --target"),
             (
                 ["--reference-mesh", "1,2,3"],

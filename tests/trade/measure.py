@@ -15,6 +15,50 @@ from billet_tools.trade import measure
 UNEVEN = numpy.array([0.0, 0.1, 0.25, 0.3, 0.6, 0.65, 1.0])
 
 
+class TestErrorPart(unittest.TestCase):
+    """Results 1 + e of a source whose error e falls with an order."""
+
+    @staticmethod
+    def part(coarse: float | None, given: float, fine: float | None, ratio: float = 2.0) -> measure.Part:
+        coarser, middle, finer = (None if v is None else numpy.array([v]) for v in (coarse, given, fine))
+        assert middle is not None
+        return measure.error_part(coarser, middle, finer, ratio, lambda v: float(numpy.linalg.norm(v)))
+
+    def test_orders(self) -> None:
+        for order in (0.7, 1.0, 2.0):
+            part = self.part(1 + 0.1 * 2**order, 1.1, 1 + 0.1 / 2**order)
+            self.assertAlmostEqual(part.order or 0.0, order)
+            self.assertAlmostEqual(part.error, 0.1)
+            self.assertAlmostEqual(part.left or 0.0, 0.1 / 2**order)
+            self.assertAlmostEqual(float(part.correction[0]), -0.1)
+            self.assertTrue(part.low < 0.1 < part.high)
+        steep = self.part(1.8, 1.1, 1.01)  # of a higher order than is extrapolated
+        self.assertAlmostEqual(steep.left or 0.0, 0.7 / 4 / 3)
+
+    def test_two_results(self) -> None:
+        """Those of order 1 are exact; those of orders 1/2 and 2 are at the ends of the range."""
+        self.assertAlmostEqual(self.part(None, 1.1, 1.05).error, 0.1)
+        self.assertAlmostEqual(self.part(1.2, 1.1, None).error, 0.1)
+        self.assertIsNone(self.part(1.2, 1.1, None).left)
+        self.assertAlmostEqual(self.part(None, 1.1, 1.025).low, 0.1)
+        self.assertAlmostEqual(self.part(None, 1.1, 1 + 0.1 / math.sqrt(2)).high, 0.1)
+        self.assertAlmostEqual(self.part(1.4, 1.1, None).low, 0.1)
+        self.assertAlmostEqual(self.part(1 + 0.1 * math.sqrt(2), 1.1, None).high, 0.1)
+        gone = self.part(None, 1.1, 1.0, math.inf)
+        self.assertAlmostEqual(gone.error, 0.1)
+        self.assertEqual((gone.left, gone.low), (0.0, gone.high))
+
+    def test_no_order(self) -> None:
+        part = self.part(1.1, 1.0, 1.2)
+        self.assertAlmostEqual(part.error, 0.2)
+        self.assertAlmostEqual(part.low, 0.1)
+        self.assertEqual((part.high, part.left), (math.inf, None))
+        still = self.part(1.1, 1.0, 1.0)
+        self.assertEqual((still.error, still.high), (0.0, 0.0))
+        with self.assertRaises(ValueError):
+            self.part(None, 1.0, None)
+
+
 class TestCurves(unittest.TestCase):
     def test_trapezoids(self) -> None:
         self.assertAlmostEqual(float(numpy.sum(measure.trapezoids(UNEVEN))), 1.0)

@@ -22,6 +22,8 @@ SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 
 class Result:
     """`force`: as part of the reference's."""
 
+    coarser_work = 0.0
+
     def __init__(
         self,
         force: float = 1.0,

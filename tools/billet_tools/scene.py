@@ -138,7 +138,7 @@ class Scene:
 
     def changed(self, changes: Changes) -> Scene:
         """Returns the scene with these entries."""
-        chooses_others = any(path in ("Profile", "Target error") for path in changes)
+        chooses_others = any(path in ("Profile", "Target error", "Target error of") for path in changes)
         presets = {} if chooses_others else self.presets
         return Scene(variant(self.text, changes), self._default_text, presets)
 

@@ -9,6 +9,13 @@ run        running, and keeping what came out
 results    what a run gave, as it is kept
 outputs    the outputs whose errors count
 measure    pure: norms, Richardson extrapolation, Pareto front, the choice
+budget     what a study may take, in runs or seconds
 sweep      the order of things: runs, judges and writes
 report     table, CSV and words; picture draws
+paste      changes as lines to paste into a scene
+
+explain    --explain: the order of things
+sources    the sources of error, and runs in which one of them is smaller
+explanation  bars that follow, table, CSV and words; bars draws
+cheapest   the cheapest way to a target by the bars
 """

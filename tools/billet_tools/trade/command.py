@@ -12,6 +12,7 @@ from .. import UserError
 from ..program import Program, Stopped, find_program
 from ..scene import Scene, read_scene
 from . import parameters
+from .explain import explain
 from .options import Options, parse
 from .plan import Candidates, pilot, read_presets
 from .run import Runner
@@ -55,6 +56,8 @@ def main(arguments: Sequence[str], beside: str) -> int:
         if options.list:
             print(Candidates(scene, runner, options).describe())
             return 0
+        if options.explain:
+            return explain(options, runner, scene, elements, file, arguments)
         return sweep_over(options, runner, scene, elements, file, arguments)
     except Stopped:
         kept = len(list((folder / "runs").glob("*/result.json")))

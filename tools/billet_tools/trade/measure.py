@@ -151,6 +151,67 @@ def richardson(levels: Sequence[Array], ratio: float, norm: Callable[[Array], fl
     return Limit(finest, 1.25 * left, None, observed, differences)
 
 
+@dataclass
+class Part:
+    """The error that one source makes in a result: its size in the norm; the range it may have, open at the
+    top (inf) where nothing converges; the `order` that was observed, None where one was assumed; the
+    `correction` that takes it away; and what is `left` of it in the finer result, None without one."""
+
+    error: float
+    low: float
+    high: float
+    order: float | None
+    correction: Array
+    left: float | None
+
+
+ASSUMED_ORDER = 1.0  # of plastic flow, friction and contact, in steps and meshes
+
+
+def error_part(
+    coarse: Array | None, given: Array, fine: Array | None, ratio: float, norm: Callable[[Array], float]
+) -> Part:
+    """The error of `given`, by results with the source `ratio` times larger and smaller, one of which may be
+    missing. An infinite ratio takes the source away.
+
+    With three results the order is observed, and used from 1/2 to 2 as in richardson(): the error is the last
+    difference and what differences that fall so still add; the range goes from the last difference to 1.25
+    times the rest. Without an order, where differences do not fall, the larger one is a lower bound. With two
+    results the order is assumed to be 1, and the range is that of orders from 2 to 1/2.
+    """
+
+    def tail(order: float) -> float:
+        return 1.0 / (float(ratio**order) - 1.0)
+
+    if fine is None:
+        if coarse is None:
+            raise ValueError("an error needs two results")
+        rise = given - coarse
+        size = norm(rise)
+        return Part(
+            size * tail(ASSUMED_ORDER),
+            size * tail(LARGEST_ORDER),
+            size * tail(LEAST_ORDER),
+            None,
+            rise * tail(ASSUMED_ORDER),
+            None,
+        )
+    step = fine - given
+    last = norm(step)
+    before = norm(given - coarse) if coarse is not None else 0.0
+    if coarse is None or last == 0.0:
+        factors = [1.0 + tail(order) for order in (LARGEST_ORDER, ASSUMED_ORDER, LEAST_ORDER)]
+        low, size, high = (last * factor for factor in factors)
+        return Part(size, low, high, None, step * factors[1], size - last)
+    observed = math.log(before / last) / math.log(ratio) if before > 0.0 else -math.inf
+    if observed < LEAST_ORDER:
+        return Part(max(before, last), min(before, last), math.inf, observed, step, None)
+    rest = max(last, before / ratio**LARGEST_ORDER) * tail(min(observed, LARGEST_ORDER))
+    goes_on = norm(fine - coarse) >= SAME_WAY * (before + last)
+    correction = step * (1.0 + rest / last) if goes_on else step
+    return Part(last + rest, last, last + 1.25 * rest, observed, correction, rest)
+
+
 # --- points in the plane of cost and error --------------------------------------------------------
 
 

@@ -8,6 +8,7 @@ from typing import Sequence
 
 from .. import UserError
 from . import parameters
+from .budget import Budget
 from .outputs import Profile
 from .reference import GIVEN
 
@@ -15,7 +16,9 @@ Options = argparse.Namespace
 
 HELP = """What accuracy costs in a scene of billet: changes one parameter after the other, measures each run
 against a converged reference that it makes itself, and writes a table, a CSV file and a picture of error over
-cost. What has been run is kept; after Ctrl-C the same command continues."""
+cost. With --explain: a bar for each source of error, as text and picture. With --target: the cheapest
+setting within an error, as lines to paste into the scene. What has been run is kept; after Ctrl-C there is
+the page of what was run, and the same command continues."""
 
 
 def parse(arguments: Sequence[str]) -> Options:
@@ -28,6 +31,14 @@ def parse(arguments: Sequence[str]) -> Options:
         "--list",
         action="store_true",
         help="say which parameters the scene can use and with which values, and end",
+    )
+    add(
+        "--explain",
+        action="store_true",
+        help=(
+            "how far off the scene is, and what makes it so: one run for each source of error, without a"
+            " reference; with --target, also the cheapest way there by these runs"
+        ),
     )
     group = parser.add_argument_group("what is changed")
     add = group.add_argument
@@ -135,7 +146,19 @@ def parse(arguments: Sequence[str]) -> Options:
     add = group.add_argument
     add("--ranks", type=int, default=1, help="processes of each run (1)")
     add("-j", "--jobs", type=int, default=1, help="runs at a time; more than one blurs the core-seconds (1)")
-    add("--repeat", type=int, default=3, help="times that each point is timed; the median counts (3)")
+    add(
+        "--repeat",
+        type=int,
+        help=(
+            "times that points are timed which others do not dominate; the median counts (3, or 1 with"
+            " --explain)"
+        ),
+    )
+    add(
+        "--budget",
+        metavar="LIMIT",
+        help="what the study may take on the clock, or in runs: '20 minutes', '90 s', '2 h', '30 runs'",
+    )
     add(
         "--time-limit", type=float, default=600.0, metavar="S", help="seconds on the clock for each run (600)"
     )
@@ -169,6 +192,8 @@ def parse(arguments: Sequence[str]) -> Options:
     add("--picture", metavar="FILE", help="another place for the picture, .png, .svg or .pdf")
     add("--title", help="of picture and page (the scene's)")
     options = parser.parse_args(arguments)
+    options.budget = Budget(options.budget)
+    options.repeat = (1 if options.explain else 3) if options.repeat is None else options.repeat
     for name, least in (("ranks", 1), ("jobs", 1), ("repeat", 1)):
         if getattr(options, name) < least:
             raise UserError(
@@ -182,6 +207,8 @@ def parse(arguments: Sequence[str]) -> Options:
         raise UserError(f"--until is {options.until:g}; allowed is a part of the end time, > 0 and <= 1")
     if options.combine and not options.target:
         raise UserError("--combine wants a --target to stay within")
+    if options.explain and (options.parameters or options.parameter or options.product or options.combine):
+        raise UserError("--explain changes one source of error at a time: it takes no parameters of a study")
     if options.reference_mesh == GIVEN and any(
         k.partition("=")[0] == "mesh" for k in (options.parameters or []) + sum(options.product, [])
     ):

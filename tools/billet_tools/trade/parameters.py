@@ -461,16 +461,36 @@ def make_material_tangent(scene: Scene, argument: str) -> Changes:
 # --- all at once ----------------------------------------------------------------------------------
 
 
+MESH_TARGET = ("Target error of", "Finest mesh level")
+
+
+def without_target(scene: Scene) -> dict[str, object]:
+    """Changes that leave the mesh as given."""
+    return {path: None for path in MESH_TARGET if path in scene.entries}
+
+
 @parameter("profile", "one word for many parameters", "fast", "balanced", "accurate")
 def make_profile(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Profile"), "this billet has no such parameter")
-    return {"Profile": argument, "Target error": None}
+    return {"Profile": argument, **without_target(scene), "Target error": None}
 
 
 @parameter("target error", "by which the program chooses parameters itself", 0.1, 0.03, 0.01, 0.003)
 def make_target_error(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Target error"), "this billet has no such parameter")
-    return {"Target error": argument, "Profile": None}
+    return {**without_target(scene), "Target error": argument, "Profile": None}
+
+
+@parameter(
+    "target error of everything",
+    "the mesh included: the program runs levels of the given mesh until their difference is small enough",
+    0.1,
+    0.03,
+    0.01,
+)
+def make_target_of_everything(scene: Scene, argument: str) -> Changes:
+    need(scene.knows("Target error of"), "this billet has no such parameter")
+    return {"Target error": argument, "Target error of": "everything", "Profile": None}
 
 
 # --- what users name ------------------------------------------------------------------------------
@@ -529,7 +549,9 @@ def asked_parameter(text: str, known: Mapping[str, Parameter]) -> Parameter:
 def reference_settings(scene: Scene) -> Changes:
     """What no sequence goes to the limit of: the tolerances, set so tight that they do not count, and what is
     exact."""
-    changes: dict[str, object] = {path: None for path in ("Profile", "Target error") if path in scene.entries}
+    changes: dict[str, object] = {
+        path: None for path in ("Profile", "Target error", *MESH_TARGET) if path in scene.entries
+    }
     for body in scene.names("Bodies"):
         path = f"Bodies/{body}/Material/Elasticity"
         if scene.entries.get(path, "Hencky") != "Hencky":

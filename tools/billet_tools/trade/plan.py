@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import os
 import sys
@@ -55,6 +56,15 @@ def is_number(text: str) -> bool:
         return False
 
 
+def with_value(parameter: Parameter, target: float) -> Parameter:
+    """A parameter that is a target error, with the user's target as its first value."""
+    if parameter.name not in ("target error", "target error of everything"):
+        return parameter
+    first = parameters.shown(target)
+    others = [a for a in parameter.arguments if float(a) != float(first)]
+    return dataclasses.replace(parameter, arguments=[first, *others])
+
+
 class Candidates:
     """The parameters that were asked for, or all, and what the scene can use of them."""
 
@@ -75,6 +85,8 @@ class Candidates:
                 for k in parameters.PARAMETERS.values()
                 if k.name != "mesh" or options.reference_mesh != GIVEN
             ]
+            if options.target:
+                self.parameters = [with_value(k, options.target) for k in self.parameters]
         self.is_asked = bool(options.parameters or options.parameter)
         self.products = [
             [parameters.asked_parameter(text, self.known) for text in product] for product in options.product

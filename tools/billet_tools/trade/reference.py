@@ -225,11 +225,18 @@ class Reference:
     """`values`, and `uncertainty` relative to them, by output; `rows` tells how they came about; `remarks`
     what fell short."""
 
-    def __init__(self, plan: Plan, results: Sequence[Result], outputs: Sequence[Output]) -> None:
-        """`results`: of plan.runs(), in its order."""
-        by_scene = {scene.text: result for (_, scene), result in zip(plan.runs(), results)}
+    def __init__(self, plan: Plan, results: Sequence[Result | None], outputs: Sequence[Output]) -> None:
+        """`results`: of plan.runs(), in its order; None where there was no run."""
+        pairs = zip(plan.runs(), results)
+        by_scene = {scene.text: result for (_, scene), result in pairs if result is not None}
+        self.remarks = [
+            f"{label}: no run, for the budget or an early end"
+            for (label, _), result in zip(plan.runs(), results)
+            if result is None
+        ]
+        if plan.centre.text not in by_scene:
+            raise UserError("the reference could not be made: its centre was not run", 3)
         centre = by_scene[plan.centre.text]
-        self.remarks = []
         if centre.status == "out of time":
             raise UserError(
                 (
@@ -248,15 +255,15 @@ class Reference:
             )
         sequences = {}
         for axis in plan.axes:
-            found = [(label, by_scene[scene.text]) for label, scene in axis.levels]
+            found = [(label, by_scene.get(scene.text)) for label, scene in axis.levels]
             for label, result in found:
-                if result.status != "ok":
+                if result is not None and result.status != "ok":
                     self.remarks.append(f"{label} {result.status}: {result.reason or 'no reason given'}")
             # What is left must be neighbours, the centre among them.
             low = high = axis.centre
-            while low > 0 and found[low - 1][1].status == "ok":
+            while low > 0 and has_ended(found[low - 1][1]):
                 low -= 1
-            while high + 1 < len(found) and found[high + 1][1].status == "ok":
+            while high + 1 < len(found) and has_ended(found[high + 1][1]):
                 high += 1
             if low == high:
                 raise UserError(
@@ -266,16 +273,17 @@ class Reference:
                     ),
                     3,
                 )
-            sequences[axis.name] = (axis, low, found[low : high + 1])
+            ended = [(label, result) for label, result in found[low : high + 1] if result is not None]
+            sequences[axis.name] = (axis, low, ended)
         self.values: dict[str, Array] = {}
         self.uncertainty: dict[str, float] = {}
         self.rows: list[Row] = []
         self._mesh_errors: dict[Mesh, dict[str, float]] = {}  # {mesh: {output: error of this mesh alone}}
         for output in outputs:
-            self._extrapolate(output, plan, sequences, centre, by_scene[plan.cross.text])
+            self._extrapolate(output, plan, sequences, centre, by_scene.get(plan.cross.text))
 
     def _extrapolate(
-        self, output: Output, plan: Plan, sequences: Mapping[str, Ended], centre: Result, cross: Result
+        self, output: Output, plan: Plan, sequences: Mapping[str, Ended], centre: Result, cross: Result | None
     ) -> None:
         known = {}
 
@@ -314,10 +322,10 @@ class Reference:
                 )
             )
         off = math.nan
-        if cross.status == "ok":
+        if cross is not None and cross.status == "ok":
             off = output.norm(values(cross) - predicted)
             uncertainty += off
-        else:
+        elif cross is not None:
             self.remarks.append(f"the run off all axes {cross.status}: whether they add up is not known")
         self.rows.append(Row(output.name, "off all axes", "", [], None, None, off / scale))
         self.values[output.name], self.uncertainty[output.name] = total, uncertainty / scale
@@ -340,7 +348,11 @@ class Reference:
         ]
 
 
-SPATIAL = ("Element", "Facets", "Passes", "Smoothing")
+def has_ended(result: Result | None) -> bool:
+    return result is not None and result.status == "ok"
+
+
+SPATIAL = ("Element", "Facets", "Passes", "Smoothing", "Target error of")
 
 
 def mesh_of(scene: Scene) -> Mesh:

@@ -14,6 +14,7 @@ from ..scene import Changes, Scene
 from ..text import big, first_sentence, number, percent, table
 from . import measure
 from .outputs import Force, Output
+from .paste import HOW, lines_to_paste
 from .reference import Reference
 from .results import Result
 
@@ -66,7 +67,8 @@ class Point:
 def work_of(result: Result, elements: int, is_explicit: bool) -> float:
     """Without regard to the machine: element updates, elements times steps, of explicit scenes; of others the
     elements times Newton's and the linear solver's iterations."""
-    return elements * (result.steps if is_explicit else result.newton + result.linear)
+    last = elements * (result.steps if is_explicit else result.newton + result.linear)
+    return last + result.coarser_work
 
 
 # What makes a reference better, by what is least known of it.
@@ -422,6 +424,21 @@ class Sweep:
             said.append(self.choice(self.target))
         return said
 
+    def worth_timing(self) -> list[Point]:
+        """Points that no other one dominates clearly: with no more error and less cost than timings of one
+        run scatter."""
+        good = [p for p in self.points if p.is_good]
+        scatter = 1.0 if self.cost == "work" else 1.3
+        return [
+            p
+            for p in good
+            if p.is_base
+            or not any(
+                self._floored(q) <= self._floored(p) and scatter * self.cost_of(q) < self.cost_of(p)
+                for q in good
+            )
+        ]
+
     def blindness(self) -> str:
         worst = max(self.reference.uncertainty_by_axis(), key=lambda row: row[2])
         return (
@@ -452,6 +469,10 @@ class Sweep:
             f" {percent(u)} included.** "
             + (f"Nearest comes {self.say(best)}." if best else "Every run failed.")
         )
+
+    def lines(self) -> str:
+        """Of the choice, to paste into the scene; empty without one, or if the scene has them already."""
+        return lines_to_paste(self.chosen.changes, self.scene) if self.chosen else ""
 
     # --- what is written ---
 
@@ -556,6 +577,8 @@ class Sweep:
         )
         parts = [f"# What accuracy costs: {title}", f"Written by `{command}`."]
         parts += [" ".join(self.words())]
+        if self.lines():
+            parts.append(f"{HOW}:\n\n```prm\n{self.lines()}```")
         if picture:
             parts.append(f"![Error over cost]({picture})")
         parts += [

@@ -20,7 +20,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkUnstructuredGrid,
 )
 
-from ..output import Array, Fields, History, max_drift, pictures_of, read_grid, read_history
+from ..output import Array, Fields, History, max_drift, pictures_of, read_estimates, read_grid, read_history
 from ..program import COMPLETED
 from ..records import Record, failure_of, read_records, value_of
 from ..scene import Changes, Scene
@@ -142,8 +142,23 @@ def collect(folder: Path, code: int | None, limit: float) -> dict[str, Any]:
         kept["penetration"] = float(max(depths)) / kept["facet"]
     if history:
         shutil.move(folder / "results/history.csv", folder / "history.csv")
+    if (folder / "results/error_estimate.csv").exists():
+        shutil.move(folder / "results/error_estimate.csv", folder / "error_estimate.csv")
+    kept["coarser_work"] = sum(map(level_work, sorted((folder / "results").glob("mesh_level_*"))))
     shutil.rmtree(folder / "results", ignore_errors=True)
     return kept
+
+
+def level_work(folder: Path) -> float:
+    """Work of a coarser level of the mesh that a target error of everything ran first: elements times
+    iterations, or steps in explicit scenes."""
+    history = read_history(folder / "history.csv")
+    pictures = pictures_of(folder)
+    if not pictures or not len(history.get("time", ())):
+        return 0.0
+    last = {name: float(history[name][-1]) for name in ("step", "total_iterations") if name in history}
+    iterations = last.get("total_iterations", 0.0) + float(numpy.sum(history.get("linear_iterations", 0)))
+    return len(read_grid(pictures[-1])["cells"]) * (iterations or last.get("step", 0.0))
 
 
 class Result:
@@ -166,6 +181,7 @@ class Result:
     seconds: list[float]  # of all cores, each time that it was timed
     core_seconds: float  # their median
     clock: float  # [s]
+    coarser_work: float = 0.0  # on coarser levels of the mesh, before this one
 
     def __init__(self, folder: Path, numbers: Mapping[str, Any]) -> None:
         self.folder = folder
@@ -174,6 +190,17 @@ class Result:
     @cached_property
     def history(self) -> History:
         return read_history(self.folder / "history.csv")
+
+    @cached_property
+    def estimates(self) -> dict[str, float]:
+        """{source: error} as the run itself estimates them, among 'mesh', 'steps', 'penetrations' and
+        'iterations'."""
+        of_run = read_estimates(self.folder)
+        found = {name: of_run[name] for name in ("steps", "penetrations", "iterations") if name in of_run}
+        mesh = self.history.get("mesh_error", numpy.zeros(0))
+        if len(mesh) and numpy.isfinite(mesh[-1]) and mesh[-1] > 0:
+            found = {"mesh": float(mesh[-1]), **found}
+        return found
 
     @cached_property
     def fields(self) -> Fields:

@@ -12,7 +12,7 @@ import statistics
 import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import CancelledError, ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any, Iterable, Mapping
 
@@ -21,6 +21,7 @@ from ..kept import hash_of, hash_of_file, read_json, write_json
 from ..program import Program, Stopped, execute
 from ..scene import Scene, entries, variant
 from . import parameters, results
+from .budget import Budget
 from .results import Result
 
 
@@ -110,42 +111,51 @@ class Runner:
         kept = read_json(place / "result.json")
         return kept is not None and kept["status"] != "crashed" and self._enough(kept, repeat or self.repeat)
 
-    def _enough(self, kept: Mapping[str, Any], repeat: int) -> bool:
-        if kept["status"] == "out of time" and self.limit > 1.01 * kept["limit"]:
+    def times_left(self, scene: Scene, repeat: int) -> int:
+        """How often it must run until it is timed that often."""
+        if self.finished(scene, repeat):
+            return 0
+        kept = read_json(self.folder / "runs" / self.key(self.prepared(scene)) / "result.json")
+        done = len(kept["seconds"]) if kept is not None and kept["status"] == "ok" else 0
+        return max(1, repeat - done)
+
+    def _enough(self, kept: Mapping[str, Any], repeat: int, limit: float | None = None) -> bool:
+        if kept["status"] == "out of time" and (limit or self.limit) > 1.01 * kept["limit"]:
             return False
         return kept["status"] != "ok" or len(kept["seconds"]) >= repeat
 
-    def run(self, scene: Scene, repeat: int | None = None) -> Result:
-        """The result, from the folder where there is one."""
+    def run(self, scene: Scene, repeat: int | None = None, limit: float | None = None) -> Result:
+        """The result, from the folder where there is one. `limit`: a shorter time than that of all runs."""
         repeat = repeat or self.repeat
+        limit = min(self.limit, limit or self.limit)
         text = self.prepared(scene)
         place = self.folder / "runs" / self.key(text)
         kept = read_json(place / "result.json")
-        if kept and kept["status"] == "out of time" and not self._enough(kept, repeat):
+        if kept and kept["status"] == "out of time" and not self._enough(kept, repeat, limit):
             kept = None
         if kept and kept["status"] == "crashed" and place not in self._run_here:
             kept = None  # who knows why: once more
         self._run_here.add(place)
-        while kept is None or not self._enough(kept, repeat):
+        while kept is None or not self._enough(kept, repeat, limit):
             if self.stop.is_set():
                 raise Stopped
-            kept = self._run_once(text, place, kept)
+            kept = self._run_once(text, place, kept, limit)
         return results.Result(place, kept)
 
-    def _run_once(self, text: str, place: Path, kept: dict[str, Any] | None) -> dict[str, Any]:
+    def _run_once(self, text: str, place: Path, kept: dict[str, Any] | None, limit: float) -> dict[str, Any]:
         work = place if kept is None else place / "again"
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
         try:
             code, seconds, clock = execute(
-                self.program.command + ["scene.prm"], work, self.limit, self.stop, self.program.ranks
+                self.program.command + ["scene.prm"], work, limit, self.stop, self.program.ranks
             )
         except Stopped:
             shutil.rmtree(work, ignore_errors=True)
             raise
         if kept is None:
-            kept = results.collect(work, code, self.limit)
+            kept = results.collect(work, code, limit)
             kept.update(seconds=[seconds], clock=clock)
         else:
             kept["seconds"].append(seconds)
@@ -179,17 +189,27 @@ class Progress:
         self.total += 1
         self.left += seconds
 
+    def pace(self) -> float:
+        """Seconds on the clock for one that was expected."""
+        return self.spent / self.expected_so_far if self.expected_so_far > 0 else 1.0
+
+    def leave_out(self, planned: float) -> None:
+        """Takes a run that the budget does not reach off those to go."""
+        self.total -= 1
+        self.left = max(0.0, self.left - planned)
+
     def report(self, label: str, result: Result, planned: float, took: float, was_kept: bool) -> None:
         self.done += 1
         self.left = max(0.0, self.left - planned)
         if not was_kept:
             self.spent += took
             self.expected_so_far += planned
-        pace = self.spent / self.expected_so_far if self.expected_so_far > 0 else 1.0
         work = (
             f"{result.newton + result.linear} iterations" if not self.is_explicit else f"{result.steps} steps"
         )
-        to_go = "" if self.done == self.total else f"; about {clock(self.left * pace / self.jobs)} to go"
+        to_go = (
+            "" if self.done == self.total else f"; about {clock(self.left * self.pace() / self.jobs)} to go"
+        )
         kept = ", kept from before" if was_kept else ""
         print(
             (
@@ -212,48 +232,81 @@ def clock(seconds: float) -> str:
 
 
 class Work:
-    """Runs that are to be made, each scene once."""
+    """Runs that are to be made, each scene once, in order and as far as the budget reaches. `left_out` names
+    those that it does not reach; `was_stopped`: by Ctrl-C, so that only a part was run."""
 
-    def __init__(self, runner: Runner, progress: Progress, scene: Scene) -> None:
+    def __init__(
+        self, runner: Runner, progress: Progress, scene: Scene, budget: Budget | None = None
+    ) -> None:
         self.runner, self.progress, self.scene = runner, progress, scene
+        self.budget = budget or Budget()
+        self.left_out: dict[str, float] = {}  # {label: seconds that it should take}
+        self.was_stopped = False
 
     def expected(self, scene: Scene, repeats: int) -> float:
         elements = self.runner.elements(scene)
+        if scene.get("Target error of") == "everything":
+            elements *= 8 ** int(scene.get("Finest mesh level") or 1)
         steps = float(self.progress.base[1])
         if not scene.is_explicit:
             steps *= parameters.longest_steps(scene) / parameters.longest_steps(self.scene)
         return self.progress.expected(elements, steps, repeats)
 
     def run(self, tasks: Iterable[Task], jobs: int) -> dict[str, Result]:
-        """Results by the key of the scene, of (label, scene, repeats)."""
+        """Results by the key of the scene, of (label, scene, repeats). If the user stops the study, the
+        results so far."""
         planned: dict[str, Task] = {}
         found = {}
         for label, scene, repeats in tasks:
             key = self.runner.key(self.runner.prepared(scene))
             known = planned.get(key)
             planned[key] = (known[0] if known else label, scene, max(repeats, known[2] if known else 0))
-        left = {key: self.expected(scene, repeats) for key, (_, scene, repeats) in planned.items()}
+        times = {key: self.runner.times_left(scene, repeats) for key, (_, scene, repeats) in planned.items()}
+        left = {key: self.expected(scene, max(1, times[key])) for key, (_, scene, _) in planned.items()}
         for seconds in left.values():
             self.progress.plan(seconds)
 
-        def one(key: str) -> tuple[str, Result, float, bool]:
+        def one(key: str) -> tuple[str, Result | None, float, bool]:
             label, scene, repeats = planned[key]
-            was_kept = self.runner.finished(scene, repeats)
             begin = time.monotonic()
-            return key, self.runner.run(scene, repeats), time.monotonic() - begin, was_kept
+            if times[key] == 0:
+                return key, self.runner.run(scene, repeats), 0.0, True
+            if not self.budget.take(left[key] * self.progress.pace(), times[key]):
+                return key, None, 0.0, False
+            limit = max(1.0, min(self.runner.limit, self.budget.seconds_left()))
+            result = self.runner.run(scene, repeats, limit)
+            is_cut = result.status == "out of time" and limit < self.runner.limit
+            return key, None if is_cut else result, time.monotonic() - begin, False
 
+        beyond = 0
         with ThreadPoolExecutor(jobs) as pool:
             futures = [pool.submit(one, key) for key in planned]
             try:
                 for future in as_completed(futures):
-                    key, result, took, was_kept = future.result()
-                    found[key] = result
-                    self.progress.report(planned[key][0], result, left[key], took, was_kept)
+                    try:
+                        key, result, took, was_kept = future.result()
+                    except (Stopped, CancelledError):
+                        self.was_stopped = True
+                        pool.shutdown(wait=False, cancel_futures=True)
+                        continue
+                    label = planned[key][0]
+                    if result is None:
+                        self.left_out[label] = left[key]
+                        self.progress.leave_out(left[key])
+                        beyond += 1
+                    else:
+                        found[key] = result
+                        self.progress.report(label, result, left[key], took, was_kept)
             except BaseException:
                 self.runner.stop.set()
                 pool.shutdown(wait=True, cancel_futures=True)
                 raise
+        if beyond:
+            print(f"beyond what is left of the budget, and left out: {beyond} of the runs", file=sys.stderr)
         return found
+
+    def has(self, found: Mapping[str, Result], scene: Scene) -> bool:
+        return self.runner.key(self.runner.prepared(scene)) in found
 
     def result(self, found: Mapping[str, Result], scene: Scene) -> Result:
         return found[self.runner.key(self.runner.prepared(scene))]

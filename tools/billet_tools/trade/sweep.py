@@ -11,11 +11,13 @@ from pathlib import Path
 from typing import Callable, Mapping, Sequence
 
 from .. import UserError
+from ..program import Stopped
 from ..scene import Scene
-from ..text import table
-from . import picture, report
+from ..text import number, percent, table
+from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
 from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
+from .paste import HOW
 from .plan import Candidates
 from .reference import GIVEN, Plan, Reference
 from .report import Forces, Point, Sweep
@@ -41,10 +43,13 @@ def make_force(options: Options, scene: Scene, centre: Result, finest: Result | 
 
 
 def make_outputs(
-    options: Options, scene: Scene, centre: Result, force: Force | None
+    options: Options, scene: Scene, centre: Result, force: Force | None, forces_alone: bool = False
 ) -> tuple[list[Output], dict[str, float]]:
-    """The outputs that count, and their weights."""
+    """The outputs that count, and their weights; if none are named, the force `forces_alone`, which is what
+    runs estimate their errors of, or the shape beside it."""
     weights = read_outputs(options.outputs)
+    if not weights and force and forces_alone and not options.line:
+        weights = {"force": 1.0}
     if not weights:
         weights = {
             **({"force": 1.0} if force else {}),
@@ -67,7 +72,7 @@ def make_outputs(
 
 
 def judging_forces(
-    plan: Plan, reference_results: Sequence[Result], force: Force | None, reference: Reference
+    plan: Plan, reference_results: Sequence[Result | None], force: Force | None, reference: Reference
 ) -> Forces:
     """What tells locked and soft: (the force, the reference that knows it), whether it is among the outputs
     or not; None where there is none to speak of."""
@@ -79,9 +84,9 @@ def judging_forces(
         return None
 
 
-def combine(sweep: Sweep, target: float, candidates: Candidates, run: Callable[[Point], None]) -> list[Point]:
+def combine(sweep: Sweep, target: float, candidates: Candidates, run: Callable[[Point], bool]) -> list[Point]:
     """Joins to the chosen point what makes it cheaper within the target, parameter by parameter, most
-    promising first; returns the points that were tried."""
+    promising first; returns the points that were tried. `run` says whether the budget reached it."""
     chosen = sweep.chosen or (sweep.base if sweep.base.is_good else None)
     tried: list[Point] = []
     if chosen is None or sweep.is_blind:
@@ -112,7 +117,8 @@ def combine(sweep: Sweep, target: float, candidates: Candidates, run: Callable[[
             else f"{best.value if best.curve == 'combined' else best.label}, {point.label}"
         )
         trial = report.Point("combined", value, changes, scene)
-        run(trial)
+        if not run(trial):
+            continue
         tried.append(trial)
         within = trial.is_good and (
             trial.error + sweep.uncertainty <= target or sweep.chosen is None and trial.error < best.error
@@ -122,17 +128,81 @@ def combine(sweep: Sweep, target: float, candidates: Candidates, run: Callable[[
     return tried
 
 
+# Parameters that change errors most as a rule; a budget reaches them first, and the others in their order.
+PROMISING = (
+    "target error of everything",
+    "mesh",
+    "target error",
+    "steps",
+    "largest step",
+    "safety factor",
+    "element",
+    "penalty",
+    "augmentation",
+    "profile",
+    "tolerance",
+)
+
+
+def most_promising_first(points: Sequence[Point]) -> list[Point]:
+    """By parameter, the first values of each parameter before the others' further ones."""
+    rank = {name: place for place, name in enumerate(PROMISING)}
+    places: dict[str, int] = {}
+    keys = {}
+    for place, point in enumerate(points):
+        nth = places[point.curve] = places.get(point.curve, -1) + 1
+        known = rank.get(point.curve)
+        # What a user named, as by --product, goes with the promising ones.
+        keys[id(point)] = (known is None and point.curve in parameters.PARAMETERS, nth, known or 0, place)
+    return sorted(points, key=lambda point: keys[id(point)])
+
+
+def say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+def affordable_plan(plan: Plan, coarser: Plan | None, work: Work) -> Plan:
+    """The plan of the reference, or the one on coarser meshes where it exceeds half of the seconds of a
+    budget."""
+    allowed = 0.5 * work.budget.seconds_left()
+    seconds = sum(work.expected(scene, 1) for _, scene in plan.runs())
+    if seconds <= allowed or coarser is None:
+        return plan
+    less = sum(work.expected(scene, 1) for _, scene in coarser.runs())
+    if less >= seconds:
+        return plan
+    say(
+        f"The reference would take about {clock(seconds)} of {clock(work.budget.seconds_left())}: it is made"
+        f" on meshes of 0.5, 1 and 2 times the elements along each edge, in about {clock(less)}"
+    )
+    return coarser
+
+
 def sweep_over(
     options: Options, runner: Runner, scene: Scene, elements: int, file: Path, arguments: Sequence[str]
 ) -> int:
+    budget = options.budget
     settings = read_settings("--reference", options.reference)
-    plan = Plan(scene, runner.elements, options.reference_mesh, options.reference_steps, settings)
+
+    def plan_on(mesh: str | None) -> Plan:
+        return Plan(scene, runner.elements, mesh, options.reference_steps, settings)
+
+    plan = plan_on(options.reference_mesh)
     if runner.check(plan.centre)[1]:
         raise UserError(f"--reference: billet refuses the reference's centre: {runner.check(plan.centre)[1]}")
     refuse_outputs(read_outputs(options.outputs), scene)
     base = report.Point("", "as written", {}, scene, is_base=True)
     started = time.monotonic()
-    base.result = runner.run(scene)
+    count = len({p.scene.text for p in Candidates(scene, runner, options).points()} - {scene.text})
+    say(
+        f"Budget: {1 + len(plan.runs()) + count} runs, the scene as it is, {len(plan.runs())} of the"
+        f" reference and {count} points"
+        + (f"; points that others do not dominate {options.repeat} times" if options.repeat > 1 else "")
+        + (f"; limited to {budget.text}" if budget.is_limited else "")
+    )
+    if not runner.finished(scene, 1):
+        budget.take(0.0)  # without it nothing can be said
+    base.result = runner.run(scene, 1, max(1.0, min(runner.limit, budget.seconds_left())))
     if base.result.status == "ok":
         # before all else runs: it may have no such column, or nothing that yields
         make_outputs(options, scene, base.result, make_force(options, scene, base.result))
@@ -143,23 +213,46 @@ def sweep_over(
     progress = Progress(
         elements, max(1, base.result.steps), base.result.clock, scene.is_explicit, options.jobs
     )
-    work = Work(runner, progress, scene)
-    tasks = [("as written", scene, options.repeat)]
+    work = Work(runner, progress, scene, budget)
+    if budget.is_limited and not options.reference_mesh:
+        plan = affordable_plan(plan, coarser_plan(plan_on, scene), work)
+    tasks = [("as written", scene, 1)]
     tasks += [(f"reference, {label}", level, 1) for label, level in plan.runs()]
-    tasks += [(p.label, p.scene, options.repeat) for p in points[1:]]
+    of_reference = len(tasks)
+    ordered = most_promising_first(points[1:]) if budget.is_limited else points[1:]
+    tasks += [(p.label, p.scene, 1) for p in ordered]
+    different = {level.text: level for _, level, _ in tasks}
+    say(
+        f"By the first run, {base.result.core_seconds:.2g} core-s, {len(different)} runs take about"
+        f" {clock(sum(work.expected(level, 1) for level in different.values()) / options.jobs)}"
+    )
     if options.jobs > 1:
-        print(f"{options.jobs} runs at a time: core-seconds are blurred by each other", file=sys.stderr)
-    found = work.run(tasks, options.jobs)
+        say(f"{options.jobs} runs at a time: core-seconds are blurred by each other")
+    found = work.run(tasks[:of_reference], options.jobs)
 
-    reference_results = [work.result(found, level) for _, level in plan.runs()]
+    def result_of(level: Scene) -> Result | None:
+        return work.result(found, level) if work.has(found, level) else None
+
+    reference_results = [result_of(level) for _, level in plan.runs()]
     centre = reference_results[0]
-    if centre.status == "ok":
-        ended = [work.result(found, level) for _, level in plan.axes[0].levels]
-        force = make_force(options, scene, centre, [result for result in ended if result.status == "ok"][-1])
+    if centre is not None and centre.status == "ok":
+        ended = [r for r in (result_of(level) for _, level in plan.axes[0].levels) if r and r.status == "ok"]
+        force = make_force(options, scene, centre, ended[-1])
         outputs, weights = make_outputs(options, scene, centre, force)
     else:
         force, outputs, weights = None, [], {}
-    reference = Reference(plan, reference_results, outputs)
+    try:
+        reference = Reference(plan, reference_results, outputs)
+    except UserError as error:
+        if not (work.was_stopped or work.left_out):
+            raise
+        return write_costs(points, result_of, str(error), options, runner, scene, file, arguments, work)
+    uncertainty = report.uncertainty_of(reference, outputs, weights)
+    is_hopeless = budget.is_limited and options.target is not None and uncertainty >= options.target
+    if is_hopeless:
+        say(f"The reference is known to {percent(uncertainty)} only: the budget is not spent on points")
+    elif not work.was_stopped:
+        found.update(work.run(tasks[of_reference:], options.jobs))
     forces = judging_forces(plan, reference_results, force, reference)
     limits = report.Limits(
         options.largest_drift,
@@ -171,44 +264,121 @@ def sweep_over(
 
     def judge(point: Point) -> None:
         point.work = report.work_of(point.result, runner.elements(point.scene), scene.is_explicit)
+        if point.scene.get("Target error of") == "everything" and point.result.elements:
+            point.work = report.work_of(point.result, point.result.elements, scene.is_explicit)
         report.judge(point, outputs, weights, reference, scene, limits, forces)
 
-    for point in points:
-        point.result = work.result(found, point.scene)
-        judge(point)
-    sweep = report.Sweep(
-        points, reference, outputs, weights, scene, options.cost, options.target, limits.error
-    )
-
-    if options.combine:
-
-        def run(point: Point) -> None:
-            point.result = work.result(work.run([(point.label, point.scene, options.repeat)], 1), point.scene)
-            judge(point)
-
-        tried = combine(sweep, options.target, candidates, run)
-        sweep = report.Sweep(
-            points + tried, reference, outputs, weights, scene, options.cost, options.target, limits.error
+    def swept(some: Sequence[Point]) -> Sweep:
+        return report.Sweep(
+            some, reference, outputs, weights, scene, options.cost, options.target, limits.error
         )
 
-    write(sweep, plan, reference_results, options, runner, scene, file, arguments)
-    print(f"({clock(time.monotonic() - started)})", file=sys.stderr)
+    run_points = [p for p in points if p.is_base or result_of(p.scene) is not None]
+    for point in run_points:
+        point.result = result_of(point.scene) or point.result
+        judge(point)
+    sweep = swept(run_points)
+
+    def run_again(some: Sequence[Point]) -> None:
+        """Those that are not dominated, until they are timed often enough."""
+        if options.repeat > 1 and not work.was_stopped:
+            again = work.run([(p.label, p.scene, options.repeat) for p in some], options.jobs)
+            for point in some:
+                if work.has(again, point.scene):
+                    point.result = work.result(again, point.scene)
+
+    run_again(sweep.worth_timing())
+    sweep = swept(run_points)
+
+    if options.combine and not work.was_stopped:
+
+        def run(point: Point) -> bool:
+            made = work.run([(point.label, point.scene, options.repeat)], 1)
+            if not work.has(made, point.scene):
+                return False
+            point.result = work.result(made, point.scene)
+            judge(point)
+            return True
+
+        tried = combine(sweep, options.target, candidates, run)
+        sweep = swept([*run_points, *tried])
+
+    write(
+        sweep,
+        plan,
+        reference_results,
+        options,
+        runner,
+        scene,
+        file,
+        arguments,
+        what_is_missing(points, run_points, work, is_hopeless),
+    )
+    say(f"({clock(time.monotonic() - started)})")
+    if work.was_stopped:
+        raise Stopped
     return 3 if options.target is not None and sweep.chosen is None or not sweep.front else 0
 
 
-def write(
-    sweep: Sweep,
-    plan: Plan,
-    reference_results: Sequence[Result],
+def coarser_plan(plan_on: Callable[[str | None], Plan], scene: Scene) -> Plan | None:
+    """That of a reference on the coarsest meshes that give an order, if the scene has them."""
+    try:
+        return plan_on("0.5,1,2")
+    except UserError:
+        return None
+
+
+def what_is_missing(
+    points: Sequence[Point], run_points: Sequence[Point], work: Work, is_hopeless: bool
+) -> list[str]:
+    """Sentences on the points that did not run."""
+    missing = [p.label for p in points if all(p is not q for q in run_points)]
+    if not missing:
+        return []
+    unknown = "the reference is not known well enough for the target"
+    why = "the study was stopped" if work.was_stopped else unknown if is_hopeless else "beyond the budget"
+    return [f"Not run, {why}: " + ", ".join(f"`{label}`" for label in missing) + "."]
+
+
+def write_costs(
+    points: Sequence[Point],
+    result_of: Callable[[Scene], Result | None],
+    against: str,
     options: Options,
     runner: Runner,
     scene: Scene,
     file: Path,
     arguments: Sequence[str],
-) -> None:
+    work: Work,
+) -> int:
+    """The page of a study that ended before its reference was made: costs without errors."""
+    ended = [(p, p.result if p.is_base else result_of(p.scene)) for p in points]
+    rows = [
+        [p.label, r.status, r.elements or "–", r.steps, number(r.core_seconds)]
+        for p, r in ended
+        if r is not None
+    ]
     title = options.title or scene.get("Title") or file.stem
     name = Path(options.output or runner.folder / "trade")
-    drawn = Path(options.picture) if options.picture else name.with_name(name.name + ".png")
+    said = f"No error is known yet: {against}."
+    left = [f"Beyond the budget: {', '.join(work.left_out)}."] if work.left_out else []
+    told = table(["point", "status", "elements", "steps", "core-seconds"], rows)
+    parts = [f"# What accuracy costs: {title}", f"Written by `{command_text(arguments)}`.", said, *left, told]
+    try:
+        name.parent.mkdir(parents=True, exist_ok=True)
+        name.with_name(name.name + ".md").write_text(
+            "\n\n".join([*parts, *remarks_of(options, runner)]) + "\n"
+        )
+    except OSError as error:
+        raise UserError(f"what came out cannot be written: {error}") from None
+    print("\n\n".join([told, said, *left, f"{name}.md"]))
+    if work.was_stopped:
+        raise Stopped
+    return 3
+
+
+def remarks_of(options: Options, runner: Runner) -> list[str]:
+    """What holds of all runs of a page."""
     remarks = [
         f"{runner.program.version}, {'one rank' if options.ranks == 1 else f'{options.ranks} ranks'}"
         + (f", {options.jobs} runs at a time" if options.jobs > 1 else "")
@@ -220,18 +390,58 @@ def write(
         told = [f"until {options.until:g} of the end time"] if options.until else []
         told += [f"{options.mesh} times the elements along each edge"] if options.mesh else []
         remarks.append("Pilot form: " + ", ".join(told + options.set) + ".")
+    return remarks
+
+
+def command_text(arguments: Sequence[str]) -> str:
+    return "billet-trade " + shlex.join(arguments)
+
+
+def write_files(
+    options: Options,
+    default: Path,
+    write_csv: Callable[[Path], None],
+    draw: Callable[[Path], None],
+    page: Callable[[str], str],
+) -> tuple[Path, Path]:
+    """CSV file, picture and page, to --output or the default name. `page` takes the picture's place beside
+    it. Returns name and picture."""
+    name = Path(options.output or default)
+    drawn = Path(options.picture) if options.picture else name.with_name(name.name + ".png")
     try:
         name.parent.mkdir(parents=True, exist_ok=True)
         drawn.parent.mkdir(parents=True, exist_ok=True)
-        sweep.write_csv(
-            name.with_name(name.name + ".csv"), zip([label for label, _ in plan.runs()], reference_results)
-        )
-        picture.draw(sweep, drawn, title)
-        relative = os.path.relpath(drawn, name.parent)
-        page = sweep.page(title, "billet-trade " + shlex.join(arguments), [" ".join(remarks)], relative)
-        name.with_name(name.name + ".md").write_text(page)
+        write_csv(name.with_name(name.name + ".csv"))
+        draw(drawn)
+        name.with_name(name.name + ".md").write_text(page(os.path.relpath(drawn, name.parent)))
     except (OSError, ValueError) as error:
         raise UserError(f"what came out cannot be written: {error}") from None
+    return name, drawn
+
+
+def write(
+    sweep: Sweep,
+    plan: Plan,
+    reference_results: Sequence[Result | None],
+    options: Options,
+    runner: Runner,
+    scene: Scene,
+    file: Path,
+    arguments: Sequence[str],
+    remarks: Sequence[str],
+) -> None:
+    title = options.title or scene.get("Title") or file.stem
+    ended = [(label, r) for (label, _), r in zip(plan.runs(), reference_results) if r is not None]
+    said = [" ".join([*remarks_of(options, runner), *remarks])]
+    name, drawn = write_files(
+        options,
+        runner.folder / "trade",
+        lambda file: sweep.write_csv(file, ended),
+        lambda file: picture.draw(sweep, file, title),
+        lambda drawn: sweep.page(title, command_text(arguments), said, drawn),
+    )
     print(table(sweep.head(), sweep.rows()) + "\n")
-    print("\n".join(sweep.words()))
+    print("\n".join([*sweep.words(), *remarks]))
+    if sweep.lines():
+        print(f"\n{HOW}:\n\n{sweep.lines()}", end="")
     print(f"\n{name}.csv, {name}.md, {drawn}")
