@@ -172,8 +172,8 @@ publish(
         " the work of deformation where loads drive it. The finest mesh has an error of its own, so that the"
         " last difference of each scene is too small: by a third if errors fall fourfold, by half if"
         " they fall to a half. Estimated: the last value of `mesh_error`. Ratio: estimated over"
-        " difference. By levels: the error that `Target error of = everything` extrapolates from the differences"
-        " between this mesh and those before it; its ratio likewise."
+        " difference. By levels: the error that `Target error of = everything` extrapolates from the"
+        " differences between this mesh and those before it; its ratio likewise."
     ),
     f"{n_within} of {len(ratios)} ratios are from 0.5 to 3; {n_below} estimates are below the difference. By"
     f" levels it is {n_levels_within} of {len(by_levels)}, and {n_levels_below} below.",
