@@ -18,7 +18,8 @@ against a converged reference that it makes itself, and writes a table, a CSV fi
 cost. What has been run is kept; after Ctrl-C the same command continues."""
 
 
-def parse(arguments: Sequence[str]) -> Options:
+def make_parser() -> argparse.ArgumentParser:
+    """Returns the parser of the command line; the manual page is made from it, too."""
     parser = argparse.ArgumentParser(
         prog="billet-trade", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -168,7 +169,11 @@ def parse(arguments: Sequence[str]) -> Options:
     add("--output", metavar="NAME", help="NAME.csv, NAME.md and NAME.png are written (FOLDER/trade)")
     add("--picture", metavar="FILE", help="another place for the picture, .png, .svg or .pdf")
     add("--title", help="of picture and page (the scene's)")
-    options = parser.parse_args(arguments)
+    return parser
+
+
+def parse(arguments: Sequence[str]) -> Options:
+    options = make_parser().parse_args(arguments)
     for name, least in (("ranks", 1), ("jobs", 1), ("repeat", 1)):
         if getattr(options, name) < least:
             raise UserError(
