@@ -8,7 +8,7 @@
 #include "billet/run/launch.h"
 #include "billet/run/new_scene.h"
 #include "billet/run/preview.h"
-#include "billet/run/simulation.h"
+#include "billet/run/target_mesh.h"
 #include "billet/run/type_lists.h"
 #include "billet/version.h"
 
@@ -382,8 +382,8 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
     });
     break;
   case Task::run:
-    code = billet::run_simulation(read_scene(command.scenes.front(), command), MPI_COMM_WORLD,
-                                  {command.replaces_results, log, command.is_quiet, changes_of(command)});
+    code = billet::run_to_target(read_scene(command.scenes.front(), command), MPI_COMM_WORLD,
+                                 {command.replaces_results, log, command.is_quiet, changes_of(command)});
     break;
   }
   return code;

@@ -368,6 +368,19 @@ inline const DiagnosticKind
                "This is the estimated error that the size of the elements makes in the forces of the run.",
                "Use finer elements where the field 'mesh_error' is large");
 
+inline const DiagnosticKind mesh_levels(
+    "mesh-levels", Severity::note,
+    "This is the error of the mesh by comparison of whole runs on levels of the given mesh, as 'Target error "
+    "of = everything' asks for.",
+    "");
+
+inline const DiagnosticKind mesh_target_missed(
+    "mesh-target-missed", Severity::warning,
+    "On the finest mesh that 'Finest mesh level' and the memory allow, the error of the mesh exceeds its "
+    "part of the "
+    "'Target error'. The message says what the target would take. The program exits with code 7.",
+    "Increase 'Finest mesh level', or choose a larger 'Target error'");
+
 inline const DiagnosticKind target_error_expensive(
     "target-error-expensive", Severity::warning,
     "The allowed error requires very many steps. The run continues, and may take very long.",
@@ -497,6 +510,13 @@ inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
                                             "The computation cannot continue. The message names the cause. "
                                             "What was computed until then is in the output folder.",
                                             "");
+
+inline const DiagnosticKind force_unresolved(
+    "force-unresolved", Severity::warning,
+    "'Force tolerance' is a part of all nodal forces. A force that is small beside them, such as the "
+    "friction of "
+    "a press fit beside its pressure, is off by more than 5 %, though each step has converged.",
+    "Reduce 'Force tolerance'");
 
 inline const DiagnosticKind forces_do_not_balance(
     "forces-do-not-balance", Severity::warning,

@@ -10,9 +10,12 @@ using dealii::Tensor;
 
 namespace {
 
-/// Returns the maximum curvature of a surface whose normal has this gradient.
-double max_curvature(const Tensor<2, 3> &turning) {
-  const auto principal = dealii::eigenvalues(dealii::symmetrize(turning));
+/// Returns the maximum curvature of the surface that a node touches; a concave edge has none that facets must
+/// follow.
+double max_curvature(const ToolContactState &state) {
+  if (is_in_concave_edge(state.gap, state.turning))
+    return 0.;
+  const auto principal = dealii::eigenvalues(dealii::symmetrize(state.turning));
   return std::max(std::abs(principal[0]), std::abs(principal[2]));
 }
 
@@ -125,7 +128,7 @@ std::vector<ContactNodeReport> ToolMeasures::report_nodes() const {
     const bool presses = state.pressure > 0.;
     reports.push_back({node.dofs, state.status, state.pressure, state.gap + parts_.step.gap_offset(node), 0.,
                        0., state.traction, presses ? std::abs(state.gap + node.multiplier_offset) : 0.,
-                       node.size, 0., presses ? max_curvature(state.turning) : 0.});
+                       node.size, 0., presses ? max_curvature(state) : 0.});
   }
   if (parts_.friction)
     for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -151,8 +154,9 @@ void ToolMeasures::follow_sides(std::vector<ContactNodeReport> &reports) const {
     for (const auto &side : sides) {
       const unsigned int a = facet.nodes[side[0]], b = facet.nodes[side[1]];
       for (const unsigned int i : {a, b})
-        if (const ToolContactState &state = parts_.states[i];
-            a < n_nodes && b < n_nodes && state.pressure > 0.)
+        if (const ToolContactState &state = parts_.states[i]; a < n_nodes && b < n_nodes &&
+                                                              state.pressure > 0. &&
+                                                              !is_in_concave_edge(state.gap, state.turning))
           reports[i].curvature =
               std::max(reports[i].curvature,
                        (state.turning * (parts_.states[a].position - parts_.states[b].position)).norm() /
@@ -180,7 +184,7 @@ void ToolMeasures::average_over_points(const ToolSprings<is_explicit> &springs,
       sums[parent].force += force;
       sums[parent].penetration =
           std::max(sums[parent].penetration, std::abs(state.gap + slaves.nodes[i].multiplier_offset));
-      sums[parent].curvature = std::max(sums[parent].curvature, max_curvature(state.turning));
+      sums[parent].curvature = std::max(sums[parent].curvature, max_curvature(state));
       sums[parent].slipping += state.status == ContactStatus::slip ? force : 0.;
       sums[parent].traction += weight * area * state.traction;
     });

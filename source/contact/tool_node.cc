@@ -68,7 +68,9 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
     state.pressure = t.pressure;
     state.traction = t.pressure * state.normal;
     state.tangent = penalty * dealii::outer_product(state.normal, state.normal);
-    if constexpr (is_exact)
+    // Across a concave edge the stiffness is as large as along the normal, and symmetric: Newton's method
+    // needs it.
+    if (is_exact || is_in_concave_edge(projection.gap, projection.turning))
       state.tangent -= t.pressure * state.turning;
   }
   if (fades && touches) { // all except friction is pressure

@@ -100,7 +100,7 @@ DiagnosticList ErrorReport::diagnostics() const {
     messages.push_back(Diagnostic(diagnostic::target_error_unknown, text.str())
                            .value("target", target)
                            .advice(unknown->remedy));
-  } else if (mesh > target) {
+  } else if (mesh > target && !has_mesh_target) {
     messages.push_back(
         Diagnostic(diagnostic::mesh_may_exceed_target, mesh_is_not_part(mesh) + ", more than the target")
             .value("mesh", mesh)

@@ -91,7 +91,10 @@ constexpr std::array<Row, 34> rows = {{
     {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "hypoelastic"},
 }};
 
-constexpr const char *profile_key = "Profile", *target_key = "Target error";
+constexpr const char *profile_key = "Profile", *target_key = "Target error",
+                     *target_of_key = "Target error of", *finest_key = "Finest mesh level";
+constexpr const char *of_mesh_given = "mesh given", *of_everything = "everything";
+constexpr double part_of_mesh = 2. / 3.; // its error falls the most slowly with the cost
 constexpr double min_target = 1e-6; // smaller targets are below the errors of Newton's method and round-off
 
 double number_in(const std::string &text, const double otherwise) {
@@ -307,10 +310,23 @@ void declare_presets(dealii::ParameterHandler &prm) {
   prm.declare_entry(target_key, "", dealii::Patterns::Anything(),
                     "Maximum error of the force curves, such as '1 percent', '1 %' or '0.01'. Error "
                     "estimates control steps, tolerances and augmentation during the run. The run prints the "
-                    "estimated error at the end; it excludes the error of the mesh. Empty: none.");
+                    "estimated error at the end. Empty: none.");
+  prm.declare_entry(
+      target_of_key, of_mesh_given,
+      dealii::Patterns::Selection(std::string(of_mesh_given) + "|" + of_everything),
+      "mesh given: 'Target error' is that of all sources but the mesh. everything: two thirds of it are "
+      "left to the mesh. The scene runs on coarser levels of the given meshes first, then on finer "
+      "ones, until the difference between the last levels shows that the error is small enough.");
+  prm.declare_entry(
+      finest_key, "1", dealii::Patterns::Integer(0),
+      "'Target error of = everything': most levels above the given meshes. Each has bricks of half the "
+      "size, and costs about ten times as much.");
 }
 
-double read_target_error(const SceneFile &file) {
+namespace {
+
+/// Returns 'Target error' as a fraction; 0 if it is not set.
+double read_whole_target(const SceneFile &file) {
   const std::string text = file.value({}, target_key, "");
   if (text.empty())
     return 0.;
@@ -331,6 +347,33 @@ double read_target_error(const SceneFile &file) {
     throw InputError(found +
                      "1e-6 or more: round-off and the residual of Newton's method limit the accuracy");
   return target;
+}
+
+bool includes_mesh(const SceneFile &file) {
+  return file.value({}, target_of_key, of_mesh_given) == of_everything;
+}
+
+} // namespace
+
+double read_target_error(const SceneFile &file) {
+  return (includes_mesh(file) ? 1. - part_of_mesh : 1.) * read_whole_target(file);
+}
+
+MeshTarget read_mesh_target(const SceneFile &file) {
+  const double target = read_whole_target(file);
+  if (!includes_mesh(file)) {
+    if (file.is_set({}, finest_key))
+      refuse(file, {}, finest_key,
+             std::string("no value without '") + target_of_key + " = " + of_everything + "'");
+    return {};
+  }
+  if (!(target > 0.))
+    refuse(file, {}, target_of_key, std::string("no value without a '") + target_key + "'");
+  constexpr double most = 10.;
+  const double finest = number_in(file.value({}, finest_key, "1"), 1.);
+  if (!(finest <= most))
+    refuse(file, {}, finest_key, "a whole number from 0 to 10");
+  return {part_of_mesh * target, static_cast<unsigned int>(finest)};
 }
 
 std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file) {

@@ -380,6 +380,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
   scene.warnings = describe_old_names(file);
   scene.presets = apply_presets(prm, file);
   scene.target_error = read_target_error(file);
+  scene.mesh_target = read_mesh_target(file);
   Reader reader(prm, file);
   reader.collect_errors();
   scene.profile = reader.text("Profile");

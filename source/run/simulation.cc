@@ -45,7 +45,8 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
         options.log->open(parameters.output.folder.value + "/" + log_file,
                           earlier == EarlierResults::continued);
     });
-    std::ostream *const steps = options.is_quiet && options.log != nullptr ? &options.log->file() : nullptr;
+    std::ostream *const steps =
+        options.is_quiet && options.log != nullptr ? &options.log->file() : options.steps;
     RunOutput output(scene, communicator, diagnostics, resumption.get(), steps, options.changes);
     if (!moved.empty()) // no message of the run: it depends on what was there before
       output.progress().show_diagnostic(

@@ -16,7 +16,7 @@ namespace billet {
 RunReview::RunReview(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), elements_(scene, discretization),
       inertia_(scene, discretization), contacts_(scene, discretization),
-      missing_pairs_(scene, discretization) {}
+      missing_pairs_(scene, discretization), unbalanced_(scene) {}
 
 DiagnosticList RunReview::start() const {
   return check_plausibility(scene_, discretization_.dof_handler().get_triangulation(),
@@ -26,6 +26,7 @@ DiagnosticList RunReview::start() const {
 DiagnosticList RunReview::after_step(const Solution &solution, const bool is_last) {
   DiagnosticList diagnostics = contacts_.add(solution);
   inertia_.add(solution.state());
+  unbalanced_.add(solution);
   const EnergyLedger &energies = solution.state().energies;
   max_kinetic_ = std::max(max_kinetic_, energies.kinetic);
   max_internal_ = std::max(max_internal_, energies.of_elements());
@@ -58,6 +59,7 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
 DiagnosticList RunReview::finish() const {
   DiagnosticList diagnostics = contacts_.finish();
   append(diagnostics, inertia_.judge(max_energy_));
+  append(diagnostics, unbalanced_.judge());
   constexpr double much = 0.05;
   if (const double size = std::abs(numerical_); size > much * max_energy_) {
     std::ostringstream text;
@@ -83,6 +85,7 @@ void RunReview::save(StateWriter &writer) const {
     inertia_.save(writer);
     contacts_.save(writer);
     missing_pairs_.save(writer);
+    unbalanced_.save(writer);
     writer.write("energies", {max_kinetic_, max_internal_, max_energy_});
   });
 }
@@ -94,6 +97,7 @@ void RunReview::load(StateReader &reader) {
       inertia_.load(reader);
       contacts_.load(reader);
       missing_pairs_.load(reader);
+      unbalanced_.load(reader);
       const std::vector<double> maximum = reader.read("energies", 3);
       max_kinetic_ = maximum.at(0);
       max_internal_ = maximum.at(1);

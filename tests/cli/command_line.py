@@ -464,7 +464,7 @@ def _() -> None:
         "scripts/completion/billet.bash",
         "scripts/completion/_billet",
         "doc/billet.1",
-        "doc/manual.md",
+        "doc/guide/running.md",
     ):
         text = read_text(ROOT / file).replace("\\-", "-")
         missing = [option for option in sorted(options) if not re.search(rf"{option}\b", text)]

@@ -4,6 +4,7 @@
 
 Runs in an empty current folder. Each template of prm/templates must be what --new writes, pass --check, and
 run to its end; those that take long run over a part of their time. --list must name all registered types.
+Parts of scenes in the user guide must set parameters of the program, and whole ones run.
 """
 
 from __future__ import annotations
@@ -221,6 +222,42 @@ def _() -> None:
     last = dict(zip(head, map(float, rows[-1])))
     near("travel", last["die.travel_z"], 8.0, 1e-12)
     near("force, without volume change", last["die.force_z"], 100 * 100 * 20 / 12, 1e-3)
+
+
+def scenes_of_guide() -> list[tuple[str, str]]:
+    """Returns the pages of the user guide and the parts of scenes on them."""
+    pages = sorted((HERE.parents[1] / "doc/guide").glob("*.md"))
+    return [
+        (page.name, part) for page in pages for part in re.findall(r"```prm\n(.*?)```", read_text(page), re.S)
+    ]
+
+
+@check("scenes of the user guide set parameters of the program")
+def _() -> None:
+    names = set(re.findall(r"^ *set (.*?) *=", run(program, "--print-parameters").output, re.M))
+    parts = scenes_of_guide()
+    require(len(parts) > 20, f"only {len(parts)} parts of scenes")
+    for page, part in parts:
+        unknown = [name for name in re.findall(r"^ *set (.*?) *=", part, re.M) if name not in names]
+        equal(f"unknown on {page}", unknown, [])
+        equal(f"subsections on {page}", len(re.findall(r"^ *subsection ", part, re.M)), part.count("end\n"))
+
+
+@check("whole scenes of the user guide run, the first one as in the README")
+def _() -> None:
+    whole = [part for _, part in scenes_of_guide() if "set Contact = all" in part and "Young modulus" in part]
+    equal("number of whole scenes", len(whole), 2)
+    first, pad = whole
+    indented = "".join(f"    {line}\n" for line in first.splitlines()[1:])
+    require(indented in read_text(SHIPPED.parent / "README.md"), "the README has another first scene")
+    write_text("pad.prm", pad)
+    ended = run(program, "pad.prm")
+    equal("exit code", ended.code, 0)
+    says("without warnings", ended.output)
+    head, *rows = rows_of("pad/history.csv")
+    last = dict(zip(head, map(float, rows[-1])))
+    near("force of the punch", last["punch.force_y"], -41.5, 2e-3)
+    near("force of the table", last["pad.support table.force_y"], 41.5, 2e-3)
 
 
 sys.exit(check.finish())

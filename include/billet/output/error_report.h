@@ -20,12 +20,13 @@ struct ErrorReport {
     bool is_known = true; ///< false: it could not be measured
   };
 
-  std::string of_what;         ///< reference quantity of the errors: forces or energies
-  double since = 0.;           ///< time from which errors are known; 0: from the start
-  double target = 0.;          ///< 0: none
-  bool is_known = true;        ///< whether there was a reference quantity to normalise by
-  std::vector<Source> sources; ///< estimated sources
-  double mesh = 0.;            ///< from MeshErrors::error(); not one of the sources
+  std::string of_what;          ///< reference quantity of the errors: forces or energies
+  double since = 0.;            ///< time from which errors are known; 0: from the start
+  double target = 0.;           ///< 0: none
+  bool is_known = true;         ///< whether there was a reference quantity to normalise by
+  std::vector<Source> sources;  ///< estimated sources
+  double mesh = 0.;             ///< from MeshErrors::error(); not one of the sources
+  bool has_mesh_target = false; ///< whether levels of the mesh are compared after the run
   std::vector<std::pair<std::string, double>> costs;
 
   /// Returns the sum of the known errors.

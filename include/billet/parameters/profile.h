@@ -19,16 +19,27 @@ struct Preset {
   std::string key, value;
 };
 
-/// Declares 'Profile' and 'Target error' at the top level.
+/// Declares 'Profile', 'Target error' and what belongs to it at the top level.
 void declare_presets(dealii::ParameterHandler &prm);
 
 /// Gives the parameters in `prm` that `file` does not set the values of its profile or target error. Returns
 /// these parameters. Call it before prm is read. Throws InputError.
 std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file);
 
-/// Returns the value of 'Target error', such as '1 percent', '1 %' or '0.01', as a fraction; 0 if it is not
-/// set. Throws InputError.
+/// Returns the part of 'Target error', such as '1 percent', '1 %' or '0.01', that is left to sources other
+/// than the mesh, as a fraction: all of it with the mesh as given, else a third; 0 if it is not set. Throws
+/// InputError.
 double read_target_error(const SceneFile &file);
+
+/// Part of the target error that is left to the mesh.
+struct MeshTarget {
+  double error = 0.;             ///< relative to the forces; 0: the mesh stays as given
+  unsigned int finest_level = 0; ///< most refinements of the given mesh
+
+  bool is_wanted() const { return error > 0.; }
+};
+/// Reads the mesh's part. Throws InputError.
+MeshTarget read_mesh_target(const SceneFile &file);
 
 /// Returns "Time stepping / Maximum step = 0.2".
 std::string to_string(const Preset &preset);

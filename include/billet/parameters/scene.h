@@ -20,7 +20,8 @@ struct Scene {
   std::string file_name;
   std::string text; ///< the file as read
   std::string profile;
-  double target_error = 0.; ///< relative to the forces; 0: none
+  double target_error = 0.; ///< relative to the forces, of all sources but the mesh; 0: none
+  MeshTarget mesh_target;   ///< in addition to it
   bool warnings_are_errors = false;
   std::vector<Preset> presets; ///< parameters that the profile or the target error has set
   DiagnosticList warnings;     ///< about old names of parameters

@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <iosfwd>
 #include <string>
 
 namespace billet {
@@ -19,11 +20,13 @@ struct RunOptions {
   ConsoleLog *log = nullptr;     ///< to be opened in the output folder; null: none
   bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
   std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
+  std::ostream *steps = nullptr; ///< gets lines of steps if the console is quiet and the log is open already
 };
 
-/// Runs a scene from start to end, or from a checkpoint. Throws InputError before anything is written,
-/// SolutionFailure after all results are on disk. Returns the exit code: success, warnings, target_missed, or
-/// stopped by a signal. A run that would resume at its own end reports that, and is a success. Collective.
+/// Runs a scene on its mesh as given, from start to end, or from a checkpoint. Throws InputError before
+/// anything is written, SolutionFailure after all results are on disk. Returns the exit code: success,
+/// warnings, target_missed, or stopped by a signal. A run that would resume at its own end reports that, and
+/// is a success. Collective.
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator,
                         const RunOptions &options = {});
 

@@ -38,11 +38,18 @@ struct LoadResult {
 /// Returns the names of the loads of all bodies, "BODY.load NAME", body by body in the order of Body::loads.
 std::vector<std::string> named_loads(const Scene &scene);
 
+/// Sums over the nodes of a body.
+struct BodyBalance {
+  dealii::Tensor<1, 3> free; ///< forces that are out of balance at unconstrained dofs [force]
+  double pressing = 0.;      ///< magnitudes of the nodal forces of contact [force]
+};
+
 /// Forces on the bodies at the end of the last step, the same on all ranks.
 struct Reactions {
   std::vector<Resultant> of_supports;     ///< in the order of named_supports()
   std::vector<ContactLoad> of_tool_pairs; ///< in the order of Scene::pairs(), moments about the origin
   ForceBalance balance;
+  std::vector<BodyBalance> of_bodies;          ///< of implicit schemes, else empty
   std::vector<FacetPenetration> between_nodes; ///< of `of_tool_pairs`
   std::vector<LoadResult> of_loads;            ///< in the order of named_loads()
 };

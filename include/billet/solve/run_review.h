@@ -6,6 +6,7 @@
 #include "billet/solve/element_watch.h"
 #include "billet/solve/inertia_watch.h"
 #include "billet/solve/missing_pairs.h"
+#include "billet/solve/unbalanced_bodies.h"
 
 namespace billet {
 
@@ -43,6 +44,7 @@ private:
   InertiaWatch inertia_;
   ContactReview contacts_;
   MissingPairs missing_pairs_;
+  UnbalancedBodies unbalanced_;
   double max_kinetic_ = 0., max_internal_ = 0.,
          max_energy_ = 0.; ///< max_energy_: total
   double numerical_ = 0.;  ///< dissipated by implicit time integration so far

@@ -2,6 +2,7 @@
 #include "billet/solve/implicit/implicit_reactions.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace billet {
 
@@ -24,10 +25,28 @@ std::vector<Tensor<1, 3>> sum_nodes(const std::vector<const Vector *> &vectors, 
   return result;
 }
 
+/// Returns the body of each owned node.
+std::vector<std::size_t> find_bodies(const Discretization &discretization) {
+  const auto &owned = discretization.owned_dofs();
+  std::vector<std::size_t> bodies(owned.n_elements() / 3);
+  std::vector<DofIndex> dofs(discretization.dof_handler().get_fe().n_dofs_per_cell());
+  for (const auto &cell : discretization.dof_handler().active_cell_iterators())
+    if (!cell->is_artificial()) {
+      cell->get_dof_indices(dofs);
+      for (const DofIndex dof : dofs)
+        if (owned.is_element(dof))
+          bodies[owned.index_within_set(dof) / 3] = cell->material_id();
+    }
+  return bodies;
+}
+
 } // namespace
 
 ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
-    : problem_(problem), supports_(problem.scene(), problem.discretization(), problem.supports().acting()) {
+    : problem_(problem), supports_(problem.scene(), problem.discretization(), problem.supports().acting()),
+      bodies_of_nodes_(find_bodies(problem.discretization())) {
+  for (const NamedSupport &support : named_supports(problem.scene()))
+    bodies_of_supports_.push_back(support.body);
   values_.of_supports.resize(named_supports(problem.scene()).size());
   values_.of_tool_pairs.resize(problem.scene().pairs().size());
   values_.between_nodes.resize(problem.scene().pairs().size());
@@ -57,6 +76,28 @@ void ImplicitReactions::start() {
   balance.size = std::max(trial.internal.l1_norm() + trial.contact.l1_norm() + trial.supports.l1_norm() +
                               residual.l1_norm(),
                           problem_.scales().lasting);
+  balance_bodies(residual);
+}
+
+void ImplicitReactions::balance_bodies(const Vector &residual) {
+  constexpr std::size_t n_sums = 4; // of the residual by axes, and of the forces' magnitudes
+  std::vector<double> sums(n_sums * problem_.scene().bodies().size(), 0.);
+  const auto rest = owned_values(residual), contact = owned_values(problem_.step().trial.contact);
+  for (std::size_t n = 0; n < bodies_of_nodes_.size(); ++n) {
+    double *of_body = &sums[n_sums * bodies_of_nodes_[n]];
+    for (unsigned int i = 0; i < 3; ++i)
+      of_body[i] += rest[3 * n + i];
+    of_body[3] += std::hypot(contact[3 * n], contact[3 * n + 1], contact[3 * n + 2]);
+  }
+  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+  values_.of_bodies.assign(problem_.scene().bodies().size(), {});
+  for (std::size_t b = 0; b < values_.of_bodies.size(); ++b) {
+    for (unsigned int i = 0; i < 3; ++i)
+      values_.of_bodies[b].free[i] = -sums[n_sums * b + i];
+    values_.of_bodies[b].pressing = sums[n_sums * b + 3];
+  }
+  for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s)
+    values_.of_bodies[bodies_of_supports_[s]].free += values_.of_supports[s].force;
 }
 
 void ImplicitReactions::set_pair(const std::size_t pair, const ContactLoad &load,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""billet-trade: what accuracy costs in a scene of billet, by parameter. doc/manual.md shows its use.
+"""billet-trade: what accuracy costs in a scene of billet, by parameter. doc/guide/trade.md shows its use.
 
 command    the command line
 plan       what is run: the scene in pilot form, and the points of the sweep

@@ -5,6 +5,8 @@
 #include "billet/solve/implicit/implicit_problem.h"
 #include "billet/solve/reactions.h"
 
+#include <vector>
+
 namespace billet {
 
 /// Reactions of the accepted steps of an implicit scene: at a constrained dof, the residual without
@@ -25,8 +27,13 @@ public:
                 const Placement &placement);
 
 private:
+  /// Sets the sums over the nodes of each body; the supports are known. `residual`: that of all nodes.
+  void balance_bodies(const Vector &residual);
+
   const ImplicitProblem &problem_;
   SupportReactions supports_;
+  std::vector<std::size_t> bodies_of_nodes_;    ///< owned
+  std::vector<std::size_t> bodies_of_supports_; ///< in the order of named_supports()
   Reactions values_;
 };
 

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_OUTPUT_HISTORY_COMPARISON_H
+#define BILLET_OUTPUT_HISTORY_COMPARISON_H
+
+#include <string>
+#include <vector>
+
+namespace billet {
+
+/// Columns of numbers over time, as in history.csv.
+class HistoryTable {
+public:
+  /// Reads a history. Throws InputError if it cannot be read.
+  static HistoryTable read(const std::string &file_name);
+  HistoryTable(std::vector<std::string> names, std::vector<std::vector<double>> columns);
+
+  const std::vector<std::string> &names() const { return names_; }
+  const std::vector<double> &times() const { return times_; }
+  /// Returns a column; empty if there is none of this name.
+  const std::vector<double> &column(const std::string &name) const;
+
+private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> columns_;
+  std::vector<double> times_; ///< ascending
+};
+
+/// Difference of two histories of a scene.
+struct HistoryDifference {
+  double part = 0.;    ///< of the results of the second history
+  std::string of_what; ///< "forces", "energies" or "travel of tools"; empty if no result differs from 0
+};
+
+/// Returns the largest of the differences of these groups of columns, ∫Σ|a − b| dt/∫Σ|b| dt, both linear
+/// between their rows: forces of tools, pairs and supports; energies; travel of tools. With inertia, energies
+/// alone: forces of impacts are no functions of time that two meshes share.
+HistoryDifference compare_histories(const HistoryTable &a, const HistoryTable &b, bool has_inertia);
+
+} // namespace billet
+
+#endif

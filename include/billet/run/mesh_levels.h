@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_MESH_LEVELS_H
+#define BILLET_RUN_MESH_LEVELS_H
+
+#include "billet/parameters/scene.h"
+
+namespace billet {
+
+/// Returns how many times every mesh of the scene can be made coarser by a factor of two, at most `most`
+/// times: by fewer 'Refinements', or, of a subdivided box, by half the numbers of elements where these are
+/// even or 1.
+unsigned int count_coarser_levels(const parameters::Scene &scene, unsigned int most);
+
+/// Returns the scene with meshes of another level: elements of 2^−level times the size. A negative level is
+/// at least −count_coarser_levels().
+parameters::Scene at_mesh_level(const parameters::Scene &scene, int level);
+
+} // namespace billet
+
+#endif

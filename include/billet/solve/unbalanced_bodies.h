@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_SOLVE_UNBALANCED_BODIES_H
+#define BILLET_SOLVE_UNBALANCED_BODIES_H
+
+#include "billet/solve/solution.h"
+#include "billet/state.h"
+
+#include <array>
+#include <vector>
+
+namespace billet {
+
+/// Compares what the accepted residuals leave out of balance on each body with the forces that are reported
+/// on it. 'Force tolerance' is a part of all nodal forces. A force that is small beside them, such as the
+/// friction of a press fit beside its pressure, may be known to no digit although each step has converged.
+/// The free residual of a body, summed, is the error of the sum of its reported forces.
+class UnbalancedBodies {
+public:
+  explicit UnbalancedBodies(const Scene &scene);
+
+  /// Adds an accepted step. Explicit schemes have no residual; they need none of this.
+  void add(const Solution &solution);
+  /// Returns a warning for each body whose forces along an axis are off by more than a twentieth of the
+  /// largest one along that axis. A force below 'Force tolerance' times the forces of contact on the body
+  /// does not count: it may be 0 but for the residual.
+  DiagnosticList judge() const;
+
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
+
+private:
+  /// Along one axis, over the run.
+  struct Course {
+    double force = 0.;           ///< largest reported force [force]
+    double rest = 0., time = 0.; ///< largest sum of the free residual [force], and its time
+  };
+  struct Of {
+    std::array<Course, 3> axes;
+    double size = 0.; ///< largest BodyBalance::pressing [force]
+  };
+
+  const Scene &scene_;
+  std::vector<std::size_t> bodies_of_supports_; ///< in the order of named_supports()
+  std::vector<Of> bodies_;
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/output/history_comparison.h"
+
+#include "billet/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+namespace billet {
+
+namespace {
+
+std::vector<std::string> split(const std::string &line) {
+  std::vector<std::string> parts;
+  std::istringstream stream(line);
+  for (std::string part; std::getline(stream, part, ',');)
+    parts.push_back(part);
+  return parts;
+}
+
+/// Returns the value at a time, linear between rows and constant beyond them.
+double value_at(const std::vector<double> &times, const std::vector<double> &values, const double time) {
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  if (next == times.begin())
+    return values.front();
+  if (next == times.end())
+    return values.back();
+  const auto i = static_cast<std::size_t>(next - times.begin());
+  const double part = (time - times[i - 1]) / (times[i] - times[i - 1]);
+  return (1. - part) * values[i - 1] + part * values[i];
+}
+
+/// Returns ∫Σ|a − b| dt and ∫Σ|b| dt over these columns of both.
+std::pair<double, double> integrate(const HistoryTable &a, const HistoryTable &b,
+                                    const std::vector<std::string> &names) {
+  std::vector<double> times;
+  std::set_union(a.times().begin(), a.times().end(), b.times().begin(), b.times().end(),
+                 std::back_inserter(times));
+  double difference = 0., size = 0.;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double half = 0.5 * (times[i] - times[i - 1]);
+    for (const std::string &name : names)
+      for (const double time : {times[i - 1], times[i]}) {
+        const double of_b = value_at(b.times(), b.column(name), time);
+        difference += half * std::abs(value_at(a.times(), a.column(name), time) - of_b);
+        size += half * std::abs(of_b);
+      }
+  }
+  return {difference, size};
+}
+
+} // namespace
+
+HistoryTable::HistoryTable(std::vector<std::string> names, std::vector<std::vector<double>> columns)
+    : names_(std::move(names)), columns_(std::move(columns)), times_(column("time")) {}
+
+HistoryTable HistoryTable::read(const std::string &file_name) {
+  std::ifstream file(file_name);
+  std::string line;
+  if (!std::getline(file, line))
+    throw InputError("'" + file_name + "' cannot be read");
+  std::vector<std::string> names = split(line);
+  std::vector<std::vector<double>> columns(names.size());
+  while (std::getline(file, line)) {
+    const std::vector<std::string> values = split(line);
+    if (values.size() == names.size())
+      for (std::size_t i = 0; i < values.size(); ++i)
+        columns[i].push_back(std::strtod(values[i].c_str(), nullptr));
+  }
+  HistoryTable table(std::move(names), std::move(columns));
+  if (table.times().empty())
+    throw InputError("'" + file_name + "' has no rows with a time");
+  return table;
+}
+
+const std::vector<double> &HistoryTable::column(const std::string &name) const {
+  static const std::vector<double> none;
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return found == names_.end() ? none : columns_[static_cast<std::size_t>(found - names_.begin())];
+}
+
+HistoryDifference compare_histories(const HistoryTable &a, const HistoryTable &b, const bool has_inertia) {
+  const std::vector<std::pair<std::string, std::regex>> groups = {
+      {"forces", std::regex(R"(.*\.force_[xyz])")},
+      {"energies", std::regex("elastic_energy|plastic_work|friction_dissipation|kinetic_energy")},
+      {"travel of tools", std::regex(R"(.*\.travel_[xyz])")}};
+  HistoryDifference largest;
+  for (const auto &[what, pattern] : groups) {
+    if (has_inertia && what != "energies")
+      continue;
+    std::vector<std::string> names;
+    for (const std::string &name : b.names())
+      if (std::regex_match(name, pattern) && !a.column(name).empty())
+        names.push_back(name);
+    const auto [difference, size] = integrate(a, b, names);
+    if (size > 0. && (largest.of_what.empty() || difference / size > largest.part))
+      largest = {difference / size, what};
+  }
+  return largest;
+}
+
+} // namespace billet

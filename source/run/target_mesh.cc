@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/target_mesh.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/output/console_log.h"
+#include "billet/output/history_comparison.h"
+#include "billet/run/mesh_levels.h"
+#include "billet/run/output_folder.h"
+#include "billet/run/stopwatch.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace billet {
+
+MeshLevelError extrapolate(const std::vector<double> &differences) {
+  MeshLevelError result;
+  const double last = differences.back();
+  result.error = last;
+  if (differences.size() < 2)
+    return result;
+  const double before = differences[differences.size() - 2];
+  if (!(before > last)) {
+    result.error = std::max(before, last);
+    result.is_known = before == 0.;
+    return result;
+  }
+  constexpr double highest_order = 2.;
+  result.order = last > 0. ? std::min(highest_order, std::log2(before / last)) : highest_order;
+  result.error = last / (std::exp2(result.order) - 1.);
+  return result;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Run on one level of the mesh.
+struct Level {
+  int level = 0;
+  double seconds = 0.;    ///< of all processors
+  double difference = 0.; ///< from the level before; 0: there is none
+  MeshLevelError error;   ///< of this level, from the third line on by extrapolation
+  ExitCode code = ExitCode::success;
+};
+
+/// Returns the largest memory that this process has held over that of the machine for each process.
+double part_of_memory(const MPI_Comm communicator) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double held = 1024. * static_cast<double>(usage.ru_maxrss);
+  const double all =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return dealii::Utilities::MPI::sum(held, communicator) / all;
+}
+
+std::string percent(const double part) {
+  std::ostringstream text;
+  text.precision(2);
+  text << 100. * part << " %";
+  return text.str();
+}
+
+/// Climbs from level to level.
+class MeshLadder {
+public:
+  MeshLadder(const parameters::Scene &given, const MPI_Comm communicator, const RunOptions &options)
+      : given_(given), communicator_(communicator), options_(options),
+        is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
+        folder_(given.output.folder.value) {}
+
+  ExitCode climb() {
+    begin();
+    constexpr unsigned int coarsest = 2; // below it meshes tell little of the given one
+    int level = -static_cast<int>(count_coarser_levels(given_, coarsest));
+    const int finest = static_cast<int>(given_.mesh_target.finest_level);
+    for (;; ++level) {
+      run(level);
+      if (levels_.empty())
+        continue;
+      if (levels_.back().code == ExitCode::stopped)
+        return ExitCode::stopped;
+      if (levels_.size() > 1 && levels_.back().error.is_known &&
+          levels_.back().error.error <= given_.mesh_target.error)
+        return finish("");
+      if (level >= finest)
+        return finish("'Finest mesh level' is " + std::to_string(finest));
+      constexpr double growth = 9.; // elements grow by 8, factors of matrices by more
+      if (level >= 0 && growth * part_of_memory(communicator_) > 1.)
+        return finish("the next level does not fit in memory");
+    }
+  }
+
+private:
+  std::string folder_of(const int level) const { return folder_ + "/mesh_level_" + std::to_string(level); }
+
+  void begin() {
+    fail_together(communicator_, [&] {
+      if (given_.restart.is_wanted())
+        throw InputError(given_.restart.file.origin +
+                         ": a run with 'Target error of = everything' cannot be "
+                         "resumed; allowed is 'Target error of = mesh given', with the "
+                         "mesh of the checkpoint");
+    });
+    const EarlierResults earlier =
+        options_.replaces_results ? EarlierResults::replaced : EarlierResults::moved_aside;
+    fail_together(communicator_, [&] { check_output_folder(given_, earlier); });
+    fail_together(communicator_, [&] {
+      if (!is_first_)
+        return;
+      prepare_output_folder(given_, earlier);
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
+        if (entry.path().filename().string().rfind("mesh_level_", 0) == 0)
+          fs::remove_all(entry.path());
+      if (options_.log != nullptr)
+        options_.log->open(folder_ + "/" + log_file, false);
+    });
+  }
+
+  void run(const int level) {
+    parameters::Scene scene = at_mesh_level(given_, level);
+    scene.output.folder.value = folder_of(level);
+    RunOptions options = options_;
+    options.log = nullptr;
+    options.replaces_results = true;
+    if (options_.is_quiet && options_.log != nullptr)
+      options.steps = &options_.log->file();
+    if (is_first_ && !options_.is_quiet)
+      std::cout << "Mesh level " << level
+                << (level == 0  ? ", the meshes as given"
+                    : level < 0 ? ", coarser than given"
+                                : ", finer than given")
+                << std::endl;
+    Level result;
+    result.level = level;
+    const double start = processor_time();
+    try {
+      result.code = run_simulation(scene, communicator_, options);
+    } catch (const SolutionFailure &failure) { // on all ranks
+      if (level >= 0)
+        throw;
+      if (is_first_)
+        std::cout << failure.diagnostic().text() << std::endl;
+      levels_.clear(); // too coarse: the ladder begins above
+      differences_.clear();
+      return;
+    }
+    result.seconds = dealii::Utilities::MPI::sum(processor_time() - start, communicator_);
+    if (!levels_.empty())
+      compare(result);
+    levels_.push_back(result);
+  }
+
+  /// Computes the difference from the level before. All ranks read the files: they are the same.
+  void compare(Level &level) {
+    fail_together(communicator_, [&] {
+      const HistoryTable coarse = HistoryTable::read(folder_of(level.level - 1) + "/history.csv"),
+                         fine = HistoryTable::read(folder_of(level.level) + "/history.csv");
+      const HistoryDifference difference = compare_histories(coarse, fine, given_.is_dynamic());
+      level.difference = difference.part;
+      of_what_ = difference.of_what.empty() ? "results" : difference.of_what;
+    });
+    differences_.push_back(level.difference);
+    level.error = extrapolate(differences_);
+  }
+
+  /// Moves the results of the last level into the output folder, and reports. `limit`: what kept the run from
+  /// a finer mesh; empty: the target is met.
+  ExitCode finish(const std::string &limit) {
+    fail_together(communicator_, [&] {
+      if (!is_first_)
+        return;
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder_of(levels_.back().level)))
+        fs::rename(entry.path(), fs::path(folder_) / entry.path().filename());
+      fs::remove(folder_of(levels_.back().level));
+      write_table();
+      std::cout << describe().text() << std::endl;
+      if (!limit.empty())
+        std::cout << describe_miss(limit).text() << std::endl;
+    });
+    return limit.empty() ? levels_.back().code : ExitCode::target_missed;
+  }
+
+  void write_table() const {
+    std::ofstream file(folder_ + "/mesh_levels.csv");
+    file.precision(6);
+    file << "level,processor_seconds,difference,order,error\n";
+    for (const Level &level : levels_) {
+      file << level.level << "," << level.seconds;
+      if (level.difference > 0.)
+        file << "," << level.difference << "," << level.error.order << "," << level.error.error;
+      else
+        file << ",,,";
+      file << "\n";
+    }
+    if (!file.flush())
+      throw file_lost("'" + folder_ + "/mesh_levels.csv'");
+  }
+
+  Diagnostic describe() const {
+    std::ostringstream text;
+    text.precision(3);
+    text << "Levels of the meshes, 0 as given:";
+    for (const Level &level : levels_) {
+      text << (&level == levels_.data() ? " " : "; ") << "level " << level.level << ", " << level.seconds
+           << " s of processor";
+      if (&level != levels_.data())
+        text << ", " << of_what_ << " differ by " << percent(level.difference) << " from the level before";
+    }
+    if (levels_.size() < 2) {
+      text << ". Their error is unknown: there is one level only";
+    } else {
+      const MeshLevelError &error = levels_.back().error;
+      text << ". The error of the mesh of level " << levels_.back().level << " is about "
+           << percent(error.error);
+      if (!error.is_known)
+        text << " or more: the differences do not fall";
+      else if (differences_.size() > 1)
+        text << ", of order " << error.order;
+    }
+    Diagnostic message(diagnostic::mesh_levels, text.str());
+    if (levels_.size() > 1)
+      message.value("error", levels_.back().error.error);
+    return message;
+  }
+
+  Diagnostic describe_miss(const std::string &limit) const {
+    std::ostringstream text;
+    text.precision(2);
+    text << "The mesh's part of the target, " << percent(given_.mesh_target.error)
+         << ", is not shown to be met, and " << limit;
+    if (levels_.size() > 1 && levels_.back().error.is_known) {
+      const Level &last = levels_.back();
+      const double more = std::ceil(std::log2(last.error.error / given_.mesh_target.error) /
+                                    std::max(0.25, last.error.order));
+      const double growth =
+          std::clamp(last.seconds / std::max(1e-3, levels_[levels_.size() - 2].seconds), 4., 20.);
+      text << ". At this order it would take level " << last.level + static_cast<int>(more) << ": "
+           << std::pow(8., more) << " times the elements of level " << last.level << ", and about "
+           << last.seconds * std::pow(growth, more) << " s of processor";
+    }
+    return Diagnostic(diagnostic::mesh_target_missed, text.str());
+  }
+
+  const parameters::Scene &given_;
+  MPI_Comm communicator_;
+  const RunOptions &options_;
+  bool is_first_;
+  std::string folder_, of_what_ = "results";
+  std::vector<Level> levels_;
+  std::vector<double> differences_;
+};
+
+} // namespace
+
+ExitCode run_to_target(const parameters::Scene &parameters, const MPI_Comm communicator,
+                       const RunOptions &options) {
+  return parameters.mesh_target.is_wanted() ? MeshLadder(parameters, communicator, options).climb()
+                                            : run_simulation(parameters, communicator, options);
+}
+
+} // namespace billet

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/unbalanced_bodies.h"
+
+#include "billet/diagnostic_kinds.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace billet {
+
+using dealii::Tensor;
+
+UnbalancedBodies::UnbalancedBodies(const Scene &scene) : scene_(scene), bodies_(scene.bodies().size()) {
+  for (const NamedSupport &support : named_supports(scene))
+    bodies_of_supports_.push_back(support.body);
+}
+
+void UnbalancedBodies::add(const Solution &solution) {
+  const Reactions &reactions = solution.reactions();
+  if (reactions.of_bodies.empty())
+    return;
+  const auto reported = [this](const std::size_t body, const Tensor<1, 3> &force) {
+    for (unsigned int i = 0; i < 3; ++i) {
+      double &largest = bodies_[body].axes[i].force;
+      largest = std::max(largest, std::abs(force[i]));
+    }
+  };
+  for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s)
+    reported(bodies_of_supports_[s], reactions.of_supports[s].force);
+  for (std::size_t p = 0; p < scene_.pairs().size(); ++p)
+    reported(scene_.pairs()[p].body, reactions.of_tool_pairs[p].force);
+  for (std::size_t p = 0; p < scene_.body_pairs().size(); ++p)
+    for (const std::size_t body : scene_.body_pairs()[p].bodies)
+      reported(body, solution.state().body_pair_loads[p].force);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const BodyBalance &balance = reactions.of_bodies[b];
+    bodies_[b].size = std::max(bodies_[b].size, balance.pressing);
+    for (unsigned int i = 0; i < 3; ++i) {
+      Course &course = bodies_[b].axes[i];
+      if (std::abs(balance.free[i]) > course.rest) {
+        course.rest = std::abs(balance.free[i]);
+        course.time = solution.state().time;
+      }
+    }
+  }
+}
+
+DiagnosticList UnbalancedBodies::judge() const {
+  constexpr double much = 0.05;
+  const double tolerance = scene_.parameters().solver.force_tolerance;
+  DiagnosticList diagnostics;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    double worst = much;
+    unsigned int axis = 3;
+    for (unsigned int i = 0; i < 3; ++i) {
+      const Course &course = bodies_[b].axes[i];
+      if (course.force > tolerance * bodies_[b].size && course.rest > worst * course.force) {
+        worst = course.rest / course.force;
+        axis = i;
+      }
+    }
+    if (axis == 3)
+      continue;
+    const Course &course = bodies_[b].axes[axis];
+    std::ostringstream text, advice;
+    text.precision(3);
+    text << "The accepted residuals leave up to " << course.rest << " along "
+         << "xyz"[axis] << " out of balance, " << 100. * worst
+         << " % of the largest force of a tool, pair or support along "
+         << "xyz"[axis] << ", " << course.force << ", which is small beside all nodal forces of contact, "
+         << bodies_[b].size << ": these forces are off by as much";
+    advice.precision(1);
+    constexpr double aim = 0.01;
+    advice << "Set 'Force tolerance' to " << tolerance * aim / worst << " or less";
+    diagnostics.push_back(Diagnostic(diagnostic::force_unresolved, text.str())
+                              .body(scene_.bodies()[b].name)
+                              .time(course.time)
+                              .measure("part out of balance", worst)
+                              .advice(advice.str()));
+  }
+  return diagnostics;
+}
+
+void UnbalancedBodies::save(StateWriter &writer) const {
+  std::vector<double> numbers;
+  for (const Of &body : bodies_) {
+    numbers.push_back(body.size);
+    for (const Course &course : body.axes)
+      numbers.insert(numbers.end(), {course.force, course.rest, course.time});
+  }
+  writer.write("unbalanced bodies", numbers);
+}
+
+void UnbalancedBodies::load(const StateReader &reader) {
+  constexpr std::size_t of_body = 10;
+  if (!reader.has("unbalanced bodies"))
+    return;
+  const std::vector<double> numbers = reader.read("unbalanced bodies");
+  if (numbers.size() != of_body * bodies_.size())
+    return; // saved for other bodies
+  const double *next = numbers.data();
+  for (Of &body : bodies_) {
+    body.size = *next++;
+    for (Course &course : body.axes) {
+      course = {next[0], next[1], next[2]};
+      next += 3;
+    }
+  }
+}
+
+} // namespace billet

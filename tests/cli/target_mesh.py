@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: target_mesh.py BILLET [LAUNCHER...]
+
+Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
+
+'Target error of = everything' on a cantilever: the error of the mesh that levels of it show is that beside a
+mesh four times finer, the results of the last level are in the folder, and what is not met is said with what it
+would take.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from checks import HERE, Checks, Program, Run, Runner, enter_folder, equal, read_text, require, says
+
+BEAM = read_text(HERE / "cantilever.prm")
+runner = Runner(Program(sys.argv[1:]))
+check = Checks()
+enter_folder()
+
+
+def billet(edits: str, ranks: int = 1, code: int = 0) -> Run:
+    """Runs the cantilever with these edits."""
+    ran = runner.run(BEAM, edits, ranks=ranks)
+    equal("the exit code", ran.ended.code, code)
+    return ran
+
+
+def everything(target: str, *others: str) -> str:
+    """Returns the edit for this target of everything."""
+    settings = (f"Target error = {target}", "Target error of = everything", *others)
+    return "+ " + "\\n".join(f"set {setting}" for setting in settings)
+
+
+def levels(ran: Run) -> list[list[str]]:
+    """Returns the rows of mesh_levels.csv."""
+    return [line.split(",") for line in ran.text("mesh_levels.csv").split()[1:]]
+
+
+FINE = "Mesh: Arguments = 32, 1, 16 : 0, 0, 0 : 20, 1, 10 & "
+FORCE = "beam.support wall.force_z"
+exact = billet(FINE + "Mesh: Refinements = 1").last(FORCE)
+
+for ranks in (1, 2):
+
+    @check(f"the error that levels of the mesh show is the true one, {ranks} ranks")
+    def _() -> None:
+        ran = billet(everything("3 percent"), ranks)
+        rows = levels(ran)
+        estimate, true = float(rows[-1][4]), abs(ran.last(FORCE) / exact - 1)
+        require(len(rows) >= 3, f"{len(rows)} levels")
+        require(estimate <= 0.02, f"an error of {estimate} is left")
+        require(0.5 <= estimate / true <= 3.0, f"estimated {estimate}, true {true}")
+        says(r"^note\[mesh-levels\]: .*of order", ran.said)
+        says(r"^Mesh level -\d, coarser than given", ran.said)
+
+
+@check("the results are those of the last level, and earlier levels are beside them")
+def _() -> None:
+    ran = billet(FINE + everything("20 percent"))
+    last = int(levels(ran)[-1][0])
+    require(last < 0, f"level {last} where a coarser one is good enough")
+    counts = ", ".join(str(max(1, n >> -last)) for n in (32, 1, 16))
+    alone = billet(f"Mesh: Arguments = {counts} : 0, 0, 0 : 20, 1, 10 & + set Target error = 0.0666667")
+    equal("the force", ran.last(FORCE), alone.last(FORCE))
+    ran.text(f"mesh_level_{last - 1}/history.csv")
+
+
+@check("a target that is out of reach is told, with what it would take")
+def _() -> None:
+    ran = billet(everything("1e-4", "Finest mesh level = 0"), code=7)
+    equal("the last level", levels(ran)[-1][0], "0")
+    says(
+        r"^warning\[mesh-target-missed\]: .*0\.0067 %.*'Finest mesh level' is 0\. At this order it would take level \d",
+        ran.said,
+    )
+
+
+@check("what makes no sense is refused")
+def _() -> None:
+    for edits, said in (
+        ("+ set Target error of = everything", "without a 'Target error'"),
+        ("+ set Finest mesh level = 2", "without 'Target error of = everything'"),
+        (everything("0.01", "Finest mesh level = 11"), "from 0 to 10"),
+    ):
+        says(said, billet(edits, code=2).complained)
+
+
+sys.exit(check.finish())

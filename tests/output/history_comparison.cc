@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Differences of histories in closed form, what they extrapolate to, and levels of meshes.
+#include "billet/output/history_comparison.h"
+
+#include "billet/run/mesh_levels.h"
+#include "billet/run/target_mesh.h"
+
+#include "../testing.h"
+
+#include <fstream>
+
+using namespace billet;
+using billet::testing::check;
+
+namespace {
+
+/// A box of these numbers of elements, with these refinements.
+parameters::Scene read_box(const std::string &counts, const unsigned int refinements) {
+  const std::string file = "levels.prm";
+  std::ofstream(file) << "subsection Bodies\n  subsection box\n    subsection Mesh\n"
+                         "      set Primitive = subdivided_hyper_rectangle\n      set Arguments = "
+                      << counts << " : 0, 0, 0 : 1, 1, 1\n      set Refinements = " << refinements
+                      << "\n    end\n    subsection Material\n      set Young modulus = 1\n    end\n"
+                         "    set Symmetry planes = x = 0 ; y = 0 ; z = 0\n  end\nend\n"
+                         "subsection Time stepping\n  set End time = 1\nend\n";
+  return parameters::Scene::read(file);
+}
+
+unsigned int levels_of(const std::string &counts, const unsigned int refinements) {
+  return count_coarser_levels(read_box(counts, refinements), 2);
+}
+
+} // namespace
+
+int main() {
+  // Straight lines, with rows that do not match.
+  std::vector<std::vector<double>> coarse(2), fine(2);
+  for (const double t : {0., 0.5, 1.}) {
+    coarse[0].push_back(t);
+    coarse[1].push_back(2. * t);
+  }
+  for (const double t : {0., 0.25, 0.5, 0.75, 1.}) {
+    fine[0].push_back(t);
+    fine[1].push_back(4. * t);
+  }
+  const HistoryDifference half = compare_histories(HistoryTable({"time", "die.force_z"}, coarse),
+                                                   HistoryTable({"time", "die.force_z"}, fine), false);
+  check("forces of half the size", std::abs(half.part - 0.5), 1e-14);
+  check("they are forces", half.of_what == "forces");
+  coarse[1] = {0., 1., 0.};
+  fine[1] = {0., 1., 2., 1., 0.}; // twice the hat, of areas 0.5 and 1
+  const HistoryDifference hat = compare_histories(HistoryTable({"time", "kinetic_energy"}, coarse),
+                                                  HistoryTable({"time", "kinetic_energy"}, fine), true);
+  check("a hat of half the height", std::abs(hat.part - 0.5), 1e-14);
+  check("forces of impacts do not count", compare_histories(HistoryTable({"time", "die.force_z"}, coarse),
+                                                            HistoryTable({"time", "die.force_z"}, fine), true)
+                                              .of_what.empty());
+
+  // F_i = F (1 + c h^p): differences c h^p (2^p − 1), error c h^p.
+  for (const double order : {1., 1.5, 2.}) {
+    const double error = 0.01, last = error * (std::exp2(order) - 1.);
+    const MeshLevelError found = extrapolate({last * std::exp2(order), last});
+    check("order " + std::to_string(order),
+          std::abs(found.order - order) + std::abs(found.error / error - 1.), 1e-12);
+  }
+  check("no order above that of bricks", std::abs(extrapolate({0.9, 0.03}).error - 0.01), 1e-12);
+  check("one difference stands for the error", extrapolate({0.02}).error == 0.02);
+  check("differences that grow have no order",
+        !extrapolate({0.02, 0.03}).is_known && extrapolate({0.02, 0.03}).error == 0.03);
+
+  check("refinements make levels", levels_of("1, 1, 1", 1) == 1 && levels_of("1, 1, 1", 3) == 2);
+  check("numbers of elements do", levels_of("8, 1, 8", 0) == 2 && levels_of("4, 1, 2", 0) == 1);
+  check("odd ones do not", levels_of("9, 1, 8", 0) == 0);
+  const parameters::Scene box = read_box("8, 1, 4", 0);
+  check("coarser", at_mesh_level(box, -1).bodies[0].mesh.arguments.rfind("4, 1, 2 :", 0) == 0);
+  check("finer", at_mesh_level(box, 2).bodies[0].mesh.refinements == 2);
+  return testing::exit_code();
+}
