@@ -36,6 +36,9 @@ if (HERE / "references.bib").exists():
     extensions.append("sphinxcontrib.bibtex")
     bibtex_bibfiles = ["references.bib"]
     bibtex_default_style = "plain"
+if (HERE / "equation_links.py").exists():
+    sys.path.insert(0, str(HERE))
+    extensions.append("equation_links")
 
 source_suffix = {".md": "markdown"}
 root_doc = "index"
@@ -108,7 +111,11 @@ def remove_shown_tags(app: Sphinx, tree: nodes.document) -> None:
         number = block.get("number")
         if number is None:
             continue
-        text = block.astext().replace(rf"\tag{{{number}}}", "").rstrip()
+        text = block.astext().replace(rf"\tag{{{number}}}", "").strip()
+        inside = re.fullmatch(r"\\begin\{equation\}(.*)\\end\{equation\}", text, re.DOTALL)
+        if inside:
+            text = inside[1].strip()
+            block["nowrap"] = False
         block.children = []
         block += nodes.Text(text)
 

@@ -5,6 +5,9 @@ document.addEventListener("DOMContentLoaded", function () {
     delimiters: [
       { left: "\\[", right: "\\]", display: true },
       { left: "\\(", right: "\\)", display: false },
+      { left: "\\begin{equation}", right: "\\end{equation}", display: true },
+      { left: "\\begin{align}", right: "\\end{align}", display: true },
+      { left: "\\begin{gather}", right: "\\end{gather}", display: true },
     ],
     throwOnError: false,
     strict: false,

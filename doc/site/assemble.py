@@ -17,6 +17,7 @@ from insertions import Insertions
 from reference import Reference
 
 ROOT = Path(__file__).resolve().parents[2]
+IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links lead to
 LEFT_OUT = {"site", "news"}  # folders of doc/ that are no pages
 BESIDE = (
     "cmake",
@@ -106,6 +107,8 @@ def main() -> None:
         pages["reference/types/index.md"] = NO_PROGRAM.format(title="Lists of types", option="--list")
     insertions = Insertions(ROOT, pages, reference)
     for name, text in pages.items():
+        if name in IN_NO_MENU and not text.startswith("---"):
+            text = "---\norphan: true\n---\n" + text
         if "<!-- insert: " in text:
             text = insertions.replace(name, text)
         write(site / name, text)

@@ -223,7 +223,7 @@ class Reference:
         lines = [self._linked(text[: starts[0]].strip()) + "\n"]
         for begin, end in zip(starts, [*starts[1:], len(text)]):
             value, meaning = text[begin:end].strip().rstrip(";.").split(": ", 1)
-            lines.append(f"- {code(value)}: {self._linked(meaning)}.")
+            lines.append(f"* {code(value)}: {self._linked(meaning)}.")  # another bullet, another list
         return "\n".join(lines).strip()
 
     def _scene(self, example: Example) -> str:

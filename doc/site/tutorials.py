@@ -216,7 +216,8 @@ def draw(name: str, rows: Rows) -> None:
     tutorial = TUTORIALS[name]
     figure, axes = pyplot.subplots(figsize=(6.4, 3.6), layout="constrained")
     for curve in tutorial.curves:
-        axes.plot([curve.x(row) for row in rows], [curve.y(row) for row in rows], label=curve.label)
+        style = "o" if curve.label == "run" else "-"  # beside a closed form
+        axes.plot([curve.x(row) for row in rows], [curve.y(row) for row in rows], style, label=curve.label)
     axes.set_xlabel(tutorial.x_label)
     axes.set_ylabel(tutorial.y_label)
     axes.set_ylim(bottom=0)
