@@ -141,4 +141,5 @@ class Insertions:
     def _insert_changes(self, page: str) -> str:
         """Shows CHANGELOG.md, without its title, with links as from doc/."""
         text = (self._root / "CHANGELOG.md").read_text(encoding="utf-8").split("\n", 1)[1]
+        text = text.replace("[doc/news/README.md](doc/news/README.md)", "`doc/news/README.md`")
         return text.replace("](doc/", "](")
