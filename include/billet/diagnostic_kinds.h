@@ -381,6 +381,13 @@ inline const DiagnosticKind mesh_target_missed(
     "'Target error'. The message says what the target would take. The program exits with code 7.",
     "Increase 'Finest mesh level', or choose a larger 'Target error'");
 
+inline const DiagnosticKind unneeded_cost(
+    "unneeded-cost", Severity::note,
+    "The run spent more than a tenth of its time on what the scene did not need: an unsymmetric matrix where "
+    "nothing slides, self-contact of surfaces that never touch, output of fields, or steps far finer than "
+    "the 'Target error' requires.",
+    "");
+
 inline const DiagnosticKind target_error_expensive(
     "target-error-expensive", Severity::warning,
     "The allowed error requires very many steps. The run continues, and may take very long.",

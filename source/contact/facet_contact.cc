@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/facet_contact.h"
 
+#include "billet/spent_time.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -46,6 +48,7 @@ void FacetContact::count_changes() {
 
 void FacetContact::add_forces(const Positions &positions_n, const Positions &positions, const double duration,
                               Positions &forces) {
+  const TimedWork timed(Work::self_contact, parts_.settings.has_self_contact());
   const std::size_t n_slaves = parts_.slaves.size();
   Usage::count(Capability::contact, n_slaves);
   Usage::count(Capability::body_contact, n_slaves);

@@ -5,6 +5,7 @@
 #include "billet/output/element_means.h"
 #include "billet/run/error_estimates.h"
 #include "billet/run/failure.h"
+#include "billet/run/unneeded_costs.h"
 #include "billet/scene/plausibility.h"
 
 #include <cmath>
@@ -255,6 +256,7 @@ void ExplicitRun::end(RunOutput &output) {
                               stopwatch_.processor_seconds());
   problem_.update_state();
   output.report(describe_mesh_errors(mesh_errors_, parameters_));
+  output.report(find_unneeded_costs(collect_costs(problem_, review_)));
   output.report(find_checkerboard(problem_, discretization_).check());
 }
 

@@ -5,6 +5,7 @@
 #include "billet/output/element_means.h"
 #include "billet/run/error_estimates.h"
 #include "billet/run/failure.h"
+#include "billet/run/unneeded_costs.h"
 
 #include <algorithm>
 
@@ -207,6 +208,12 @@ void ImplicitRun::end(RunOutput &output) {
     report_errors(std::move(estimate), mesh_errors_, discretization_, parameters_, review_, output);
   }
   output.report(describe_mesh_errors(mesh_errors_, parameters_));
+  RunCosts costs = collect_costs(problem_, review_);
+  if (watch_) {
+    costs.steps_error = watch_->estimated_error().estimate.steps;
+    costs.target = parameters_.target_error;
+  }
+  output.report(find_unneeded_costs(costs));
   output.report(find_checkerboard(problem_, discretization_).check());
 }
 

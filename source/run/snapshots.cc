@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/snapshots.h"
 
+#include "billet/spent_time.h"
+
 namespace billet {
 
 namespace {
@@ -30,6 +32,7 @@ void Snapshots::after_step(const unsigned int step, const Solution &solution) {
 void Snapshots::write(const Solution &solution) {
   if (solution.state().time == last_)
     return;
+  const TimedWork timed(Work::fields);
   writer_.write(solution);
   last_ = solution.state().time;
 }

@@ -353,6 +353,12 @@ DiagnosticList ContactReview::finish() const {
   return diagnostics;
 }
 
+bool ContactReview::self_contact_touches() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) {
+    return pair.tool == none && pair.bodies[0] == pair.bodies[1] && pair.has_touched;
+  });
+}
+
 void ContactReview::save(StateWriter &writer) const {
   std::vector<double> numbers = tool_forces_;
   for (const auto &softness : softness_)

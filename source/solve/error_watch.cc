@@ -4,6 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/solve/error_budget.h"
 #include "billet/solve/restart.h"
+#include "billet/spent_time.h"
 #include "billet/usage.h"
 
 #include <algorithm>
@@ -130,6 +131,7 @@ void ErrorWatch::demand_accuracy(const bool is_measured) {
 }
 
 unsigned int ErrorWatch::before_step(StepControl &control, const double previous_step) {
+  const TimedWork timed(Work::error_control);
   Usage::count(Capability::error_control, 1);
   const bool is_second = probe_length_ > 0.;
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;

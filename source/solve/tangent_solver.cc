@@ -2,6 +2,7 @@
 #include "billet/solve/tangent_solver.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/spent_time.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -118,6 +119,7 @@ void TangentSolver::note_memory() {
 }
 
 bool TangentSolver::factorize() {
+  const TimedWork timed(Work::unsymmetric_matrix, !symmetric_);
   failure_.clear();
   Usage::count(Capability::matrix, count_owned_entries(*matrix_));
   Usage::count_if(!symmetric_, Capability::unsymmetric_matrix, count_owned_entries(*matrix_));
@@ -157,6 +159,7 @@ bool TangentSolver::fall_back() {
 }
 
 bool TangentSolver::solve(const Vector &b, Vector &x, const double relative_tolerance) {
+  const TimedWork timed(Work::unsymmetric_matrix, !symmetric_);
   if (!is_direct_now_) {
     if (iterative_->solve(b, x, relative_tolerance)) {
       retries_.n_failures = 0;

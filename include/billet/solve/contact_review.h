@@ -53,6 +53,9 @@ public:
   /// is below the limit of the warning.
   double penalty_error() const;
 
+  /// Whether any surface has touched itself.
+  bool self_contact_touches() const;
+
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 

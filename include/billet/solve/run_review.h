@@ -33,6 +33,9 @@ public:
   /// Returns the part by which penetration makes forces too small; 0 if it is small.
   double penalty_error() const { return contacts_.penalty_error(); }
 
+  /// Whether any surface has touched itself.
+  bool self_contact_touches() const { return contacts_.self_contact_touches(); }
+
   void save(StateWriter &writer) const;
   /// Loads the review; it starts from zero if the earlier run did not save it.
   void load(StateReader &reader);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_UNNEEDED_COSTS_H
+#define BILLET_RUN_UNNEEDED_COSTS_H
+
+#include "billet/diagnostics.h"
+#include "billet/solve/run_review.h"
+
+namespace billet {
+
+/// What a run has paid for, and what of it the scene has used.
+struct RunCosts {
+  double all = 0.; ///< wall-clock time [s], as those below
+  double unsymmetric_matrix = 0., self_contact = 0., fields = 0., error_control = 0.;
+  bool slides = false;                  ///< whether friction has dissipated energy
+  bool self_contact_touches = false;    ///< whether any surface has touched itself
+  double steps_error = 0., target = 0.; ///< estimated error of the steps, and the target for all errors
+};
+
+/// Returns the costs of this process so far, without error and target.
+RunCosts collect_costs(const Solution &solution, const RunReview &review);
+
+/// Returns a note that lists, in seconds, what the scene paid for and did not need, if that is more than a
+/// tenth of the time and a second: an unsymmetric matrix where nothing slides, of whose factorisation a
+/// symmetric one takes half; self-contact of surfaces that never touch; output of fields; steps ten times
+/// finer than a target error requires.
+DiagnosticList find_unneeded_costs(const RunCosts &costs);
+
+} // namespace billet
+
+#endif
