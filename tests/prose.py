@@ -3,11 +3,12 @@
 """Usage: prose.py [--list | --shrink] [--program BILLET] [FILE.md...]
        prose.py --self-check
 
-Checks the prose of README.md, CHANGELOG.md and doc/: no line has more than 100 columns, no sentence more than
-25 words, no paragraph more than five sentences. Tables, code and formulas may be wider. Pages in tests/prose.txt
-are not mended yet; one without errors must leave that list, and none may join it. --shrink removes those without
-errors, --list shows the errors of all pages, FILE.md those of some. --program checks what a program says of its
-parameters and messages, too.
+Checks the prose of README.md, CHANGELOG.md and doc/: no line has more than 100 columns, no sentence more
+than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+
+Pages in tests/prose.txt are not mended yet; one without errors must leave that list, and none may join it.
+--shrink removes those without errors, --list shows the errors of all pages, FILE.md those of some. --program
+checks what a program says of its parameters and messages, too.
 """
 
 from __future__ import annotations
