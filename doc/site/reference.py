@@ -13,6 +13,31 @@ from typing import Any, NamedTuple, Sequence
 from pages import code, escaped, prose, table, target
 
 NAME = "NAME"
+# Values of parameters that neither a shipped scene nor the guide sets, and whose default shows little.
+EXAMPLES = {
+    "Axis direction": "0, 0, 1",
+    "Axis point": "0, 0, 0",
+    "Body force": "0 ; 0 ; -7.7e-5",
+    "Decay coefficient": "0.5",
+    "Error tolerance": "1e-3",
+    "First axis": "1, 1, 0",
+    "Initial gap": "close within 0.1",
+    "Kinetic friction coefficient": "0.1",
+    "Mass scaling step": "5e-7",
+    "Maximum shear stress": "150",
+    "Merge nodes within": "1e-6",
+    "Moment of inertia": "2.5",
+    "Penetration tolerance": "1e-3",
+    "Pressure exponent": "0.8",
+    "Ramp time": "1",
+    "Reference pressure": "100",
+    "Release time": "0.5",
+    "Second axis": "0, 0, 1",
+    "Step interval": "20",
+    "Table": "0 : 250, 0.1 : 310, 0.5 : 380",
+    "Table file": "curve.csv",
+    "Temperature": "20",
+}
 BEGINS_WITH_RANGE = re.compile(r"^([^.:]{0,24}?[<>]=? ?-?[\w./]+(?: \+ \w+)?(?:, [^.:]{1,20})?)\. ")
 UNIT = re.compile(r"\s*\[([^\[\]]+)\]$")
 
@@ -45,6 +70,9 @@ class Reference:
         self._pages = pages  # all other pages of the site by path, to link to
         self._schema = json.loads(self._ask("--print-parameters", "--json"))
         self.parameters = list(self._collect(self._schema, ()))
+        unknown = set(EXAMPLES) - {parameter.name for parameter in self.parameters}
+        if unknown:
+            raise SystemExit(f"reference.py: examples of unknown parameters {sorted(unknown)}")
         self.messages: list[dict[str, str]] = json.loads(self._ask("--print-diagnostics", "--json"))
         self.lists: list[dict[str, str]] = json.loads(self._ask("--list", "--json"))
         self._examples = self._find_examples()
@@ -191,11 +219,7 @@ class Reference:
         page += f"- Default: {code(default)}\n- Range: {allowed}\n"
         page += f"- Unit: {escaped(unit[1]) if unit else 'none'}\n"
         page += f"- For `--set`: {code('/'.join((*parameter.path, parameter.name)))}\n"
-        example = self._examples.get((parameter.path, parameter.name))
-        if example:
-            page += (
-                f"- Example: {code(f'set {parameter.name} = {example.value}')}, in {self._scene(example)}\n"
-            )
+        page += self._example(parameter)
         name = re.escape(parameter.name)
         messages = [
             f"[{message['key']}](message-{message['key']})"
@@ -208,6 +232,29 @@ class Reference:
         if pages:
             page += f"- See also: {', '.join(pages)}\n"
         return page + "\n"
+
+    def _example(self, parameter: Parameter) -> str:
+        """Returns a line of a scene, else of the guide, else one with a value that the parameter accepts."""
+        example = self._examples.get((parameter.path, parameter.name))
+        if example:
+            line = code(f"set {parameter.name} = {example.value}")
+            return f"- Example: {line}, in {self._scene(example)}\n"
+        pattern = re.compile(rf"^ *set +{re.escape(parameter.name)} *= *([^#\n]+?) *(?:#.*)?$", re.MULTILINE)
+        for page, text in sorted(self._pages.items()):
+            found = pattern.search(text) if page.startswith("guide/") else None
+            if found:
+                title = re.search(r"^# (.+)$", text, re.MULTILINE)
+                link = f"[{title[1] if title else page}](../../{page})"
+                return f"- Example: {code(f'set {parameter.name} = {found[1]}')}, in {link}\n"
+        default = parameter.schema.get("default", "")
+        if isinstance(default, bool):
+            default = str(not default).lower()
+        others = [value for value in parameter.schema.get("enum", []) if value != default]
+        quoted = re.search(r"such as '([^'=]+)'", parameter.schema["description"])
+        value = EXAMPLES.get(parameter.name) or (
+            others[0] if others else quoted[1] if quoted else str(default)
+        )
+        return f"- Example: {code(f'set {parameter.name} = {value}')}\n" if value else ""
 
     def _meaning(self, text: str, schema: dict[str, Any]) -> str:
         """Returns a meaning, with the values of the parameter as a list if the text has all of them."""
