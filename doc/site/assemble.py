@@ -3,8 +3,8 @@
 """Usage: assemble.py TARGET [--program BILLET] [--katex FOLDER]
 
 Writes the sources of the site to TARGET/doc: the pages of doc/, those that the program makes, and insertions.
-doc/site/insertions.py replaces lines '<!-- insert: NAME ARGUMENT... -->' of pages. Without a program there
-are no pages of parameters and types, and their indices say so.
+doc/site/insertions.py replaces lines '<!-- insert: NAME ARGUMENT... -->' of pages. Without a program
+the pages of parameters and types are those of doc/, which say how to print them.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 
 from insertions import Insertions
 from reference import Reference
+from results import tables_of
 
 ROOT = Path(__file__).resolve().parents[2]
 IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links lead to
@@ -30,10 +31,6 @@ BESIDE = (
     "CMakeLists.txt",
     "LICENSE",
     "README.md",
-)
-NO_PROGRAM = (
-    "# {title}\n\nThis site was built without the program, which writes these pages. `billet {option}` prints"
-    " their contents.\n"
 )
 
 
@@ -77,6 +74,16 @@ def copy_katex(folder: Path, site: Path, kept: set[Path]) -> None:
         kept.add(copy)
 
 
+def messages_with_headings(page: Path) -> str:
+    """Returns the page of messages with a heading for each, as links to them need."""
+    text = "# Messages\n\n"
+    for found in tables_of(page):
+        for key, severity, meaning, remedy in found.rows:
+            text += f"## {key.strip('`')}\n\n*{severity.capitalize()}.* {meaning}\n\n"
+            text += f"What to do: {remedy}.\n\n" if remedy else ""
+    return text
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description="Writes the sources of the site.")
     parser.add_argument("target", type=Path)
@@ -101,10 +108,7 @@ def main() -> None:
     if reference:
         pages.update(reference.write())
     else:
-        pages["reference/parameters/index.md"] = NO_PROGRAM.format(
-            title="Parameter reference", option="--print-parameters"
-        )
-        pages["reference/types/index.md"] = NO_PROGRAM.format(title="Lists of types", option="--list")
+        pages["messages.md"] = messages_with_headings(ROOT / "doc/messages.md")
     insertions = Insertions(ROOT, pages, reference)
     for name, text in pages.items():
         if name in IN_NO_MENU and not text.startswith("---"):
