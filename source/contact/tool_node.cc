@@ -8,13 +8,6 @@ namespace billet {
 
 using dealii::Tensor;
 
-namespace {
-
-/// Largest distance before the surface at which a node that pressed is held [facet sizes].
-constexpr double held_gap = 0.1;
-
-} // namespace
-
 template <class Law, bool has_inertia, bool is_exact>
 ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_t i,
                                                                 const Tensor<1, 3> &position,
@@ -58,9 +51,7 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
   const double rounding = 1e-13 * node.size + 4. * std::numeric_limits<double>::epsilon() * position.norm();
   const bool rests = node.gap_n <= on_it && state.gap <= std::min(on_it, node.gap_n + rounding);
   const bool touches = projection.exists && !state.is_behind && (state.gap < 0. || rests);
-  const bool is_held = parts_.step.holds && projection.exists && !state.is_behind && !fades && !touches &&
-                       node.gap_n < 0. && state.gap < held_gap * node.size;
-  if (touches || is_held) {
+  if (touches) {
     state.normal = placement.rotation * projection.normal;
     state.turning = placement.rotation * projection.turning * dealii::transpose(placement.rotation);
   }
@@ -70,25 +61,18 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
     else
       parts_.friction->release(i, node, projection.normal, state, *history);
     history->tool_position = on_tool;
+  } else if (touches) {
+    const double penalty = state.share * node.spring().secant(std::max(-state.gap, 0.));
+    const FrameTraction t = compute_frictionless_traction(penalty, state.gap);
+    state.status = t.status;
+    state.pressure = t.pressure;
+    state.traction = t.pressure * state.normal;
+    state.tangent = penalty * dealii::outer_product(state.normal, state.normal);
+    // Across a concave edge the stiffness is as large as along the normal, and symmetric: Newton's method
+    // needs it.
+    if (is_exact || is_in_concave_edge(projection.gap, projection.turning))
+      state.tangent -= t.pressure * state.turning;
   }
-  if (is_held) {
-    state.status = ContactStatus::slip;
-    state.traction = -node.spring().secant(0.) * state.gap * state.normal;
-    state.tangent = node.spring().secant(0.) * dealii::outer_product(state.normal, state.normal);
-  }
-  if constexpr (!has_friction)
-    if (touches) {
-      const double penalty = state.share * node.spring().secant(std::max(-state.gap, 0.));
-      const FrameTraction t = compute_frictionless_traction(penalty, state.gap);
-      state.status = t.status;
-      state.pressure = t.pressure;
-      state.traction = t.pressure * state.normal;
-      state.tangent = penalty * dealii::outer_product(state.normal, state.normal);
-      // Across a concave edge the stiffness is as large as along the normal, and symmetric: Newton's method
-      // needs it.
-      if (is_exact || is_in_concave_edge(projection.gap, projection.turning))
-        state.tangent -= t.pressure * state.turning;
-    }
   if (fades && touches) { // all except friction is pressure
     state.pressure = (state.pressure * state.normal + fading.push).norm();
     state.traction += fading.push;

@@ -46,7 +46,7 @@ void UnbalancedBodies::add(const Solution &solution) {
 }
 
 DiagnosticList UnbalancedBodies::judge() const {
-  constexpr double much = 0.05;
+  constexpr double much = 0.05, of_tolerance = 0.1;
   const double tolerance = scene_.parameters().solver.force_tolerance;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -54,7 +54,7 @@ DiagnosticList UnbalancedBodies::judge() const {
     unsigned int axis = 3;
     for (unsigned int i = 0; i < 3; ++i) {
       const Course &course = bodies_[b].axes[i];
-      if (course.force > tolerance * bodies_[b].size && course.rest > worst * course.force) {
+      if (course.force > of_tolerance * tolerance * bodies_[b].size && course.rest > worst * course.force) {
         worst = course.rest / course.force;
         axis = i;
       }

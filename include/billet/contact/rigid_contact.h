@@ -61,10 +61,6 @@ public:
   void set_friction_account(double start_weight, bool is_static) override;
   /// Sets the placement of the tool at the end of the step.
   void set_placement(const Placement &to) { parts_.step.placement = to; }
-  /// Sets whether nodes that pressed at the start of the step are held by the springs of their penalties,
-  /// also in tension, while they are before the surface by a small part of their facets. It is the active set
-  /// of the last step, from which the first iteration of Newton's method may start.
-  void hold_pressing(const bool holds) { parts_.step.holds = holds; }
   void restart() override {
     penalties_.take_back_augmentation();
     parts_.restless.restart();

@@ -21,8 +21,6 @@ struct ToolStep {
   /// Parts of initial penetrations that count as none, at the start of the step and at its end.
   double allowed_part_n = 1., allowed_part = 1.;
   bool is_removed = false; ///< nothing touches the tool any longer
-  /// Whether nodes that pressed at the start of the step stick to the surface while they are just before it.
-  bool holds = false;
 
   /// Returns the gap offset of a node, by which the tool's surface counts as raised [length].
   double gap_offset(const ContactPoint &node) const {

@@ -21,8 +21,8 @@ public:
   /// Adds an accepted step. Explicit schemes have no residual; they need none of this.
   void add(const Solution &solution);
   /// Returns a warning for each body whose forces along an axis are off by more than a twentieth of the
-  /// largest one along that axis. A force below 'Force tolerance' times the forces of contact on the body
-  /// does not count: it may be 0 but for the residual.
+  /// largest one along that axis. A force below a tenth of 'Force tolerance' times the forces of contact on
+  /// the body does not count: what residuals leave is of that size, and the force may be 0 but for them.
   DiagnosticList judge() const;
 
   void save(StateWriter &writer) const;

@@ -36,11 +36,6 @@ void ContactSet::restart() {
     contact.restart();
 }
 
-void ContactSet::hold_pressing(const bool holds) {
-  for (auto &contact : of_tools())
-    contact.hold_pressing(holds);
-}
-
 void ContactSet::take_back_augmentation() {
   for (auto &contact : *this)
     contact.penalties().take_back_augmentation();

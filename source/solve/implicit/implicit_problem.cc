@@ -139,7 +139,6 @@ bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
 bool ImplicitProblem::compute_tangent(const Vector &x) {
   set_trial(x);
   const bool success = assemble_tangent({supports().homogeneous(), tangent_.matrix()});
-  contacts_.hold_pressing(false); // the first iteration alone starts from the nodes of the last step
   linearised_ = contacts_.slave_forces();
   return success;
 }

@@ -85,11 +85,6 @@ void ImplicitSolution::repeat(const double t, const double previous_step, Newton
 void ImplicitSolution::recover(const double t, const double previous_step, NewtonReport &report,
                                DiagnosticList &messages) {
   bool may_accept_stalled = report.is_stalled;
-  // The first guess may lift all nodes off a tool, by more than they penetrate it. Bodies that a force holds
-  // down then have nothing below, and the first correction is without bounds.
-  if (!report.converged && !report.is_explained && !report.iterations.empty() &&
-      !problem_.tools().unknown().empty())
-    report.append_anew(attempt(t, previous_step, StepAttempt::Way::from_last_contact));
   if (!report.converged && (!report.is_explained || rules_->may_mend_explained()) &&
       augmentation_.soften_contacts(messages))
     report.append_anew(attempt(t, previous_step));

@@ -64,17 +64,12 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
     return report;
   Unknowns x{p_.problem.step().trial.displacements, p_.problem.tools().offsets()};
   p_.problem.contacts().restart();
-  const bool is_direct = way == Way::direct || way == Way::from_last_contact;
-  p_.problem.contacts().hold_pressing(way == Way::from_last_contact);
+  const bool is_direct = way == Way::direct;
   report = is_direct
                ? p_.solver.iterate(x.offsets, x.displacements)
                : p_.continuation.iterate(way == Way::by_low_penalties ? PenaltyContinuation::Start::low
                                                                       : PenaltyContinuation::Start::enough,
                                          x.offsets, x.displacements);
-  if (way == Way::from_last_contact) {
-    p_.problem.contacts().hold_pressing(false);
-    report.converged = report.converged && !report.iterations.empty(); // not with the springs in tension
-  }
   if (linear_step.force > 0.)
     report.iterations.insert(report.iterations.begin(), linear_step); // its cost is that of an iteration
   if (is_direct)

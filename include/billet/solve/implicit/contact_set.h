@@ -39,8 +39,6 @@ public:
   /// vector), contact by contact. Collective.
   void update(const Vector &displacements, Vector &residual);
   void restart();
-  /// See RigidContact::hold_pressing().
-  void hold_pressing(bool holds);
   void take_back_augmentation();
 
   /// Returns the error of the augmentation of each contact, over its pair's tolerance. Collective.

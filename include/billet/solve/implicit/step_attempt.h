@@ -28,9 +28,9 @@ public:
   };
   explicit StepAttempt(const Parts &parts) : p_(parts) {}
 
-  /// Path of Newton's method to the end of the step: direct, direct from the nodes that press on tools at its
-  /// start, or by continuation from the lower penalties of PenaltyContinuation::Start.
-  enum class Way { direct, from_last_contact, by_enough_penalties, by_low_penalties };
+  /// Path of Newton's method to the end of the step: direct, or by continuation from the lower penalties
+  /// of PenaltyContinuation::Start.
+  enum class Way { direct, by_enough_penalties, by_low_penalties };
   /// Tries the step to `t`. `previous_step`: see ImplicitSolution::step(). Collective.
   NewtonReport make(double t, double previous_step, Way way = Way::direct);
   /// Returns the tools that have reached their stop force in a converged step.
