@@ -136,8 +136,7 @@ void FieldWriter::load(const StateReader &reader) {
 }
 
 void FieldWriter::write_index() const {
-  write_text(folder_ + "/" + paraview_script_name,
-             paraview_script(index(), scene_.whole_section().kind, is_preview_));
+  write_text(folder_ + "/" + paraview_script_name, paraview_script(index(), scene_, is_preview_));
   std::ostringstream out;
   if (scene_.parameters().output.format == Format::hdf5) {
     for (const std::string &grid : xdmf_grids_)

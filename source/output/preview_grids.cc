@@ -79,15 +79,6 @@ double outward_sign(const Tensor<1, 3> &direction, const Tensor<1, 3> &position,
   return direction * (position - centre) < 0. ? -1. : 1.;
 }
 
-/// Returns the nodes on this rank of the elements of a body.
-std::vector<bool> find_nodes(const LocalNodes &nodes, const std::size_t body) {
-  std::vector<bool> has(nodes.size(), false);
-  for (const auto &element : nodes.elements(body))
-    for (const unsigned int node : element)
-      has[node] = true;
-  return has;
-}
-
 /// Returns the sum of the absolute forces at the nodes of all ranks. Collective.
 double sum_of_norms(const LocalNodes &nodes, const NodalVectors &forces) {
   double sum = 0.;
@@ -95,6 +86,55 @@ double sum_of_norms(const LocalNodes &nodes, const NodalVectors &forces) {
     if (nodes.is_owned(node))
       sum += get_vector(forces.data(), node).norm();
   return mpi::sum(sum, nodes.discretization().communicator());
+}
+
+/// Returns the forces of a load at the time at which they are largest, of fifty times; sets that time.
+/// Collective.
+NodalVectors find_largest_forces(const Scene &scene, const ExternalLoads &loads, const AppliedLoad &load,
+                                 const LocalNodes &nodes, double &time) {
+  const NodalVectors at_rest = nodes.make_vectors();
+  NodalVectors largest = nodes.make_vectors();
+  double largest_sum = 0.;
+  constexpr unsigned int n_samples = 50;
+  for (unsigned int i = 1; i <= n_samples; ++i) {
+    const double t = scene.parameters().time_stepping.end_time * i / n_samples;
+    NodalVectors forces = nodes.make_vectors();
+    try {
+      fail_together(nodes.discretization().communicator(),
+                    [&] { loads.add_forces_of(load, t, at_rest, at_rest, forces); });
+    } catch (const SolutionFailure &) { // a load is not defined there; the run will report it
+      continue;
+    }
+    nodes.sum_shared(forces);
+    const double sum = sum_of_norms(nodes, forces);
+    constexpr double rounding = 1e-9;
+    if (sum > largest_sum * (1. + rounding)) {
+      largest_sum = sum;
+      largest = forces;
+      time = t;
+    }
+  }
+  return largest;
+}
+
+/// Returns arrows that end at the nodes of this rank. Collective.
+std::vector<Arrow> make_load_arrows(const LocalNodes &nodes, const NodalVectors &forces) {
+  const Discretization &discretization = nodes.discretization();
+  double most = 0.;
+  for (unsigned int node = 0; node < nodes.size(); ++node)
+    most = std::max(most, get_vector(forces.data(), node).norm());
+  most = mpi::max(most, discretization.communicator());
+  std::vector<Arrow> arrows;
+  for (unsigned int node = 0; node < nodes.size() && most > 0.; ++node) {
+    const Tensor<1, 3> force = get_vector(forces.data(), node);
+    constexpr double negligible = 1e-6; // of the largest: round-off, such as that of balanced parts
+    if (!nodes.is_owned(node) || !(force.norm() > negligible * most))
+      continue;
+    const Tensor<1, 3> position = get_vector(nodes.positions().data(), node);
+    arrows.push_back(
+        {position - Sizes::longest_load * discretization.radius() / most * force, position, force});
+  }
+  return arrows;
 }
 
 } // namespace
@@ -145,51 +185,21 @@ std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization 
   return arrows;
 }
 
-LoadArrows find_load_arrows(const Scene &scene, const Discretization &discretization) {
-  LoadArrows result;
-  result.of_bodies.resize(scene.bodies().size());
+std::vector<LoadArrows> find_load_arrows(const Scene &scene, const Discretization &discretization) {
+  std::vector<LoadArrows> result;
   if (std::all_of(scene.bodies().begin(), scene.bodies().end(),
                   [](const Body &body) { return body.loads.empty(); }))
     return result;
   const LocalNodes nodes(discretization);
   const ExternalLoads loads(scene, nodes, Inertia(scene, discretization, false).nodal_masses(nodes));
-  const NodalVectors at_rest = nodes.make_vectors();
-  NodalVectors largest = nodes.make_vectors();
-  double largest_sum = 0.;
-  constexpr unsigned int n_samples = 50;
-  for (unsigned int i = 1; i <= n_samples; ++i) {
-    const double t = scene.parameters().time_stepping.end_time * i / n_samples;
-    NodalVectors forces = nodes.make_vectors();
-    try {
-      fail_together(discretization.communicator(), [&] { loads.add_forces(t, at_rest, at_rest, forces); });
-    } catch (const SolutionFailure &) { // a load is not defined there; the run will report it
-      continue;
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    for (std::size_t i = 0; i < scene.bodies()[body].loads.size(); ++i) {
+      result.emplace_back();
+      result.back().name = scene.parameters().bodies[body].loads[i].name + " of " + scene.bodies()[body].name;
+      const NodalVectors forces =
+          find_largest_forces(scene, loads, scene.bodies()[body].loads[i], nodes, result.back().time);
+      result.back().arrows = make_load_arrows(nodes, forces);
     }
-    nodes.sum_shared(forces);
-    const double sum = sum_of_norms(nodes, forces);
-    constexpr double rounding = 1e-9;
-    if (sum > largest_sum * (1. + rounding)) {
-      largest_sum = sum;
-      largest = forces;
-      result.time = t;
-    }
-  }
-  double most = 0.;
-  for (unsigned int node = 0; node < nodes.size(); ++node)
-    most = std::max(most, get_vector(largest.data(), node).norm());
-  most = mpi::max(most, discretization.communicator());
-  for (std::size_t body = 0; body < scene.bodies().size() && most > 0.; ++body) {
-    const std::vector<bool> is_in_body = find_nodes(nodes, body);
-    for (unsigned int node = 0; node < nodes.size(); ++node) {
-      const Tensor<1, 3> force = get_vector(largest.data(), node);
-      constexpr double negligible = 1e-6; // of the largest: round-off, such as that of balanced parts
-      if (!is_in_body[node] || !nodes.is_owned(node) || !(force.norm() > negligible * most))
-        continue;
-      const Tensor<1, 3> position = get_vector(nodes.positions().data(), node);
-      const Tensor<1, 3> shown = Sizes::longest_load * discretization.radius() / most * force;
-      result.of_bodies[body].push_back({position - shown, position, force});
-    }
-  }
   return result;
 }
 
@@ -208,11 +218,8 @@ std::vector<Grid> make_preview_grids(const Scene &scene, const Discretization &d
       grids.push_back(make_arrow_grid(preview_group::supports, scene.bodies()[body].name,
                                       "displacement_at_end", arrows, communicator));
     }
-  const LoadArrows loads = find_load_arrows(scene, discretization);
-  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
-    if (!scene.bodies()[body].loads.empty())
-      grids.push_back(make_arrow_grid(preview_group::loads, scene.bodies()[body].name, "force",
-                                      loads.of_bodies[body], communicator));
+  for (const LoadArrows &load : find_load_arrows(scene, discretization))
+    grids.push_back(make_arrow_grid(preview_group::loads, load.name, "force", load.arrows, communicator));
   return grids;
 }
 

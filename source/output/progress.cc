@@ -15,8 +15,7 @@ using Verbosity = parameters::Output::Verbosity;
 namespace {
 
 constexpr double seconds_between_lines = 30.; // of progress where there is no terminal
-/// Number of columns with forces, above which only those of tools and of contact between bodies are shown.
-constexpr std::size_t max_force_columns = 5;
+constexpr std::size_t max_load_columns = 5;
 
 std::string format_duration(const double seconds) {
   const auto whole = std::lround(seconds);
@@ -30,19 +29,51 @@ std::string format_duration(const double seconds) {
 
 } // namespace
 
+int Progress::Load::width() const {
+  constexpr int least_width = 14, prefix = 4, space = 2;
+  return std::max(least_width, prefix + static_cast<int>(name.size()) + space);
+}
+
 Progress::Progress(const Scene &scene, std::ostream &stream, std::ostream &messages, const bool is_terminal)
     : scene_(scene), stream_(stream), messages_(messages), is_terminal_(is_terminal),
       verbosity_(scene.parameters().output.verbosity) {
   make_columns();
 }
 
-void Progress::add_forces(const std::string &name,
-                          const std::function<dealii::Tensor<1, 3>(const Solution &)> &force) {
-  constexpr int least_width = 14;
-  const std::string header = "|F| " + name;
-  columns_.push_back(
-      {header, std::max(least_width, static_cast<int>(header.size()) + 2),
-       [whole = scene_.whole_section(), force](const Solution &s) { return whole.size_of(force(s)); }});
+void Progress::find_loads() {
+  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
+    loads_.push_back({scene_.tools()[i].name(), [i](const Solution &s) {
+                        const ContactLoad &load = s.state().tool_loads[i];
+                        return Resultant{load.force, load.moment};
+                      }});
+  for (std::size_t i = 0; i < scene_.body_pairs().size(); ++i)
+    loads_.push_back({scene_.body_pairs()[i].name, [i](const Solution &s) {
+                        const ContactLoad &load = s.state().body_pair_loads[i];
+                        return Resultant{load.force, load.moment};
+                      }});
+  for (std::size_t i = 0; i < scene_.pairs().size(); ++i) {
+    const auto is_of_tool = [&](const ContactPair &pair) { return pair.tool == scene_.pairs()[i].tool; };
+    if (std::count_if(scene_.pairs().begin(), scene_.pairs().end(), is_of_tool) > 1) // else it is the tool's
+      loads_.push_back({scene_.pairs()[i].name, [i](const Solution &s) {
+                          const ContactLoad &load = s.reactions().of_tool_pairs[i];
+                          return Resultant{load.force, load.moment};
+                        }});
+  }
+  const std::vector<NamedSupport> supports = named_supports(scene_);
+  const std::string support = "support ", plane = "symmetry plane ";
+  for (const std::string *kind : {&support, &plane}) {
+    if (kind == &plane && !loads_.empty()) // most symmetry planes balance what is shown already
+      break;
+    for (std::size_t i = 0; i < supports.size(); ++i)
+      if (supports[i].name.rfind(*kind, 0) == 0)
+        loads_.push_back({supports[i].name.substr(kind->size()),
+                          [i](const Solution &s) { return s.reactions().of_supports[i]; }});
+  }
+}
+
+ForceChoice::Load Progress::size_of(const Resultant &load) const {
+  const WholeSection &whole = scene_.whole_section();
+  return {whole.size_of(load.force), whole.kind == WholeSection::Kind::model ? load.moment.norm() : 0.};
 }
 
 void Progress::make_columns() {
@@ -50,28 +81,7 @@ void Progress::make_columns() {
   const auto add_energy = [this](const char *header, double EnergyLedger::*energy) {
     columns_.push_back({header, 15, [energy](const Solution &s) { return s.state().energies.*energy; }});
   };
-  for (std::size_t i = 0; i < scene_.tools().size(); ++i)
-    add_forces(scene_.tools()[i].name(), [i](const Solution &s) { return s.state().tool_loads[i].force; });
-  for (std::size_t i = 0; i < scene_.body_pairs().size(); ++i)
-    add_forces(scene_.body_pairs()[i].name,
-               [i](const Solution &s) { return s.state().body_pair_loads[i].force; });
-  const auto has_room = [this] { return columns_.size() < max_force_columns; };
-  for (std::size_t i = 0; i < scene_.pairs().size() && has_room(); ++i) {
-    const auto is_of_tool = [&](const ContactPair &pair) { return pair.tool == scene_.pairs()[i].tool; };
-    if (std::count_if(scene_.pairs().begin(), scene_.pairs().end(), is_of_tool) > 1) // else it is the tool's
-      add_forces(scene_.pairs()[i].name,
-                 [i](const Solution &s) { return s.reactions().of_tool_pairs[i].force; });
-  }
-  const std::vector<NamedSupport> supports = named_supports(scene_);
-  const std::string support = "support ", plane = "symmetry plane ";
-  for (const std::string *kind : {&support, &plane}) {
-    if (kind == &plane && !columns_.empty()) // most symmetry planes balance what is shown already
-      break;
-    for (std::size_t i = 0; i < supports.size() && has_room(); ++i)
-      if (supports[i].name.rfind(*kind, 0) == 0)
-        add_forces(supports[i].name.substr(kind->size()),
-                   [i](const Solution &s) { return s.reactions().of_supports[i].force; });
-  }
+  find_loads();
   if (capabilities.plasticity)
     add_energy("plastic work", &EnergyLedger::plastic);
   if (capabilities.friction)
@@ -95,13 +105,29 @@ void Progress::add_probes() {
     }
 }
 
-void Progress::show_headers() const {
+void Progress::show_headers(const std::string &head, const Solution &solution) {
+  constexpr unsigned int lines_between = 40;
+  std::vector<ForceChoice::Load> sizes;
+  for (const Load &load : loads_)
+    sizes.push_back(size_of(load.value(solution)));
+  if (choice_->update(sizes))
+    n_lines_ = 0;
+  if (n_lines_++ % lines_between != 0)
+    return;
+  stream_ << head;
+  for (const ForceChoice::Shown &shown : choice_->shown())
+    stream_ << std::setw(loads_[shown.load].width())
+            << (shown.is_moment ? "|M| " : "|F| ") + loads_[shown.load].name;
   for (const Column &column : columns_)
     stream_ << std::setw(column.width) << column.header;
   stream_ << "\n";
 }
 
 void Progress::show_values(const Solution &solution) const {
+  for (const ForceChoice::Shown &shown : choice_->shown()) {
+    const ForceChoice::Load size = size_of(loads_[shown.load].value(solution));
+    stream_ << std::setw(loads_[shown.load].width()) << (shown.is_moment ? size.moment : size.force);
+  }
   for (const Column &column : columns_)
     stream_ << std::setw(column.width) << column.value(solution);
   stream_ << "\n";
@@ -115,6 +141,8 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   if (verbosity_ == Verbosity::quiet)
     return;
   shows_linear_iterations_ = solution.solves_iteratively();
+  // Moments may be about the origin: a force has one of no more than itself times this distance.
+  choice_.emplace(loads_.size(), max_load_columns, discretization.centre().norm() + discretization.radius());
   if (!scene_.parameters().title.empty())
     stream_ << scene_.parameters().title << "\n";
   const parameters::Scene &parameters = scene_.parameters();
@@ -159,11 +187,9 @@ void Progress::accept(const StepReport &report, const Solution &solution) {
   erase_bar();
   if (verbosity_ == Verbosity::iterations)
     show_iterations(report.newton);
-  if (n_lines_++ % 40 == 0) {
-    stream_ << "  step        time        step iter" << (shows_linear_iterations_ ? " linear" : "")
-            << "   residual";
-    show_headers();
-  }
+  show_headers("  step        time        step iter" +
+                   std::string(shows_linear_iterations_ ? " linear" : "") + "   residual",
+               solution);
   const double time = solution.state().time;
   stream_ << std::setw(6) << report.step << std::setw(12) << std::setprecision(6) << time << std::setw(12)
           << std::setprecision(4) << report.length << std::setw(5) << report.newton.iterations.size();
@@ -179,10 +205,7 @@ void Progress::show(const unsigned int step, const double length, const Solution
   if (verbosity_ == Verbosity::quiet)
     return;
   erase_bar();
-  if (n_lines_++ % 40 == 0) {
-    stream_ << "    step        time        step       kinetic      external   drift";
-    show_headers();
-  }
+  show_headers("    step        time        step       kinetic      external   drift", solution);
   const SolutionState &state = solution.state();
   const EnergyLedger &energies = state.energies;
   const double scale = std::max(energies.total(), std::abs(energies.initial));

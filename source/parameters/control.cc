@@ -368,11 +368,12 @@ void Output::declare(ParameterHandler &prm) {
                     "no field output.");
   prm.declare_entry("Step interval", "1", Patterns::Integer(0),
                     "Number of steps between field outputs, in addition to those at the start and at the "
-                    "end. 0, the default of explicit scenes: none, or by the interval.");
+                    "end. 0: none, or by the interval. Explicit scenes that set neither write 20 intervals.");
   prm.declare_entry(
       "Interval", "0", Patterns::Double(),
       "Time between field outputs, whose times are multiples of it. Implicit steps end there; explicit "
-      "scenes write at the end of the first step that reaches them. 0: by the step interval. [time]");
+      "scenes write at the end of the first step that reaches them. 0: by the step interval. Default of "
+      "explicit scenes: 1/20 of the end time. [time]");
   prm.declare_entry("History interval", "0", Patterns::Double(),
                     "Explicit scenes: time between lines of the history, at the end of the first step that "
                     "reaches a multiple of it. 0: 1/200 of the end time. [time]");

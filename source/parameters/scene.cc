@@ -325,6 +325,15 @@ private:
 
 const SceneFile::Path SchemeCheck::scheme_path{"Time stepping"};
 
+/// Sets the field output of an explicit scene without a step interval. Enough for an animation, unless the
+/// scene has an interval of its own.
+void set_explicit_intervals(Scene &scene, const bool has_interval) {
+  constexpr double n_intervals = 20.;
+  scene.output.every_steps = 0;
+  if (!has_interval)
+    scene.output.interval = scene.time_stepping.end_time / n_intervals;
+}
+
 } // namespace
 
 std::size_t Scene::body_index(const ContactPair &pair) const { return index_of(bodies, pair.body); }
@@ -426,7 +435,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
     check_probe(scene, probe);
   SchemeCheck(scene, file, scene.warnings).check();
   if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
-    scene.output.every_steps = 0;
+    set_explicit_intervals(scene, file.is_set({"Output"}, "Interval"));
   for (const auto &tool : scene.tools)
     if (std::isfinite(tool.motion.removal_time.value) &&
         tool.motion.removal_time.value >= scene.time_stepping.end_time)

@@ -106,7 +106,8 @@ Picture draw_picture(const std::string &script, const std::string &file) {
   if (display == nullptr || *display == '\0') {
     if (!is_installed("xvfb-run"))
       return {"", "without a display, 'pvbatch' needs 'xvfb-run', which is not installed"};
-    words.insert(words.end(), {"xvfb-run", "-a"});
+    // Displays that start at the same time look for free numbers from different ones on.
+    words.insert(words.end(), {"xvfb-run", "-a", "-n", std::to_string(100 + getpid() % 900)});
   }
   words.insert(words.end(), {"pvbatch", script, file});
   std::error_code error;

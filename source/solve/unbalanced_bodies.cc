@@ -34,7 +34,7 @@ void UnbalancedBodies::add(const Solution &solution) {
       reported(body, solution.state().body_pair_loads[p].force);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const BodyBalance &balance = reactions.of_bodies[b];
-    bodies_[b].size = std::max(bodies_[b].size, balance.pressing);
+    bodies_[b].size = std::max(bodies_[b].size, balance.nodal);
     for (unsigned int i = 0; i < 3; ++i) {
       Course &course = bodies_[b].axes[i];
       if (std::abs(balance.free[i]) > course.rest) {
@@ -67,7 +67,7 @@ DiagnosticList UnbalancedBodies::judge() const {
     text << "The accepted residuals leave up to " << course.rest << " along "
          << "xyz"[axis] << " out of balance, " << 100. * worst
          << " % of the largest force of a tool, pair or support along "
-         << "xyz"[axis] << ", " << course.force << ", which is small beside all nodal forces of contact, "
+         << "xyz"[axis] << ", " << course.force << ", which is small beside all nodal forces, "
          << bodies_[b].size << ": these forces are off by as much";
     advice.precision(1);
     constexpr double aim = 0.01;

@@ -266,7 +266,7 @@ CORNER = (
 
 def largest(ran: Run, column: str) -> float:
     """Returns the largest magnitude of a column."""
-    return max(map(abs, ran.column(column)))
+    return max(abs(number) for number in ran.column(column))
 
 
 for n in (7, 8):

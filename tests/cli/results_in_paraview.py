@@ -9,6 +9,7 @@ elements, tensors, and a picture.
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -26,7 +27,8 @@ NUMBERS = ["element_id", "body", "material"]
 
 def pvbatch(*arguments: str, display: bool = False) -> str:
     """Runs a script by ParaView."""
-    command = [*(["xvfb-run", "-a"] if display else []), "pvbatch", *arguments]
+    server = ["xvfb-run", "-a", "-n", str(100 + os.getpid() % 900)]  # others may start one now, too
+    command = [*(server if display else []), "pvbatch", *arguments]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
     require(ended.returncode == 0, ended.stdout + ended.stderr)
     return ended.stdout
@@ -117,6 +119,62 @@ def _() -> None:
     pvbatch("static/show_in_paraview.py", "static.png", display=True)
     colours = int(pvbatch(str(HERE / "contents_in_paraview.py"), "static.png").split("\t")[-1])
     require(colours > 50, f"{colours} colours")
+
+
+def shown(script: str, *arguments: str) -> list[list[str]]:
+    """Returns what a script shows, each a list of words."""
+    output = pvbatch(str(HERE / "shown_in_paraview.py"), script, *arguments, display=True)
+    return [line.split("\t") for line in output.splitlines() if "\t" in line]
+
+
+def named(lines: list[list[str]], *words: str) -> list[float]:
+    """Returns the numbers of the line that begins with these words."""
+    (numbers,) = [line[len(words) :] for line in lines if line[: len(words)] == list(words)]
+    return [float(number) for number in numbers]
+
+
+ELASTIC = (
+    "Material: Law = elastic & Material: - Hardening & Material: - Yield stress"
+    " & Material: - Hardening modulus & die / Motion: Translation = 0 ; 0 ; -0.1*sin(pi*t)"
+)
+
+
+@check("an elastic body that is unloaded is shown under its largest load, from zero")
+def _() -> None:
+    write_scene("unloaded.prm", "block.prm", f"{ELASTIC} & Output: Interval = 0.25")
+    billet("unloaded.prm", "unloaded")
+    lines = shown("unloaded/show_in_paraview.py", "unloaded.png")
+    equal("time", named(lines, "time"), [0.5])
+    low, high = named(lines, "colours", "von_mises_stress")
+    require(low == 0 and 10 < high < 1000, f"colours from {low} to {high}")
+    lines = shown("unloaded/show_in_paraview.py", "unloaded.png", "0.3")
+    equal("the time nearest to that which is asked for", named(lines, "time"), [0.25])
+    equal("colours of the run", named(lines, "colours", "von_mises_stress"), [low, high])
+
+
+@check("a plastic one at the end, and its infinite tool no farther than it")
+def _() -> None:
+    lines = shown("static/show_in_paraview.py", "static.png")
+    equal("time", named(lines, "time"), [1.0])
+    bounds = named(lines, "part", "die")
+    require(-0.5 < bounds[0] and bounds[1] < 2.5, f"a die from {bounds[0]} to {bounds[1]}")
+
+
+@check("a preview names faces, loads and tools, and shows a tool that stands apart")
+def _() -> None:
+    edits = (
+        "block: + subsection Loads\n subsection push\n set Type = pressure\n set Boundary ids = 1\n"
+        " set Pressure = t\n end\n end"
+        " & Plane: + set Shape = sphere\n set Centre = 9, 0, 6\n set Radius = 1"
+        " & Plane: - Point & Plane: - Normal"
+    )
+    write_scene("apart.prm", "block.prm", edits)
+    equal("exit code", run(*program.on(1, "--preview", "--output", "apart", "apart.prm")).code, 0)
+    lines = shown("apart/preview/show_in_paraview.py", "apart.png")
+    texts = {line[1] for line in lines if line[0] == "text"}
+    for text in ("push of block", "die", "7", "1"):
+        require(text in texts, f"no {text} in {texts}")
+    require(named(lines, "part", "die")[1] > 9.9, "the tool is cut")
 
 
 sys.exit(check.finish())

@@ -711,6 +711,114 @@ for edits, times in (
         equal("times", billet(edits).pictured(), times)
 
 
+END = 0.5e-3  # of impact.prm
+for edits, expected in (
+    ("", [END * i / 20 for i in range(21)]),
+    ("Output: Interval = 2e-4", [0.0, 2e-4, 4e-4, END]),
+    ("Output: Interval = 0", [0.0, END]),
+    ("Output: Step interval = 0", [0.0, END]),
+):
+
+    @check(f"explicit field output, {edits or 'by default'}")
+    def _() -> None:
+        ran = billet(edits, base=IMPACT)
+        found = [float(time) for time in ran.pictured().split(" ")]
+        equal("number of times", len(found), len(expected))
+        longest = max(ran.column("step_length"))
+        for time, due in zip(found, expected):
+            require(due * (1 - 1e-6) <= time <= due + longest, f"output at {time}, due at {due}")
+
+
+@check("the console shows the largest loads, whatever their order")
+def _() -> None:
+    bodies = "".join(
+        f"""
+subsection Bodies
+  subsection b{i}
+    subsection Mesh
+      set Arguments = {3 * i}, 0, 0 : {3 * i + 1}, 1, {1 if i < 6 else 1.05}
+    end
+    set Symmetry planes = x = {3 * i} ; y = 0 ; z = 0
+    subsection Material
+      set Law           = elastic
+      set Young modulus = 100
+    end
+  end
+end"""
+        for i in range(7)
+    )
+    write_text(
+        "many.prm",
+        bodies
+        + """
+subsection Tools
+  subsection die
+    subsection Surfaces
+      subsection p
+        set Point = 0, 0, 1.05
+        set Normal = 0, 0, -1
+      end
+    end
+    subsection Motion
+      set Translation = 0 ; 0 ; -0.04*t
+    end
+  end
+end
+set Contact = all
+subsection Time stepping
+  set End time = 1
+end
+""",
+    )
+    ended = run(*program.on(1, "--output", "many", "many.prm"))
+    equal("exit code", ended.code, 0)
+    headers = [line for line in ended.output.splitlines() if "residual" in line]
+    require("|F| b6 on die" in headers[-1], f"columns: {headers[-1]}")
+    equal("number of columns", headers[-1].count("|F|"), 5)
+
+
+@check("and a couple by its moment")
+def _() -> None:
+    write_text(
+        "couple.prm",
+        """
+subsection Bodies
+  subsection strip
+    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 10, 1, 1 : 0, 0, 0 : 10, 1, 1
+    end
+    subsection Supports
+      subsection root
+        set Boundary ids = 0
+      end
+    end
+    subsection Material
+      set Law           = elastic
+      set Young modulus = 1000
+      set Poisson ratio = 0
+    end
+    subsection Loads
+      subsection bend
+        set Type         = moment
+        set Boundary ids = 1
+        set Moment       = 0 ; 0 ; t
+      end
+    end
+  end
+end
+subsection Time stepping
+  set End time = 1
+end
+""",
+    )
+    ended = run(*program.on(1, "--output", "couple", "couple.prm"))
+    equal("exit code", ended.code, 0)
+    lines = [line for line in ended.output.splitlines() if re.match(r" +\d+ +[\d.]+ ", line)]
+    require("|M| root" in ended.output, f"says {ended.output}")
+    near("the moment", float(lines[-1].split()[5]), 1.0)
+
+
 @check("no fields")
 def _() -> None:
     files = sorted(os.listdir(billet("Output: Format = none").folder))
@@ -995,7 +1103,7 @@ for broken in BROKEN:
 
         @check(f"{broken.name}, on {ranks} ranks")
         def _() -> None:
-            ran = billet(broken.edits, base=IMPACT, ranks=ranks, code=3)
+            ran = billet(f"{broken.edits} & Output: Step interval = 0", base=IMPACT, ranks=ranks, code=3)
             times = ran.pictured()
             says(
                 rf"(?s)\Aerror\[(?:solution-failed|energy-drift)\]: scene\.prm.* {broken.message}"

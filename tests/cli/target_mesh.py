@@ -5,8 +5,8 @@
 Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
 
 'Target error of = everything' on a cantilever: the error of the mesh that levels of it show is that beside a
-mesh four times finer, the results of the last level are in the folder, and what is not met is said with what it
-would take.
+mesh four times finer, the results of the last level are in the folder, and what is not met is said with what
+it would take.
 """
 
 from __future__ import annotations
@@ -73,7 +73,8 @@ def _() -> None:
     ran = billet(everything("1e-4", "Finest mesh level = 0"), code=7)
     equal("the last level", levels(ran)[-1][0], "0")
     says(
-        r"^warning\[mesh-target-missed\]: .*0\.0067 %.*'Finest mesh level' is 0\. At this order it would take level \d",
+        r"^warning\[mesh-target-missed\]: .*0\.0067 %.*'Finest mesh level' is 0\. "
+        r"At this order it would take level \d",
         ran.said,
     )
 

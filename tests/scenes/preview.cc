@@ -49,6 +49,11 @@ subsection Bodies
         set Boundary ids = 5
         set Pressure     = 5*t
       end
+      subsection pull
+        set Type         = force
+        set Boundary ids = 0
+        set Force        = -0.001*sin(pi*t) ; 0 ; 0
+      end
     end
   end
 end
@@ -129,9 +134,11 @@ void check_supports(const SceneRun &run) {
 }
 
 void check_loads(const SceneRun &run) {
-  const LoadArrows loads = find_load_arrows(run.scene, run.discretization);
-  const auto arrows = gather(loads.of_bodies[0]);
-  check("loads: at the time of the largest", std::abs(loads.time - 1.), 1e-12);
+  const std::vector<LoadArrows> loads = find_load_arrows(run.scene, run.discretization);
+  check("loads: each has its own arrows",
+        loads.size() == 2 && loads[0].name == "gas of cube" && loads[1].name == "pull of cube");
+  const auto arrows = gather(loads[0].arrows);
+  check("loads: at the time of the largest", std::abs(loads[0].time - 1.), 1e-12);
   check("loads: at the nodes of the face", arrows.size() == 9);
   Tensor<1, 3> sum;
   testing::WorstError error;
@@ -145,6 +152,15 @@ void check_loads(const SceneRun &run) {
   check("loads: the pressure times the area", (sum - Tensor<1, 3>({0., 0., -20.})).norm(), 1e-10);
   check("loads: the middle has the longest arrow", std::abs(longest / std::sqrt(3.) - 0.25), 1e-12);
   check("loads: arrows end at their nodes, as long as the forces", error.value(), 1e-10);
+  check("loads: another one at its own time", std::abs(loads[1].time - 0.5), 1e-12);
+  longest = 0.;
+  sum = Tensor<1, 3>();
+  for (const Arrow &arrow : gather(loads[1].arrows)) {
+    sum += arrow.value;
+    longest = std::max(longest, (arrow.to - arrow.from).norm());
+  }
+  check("loads: with its own force", (sum - Tensor<1, 3>({-0.001, 0., 0.})).norm(), 1e-12);
+  check("loads: and its own scale", std::abs(longest / std::sqrt(3.) - 0.25), 1e-12);
 }
 
 void check_arrow() {
@@ -178,8 +194,9 @@ void check_arrow() {
 void check_files(const SceneRun &run) {
   std::vector<Grid> grids = make_snapshot_grids(run.scene, run.problem);
   std::vector<Grid> more = make_preview_grids(run.scene, run.discretization);
-  check("preview: three blocks", more.size() == 3 && more[0].group == "Tools at end" &&
-                                     more[1].group == "Supports" && more[2].group == "Loads");
+  check("preview: four blocks", more.size() == 4 && more[0].group == "Tools at end" &&
+                                    more[1].group == "Supports" && more[2].group == "Loads" &&
+                                    more[3].name == "pull of cube");
   testing::WorstError error;
   for (std::size_t i = 2; i < more[0].points.size(); i += 3)
     error.add(std::abs(more[0].points[i] - 2.5));

@@ -2,7 +2,7 @@
 #ifndef BILLET_OUTPUT_PARAVIEW_SCRIPT_H
 #define BILLET_OUTPUT_PARAVIEW_SCRIPT_H
 
-#include "billet/scene/whole_section.h"
+#include "billet/scene/scene.h"
 
 #include <string>
 
@@ -13,8 +13,8 @@ const std::string paraview_script_name = "show_in_paraview.py";
 
 /// Returns a Python script that opens the results beside it in ParaView. `index`: the file that lists them.
 /// It looks at a section from its front. A preview is shown with its supports, loads and tools at the end,
-/// and bodies in the colours of their boundary ids.
-std::string paraview_script(const std::string &index, WholeSection::Kind section, bool is_preview);
+/// and bodies in the colours of their boundary ids, with names.
+std::string paraview_script(const std::string &index, const Scene &scene, bool is_preview);
 
 } // namespace billet
 

@@ -31,14 +31,15 @@ Grid make_arrow_grid(const std::string &group, const std::string &name, const st
 std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization &discretization,
                                        std::size_t body);
 
-/// Forces of the loads at the nodes of a body. Those of this rank.
+/// Forces of a load at the nodes, on this rank. The longest arrows of all loads have the same length.
 struct LoadArrows {
-  double time = 0.; ///< at which the loads of all bodies are largest, of those that were looked at
-  std::vector<std::vector<Arrow>> of_bodies;
+  std::string name; ///< "LOAD of BODY"
+  double time = 0.; ///< at which the load is largest, of those that were looked at
+  std::vector<Arrow> arrows;
 };
 
-/// Returns the forces of the loads, undeformed and at rest. Collective.
-LoadArrows find_load_arrows(const Scene &scene, const Discretization &discretization);
+/// Returns the forces of each load, undeformed and at rest, body by body. Collective.
+std::vector<LoadArrows> find_load_arrows(const Scene &scene, const Discretization &discretization);
 
 /// Returns the blocks of a preview beside those of a snapshot: tools at the end of their prescribed motions,
 /// supports and loads. Collective.

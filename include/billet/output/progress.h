@@ -3,6 +3,7 @@
 #define BILLET_OUTPUT_PROGRESS_H
 
 #include "billet/diagnostics.h"
+#include "billet/output/force_choice.h"
 #include "billet/output/history_file.h"
 
 #include <chrono>
@@ -48,12 +49,21 @@ private:
     int width;
     std::function<double(const Solution &)> value;
   };
+  /// Force and moment for whose sizes there is a column if it is among the largest.
+  struct Load {
+    std::string name;
+    std::function<Resultant(const Solution &)> value;
+
+    int width() const; ///< of its column
+  };
+  void find_loads();
   void make_columns();
   void add_probes();
-  /// Adds a column with the size of a force, in the whole of a section.
-  void add_forces(const std::string &name,
-                  const std::function<dealii::Tensor<1, 3>(const Solution &)> &force);
-  void show_headers() const;
+  /// Returns the sizes of a load, in the whole of a section; no moment there.
+  ForceChoice::Load size_of(const Resultant &load) const;
+  /// Shows the headers where they are due: after 40 lines, or where other loads are the largest now.
+  /// `head`: that of the columns before.
+  void show_headers(const std::string &head, const Solution &solution);
   void show_values(const Solution &solution) const;
   void show_iterations(const NewtonReport &newton);
   /// Shows how far the run is after a step of this length, and the time to go.
@@ -70,7 +80,9 @@ private:
   unsigned int n_lines_ = 0;
   std::optional<double> begin_; ///< time before the first step shown
   double last_line_ = 0.;       ///< when the last line of progress was shown [s]
-  std::vector<Column> columns_;
+  std::vector<Load> loads_;
+  std::optional<ForceChoice> choice_; ///< of the loads; set at the start
+  std::vector<Column> columns_;       ///< behind those of the loads
   std::vector<double> probes_;
   parameters::Output::Verbosity verbosity_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

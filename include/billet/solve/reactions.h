@@ -41,7 +41,7 @@ std::vector<std::string> named_loads(const Scene &scene);
 /// Sums over the nodes of a body.
 struct BodyBalance {
   dealii::Tensor<1, 3> free; ///< forces that are out of balance at unconstrained dofs [force]
-  double pressing = 0.;      ///< magnitudes of the nodal forces of contact [force]
+  double nodal = 0.;         ///< magnitudes of the internal forces of its nodes [force]
 };
 
 /// Forces on the bodies at the end of the last step, the same on all ranks.

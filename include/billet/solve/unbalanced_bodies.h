@@ -21,7 +21,7 @@ public:
   /// Adds an accepted step. Explicit schemes have no residual; they need none of this.
   void add(const Solution &solution);
   /// Returns a warning for each body whose forces along an axis are off by more than a twentieth of the
-  /// largest one along that axis. A force below a tenth of 'Force tolerance' times the forces of contact on
+  /// largest one along that axis. A force below a tenth of 'Force tolerance' times the nodal forces of
   /// the body does not count: what residuals leave is of that size, and the force may be 0 but for them.
   DiagnosticList judge() const;
 
@@ -36,7 +36,7 @@ private:
   };
   struct Of {
     std::array<Course, 3> axes;
-    double size = 0.; ///< largest BodyBalance::pressing [force]
+    double size = 0.; ///< largest BodyBalance::nodal [force]
   };
 
   const Scene &scene_;

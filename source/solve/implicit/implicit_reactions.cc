@@ -82,19 +82,19 @@ void ImplicitReactions::start() {
 void ImplicitReactions::balance_bodies(const Vector &residual) {
   constexpr std::size_t n_sums = 4; // of the residual by axes, and of the forces' magnitudes
   std::vector<double> sums(n_sums * problem_.scene().bodies().size(), 0.);
-  const auto rest = owned_values(residual), contact = owned_values(problem_.step().trial.contact);
+  const auto rest = owned_values(residual), internal = owned_values(problem_.step().trial.internal);
   for (std::size_t n = 0; n < bodies_of_nodes_.size(); ++n) {
     double *of_body = &sums[n_sums * bodies_of_nodes_[n]];
     for (unsigned int i = 0; i < 3; ++i)
       of_body[i] += rest[3 * n + i];
-    of_body[3] += std::hypot(contact[3 * n], contact[3 * n + 1], contact[3 * n + 2]);
+    of_body[3] += std::hypot(internal[3 * n], internal[3 * n + 1], internal[3 * n + 2]);
   }
   dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
   values_.of_bodies.assign(problem_.scene().bodies().size(), {});
   for (std::size_t b = 0; b < values_.of_bodies.size(); ++b) {
     for (unsigned int i = 0; i < 3; ++i)
       values_.of_bodies[b].free[i] = -sums[n_sums * b + i];
-    values_.of_bodies[b].pressing = sums[n_sums * b + 3];
+    values_.of_bodies[b].nodal = sums[n_sums * b + 3];
   }
   for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s)
     values_.of_bodies[bodies_of_supports_[s]].free += values_.of_supports[s].force;
