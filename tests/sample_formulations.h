@@ -19,6 +19,7 @@ inline constexpr std::array all_kinematics = {Kinematics::hencky, Kinematics::ne
 struct MaterialLaw {
   struct Flow {
     Flow() = default;
+    Flow(SharedFlow flow) : stress(std::move(flow)) {}
     template <class Law> Flow(const Law &law) : stress(make_hardening(law)) {}
 
     SharedFlow stress;

@@ -2,7 +2,10 @@
 #ifndef BILLET_TESTS_SAMPLE_LAWS_H
 #define BILLET_TESTS_SAMPLE_LAWS_H
 
+#include "given_values.h"
+
 #include "billet/material/plastic.h"
+#include "billet/material/rate_factor.h"
 
 namespace billet::testing {
 
@@ -27,6 +30,31 @@ template <class Function> void for_each_hardening(const Function &run) {
   run("power law", power_law);
   run("steep power law", steep_power_law);
   run("table", table);
+}
+
+/// 1 + (rate/reference)^{1/p}.
+inline std::shared_ptr<const RateFactor> cowper_symonds(const double reference, const double p) {
+  return rate_factor_types()
+      .find("Cowper-Symonds")
+      ->make(GivenValues({{"Reference rate", reference}, {"Rate exponent", p}}));
+}
+
+/// 1 + C ln(1 + rate/reference), which kernels compute lane by lane.
+class LogarithmicFactor final : public RateFactor {
+public:
+  LogarithmicFactor(const double reference, const double factor) : reference_(reference), factor_(factor) {}
+
+  std::string description() const override { return "times a logarithm of the rate"; }
+  double value(const double rate) const override { return 1. + factor_ * std::log1p(rate / reference_); }
+  double slope(const double rate) const override { return factor_ / (reference_ + rate); }
+
+private:
+  double reference_, factor_;
+};
+
+template <class Law>
+std::shared_ptr<const FlowStress> at_rate(const Law &hardening, std::shared_ptr<const RateFactor> factor) {
+  return make_flow_stress(make_hardening(hardening), std::move(factor));
 }
 
 /// Δα ≥ 0 with trial − modulus Δα = σ_y(α + Δα), by bisection; 0 where `trial` is below yield.

@@ -25,6 +25,23 @@ inline const DiagnosticKind keywords_unread(
     "of a deck, and leaves out its other keywords.",
     "Give in the scene what the message names for each of them");
 
+inline const DiagnosticKind
+    nodes_not_joined("nodes-not-joined", Severity::warning,
+                     "Nodes of a mesh file are closer to each other than a thousandth of an edge, but no "
+                     "element joins them: the body is in pieces there.",
+                     "Set 'Merge nodes within' in Mesh to the distance that the message names, or to 0 if "
+                     "the pieces only touch");
+
+inline const DiagnosticKind
+    volumes_together("volumes-together", Severity::note,
+                     "A body takes several volumes of its mesh file as one body of one material.",
+                     "Name the volumes of each body in its 'Volumes' in Mesh; several bodies may have one "
+                     "mesh file");
+
+inline const DiagnosticKind volumes_unread("volumes-unread", Severity::note,
+                                           "No body of the scene takes these volumes of a mesh file.",
+                                           "Name them in 'Volumes' of a body if they belong to the scene");
+
 inline const DiagnosticKind probe_without_contact(
     "probe-without-contact", Severity::warning,
     "A probe reads the contact pressure where no pair computes one: only the nodes of a "

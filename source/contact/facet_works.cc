@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/facet_works.h"
 
+#include "billet/contact/rank_sums.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,27 +13,11 @@ using dealii::Tensor;
 namespace {
 
 void sum_over_ranks(FacetContactLoad &load, MPI_Comm communicator) {
-  std::array<double, 18> sums{load.stored_energy, load.dissipation,    load.area,
-                              load.n_touching,    load.absolute_force, load.damping};
-  std::array<double, 2> maximum{load.deepest, load.deepest_relative};
-  const std::array<Tensor<1, 3> *, 4> vectors{&load.force, &load.moment, &load.residual_force,
-                                              &load.residual_moment};
-  for (unsigned int v = 0; v < vectors.size(); ++v)
-    for (unsigned int i = 0; i < 3; ++i)
-      sums[6 + 3 * v + i] = (*vectors[v])[i];
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator);
-  MPI_Allreduce(MPI_IN_PLACE, maximum.data(), 2, MPI_DOUBLE, MPI_MAX, communicator);
-  load.stored_energy = sums[0];
-  load.dissipation = sums[1];
-  load.area = sums[2];
-  load.n_touching = sums[3];
-  load.absolute_force = sums[4];
-  load.damping = sums[5];
-  for (unsigned int v = 0; v < vectors.size(); ++v)
-    for (unsigned int i = 0; i < 3; ++i)
-      (*vectors[v])[i] = sums[6 + 3 * v + i];
-  load.deepest = maximum[0];
-  load.deepest_relative = maximum[1];
+  RankParts{{&load.stored_energy, &load.dissipation, &load.area, &load.n_touching, &load.absolute_force,
+             &load.damping},
+            {&load.force, &load.moment, &load.residual_force, &load.residual_moment},
+            {&load.deepest, &load.deepest_relative}}
+      .reduce(communicator);
 }
 
 } // namespace
@@ -42,9 +28,7 @@ bool FacetWorks::hands_over() const {
   bool presses = false;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     presses = presses || parts_.touching[s].has_pressure();
-  std::vector<int> ends{parts_.start.pressed_anywhere() ? 1 : 0, presses ? 1 : 0};
-  dealii::Utilities::MPI::max(ends, parts_.surfaces.communicator(), ends);
-  return ends[0] + ends[1] == 2;
+  return presses_at_both_ends(parts_.start.pressed_anywhere(), presses, parts_.surfaces.communicator());
 }
 
 FacetContactLoad FacetWorks::compute_load() const {

@@ -324,7 +324,8 @@ Overlap find_self_overlap(const Discretization &discretization, const std::size_
 }
 
 double contact_reach(const BoundaryFacet &facet) {
-  return std::min(0.1 * std::sqrt(facet.area_vector().norm()), 0.4 * facet.thickness);
+  constexpr double part_of_facet = 0.1, part_of_wall = 0.4;
+  return std::min(part_of_facet * std::sqrt(facet.area_vector().norm()), part_of_wall * facet.thickness);
 }
 
 Tensor<1, 3> arm_to(const Tensor<1, 3> &x, const parameters::ContactPair::Correction &correction) {

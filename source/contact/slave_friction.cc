@@ -10,7 +10,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr std::size_t friction_width = 18; // of a slave
+constexpr std::size_t friction_width = FrictionHistory::width + 1; // of a slave
 
 } // namespace
 
@@ -103,10 +103,8 @@ void SlaveFriction::save(StateWriter &writer, const std::vector<std::uint64_t> &
   std::vector<double> rows;
   RowWriter row(rows);
   for (const SlaveHistory &history : history_n_) {
-    row.number(history.is_active ? 1. : 0.);
-    row.vector(history.frame.q).vector(history.frame.r).vector(history.frame.n).vector(history.frame.spin);
-    row.number(history.tangential[0]).number(history.tangential[1]);
-    row.number(history.slip).number(history.slip_rate).number(history.area);
+    history.save(row);
+    row.number(history.area);
   }
   writer.write_rows("friction", friction_width, keys, rows);
 }
@@ -118,17 +116,8 @@ void SlaveFriction::load(const StateReader &reader, const std::vector<std::uint6
   const std::vector<double> rows = reader.read_rows("friction", friction_width, keys, &is_known);
   for (std::size_t s = 0; s < history_n_.size(); ++s) {
     RowReader row(&rows[friction_width * s], friction_width);
-    SlaveHistory &history = history_n_[s];
-    history.is_active = row.flag();
-    row.vector(history.frame.q);
-    row.vector(history.frame.r);
-    row.vector(history.frame.n);
-    row.vector(history.frame.spin);
-    history.tangential[0] = row.number();
-    history.tangential[1] = row.number();
-    history.slip = row.number();
-    history.slip_rate = row.number();
-    history.area = row.number();
+    history_n_[s].load(row);
+    history_n_[s].area = row.number();
   }
   base_ = history_ = history_n_;
 }

@@ -27,6 +27,9 @@ constexpr double max_interior_points = 400'000.;
 // Facets with lengths that differ by less than this factor have the same number of parts.
 const double same_length = std::pow(2., 0.125);
 
+// Acceptable penetration of a node: these parts of the size of its facets and of the wall below them.
+constexpr double reach_of_facet = 0.2, reach_of_wall = 0.4;
+
 constexpr std::uint64_t points_per_key = 1024; // > (FacetDivision::max_parts + 1)²
 
 /// Sets the spacing of each node: the root of the mean area of the parts of facets around it. Collective.
@@ -77,7 +80,7 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
         node.reference = boundary.corners[a];
         const FacetSize size = sizes.at(node.dofs[0]);
         node.size = node.spacing = size.size;
-        node.reach = 0.2 * node.size;
+        node.reach = reach_of_facet * node.size;
         const double length = penalty_length(pair.penalty_counts_thickness, size.size, size.thickness);
         node.stiffness = {pair.scaled_penalty(pair.normal_penalty, young_modulus, length),
                           pair.scaled_penalty(pair.tangential_penalty, young_modulus, length)};
@@ -90,7 +93,7 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
       }
       facet.nodes[a] = found.first->second;
       ContactPoint &corner = nodes[facet.nodes[a]];
-      corner.reach = std::min(corner.reach, 0.4 * boundary.thickness);
+      corner.reach = std::min(corner.reach, reach_of_wall * boundary.thickness);
     }
     facets.push_back(facet);
   }

@@ -9,7 +9,7 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr std::size_t row_width = 20; // of a node
+constexpr std::size_t row_width = FrictionHistory::width + 3; // of a node
 
 } // namespace
 
@@ -148,11 +148,8 @@ void ToolFriction::save(StateWriter &writer, const SlaveSurface::Range &range) c
   std::vector<double> rows;
   RowWriter row(rows);
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    const History &history = n_[i];
-    row.number(history.is_active ? 1. : 0.);
-    row.vector(history.frame.q).vector(history.frame.r).vector(history.frame.n).vector(history.frame.spin);
-    row.number(history.tangential[0]).number(history.tangential[1]);
-    row.vector(history.tool_position).number(history.slip).number(history.slip_rate);
+    n_[i].save(row);
+    row.vector(n_[i].tool_position);
   }
   range.write(writer, "friction", row_width, rows);
 }
@@ -161,17 +158,8 @@ void ToolFriction::load(const StateReader &reader, const SlaveSurface::Range &ra
   if (!reader.has(range.prefix + "friction")) // a new friction law begins without traction
     return;
   range.read(reader, "friction", row_width, [&](const std::size_t i, RowReader &row) {
-    History &history = now_[i];
-    history.is_active = row.flag();
-    row.vector(history.frame.q);
-    row.vector(history.frame.r);
-    row.vector(history.frame.n);
-    row.vector(history.frame.spin);
-    history.tangential[0] = row.number();
-    history.tangential[1] = row.number();
-    row.vector(history.tool_position);
-    history.slip = row.number();
-    history.slip_rate = row.number();
+    now_[i].load(row);
+    row.vector(now_[i].tool_position);
   });
 }
 

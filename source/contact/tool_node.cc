@@ -48,7 +48,8 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
   // With inertia the body needs no constraint, and a stiffness without a force would mislead Newton's method
   // at lift-off. The node then counts only while its lift-off is within round-off.
   const double on_it = node.touching_gap;
-  const double rounding = 1e-13 * node.size + 4. * std::numeric_limits<double>::epsilon() * position.norm();
+  constexpr double of_projection = 1e-13, of_position = 4. * std::numeric_limits<double>::epsilon();
+  const double rounding = of_projection * node.size + of_position * position.norm();
   const bool rests = node.gap_n <= on_it && state.gap <= std::min(on_it, node.gap_n + rounding);
   const bool touches = projection.exists && !state.is_behind && (state.gap < 0. || rests);
   if (touches) {

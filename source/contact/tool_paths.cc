@@ -53,8 +53,9 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
   const Tensor<1, 3> X = placement.to_tool(x);
   const auto here = surface.project(X, patch);
   SurfaceSide result{Side::beyond, std::abs(here.gap), {}, false};
-  if (!here.exists) { // but an edge within round-off does not count
-    if (here.beyond <= 1e-3 * shallow)
+  if (!here.exists) {
+    constexpr double beside_edge = 1e-3; // part of `shallow` within which a node is still above the surface
+    if (here.beyond <= beside_edge * shallow)
       result.side = here.is_behind ? Side::behind : Side::front;
     return result;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/tool_works.h"
 
-#include "billet/geometry/facet_point.h"
+#include "billet/contact/rank_sums.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -44,9 +44,7 @@ ContactLoad ToolWorks::compute_load() const {
 bool ToolWorks::presses_at_both_ends() const {
   const bool presses = std::any_of(parts_.states.begin(), parts_.states.end(),
                                    [](const ToolContactState &state) { return state.pressure > 0.; });
-  std::vector<int> ends{parts_.pressures.has_pressure() ? 1 : 0, presses ? 1 : 0};
-  dealii::Utilities::MPI::max(ends, parts_.communicator, ends);
-  return ends[0] + ends[1] == 2;
+  return billet::presses_at_both_ends(parts_.pressures.has_pressure(), presses, parts_.communicator);
 }
 
 template <bool is_explicit>
@@ -90,13 +88,7 @@ void ToolWorks::add_released(ContactLoad &load) const {
     if (std::none_of(states.begin(), states.end(),
                      [&](const ToolContactState *node) { return is_released(*node); }))
       continue;
-    std::array<double, 4> areas{};
-    for (const auto &point : facet_points()) {
-      const Tensor<1, 3> area_vector =
-          point.area_vector([&](const unsigned int a) { return states[a]->position; });
-      for (unsigned int a = 0; a < 4; ++a)
-        areas[a] += std::max(0., -(area_vector * states[a]->normal)) * point.N[a];
-    }
+    const auto areas = projected_shares(states, [&](const unsigned int a) { return states[a]->normal; });
     for (unsigned int a = 0; a < 4; ++a)
       if (is_released(*states[a]))
         load.dissipation += springs.of(facet.nodes[a], states[a]->friction.dissipation_n)
@@ -107,13 +99,10 @@ void ToolWorks::add_released(ContactLoad &load) const {
 template <class NormalOf> std::vector<double> ToolWorks::areas_along(const NormalOf &normal_of) const {
   std::vector<double> areas(parts_.slaves.nodes.size(), 0.);
   for (const auto &facet : parts_.slaves.facets) {
-    const CornerStates states = parts_.states_of(facet);
-    for (const auto &point : facet_points()) {
-      const Tensor<1, 3> area_vector =
-          point.area_vector([&](const unsigned int a) { return states[a]->position; });
-      for (unsigned int a = 0; a < 4; ++a)
-        areas[facet.nodes[a]] += point.N[a] * std::max(0., -(area_vector * normal_of(facet.nodes[a])));
-    }
+    const auto shares = projected_shares(parts_.states_of(facet),
+                                         [&](const unsigned int a) { return normal_of(facet.nodes[a]); });
+    for (unsigned int a = 0; a < 4; ++a)
+      areas[facet.nodes[a]] += shares[a];
   }
   return areas;
 }

@@ -31,23 +31,32 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
   // Ghost cells are included: every rank knows all faces around the nodes of its own cells.
   std::map<DofIndex, HeldNode> nodes;
   const double tolerance = 1e-8 * discretization.radius();
+  const auto add = [&](const Hold &hold, const auto &object, const unsigned int v) {
+    if (!hold.has_direction(object->vertex(v), tolerance))
+      return;
+    auto &node = nodes[object->vertex_dof_index(v, 0)];
+    for (unsigned int i = 0; i < 3; ++i)
+      node.dofs[i] = object->vertex_dof_index(v, i);
+    node.position = object->vertex(v);
+    if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
+      node.holds.push_back(&hold);
+  };
   for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())
       continue;
+    for (const auto &hold : scene.bodies()[cell->material_id()].holds)
+      if (hold.nodes && acts(hold))
+        for (const unsigned int v : cell->vertex_indices())
+          if (hold.nodes->contains(cell->vertex(v)))
+            add(hold, cell, v);
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary())
         continue;
       for (const auto &hold : scene.bodies()[cell->material_id()].holds) {
         if (!acts(hold) || !holds_face(hold, cell->face(f), tolerance))
           continue;
-        for (const unsigned int v : cell->face(f)->vertex_indices()) {
-          auto &node = nodes[cell->face(f)->vertex_dof_index(v, 0)];
-          for (unsigned int i = 0; i < 3; ++i)
-            node.dofs[i] = cell->face(f)->vertex_dof_index(v, i);
-          node.position = cell->face(f)->vertex(v);
-          if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
-            node.holds.push_back(&hold);
-        }
+        for (const unsigned int v : cell->face(f)->vertex_indices())
+          add(hold, cell->face(f), v);
       }
     }
   }

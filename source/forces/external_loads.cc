@@ -11,10 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <optional>
+#include <set>
 
 namespace billet {
 
+using dealii::Point;
 using dealii::Tensor;
 
 namespace {
@@ -26,8 +28,8 @@ std::array<unsigned int, 4> local_corners(const BoundaryFacet &facet, const Loca
   return corners;
 }
 
-dealii::Point<3> centre_of(const BoundaryFacet &facet) {
-  dealii::Point<3> centre;
+Point<3> centre_of(const BoundaryFacet &facet) {
+  Point<3> centre;
   for (const auto &corner : facet.corners)
     centre += 0.25 * corner;
   return centre;
@@ -56,6 +58,16 @@ std::vector<double> values_of(const AppliedLoad &load, const double t) {
   for (const Expression &expression : load.expressions)
     values.push_back(expression.value(time_of_values(load, t)));
   return values;
+}
+
+/// Calls visit(node, its share of the site) for the nodes of a site.
+template <class Visit> void visit_nodes(const LoadedFace &face, const Visit &visit) {
+  for (unsigned int a = 0; a < 4; ++a)
+    visit(face.nodes[a], face.areas[a]);
+}
+template <class Visit> void visit_nodes(const LoadedNode &at, const Visit &visit) { visit(at.node, at.area); }
+template <class Site, class Visit> void visit_nodes(const Site &at, const Visit &visit) {
+  visit(at.node, at.weight);
 }
 
 template <class Placed> std::size_t memory_of(const std::vector<Placed> &loads) {
@@ -148,7 +160,7 @@ void ExternalLoads::place(const AppliedLoad &load, const FaceLoad &action, const
   auto surface = measure_surface(facets);
   std::vector<LoadedFace> faces;
   for (const auto &facet : facets)
-    faces.push_back({local_corners(facet, nodes_), centre_of(facet), surface.get()});
+    faces.push_back({local_corners(facet, nodes_), centre_of(facet), surface.get(), facet.corner_areas()});
   on_faces_.push_back({&load, &action, std::move(faces), std::move(surface)});
 }
 
@@ -175,13 +187,31 @@ void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, co
   surface->stiffness = scene_.bodies()[body].young_modulus / size;
   std::vector<LoadedFace> faces;
   for (const auto &facet : facets)
-    faces.push_back({local_corners(facet, nodes_), centre_of(facet), surface.get()});
+    faces.push_back({local_corners(facet, nodes_), centre_of(facet), surface.get(), facet.corner_areas()});
   on_surfaces_.push_back({&load, &action, std::move(faces), std::move(surface)});
 }
 
+void ExternalLoads::place_on_nodes(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
+  std::set<unsigned int> found;
+  for (const auto &element : nodes_.elements(body))
+    for (const unsigned int node : element)
+      if (nodes_.is_owned(node) &&
+          load.nodes->contains(Point<3>(get_vector(nodes_.positions().data(), node))))
+        found.insert(node);
+  const double n =
+      dealii::Utilities::MPI::sum(static_cast<double>(found.size()), nodes_.discretization().communicator());
+  std::vector<WeightedNode> sites;
+  for (const unsigned int node : found)
+    sites.push_back({node, 1. / n});
+  on_points_.push_back({&load, &action, std::move(sites), nullptr});
+}
+
 void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
+  const std::optional<Point<3>> position = action.position();
+  if (!position)
+    return place_on_nodes(load, action, body);
   const auto located = locate_points(nodes_.discretization(), body,
-                                     {{action.position()},
+                                     {{*position},
                                       action.takes_nearest_node(),
                                       scene_.bodies()[body].name,
                                       load.origin,
@@ -272,15 +302,11 @@ void ExternalLoads::add_forces_of(const AppliedLoad &load, const double t, const
 
 std::vector<unsigned int> ExternalLoads::nodes_of(const AppliedLoad &load) const {
   std::vector<unsigned int> nodes;
-  const auto add_nodes = [&nodes](const auto &site) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(site)>, LoadedFace>)
-      nodes.insert(nodes.end(), site.nodes.begin(), site.nodes.end());
-    else
-      nodes.push_back(site.node);
-  };
   visit([&](const auto &placed) {
-    if (placed.load == &load)
-      std::for_each(placed.sites.begin(), placed.sites.end(), add_nodes);
+    if (placed.load != &load)
+      return;
+    for (const auto &site : placed.sites)
+      visit_nodes(site, [&nodes](const unsigned int node, double) { nodes.push_back(node); });
   });
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -358,20 +384,16 @@ void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
 }
 
 void ExternalLoads::add_bounds(NodalVectors &bounds) const {
-  for (const auto &placed : on_surfaces_) {
-    const double stiffness = placed.action->stiffness(*placed.surface);
-    for (std::size_t f = 0; f < placed.sites.size(); ++f)
-      for (unsigned int a = 0; a < 4; ++a)
-        add_vector(bounds.data(), placed.sites[f].nodes[a],
-                   Tensor<1, 3>({stiffness * placed.surface->shares[f][a].area, 0., 0.}));
-  }
-  for (const auto &placed : on_nodes_) {
+  visit([&](const auto &placed) {
     if (!placed.load->load.limits_steps())
-      continue;
-    const auto [stiffness, damping] = placed.action->bound();
-    for (const LoadedNode &at : placed.sites)
-      add_vector(bounds.data(), at.node, Tensor<1, 3>({stiffness * at.area, damping * at.area, 0.}));
-  }
+      return;
+    const auto [stiffness, damping] = placed.action->bound(*placed.surface);
+    const Tensor<1, 3> per_area({stiffness, damping, 0.});
+    for (const auto &site : placed.sites)
+      visit_nodes(site, [&, &per_area = per_area](const unsigned int node, const double area) {
+        add_vector(bounds.data(), node, area * per_area);
+      });
+  });
 }
 
 } // namespace billet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/cad_file.h"
 
+#include "billet/geometry/step_entities.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -91,7 +93,12 @@ private:
 
 } // namespace
 
-CadFileReport check_step_file(const std::string &text) { return StepScan(text).report(); }
+CadFileReport check_step_file(const std::string &text) {
+  CadFileReport result = StepScan(text).report();
+  if (result.fault.empty())
+    result.fault = find_faulty_entity(text);
+  return result;
+}
 
 CadFileReport check_iges_file(const std::string &text) {
   constexpr std::size_t place_of_section = 72;

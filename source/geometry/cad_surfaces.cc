@@ -42,6 +42,7 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -260,6 +261,30 @@ bool is_iges(const CadSource &source) {
   return suffix[0] == 'i';
 }
 
+double size_of(const TopoDS_Shape &shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box.IsVoid() ? 0. : std::sqrt(box.SquareExtent());
+}
+
+/// Refuses a shape whose edges miss their vertices or faces: OpenCASCADE then gives these large tolerances.
+void check_tolerances(const CadSource &source, const TopoDS_Shape &shape) {
+  constexpr double allowed = 1e-3; // over the size of the shape; sound files have 1e-5
+  double tolerance = 0.;
+  for (const TopAbs_ShapeEnum kind : {TopAbs_VERTEX, TopAbs_EDGE})
+    for (TopExp_Explorer part(shape, kind); part.More(); part.Next())
+      tolerance =
+          std::max(tolerance, kind == TopAbs_VERTEX ? BRep_Tool::Tolerance(TopoDS::Vertex(part.Current()))
+                                                    : BRep_Tool::Tolerance(TopoDS::Edge(part.Current())));
+  if (tolerance <= allowed * size_of(shape))
+    return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "a file whose edges meet their vertices and faces; here they miss these by up to " << tolerance
+       << " mm. It may be damaged. Write it again, or in the other format, STEP or IGES";
+  source.reject(text.str());
+}
+
 /// Reads a file. OpenCASCADE gives lengths in millimetres, whatever the file's unit.
 TopoDS_Shape read_shape(const CadSource &source) {
   Message::DefaultMessenger()->RemovePrinters(
@@ -275,6 +300,7 @@ TopoDS_Shape read_shape(const CadSource &source) {
   }
   if (shape.IsNull())
     source.reject(is_iges(source) ? "an IGES file with a shape" : "a STEP file with a shape");
+  check_tolerances(source, shape);
   return shape;
 }
 
@@ -282,12 +308,6 @@ TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape &shape) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   return faces;
-}
-
-double size_of(const TopoDS_Shape &shape) {
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, false);
-  return box.IsVoid() ? 0. : std::sqrt(box.SquareExtent());
 }
 
 /// Returns the faces that the user selected, as one shape.

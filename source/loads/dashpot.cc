@@ -24,7 +24,10 @@ public:
                    const double damping_factor, dealii::FullMatrix<double> &matrix) const override {
     direction_.add(damping_factor * (damping_ * node.area), node, matrix);
   }
-  Bound bound() const override { return {0., damping_}; }
+  Bound bound(const LoadedSurface & /*surface*/) const override { return {0., damping_}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const override {
+    return {};
+  }
 
 private:
   double damping_;

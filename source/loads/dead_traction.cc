@@ -8,7 +8,7 @@ LoadType dead_traction_type();
 namespace {
 
 /// F_a = A_a t, where t is a force per undeformed area.
-class DeadTraction final : public NodalLoad {
+class DeadTraction final : public DeadLoad<NodalLoad> {
 public:
   explicit DeadTraction(const Axes &axes) : axes_(axes) {}
 
@@ -17,7 +17,6 @@ public:
     for (std::size_t k = 0; k < nodes.size(); ++k)
       add_vector(forces, nodes[k].node, nodes[k].area * axes_.to_global(values.at(k), nodes[k].centre));
   }
-  LoadTangent tangent() const override { return LoadTangent::none; }
 
 private:
   Axes axes_;

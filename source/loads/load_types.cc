@@ -39,15 +39,11 @@ void add_vector_expressions(const TypeInput &input, const std::string &key, cons
     load.expressions.push_back({key, component, uses_position});
 }
 
-bool Load::has_unsymmetric_tangent() const {
-  if (const auto *face = std::get_if<std::shared_ptr<const FaceLoad>>(&action))
-    return (*face)->tangent() == LoadTangent::unsymmetric;
-  if (const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action))
-    return (*node)->tangent() == LoadTangent::unsymmetric;
-  if (const auto *surface = std::get_if<std::shared_ptr<const SurfaceLoad>>(&action))
-    return (*surface)->tangent() == LoadTangent::unsymmetric;
-  return false;
+const LoadAction &Load::properties() const {
+  return std::visit([](const auto &kind) -> const LoadAction & { return *kind; }, action);
 }
+
+bool Load::has_unsymmetric_tangent() const { return properties().tangent() == LoadTangent::unsymmetric; }
 
 bool Load::acts_on_mass() const {
   const auto *body = std::get_if<std::shared_ptr<const BodyLoad>>(&action);
@@ -55,20 +51,13 @@ bool Load::acts_on_mass() const {
 }
 
 std::vector<dealii::Tensor<1, 3>> Load::supports(const dealii::Tensor<1, 3> &normal) const {
-  if (const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action))
-    return (*node)->supports(normal);
-  return {};
+  return properties().supports(normal);
 }
 
 bool Load::limits_steps() const {
   LoadedSurface unit;
   unit.stiffness = 1.;
-  if (const auto *surface = std::get_if<std::shared_ptr<const SurfaceLoad>>(&action))
-    return (*surface)->stiffness(unit) > 0.;
-  const auto *node = std::get_if<std::shared_ptr<const NodalLoad>>(&action);
-  if (node == nullptr)
-    return false;
-  const NodalLoad::Bound bound = (*node)->bound();
+  const LoadAction::Bound bound = properties().bound(unit);
   return bound.stiffness > 0. || bound.damping > 0.;
 }
 

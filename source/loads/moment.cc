@@ -21,6 +21,11 @@ public:
     return dealii::cross_product_3d(turn(values, surface.motion), node.arm);
   }
   LoadTangent tangent() const override { return LoadTangent::unsymmetric; }
+  /// As for pressures, the stiffness of the bricks exceeds its own.
+  Bound bound(const LoadedSurface & /*surface*/) const override { return {}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const override {
+    return {};
+  }
 
   Tensor<2, 3> local_tangent(const double *values, const LoadedSurface &surface) const override {
     return -cross_matrix(turn(values, surface.motion));

@@ -29,6 +29,11 @@ public:
 
   /// The derivative is symmetric only if the pressure is uniform and its edge is fixed or does not exist.
   LoadTangent tangent() const override { return LoadTangent::unsymmetric; }
+  /// Its stiffness, p h at a node of a brick of size h, is small against E h, that of the brick.
+  Bound bound(const LoadedSurface & /*surface*/) const override { return {}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const override {
+    return {};
+  }
 
   /// −∂F_a/∂x_b = ∫ p N_a (N_b,ξ [· × x,η] + N_b,η [x,ξ × ·]) dξdη.
   void add_tangent(const LoadedFace &face, const double *values, const NodalMotion &motion,

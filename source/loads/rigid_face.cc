@@ -39,9 +39,14 @@ public:
     result.right[1] = invert(surface.motion.turning) * arm;
     return result;
   }
-  double stiffness(const LoadedSurface &surface) const override { return factor_ * surface.stiffness; }
+  Bound bound(const LoadedSurface &surface) const override { return {stiffness(surface), 0.}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const override {
+    return {};
+  }
 
 private:
+  double stiffness(const LoadedSurface &surface) const { return factor_ * surface.stiffness; }
+
   double factor_;
 };
 

@@ -24,7 +24,7 @@ public:
                    double /*damping_factor*/, dealii::FullMatrix<double> &matrix) const override {
     direction_.add(stiffness_ * node.area, node, matrix);
   }
-  Bound bound() const override { return {stiffness_, 0.}; }
+  Bound bound(const LoadedSurface & /*surface*/) const override { return {stiffness_, 0.}; }
   std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const override {
     return direction_.directions(normal);
   }

@@ -13,7 +13,7 @@ namespace {
 /// Factor 1 + (ε̇/D)^{1/p}, (M16) of doc/theory.md (Cowper & Symonds 1957).
 class CowperSymonds final : public RateFactor {
 public:
-  CowperSymonds(const double reference, const double p) : reference_(reference), exponent_(1. / p) {}
+  CowperSymonds(const double reference, const double p) : reference_(reference), p_(p), exponent_(1. / p) {}
 
   std::string description() const override { return "times Cowper and Symonds' factor of the rate"; }
   double value(const double rate) const override { return 1. + std::pow(rate / reference_, exponent_); }
@@ -22,9 +22,10 @@ public:
       return exponent_ * std::pow(rate / reference_, exponent_ - 1.) / reference_;
     return exponent_ < 1. ? std::numeric_limits<double>::infinity() : 1. / reference_;
   }
+  LaneRate lane_form() const override { return {RateKind::power_law, reference_, p_}; }
 
 private:
-  double reference_, exponent_;
+  double reference_, p_, exponent_;
 };
 
 } // namespace

@@ -23,19 +23,41 @@ std::string RateDependentFlow::description() const {
 
 namespace {
 
-/// Flow stress of a step, σ_y(α) R((α − α_n)/Δt), in the form that solve_consistency() requires.
+/// Flow stress of a step as a function of Δα, σ_y(α_n + Δα) R(Δα/Δt).
 struct FlowOfStep {
   const HardeningLaw &hardening;
   const RateFactor &factor;
   double alpha_n, dt;
 
-  double rate(const double alpha) const { return (alpha - alpha_n) / dt; }
-  double stress(const double alpha) const { return hardening.stress(alpha) * factor.value(rate(alpha)); }
-  double slope(const double alpha) const {
-    return hardening.slope(alpha) * factor.value(rate(alpha)) +
-           hardening.stress(alpha) * factor.slope(rate(alpha)) / dt;
+  double stress(const double delta) const {
+    return hardening.stress(alpha_n + delta) * factor.value(delta / dt);
+  }
+  double slope(const double delta) const {
+    return hardening.slope(alpha_n + delta) * factor.value(delta / dt) +
+           hardening.stress(alpha_n + delta) * factor.slope(delta / dt) / dt;
   }
 };
+
+/// Solves q − m Δα − flow stress = 0 for Δα > 0, given the left side at rest, `excess` > 0. In ln Δα the
+/// slope at rest is finite, and Newton's method approaches the root from above for factors such as a power or
+/// a logarithm of the rate. A shrinking bracket safeguards it. It stops at round-off.
+double solve_at_rate(const FlowOfStep &law, const double q, const double m, const double excess) {
+  double low = std::numeric_limits<double>::min(), high = excess / m, delta = high;
+  const double tolerance = 4. * std::numeric_limits<double>::epsilon() * q;
+  for (unsigned int i = 0; i < 200; ++i) {
+    const double f = q - m * delta - law.stress(delta);
+    if (std::abs(f) <= tolerance)
+      break;
+    (f > 0. ? low : high) = delta;
+    double next = delta * std::exp(f / ((m + law.slope(delta)) * delta));
+    if (next == delta)
+      break;
+    if (!(next > low && next < high))
+      next = std::sqrt(low) * std::sqrt(high);
+    delta = next;
+  }
+  return delta;
+}
 
 } // namespace
 
@@ -46,14 +68,21 @@ PlasticIncrement RateDependentFlow::solve(const double q, const double m, const 
   if (!(dt > 0.))
     return {0., steep};
   const FlowOfStep law{*hardening_, *factor_, alpha_n, dt};
-  const double delta = q > stress(alpha_n) ? solve_consistency(law, q, m, alpha_n) : 0.;
-  return {delta, std::min(steep, law.slope(alpha_n + delta))};
+  const double excess = q - stress(alpha_n);
+  const double delta = excess > 0. ? solve_at_rate(law, q, m, excess) : 0.;
+  return {delta, std::min(steep, law.slope(delta))};
 }
 
 void RateDependentFlow::advance(const double alpha_n, const double delta_alpha, const double dt,
                                 const State &state_n, State &state) const {
   state[0] = state_n[0] + factor_->value(delta_alpha / dt) *
                               (hardening_->work(alpha_n + delta_alpha) - hardening_->work(alpha_n));
+}
+
+LaneHardening RateDependentFlow::lane_form() const {
+  LaneHardening form = hardening_->lane_form();
+  form.rate = factor_->lane_form();
+  return form.rate.kind == RateKind::other ? LaneHardening() : form;
 }
 
 std::shared_ptr<const FlowStress> make_flow_stress(std::shared_ptr<const HardeningLaw> hardening,

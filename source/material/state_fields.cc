@@ -28,6 +28,16 @@ std::string describe(const std::vector<StateField> &fields) {
   return words.empty() ? "none" : words;
 }
 
+std::size_t place_of_field(const PointLaw &law, const std::string &name) {
+  std::size_t place = 0;
+  for (const StateField &field : law.fields()) {
+    if (field.name == name)
+      break;
+    place += field.n_components;
+  }
+  return place;
+}
+
 std::vector<double> StateAverage::find(const std::string &name) const {
   auto first = numbers.begin();
   for (const StateField &field : fields) {

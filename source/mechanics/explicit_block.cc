@@ -2,6 +2,7 @@
 #include "billet/mechanics/explicit_block.h"
 
 #include "billet/material/neo_hookean.h"
+#include "billet/material/state_fields.h"
 #include "billet/mechanics/elementwise_block.h"
 #include "billet/mechanics/explicit_instructions.h"
 #include "billet/mechanics/explicit_storage.h"
@@ -30,8 +31,37 @@ double harden(const void *flow, const double q, const double m, const double alp
   return delta;
 }
 
-/// Sets the parameters of a hardening law that kernels support.
-void set_hardening(const LaneHardening &form, Material &material) {
+explicit_kernels::LaneFlow find_flow(const void *flow, const double q, const double m, const double alpha,
+                                     const double dt, double *state) {
+  const auto &law = *static_cast<const FlowStress *>(flow);
+  const double delta = law.solve(q, m, alpha, dt).strain;
+  FlowStress::State before{{}};
+  std::copy_n(state, law.n_state(), before.begin());
+  FlowStress::State after = before;
+  if (delta > 0.)
+    law.advance(alpha, delta, dt, before, after);
+  std::copy_n(after.begin(), law.n_state(), state);
+  return {delta, law.stress(alpha + delta), q - m * delta,
+          law.plastic_work(alpha + delta, after) - law.plastic_work(alpha, before)};
+}
+
+double find_yield_stress(const void *flow, const double alpha, double &slope) {
+  const auto &law = *static_cast<const FlowStress *>(flow);
+  slope = law.slope(alpha);
+  return law.stress(alpha);
+}
+
+/// Returns what a point stores for a flow stress, null for elastic bodies.
+PlasticNumbers plastic_numbers(const FlowStress *flow) {
+  if (flow == nullptr)
+    return {};
+  return {true, flow->lane_form().kind != HardeningKind::linear, flow->n_state()};
+}
+
+/// Sets the parameters of a flow stress, as far as kernels support it.
+void set_hardening(const FlowStress &flow, Material &material) {
+  const LaneHardening form = flow.lane_form();
+  const bool by_lane = form.kind == HardeningKind::other && form.rate.kind == RateKind::none;
   material.hardening_kind = form.kind;
   material.yield_stress = form.yield_stress;
   material.hardening_modulus = form.hardening_modulus;
@@ -40,6 +70,8 @@ void set_hardening(const LaneHardening &form, Material &material) {
   material.strength = form.strength;
   material.prestrain = form.prestrain;
   material.exponent = form.exponent;
+  material.rate_kind = by_lane && flow.n_state() > 0 ? RateKind::other : form.rate.kind;
+  material.rate_exponent = form.rate.exponent;
 }
 
 bool compute_logarithm(const double *b, double *deviator, double &mean) {
@@ -74,7 +106,10 @@ explicit_kernels::BasicMaterial<Number> convert(const Material &material, const 
   result.prestrain = to_number(material.prestrain);
   result.exponent = to_number(material.exponent);
   result.strength = to_number(material.strength / units.stress);
+  result.rate_kind = material.rate_kind;
+  result.rate_exponent = to_number(material.rate_exponent);
   result.hardening = material.hardening;
+  result.n_flow_state = material.n_flow_state;
   result.stress_unit = units.stress;
   result.density = to_number(material.density / units.density);
   result.wave_speed = to_number(material.wave_speed * units.time / units.length);
@@ -132,8 +167,7 @@ public:
         const double density, const ExplicitFormulation &formulation)
       : formulation_(formulation), law_(std::move(law)), lane_law_(lane_law), flow_(law_->flow_stress()),
         storage_(find_kernels<Number>(formulation.instructions).n_lanes, law_->elastic(), lane_law,
-                 lane_element, flow_ != nullptr,
-                 flow_ != nullptr && flow_->lane_form().kind != HardeningKind::linear),
+                 lane_element, plastic_numbers(flow_)),
         kernel_(find_kernel(find_kernels<Number>(formulation.instructions), lane_element, lane_law,
                             flow_ != nullptr)) {
     if (kernel_ == nullptr)
@@ -147,9 +181,13 @@ public:
     material_.linear_viscosity = formulation.linear_viscosity;
     material_.quadratic_viscosity = formulation.quadratic_viscosity;
     if (flow_ != nullptr) {
-      set_hardening(flow_->lane_form(), material_);
+      set_hardening(*flow_, material_);
+      reference_rate_ = flow_->lane_form().rate.reference;
       material_.hardening = flow_;
+      material_.n_flow_state = static_cast<unsigned int>(flow_->n_state());
       functions_.harden = &harden;
+      functions_.flow = &find_flow;
+      functions_.yield_stress = &find_yield_stress;
     }
     functions_.logarithm = &compute_logarithm;
   }
@@ -199,6 +237,8 @@ public:
         std::any_of(nodes.displacements, nodes.displacements + storage_.nodal_size(), is_moved))
       storage_.renew(nodes.displacements, true);
     is_fresh_ = false;
+    kernel_material_.dt = dt;
+    kernel_material_.reference_increment = static_cast<Number>(reference_rate_ * dt);
     [[maybe_unused]] const std::conditional_t<is_single, NoSubnormals, std::monostate> guard{};
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
     const double energy = units_.energy(), rate = max_rate(result);
@@ -228,7 +268,7 @@ public:
       summary.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
       summary.elastic_energy += w * (distortion + 0.5 * mean_tau * volumetric);
       if (flow_ != nullptr)
-        summary.plastic_work += w * flow_->plastic_work_at_rest(point.equivalent_plastic_strain);
+        summary.plastic_work += w * flow_->plastic_work(point.equivalent_plastic_strain, point.flow);
       reference_volume += w;
       current_volume += w * point.volume_ratio;
     }
@@ -287,12 +327,15 @@ public:
 
   StateAverages average_states(const std::size_t element, const double *displacements) const override {
     std::vector<double> state(law_->n_state()), average(state.size(), 0.);
+    const std::size_t flow_state = place_of_field(*law_, flow_state_name);
     double reference_volume = 0.;
     for (const PointState &point : storage_.compute_states(element, displacements)) {
       dealii::SymmetricTensor<2, 3> deviator;
       compute_distortion(point.tensor, deviator);
       law_->initialize(state.data());
       law_->set_stress(point.F, deviator, point.equivalent_plastic_strain, state.data());
+      for (std::size_t k = 0; flow_ != nullptr && k < flow_->n_state() && flow_state < state.size(); ++k)
+        state[flow_state + k] = point.flow[k];
       for (std::size_t k = 0; k < state.size(); ++k)
         average[k] += point.reference_volume * state[k];
       reference_volume += point.reference_volume;
@@ -374,6 +417,7 @@ private:
   LaneLaw lane_law_;
   const FlowStress *flow_; ///< null for elastic bodies
   Material material_;
+  double reference_rate_ = 0.; ///< D of the rate factor; 0 if there is none, or kernels do not have it
   KernelUnits units_;
   explicit_kernels::BasicMaterial<Number> kernel_material_{};
   explicit_kernels::LaneFunctions functions_{};
@@ -389,11 +433,8 @@ void require(const bool holds, const char *reason) {
 
 } // namespace
 
-std::string describe(const ExplicitFormulation &formulation, const PointLaw &law) {
-  std::string words = std::string("explicit, ") + formulation.element.name() + ", " + law.name();
-  if (formulation.number_type == NumberType::float_precision)
-    words += ", float";
-  return words;
+bool has_kernel(const BrickElement &element, const PointLaw &law) {
+  return element.lanes().has_value() && law.lane_law().has_value();
 }
 
 std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const PointLaw> &law,
@@ -404,15 +445,15 @@ std::unique_ptr<ExplicitBlock> make_explicit_block(const std::shared_ptr<const P
   require(formulation.linear_viscosity >= 0. && formulation.quadratic_viscosity >= 0.,
           "bulk viscosity must not be negative");
   const bool in_float = formulation.number_type == NumberType::float_precision;
-  const std::optional<LaneLaw> lane_law = law->lane_law();
-  const std::optional<LaneElement> lane_element = formulation.element.lanes();
-  if (!lane_law || !lane_element) {
+  if (!has_kernel(formulation.element, *law)) {
     require(!in_float, "'Number type = float' is for laws and elements that the kernels have");
     return make_elementwise_block(law, density, formulation);
   }
+  const LaneLaw lane_law = *law->lane_law();
+  const LaneElement lane_element = *formulation.element.lanes();
   if (in_float)
-    return std::make_unique<Block<float>>(law, *lane_law, *lane_element, density, formulation);
-  return std::make_unique<Block<double>>(law, *lane_law, *lane_element, density, formulation);
+    return std::make_unique<Block<float>>(law, lane_law, lane_element, density, formulation);
+  return std::make_unique<Block<double>>(law, lane_law, lane_element, density, formulation);
 }
 
 } // namespace billet

@@ -135,22 +135,31 @@ KernelUnits choose_units(const double length, const double stress, const double 
   return units;
 }
 
+/// Returns the number of constants that kernels keep of an element.
+std::size_t n_constants_of(const LaneElement element, const bool is_rate) {
+  switch (element) {
+  case LaneElement::one_point:
+    return one_point::modes;
+  case LaneElement::assumed_strain:
+    return assumed_strain::modes;
+  case LaneElement::mean_dilatation:
+    break;
+  }
+  return eight_point_modes + (is_rate ? 0 : n_element_points);
+}
+
 template <class Number>
 ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const ElasticModuli &elastic,
                                          const LaneLaw law, const LaneElement element,
-                                         const bool has_plasticity, const bool keeps_yield_stress)
-    : n_lanes_(n_lanes), elastic_(elastic), law_(law), element_(element), has_plasticity_(has_plasticity),
-      keeps_yield_stress_(keeps_yield_stress) {
+                                         const PlasticNumbers &plastic)
+    : n_lanes_(n_lanes), elastic_(elastic), law_(law), element_(element), plastic_(plastic) {
   const bool is_one_point = element == Element::one_point;
   n_tensor_ = is_rate() ? 5 : 6;
-  const std::size_t n_alpha = has_plasticity ? (is_single ? 2 : 1) : 0;
-  layout_.n_point_history = n_tensor_ + n_alpha + (keeps_yield_stress ? 1 : 0);
+  layout_.n_point_history = n_tensor_ + (plastic.has_alpha ? n_parts : 0) +
+                            (plastic.has_yield_stress ? 1 : 0) + plastic.n_state * n_parts;
   first_point_ = last::n + (is_one_point ? 12 : 0);
   layout_.n_history = first_point_ + (is_one_point ? 1 : n_element_points) * layout_.n_point_history;
-  layout_.n_constants = is_one_point ? one_point::modes
-                        : element == Element::assumed_strain
-                            ? assumed_strain::modes
-                            : eight_point_modes + (is_rate() ? 0 : n_element_points);
+  layout_.n_constants = n_constants_of(element, is_rate());
   if (is_single)
     layout_.n_constants += n_mode_numbers;
   history_units_.assign(layout_.n_history, 1.);
@@ -163,8 +172,8 @@ template <class Number> void ExplicitStorage<Number>::set_history_units() {
   for (std::size_t first = first_point_; first < layout_.n_history; first += layout_.n_point_history) {
     for (std::size_t k = 0; k < n_tensor_ && is_rate(); ++k)
       history_units_[first + k] = units_.stress;
-    if (keeps_yield_stress_)
-      history_units_[first + layout_.n_point_history - 1] = units_.stress;
+    if (plastic_.has_yield_stress)
+      history_units_[first + n_tensor_ + n_parts] = units_.stress;
   }
 }
 
@@ -223,12 +232,20 @@ ElementVectors ExplicitStorage<Number>::gather(const std::size_t element, const 
 }
 
 template <class Number>
-void ExplicitStorage<Number>::set_alpha(const std::size_t element, std::size_t &k, const double alpha) {
-  set_history(element, k, alpha);
-  const double rest = alpha - history(element, k);
+void ExplicitStorage<Number>::set_in_parts(const std::size_t element, std::size_t &k, const double value) {
+  set_history(element, k, value);
+  const double rest = value - history(element, k);
   ++k;
   if (is_single)
     set_history(element, k++, rest);
+}
+
+template <class Number>
+double ExplicitStorage<Number>::get_in_parts(const std::size_t element, std::size_t &k) const {
+  double value = 0.;
+  for (std::size_t part = 0; part < n_parts; ++part)
+    value += history(element, k++);
+  return value;
 }
 
 template <class Number>
@@ -244,10 +261,12 @@ void ExplicitStorage<Number>::initialize_point(const std::size_t element, const 
     for (const auto &pair : symmetric_pairs)
       set_history(element, k++, H[pair[0]][pair[1]]);
   }
-  if (has_plasticity_)
-    set_alpha(element, k, 0.);
-  if (keeps_yield_stress_)
-    set_history(element, k, yield_stress);
+  if (plastic_.has_alpha)
+    set_in_parts(element, k, 0.);
+  if (plastic_.has_yield_stress)
+    set_history(element, k++, yield_stress);
+  for (std::size_t n = 0; n < plastic_.n_state; ++n)
+    set_in_parts(element, k, 0.);
 }
 
 template <class Number>
@@ -491,7 +510,7 @@ std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_
                      state.tensor[symmetric_pairs[place][0]][symmetric_pairs[place][1]] =
                          history(element, k++);
                    state.tensor[2][2] = -state.tensor[0][0] - state.tensor[1][1];
-                 } else if (is_single && !has_plasticity_) {
+                 } else if (is_single && !plastic_.has_alpha) {
                    state.tensor = symmetrize(state.F * transpose(state.F));
                  } else {
                    Tensor<2, 3> H;
@@ -500,9 +519,11 @@ std::vector<PointState> ExplicitStorage<Number>::compute_states(const std::size_
                    state.tensor = is_single ? symmetrize(H) + dealii::unit_symmetric_tensor<3>()
                                             : symmetrize(jacobian * H * transpose(jacobian));
                  }
-                 if (has_plasticity_)
-                   state.equivalent_plastic_strain =
-                       history(element, k) + (is_single ? history(element, k + 1) : 0.);
+                 if (plastic_.has_alpha)
+                   state.equivalent_plastic_strain = get_in_parts(element, k);
+                 k += plastic_.has_yield_stress ? 1 : 0;
+                 for (std::size_t n = 0; n < plastic_.n_state; ++n)
+                   state.flow[n] = get_in_parts(element, k);
                  states.push_back(state);
                });
   return states;
@@ -554,11 +575,13 @@ void ExplicitStorage<Number>::set_states(const std::size_t element, const double
           for (const auto &pair : symmetric_pairs)
             set_history(element, k++, H[pair[0]][pair[1]]);
         }
-        if (has_plasticity_)
-          set_alpha(element, k, state.equivalent_plastic_strain);
-        if (keeps_yield_stress_)
-          set_history(element, k, yield_stress[q]);
-        if (has_plasticity_ && element_ == Element::one_point)
+        if (plastic_.has_alpha)
+          set_in_parts(element, k, state.equivalent_plastic_strain);
+        if (plastic_.has_yield_stress)
+          set_history(element, k++, yield_stress[q]);
+        for (std::size_t n = 0; n < plastic_.n_state; ++n)
+          set_in_parts(element, k, state.flow[n]);
+        if (plastic_.has_alpha && element_ == Element::one_point)
           set_hourglass(element, displacements, jacobian, true);
         ++q;
       });
@@ -570,7 +593,7 @@ void ExplicitStorage<Number>::renew(const double *displacements, const bool from
   if (!is_single)
     return;
   const bool is_volume_alone =
-      element_ == Element::mean_dilatation && (is_rate() || (has_plasticity_ && !from_the_start));
+      element_ == Element::mean_dilatation && (is_rate() || (plastic_.has_alpha && !from_the_start));
   for (std::size_t element = 0; element < n_elements_; ++element) {
     if (is_volume_alone) {
       ElementVectors x = gather(element, reference_positions_.data());
@@ -585,7 +608,7 @@ void ExplicitStorage<Number>::renew(const double *displacements, const bool from
                  [&](const std::size_t first, const double, const double volume_ratio,
                      const Tensor<2, 3> &jacobian, const Tensor<2, 3> &inverse_reference) {
                    set_history(element, last::volume, volume_ratio - 1.);
-                   if (has_plasticity_ && !from_the_start)
+                   if (plastic_.has_alpha && !from_the_start)
                      return;
                    if (element_ == Element::one_point)
                      set_hourglass(element, displacements, jacobian, false);

@@ -19,7 +19,7 @@ namespace {
 
 bool is_abaqus(const std::string &bytes) {
   MeshCursor cursor(bytes);
-  return cursor.next_word().substr(0, 1) == "*";
+  return cursor.next_word().substr(0, 1) == "*" && lower_case(cursor.next_word()) != "*keyword"; // LS-DYNA
 }
 
 constexpr auto flat_remedy =
@@ -214,6 +214,7 @@ public:
     reserve_numbers();
     add_surfaces();
     add_shells();
+    add_volumes();
     add_node_sets();
     return mesh_.finish();
   }
@@ -223,6 +224,13 @@ private:
     CellKind kind;
     unsigned int hexahedron; ///< index, of hexahedra only
     std::array<long long, 8> nodes;
+  };
+
+  /// Where in an assembly the deck is, as far as it has been read.
+  struct Assembly {
+    unsigned int n_parts = 0, n_instances = 0;
+    bool is_open = false, is_in_instance = false;
+    std::array<double, 3> translation{};
   };
 
   void read_file(const std::string &bytes) {
@@ -252,7 +260,7 @@ private:
 
   void read_section(const Keyword &keyword, DeckLines &lines) {
     const std::string &name = keyword.name;
-    const bool is_outside = is_in_assembly_ && !is_in_instance_;
+    const bool is_outside = assembly_.is_open && !assembly_.is_in_instance;
     static const std::set<std::string> without_content{"heading",  "preprint", "part",
                                                        "end part", "end step", "end instance"};
     if (name == "include")
@@ -266,20 +274,26 @@ private:
     else if (name == "surface")
       read_surface(keyword, lines);
     else if (name == "part")
-      ++n_parts_;
+      ++assembly_.n_parts;
     else if (name == "assembly" || name == "end assembly")
-      is_in_assembly_ = name == "assembly";
+      assembly_.is_open = name == "assembly";
     else if (name == "instance")
       read_instance(lines);
     else if (name == "end instance")
-      is_in_instance_ = false;
+      assembly_.is_in_instance = false;
     else if (name == "ngen" || name == "nfill" || name == "elgen" || name == "ncopy" || name == "elcopy" ||
-             name == "system" || name == "nmap" || name == "elcopy")
+             name == "system" || name == "nmap")
       lines.refuse("*" + name +
                    " makes or moves nodes or elements, which is not read; write them out (*NODE, "
                    "*ELEMENT)");
     else if (without_content.count(name) == 0 && name != "node" && name != "element")
-      mesh_.leave_unread(name);
+      leave_out(keyword);
+  }
+
+  void leave_out(const Keyword &keyword) {
+    if (keyword.name == "solid section" || keyword.name == "shell section")
+      sections_.insert(lower_case(keyword.get("elset")));
+    mesh_.leave_unread(keyword.name);
   }
 
   void include(const Keyword &keyword, DeckLines &lines) {
@@ -314,8 +328,33 @@ private:
 
   /// Refuses a second part: its numbers begin anew.
   void check_parts(const DeckLines &lines) const {
-    if (n_parts_ > 1 || n_instances_ > 1)
+    if (assembly_.n_parts > 1 || assembly_.n_instances > 1)
       lines.refuse("a second part or instance begins" + std::string(flat_remedy));
+  }
+
+  /// Reads the lines of a keyword: those of the file that its INPUT names, and those below it.
+  template <class ReadLines>
+  void read_lines(const Keyword &keyword, DeckLines &lines, const ReadLines &read_from) {
+    const std::string name = keyword.get("input");
+    if (!name.empty()) {
+      std::string bytes;
+      try {
+        bytes = access_(name);
+      } catch (const std::invalid_argument &error) {
+        lines.refuse("INPUT of *" + keyword.name + " fails: " + std::string(error.what()));
+      }
+      n_bytes_ += bytes.size();
+      DeckLines data(bytes);
+      try {
+        read_from(data);
+        std::string_view rest;
+        if (data.peek(rest))
+          data.refuse("a keyword stands where the data of *" + keyword.name + " should be");
+      } catch (const std::invalid_argument &error) {
+        throw std::invalid_argument("it takes data from '" + name + "', and " + error.what());
+      }
+    }
+    read_from(lines);
   }
 
   void read_nodes(const Keyword &keyword, DeckLines &lines) {
@@ -326,6 +365,10 @@ private:
     const std::string set = keyword.get("nset");
     if (!set.empty())
       node_sets_.open(set);
+    read_lines(keyword, lines, [&](DeckLines &from) { read_node_lines(set, from); });
+  }
+
+  void read_node_lines(const std::string &set, DeckLines &lines) {
     std::string_view line;
     while (lines.data(line)) {
       const auto parts = split(line);
@@ -334,9 +377,10 @@ private:
       const long long number = integer(parts[0], "the number of a node", lines);
       std::array<double, 3> position{};
       for (std::size_t i = 1; i < parts.size() && i <= 3; ++i)
-        position[i - 1] = real(parts[i], "a finite coordinate of a node", lines) + translation_[i - 1];
+        position[i - 1] =
+            real(parts[i], "a finite coordinate of a node", lines) + assembly_.translation[i - 1];
       for (std::size_t i = std::max<std::size_t>(parts.size(), 1); i <= 3; ++i)
-        position[i - 1] = translation_[i - 1];
+        position[i - 1] = assembly_.translation[i - 1];
       mesh_.add_node(number, position);
       ++n_nodes_;
       if (!set.empty())
@@ -355,6 +399,11 @@ private:
           "their faces");
     if (!set.empty())
       element_sets_.open(set);
+    read_lines(keyword, lines, [&](DeckLines &from) { read_element_lines(type, shape, set, from); });
+  }
+
+  void read_element_lines(const std::string &type, const CellShape &shape, const std::string &set,
+                          DeckLines &lines) {
     std::string_view line;
     while (lines.data(line)) {
       std::vector<long long> numbers;
@@ -389,8 +438,8 @@ private:
   }
 
   void read_instance(DeckLines &lines) {
-    is_in_instance_ = true;
-    ++n_instances_;
+    assembly_.is_in_instance = true;
+    ++assembly_.n_instances;
     std::string_view line;
     for (unsigned int i = 0; lines.data(line); ++i) {
       if (i > 0)
@@ -402,9 +451,9 @@ private:
       for (auto &position : mesh_.mesh().positions)
         for (std::size_t c = 0; c < 3; ++c)
           position[c] += translation[c];
-      translation_ = translation;
+      assembly_.translation = translation;
     }
-    if (n_instances_ > 1)
+    if (assembly_.n_instances > 1)
       check_parts(lines);
   }
 
@@ -420,7 +469,7 @@ private:
     if (name.empty())
       lines.refuse("*" + keyword.name + " should have a name, " + keyword.name + "=...");
     // Points of an assembly itself, such as reference points, have numbers of their own.
-    if (is_in_assembly_ && !is_in_instance_ && !keyword.has("instance")) {
+    if (assembly_.is_open && !assembly_.is_in_instance && !keyword.has("instance")) {
       sets.leave_out(name);
       return;
     }
@@ -598,6 +647,16 @@ private:
     }
   }
 
+  /// Sets with hexahedra are volumes.
+  void add_volumes() {
+    for (const std::string &name : element_sets_.names()) {
+      const bool is_part = sections_.count(lower_case(name)) > 0;
+      for (const long long number : elements_of(name))
+        if (elements_.at(number).kind == CellKind::hexahedron)
+          mesh_.add_to_volume(mesh_.volume(name, FaceGroup::no_number, is_part), number);
+    }
+  }
+
   void add_node_sets() {
     for (const auto &[name, elements] : nodes_of_elements_)
       for (const long long number : elements_of(elements)) {
@@ -625,11 +684,11 @@ private:
   std::vector<Surface> surfaces_;
   std::vector<std::pair<std::string, std::string>> nodes_of_elements_; ///< set of nodes, set of elements
   std::map<std::pair<std::string, std::string>, std::size_t> groups_;  ///< by kind, and name in lower case
+  std::set<std::string> sections_; ///< sets of elements with a section, in lower case
   GroupNumbers numbers_;
-  std::array<double, 3> translation_{};
   std::size_t n_bytes_ = 0, n_files_ = 0, n_nodes_ = 0, n_members_ = 0, depth_ = 0;
-  unsigned int n_hexahedra_ = 0, n_parts_ = 0, n_instances_ = 0;
-  bool is_in_assembly_ = false, is_in_instance_ = false;
+  unsigned int n_hexahedra_ = 0;
+  Assembly assembly_;
 };
 
 } // namespace

@@ -12,16 +12,52 @@ namespace billet {
 
 namespace {
 
-constexpr unsigned int hexahedron_faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
 /// Face of a hexahedron: corners in ascending order, the one opposite to the first, and the hexahedron.
 struct SidedFace {
   BoundaryGroups::Face nodes;
   unsigned int opposite, element;
 };
 
+bool has_letter(const std::string &name) {
+  return std::any_of(name.begin(), name.end(), [](const char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) > 127;
+  });
+}
+
+/// Names of a mesh file as a scene writes them. Two names of the file have different ones.
+class WritableNames {
+public:
+  explicit WritableNames(const std::vector<FaceGroup> &groups) {
+    for (const FaceGroup &group : groups)
+      if (writable_name(group.name) == group.name)
+        written_.emplace(group.name, group.name);
+  }
+  std::string operator()(const std::string &name) {
+    std::string written = writable_name(name);
+    while (written_.emplace(written, name).first->second != name)
+      written += '_';
+    return written;
+  }
+
+private:
+  std::map<std::string, std::string> written_; ///< name of the file for each of them
+};
+
+void add_once(std::vector<unsigned int> &ids, const unsigned int id) {
+  if (std::count(ids.begin(), ids.end(), id) == 0)
+    ids.push_back(id);
+}
+
 } // namespace
+
+std::string writable_name(const std::string &name) {
+  std::string written(trimmed(name));
+  for (char &c : written)
+    if (std::string(",;#\\").find(c) != std::string::npos)
+      c = '_';
+  const bool is_clear = has_letter(written) ? lower_case(written) != "all" : id_of_name(written).has_value();
+  return is_clear ? written : "name " + written;
+}
 
 std::optional<unsigned int> id_of_name(const std::string &name) {
   constexpr long long max_id = 999999999; // as in scenes; 0 are faces in no group
@@ -146,28 +182,47 @@ void BoundaryGroups::assign_ids(const std::vector<std::vector<unsigned int>> &gr
   ids_.reserve(faces_.size());
   for (const auto &groups : groups_of_face)
     ids_.push_back(id_of.at(groups));
-  const auto add = [](std::vector<unsigned int> &ids, const unsigned int id) {
-    if (std::count(ids.begin(), ids.end(), id) == 0)
-      ids.push_back(id);
-  };
   std::vector<std::vector<unsigned int>> ids_of_group(mesh.groups.size());
   if (std::count(ids_.begin(), ids_.end(), 0U) > 0)
-    add(names_.ids_of_number[0], 0);
+    add_once(names_.ids_of_number[0], 0);
   for (const auto &[groups, id] : id_of)
     for (const unsigned int g : groups)
-      add(ids_of_group[g], id);
+      add_once(ids_of_group[g], id);
   const std::set<std::size_t> qualified = qualify_names(mesh, ids_of_group);
+  WritableNames written(mesh.groups);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const FaceGroup &group = mesh.groups[g];
     const bool has_long_name = qualified.count(g) > 0;
     if (!group.name.empty()) {
-      auto &named = names_.ids_of_name[has_long_name ? group.kind + " " + group.name : group.name];
+      auto &named = names_.ids_of_name[written(has_long_name ? group.kind + " " + group.name : group.name)];
       for (const unsigned int id : ids_of_group[g])
-        add(named, id);
+        add_once(named, id);
     }
     if (group.number != FaceGroup::no_number && !(has_long_name && id_of_name(group.name)))
       for (const unsigned int id : ids_of_group[g])
-        add(names_.ids_of_number[group.number], id);
+        add_once(names_.ids_of_number[group.number], id);
+  }
+  name_numbers(mesh, ids_of_group);
+}
+
+/// Lets numbers that are names of groups with other numbers stand for these. Where another group has the
+/// number, both need a word in front of it.
+void BoundaryGroups::name_numbers(const MeshFile &mesh,
+                                  const std::vector<std::vector<unsigned int>> &ids_of_group) {
+  std::map<unsigned int, std::vector<unsigned int>> ids_of_name;
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+    if (const std::optional<unsigned int> id = id_of_name(mesh.groups[g].name);
+        id && mesh.groups[g].kind.empty() && mesh.groups[g].number != *id)
+      for (const unsigned int face_id : ids_of_group[g])
+        add_once(ids_of_name[*id], face_id);
+  for (const auto &[number, ids] : ids_of_name) {
+    const auto [numbered, is_new] = names_.ids_of_number.emplace(number, ids);
+    if (is_new || numbered->second == ids)
+      continue;
+    const std::string digits = std::to_string(number);
+    names_.ids_of_name["name " + digits] = ids;
+    names_.ids_of_name["number " + digits] = numbered->second;
+    names_.ambiguous[digits] = {"name " + digits, "number " + digits};
   }
 }
 
@@ -182,10 +237,7 @@ BoundaryGroups::qualify_names(const MeshFile &mesh,
     if (group.kind.empty())
       continue;
     const std::optional<unsigned int> id = id_of_name(group.name);
-    const bool has_letter = std::any_of(group.name.begin(), group.name.end(), [](const char c) {
-      return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) > 127;
-    });
-    if (!id && !has_letter)
+    if (!id && !has_letter(group.name))
       qualified.insert(g); // a scene would read it as a number
     else if (!ids_of_group[g].empty())
       groups_of_name[id ? std::to_string(*id) : lower_case(group.name)].push_back(g);
@@ -195,7 +247,7 @@ BoundaryGroups::qualify_names(const MeshFile &mesh,
                     [&](const std::size_t g) { return ids_of_group[g] != ids_of_group[groups[0]]; }))
       for (const std::size_t g : groups) {
         qualified.insert(g);
-        names_.ambiguous[name].push_back(mesh.groups[g].kind + " " + mesh.groups[g].name);
+        names_.ambiguous[name].push_back(writable_name(mesh.groups[g].kind + " " + mesh.groups[g].name));
       }
   return qualified;
 }

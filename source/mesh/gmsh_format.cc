@@ -73,7 +73,7 @@ public:
 private:
   struct Hexahedron {
     std::array<long long, 8> nodes;
-    long long physical, number;
+    long long physical, entity, number;
   };
 
   void read_section(const std::string &section) {
@@ -170,10 +170,9 @@ private:
       const std::string_view rest = cursor_.line();
       if (rest.size() < 2 || rest.front() != '"' || rest.back() != '"')
         cursor_.refuse("the name of a physical group should stand in quotation marks");
-      if (dimension == 2)
-        names_[magnitude(group)] = std::string(rest.substr(1, rest.size() - 2));
-      else if (dimension == 1)
-        edge_names_[magnitude(group)] = std::string(rest.substr(1, rest.size() - 2));
+      if (dimension > 0 && dimension < 4)
+        names_[static_cast<std::size_t>(dimension)][magnitude(group)] =
+            std::string(rest.substr(1, rest.size() - 2));
     }
   }
 
@@ -181,7 +180,7 @@ private:
     std::array<std::size_t, 4> n{};
     for (std::size_t &n_entities : n)
       n_entities = count("a number of entities", 10, 28);
-    for (unsigned int dimension = 0; dimension < 4; ++dimension)
+    for (std::size_t dimension = 0; dimension < 4; ++dimension)
       for (std::size_t i = 0; i < n[dimension]; ++i) {
         const long long entity = number("the number of an entity");
         const unsigned int n_corners = dimension == 0 && version_ == 41 ? 3 : 6;
@@ -193,22 +192,23 @@ private:
         if (dimension > 0)
           for (std::size_t b = count("a number of bounding entities", 2, 4); b > 0; --b)
             number("the number of an entity");
-        if (dimension == 2)
-          physical_[entity] = groups;
-        else if (dimension == 1)
-          edge_physical_[entity] = groups;
+        physical_[dimension][entity] = groups;
       }
     has_entities_ = true;
+  }
+
+  /// Returns the name of a physical group; empty if it has none.
+  std::string name_of(const std::size_t dimension, const long long group) const {
+    const auto name = names_[dimension].find(group);
+    return name == names_[dimension].end() ? "" : name->second;
   }
 
   /// Returns the groups of a face with these physical groups on this surface of the geometry.
   std::vector<std::size_t> face_groups(const std::vector<long long> &physical, const long long entity) {
     std::vector<std::size_t> groups;
     for (const long long number : physical) {
-      const auto name = names_.find(number);
       mesh_.numbered_group(number); // it has to be a boundary id
-      groups.push_back(
-          mesh_.group(name == names_.end() ? "" : name->second, static_cast<unsigned int>(number)));
+      groups.push_back(mesh_.group(name_of(2, number), static_cast<unsigned int>(number)));
     }
     if (groups.empty()) {
       groups.push_back(mesh_.numbered_group(0));
@@ -221,10 +221,8 @@ private:
   /// Returns the groups of an edge, likewise.
   std::vector<FaceGroup> edge_groups(const std::vector<long long> &physical, const long long entity) const {
     std::vector<FaceGroup> groups;
-    for (const long long number : physical) {
-      const auto name = edge_names_.find(number);
-      groups.push_back({name == edge_names_.end() ? "" : name->second, group_number(number)});
-    }
+    for (const long long number : physical)
+      groups.push_back({name_of(1, number), group_number(number)});
     if (groups.empty()) {
       groups.push_back({"", 0});
       if (entity > 0)
@@ -232,32 +230,46 @@ private:
     }
     return groups;
   }
+  /// Returns the volumes of a hexahedron, likewise: those of the geometry if it has no physical ones.
+  std::vector<std::size_t> volumes(const std::vector<long long> &physical, const long long entity) {
+    std::vector<std::size_t> all;
+    for (const long long number : physical)
+      all.push_back(mesh_.volume(name_of(3, number), group_number(number), true));
+    if (physical.empty() && entity > 0)
+      all.push_back(mesh_.volume("volume " + std::to_string(entity), FaceGroup::no_number, false));
+    return all;
+  }
+
   /// Returns the number as MeshCollector takes it, which refuses those that are too large.
   static unsigned int group_number(const long long number) {
     return static_cast<unsigned int>(std::min(number, 2147483648LL));
   }
 
-  /// Groups of a quadrilateral or of an edge.
+  /// Groups of a quadrilateral or of an edge, and volumes of a hexahedron.
   struct CellGroups {
     std::vector<std::size_t> of_face;
     std::vector<FaceGroup> of_edge;
+    std::vector<std::size_t> of_volume;
+    /// In formats before 4, which repeat an element for each of its physical groups.
+    long long physical = 0, entity = 0;
   };
 
-  /// `physical`: the physical group in formats before 4, which repeat an element for each of its groups.
   void add_element(const long long type, const CellShape &shape, const long long element,
-                   const long long physical, const CellGroups &groups) {
+                   const CellGroups &groups) {
     if (shape.n_nodes == 0)
       refuse_type(type);
     std::array<long long, max_nodes> nodes{};
     for (unsigned int n = 0; n < shape.n_nodes; ++n)
       nodes[n] = tag("a node of an element");
     if (version_ < 4 && shape.kind == CellKind::hexahedron) {
-      hexahedra_.push_back({{}, physical, element});
+      hexahedra_.push_back({{}, groups.physical, groups.entity, element});
       std::copy_n(nodes.begin(), 8, hexahedra_.back().nodes.begin());
     } else
       mesh_.add_cell(shape, element, nodes.data(), groups.of_face);
     for (const FaceGroup &group : groups.of_edge)
       mesh_.add_edge({nodes[0], nodes[1]}, group);
+    for (const std::size_t volume : groups.of_volume)
+      mesh_.add_to_volume(volume, element);
   }
 
   /// Adds each hexahedron of formats before 4 once, whatever the number of its physical groups.
@@ -269,9 +281,13 @@ private:
       return hexahedra_[a].nodes < hexahedra_[b].nodes;
     });
     std::vector<bool> is_repeated(order.size(), false);
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const Hexahedron &before = hexahedra_[order[i - 1]], &now = hexahedra_[order[i]];
-      is_repeated[order[i]] = now.nodes == before.nodes && now.physical != before.physical;
+    long long number = 0; // of the hexahedron that a repeated one is
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Hexahedron &before = hexahedra_[order[i > 0 ? i - 1 : 0]], &now = hexahedra_[order[i]];
+      is_repeated[order[i]] = i > 0 && now.nodes == before.nodes && now.physical != before.physical;
+      number = is_repeated[order[i]] ? number : now.number;
+      for (const std::size_t volume : volumes(physical_groups(now.physical), now.entity))
+        mesh_.add_to_volume(volume, number);
     }
     for (std::size_t i = 0; i < hexahedra_.size(); ++i)
       if (!is_repeated[i])
@@ -311,18 +327,22 @@ private:
       if (cursor_.integer("the number of nodes of an element") != shape.n_nodes && shape.n_nodes > 0)
         cursor_.fail("the number of nodes of an element of type " + std::to_string(type) + ", " +
                      std::to_string(shape.n_nodes) + ",");
-      add_element(type, shape, element, physical, groups_of(shape, physical, entity));
+      add_element(type, shape, element, groups_of(shape, physical, entity));
     }
   }
 
   CellGroups groups_of(const CellShape &shape, const long long physical, const long long entity) {
-    const std::vector<long long> all =
-        physical == 0 ? std::vector<long long>() : std::vector<long long>{physical};
+    const std::vector<long long> all = physical_groups(physical);
+    CellGroups groups{{}, {}, {}, physical, entity};
     if (shape.kind == CellKind::quadrilateral)
-      return {face_groups(all, entity), {}};
+      groups.of_face = face_groups(all, entity);
     if (shape.kind == CellKind::line)
-      return {{}, edge_groups(all, entity)};
-    return {};
+      groups.of_edge = edge_groups(all, entity);
+    return groups;
+  }
+  /// Returns the physical groups of an element in formats before 4: one or none.
+  static std::vector<long long> physical_groups(const long long number) {
+    return number == 0 ? std::vector<long long>() : std::vector<long long>{number};
   }
 
   void read_elements() {
@@ -349,7 +369,7 @@ private:
             tags[static_cast<std::size_t>(t)] = value;
         }
         const long long physical = magnitude(tags[0]);
-        add_element(type, shape, element, physical, groups_of(shape, physical, tags[1]));
+        add_element(type, shape, element, groups_of(shape, physical, tags[1]));
       }
     }
   }
@@ -416,6 +436,12 @@ private:
     check_total(n_read, announced.n, "nodes");
   }
 
+  /// Returns the physical groups of an entity of the geometry.
+  std::vector<long long> physical_of(const std::size_t dimension, const long long entity) const {
+    const auto found = physical_[dimension].find(entity);
+    return found == physical_[dimension].end() ? std::vector<long long>() : found->second;
+  }
+
   void read_element_blocks() {
     const Announced announced = read_announced("the number of elements");
     std::size_t n_read = 0;
@@ -428,23 +454,20 @@ private:
         refuse_type(type);
       const std::size_t n = count("the number of elements of a block", 4, 8);
       CellGroups groups;
-      if (shape.kind == CellKind::line) {
-        const auto found = edge_physical_.find(entity);
-        groups.of_edge =
-            edge_groups(found == edge_physical_.end() ? std::vector<long long>() : found->second, entity);
-      } else if (shape.kind == CellKind::quadrilateral) {
-        const auto found = physical_.find(entity);
-        if (has_entities_ && (found == physical_.end() || dimension != 2))
+      if (shape.kind == CellKind::line)
+        groups.of_edge = edge_groups(physical_of(1, entity), entity);
+      else if (shape.kind == CellKind::quadrilateral) {
+        if (has_entities_ && (physical_[2].count(entity) == 0 || dimension != 2))
           throw std::invalid_argument("block " + std::to_string(block + 1) +
                                       " of its elements is on surface " + std::to_string(entity) +
                                       ", which $Entities does not have");
-        groups.of_face =
-            face_groups(found == physical_.end() ? std::vector<long long>() : found->second, entity);
-      }
+        groups.of_face = face_groups(physical_of(2, entity), entity);
+      } else if (shape.kind == CellKind::hexahedron)
+        groups.of_volume = volumes(physical_of(3, entity), entity);
       for (std::size_t i = 0; i < n; ++i) {
         const long long element = tag("the number of an element");
         check_number(announced, "element", element);
-        add_element(type, shape, element, 0, groups);
+        add_element(type, shape, element, groups);
       }
       n_read += n;
     }
@@ -456,11 +479,11 @@ private:
   std::set<std::string> sections_;
   int version_ = 0; ///< 1, 2, 40 or 41; 0: unknown
   bool is_binary_ = false, has_entities_ = false;
-  std::int32_t last_ = 0;                                     ///< the last number of four bytes
-  std::map<long long, std::string> names_, edge_names_;       ///< of physical surfaces and curves
-  std::map<long long, std::vector<long long>> physical_;      ///< groups of the geometry's surfaces
-  std::map<long long, std::vector<long long>> edge_physical_; ///< groups of its curves
-  std::vector<Hexahedron> hexahedra_;                         ///< of formats before 4
+  std::int32_t last_ = 0;                                 ///< the last number of four bytes
+  std::array<std::map<long long, std::string>, 4> names_; ///< of physical groups, by their dimension
+  /// Physical groups of the geometry's points, curves, surfaces and volumes.
+  std::array<std::map<long long, std::vector<long long>>, 4> physical_;
+  std::vector<Hexahedron> hexahedra_; ///< of formats before 4
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_map>
@@ -34,6 +35,7 @@ public:
       text_ += (text_.empty() ? "" : "; ") + example;
   }
   bool is_empty() const { return n_ == 0; }
+  const std::string &text() const { return text_; }
   /// Returns "7 elements ...: first; second; third".
   std::string describe(const std::string &what) const {
     return (n_ == 1 ? "" : std::to_string(n_) + " " + what + ", such as: ") + text_;
@@ -83,24 +85,26 @@ void drop_unused_nodes(MeshFile &mesh) {
   renumber(mesh, new_index);
 }
 
-/// Returns for each node the first node within a distance of it: itself if there is none.
-std::vector<unsigned int> nearest_first(const MeshFile &mesh, const double distance) {
+/// Returns for each node the first node within a distance of it, which is the smaller one of the radii of
+/// both: itself if there is none.
+std::vector<unsigned int> nearest_first(const MeshFile &mesh, const std::vector<double> &radii) {
   const auto &x = mesh.positions;
   std::vector<unsigned int> first(x.size());
   std::iota(first.begin(), first.end(), 0U);
-  // Sorted along the axis of the largest extent; ties in the order of the nodes.
-  std::array<double, 3> extent{};
-  for (unsigned int c = 0; c < 3; ++c) {
-    const auto [least, most] = std::minmax_element(
-        x.begin(), x.end(), [c](const Position &a, const Position &b) { return a[c] < b[c]; });
-    extent[c] = (*most)[c] - (*least)[c];
-  }
-  using Cell = std::array<std::int64_t, 3>;
-  const double size = std::max(distance, 1e-12 * *std::max_element(extent.begin(), extent.end()));
-  const auto cell_of = [&](const Position &p) {
-    Cell cell{};
+  // Nodes of large radii come first, so that a node meets only nodes whose radii are not smaller.
+  std::vector<unsigned int> order = first;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const unsigned int a, const unsigned int b) { return radii[a] > radii[b]; });
+  // The node is in a cell of the level of its radius: cells are twice as wide as the radii of a level.
+  using Cell = std::array<std::int64_t, 4>;
+  const auto level_of = [&](const unsigned int node) {
+    int level = 0;
+    return std::frexp(radii[node], &level) == 0.5 ? level - 1 : level; // 2^(level - 1) < radius <= 2^level
+  };
+  const auto cell_of = [&](const Position &p, const int level) {
+    Cell cell{0, 0, 0, level};
     for (unsigned int c = 0; c < 3; ++c)
-      cell[c] = static_cast<std::int64_t>(std::floor((p[c] - x.front()[c]) / (2. * size)));
+      cell[c] = static_cast<std::int64_t>(std::floor(std::ldexp(p[c] - x.front()[c], -level - 1)));
     return cell;
   };
   const auto hash = [](const Cell &cell) {
@@ -110,26 +114,36 @@ std::vector<unsigned int> nearest_first(const MeshFile &mesh, const double dista
     return static_cast<std::size_t>(h);
   };
   std::unordered_map<Cell, std::vector<unsigned int>, decltype(hash)> kept(x.size(), hash);
-  for (unsigned int node = 0; node < x.size(); ++node) {
-    // Cells are twice as wide as the distance: at most two along each axis are near.
-    std::array<Cell, 2> range{};
-    for (unsigned int side = 0; side < 2; ++side) {
-      Position corner = x[node];
-      for (double &c : corner)
-        c += side == 0 ? -size : size;
-      range[side] = cell_of(corner);
+  std::vector<int> levels; // so far
+  for (const unsigned int node : order) {
+    if (levels.empty() || levels.back() != level_of(node))
+      levels.push_back(level_of(node));
+    for (const int level : levels) {
+      // At most two cells along each axis are near.
+      std::array<Cell, 2> range{};
+      for (unsigned int side = 0; side < 2; ++side) {
+        Position corner = x[node];
+        for (double &c : corner)
+          c += side == 0 ? -radii[node] : radii[node];
+        range[side] = cell_of(corner, level);
+      }
+      for (Cell cell = range[0]; cell[0] <= range[1][0]; ++cell[0])
+        for (cell[1] = range[0][1]; cell[1] <= range[1][1]; ++cell[1])
+          for (cell[2] = range[0][2]; cell[2] <= range[1][2]; ++cell[2])
+            if (const auto found = kept.find(cell); found != kept.end())
+              for (const unsigned int other : found->second)
+                if (norm(difference(x[other], x[node])) <= radii[node])
+                  first[node] = std::min(first[node], other);
     }
-    for (Cell cell = range[0]; cell[0] <= range[1][0]; ++cell[0])
-      for (cell[1] = range[0][1]; cell[1] <= range[1][1]; ++cell[1])
-        for (cell[2] = range[0][2]; cell[2] <= range[1][2]; ++cell[2])
-          if (const auto found = kept.find(cell); found != kept.end())
-            for (const unsigned int other : found->second)
-              if (norm(difference(x[other], x[node])) <= distance)
-                first[node] = std::min(first[node], other);
     if (first[node] == node)
-      kept[cell_of(x[node])].push_back(node);
+      kept[cell_of(x[node], levels.back())].push_back(node);
   }
   return first;
+}
+
+/// Returns the same with one distance for all nodes.
+std::vector<unsigned int> nearest_first(const MeshFile &mesh, const double distance) {
+  return nearest_first(mesh, std::vector<double>(mesh.positions.size(), distance));
 }
 
 std::string number(const long long value) { return std::to_string(value); }
@@ -240,9 +254,39 @@ void check_inverted(MeshFile &mesh) {
         "four around one face, then the four above them");
 }
 
+/// Finds nodes that are close to each other for the edges there, or within `same_place`. No edge of an
+/// element is as short as that.
+NearNodes find_near_nodes(const MeshFile &mesh, const double same_place) {
+  constexpr double near = 1e-3; // of the shortest edge at a node
+  constexpr unsigned int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                         {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  std::vector<double> radii(mesh.positions.size(), std::numeric_limits<double>::max());
+  for (const FileHexahedron &hexahedron : mesh.hexahedra)
+    for (const auto &edge : edges) {
+      const unsigned int a = hexahedron.nodes[edge[0]], b = hexahedron.nodes[edge[1]];
+      const double length = near * norm(difference(mesh.positions[a], mesh.positions[b]));
+      radii[a] = std::min(radii[a], length);
+      radii[b] = std::min(radii[b], length);
+    }
+  for (double &radius : radii)
+    radius = std::max(radius, same_place);
+  const std::vector<unsigned int> first = nearest_first(mesh, radii);
+  NearNodes found;
+  Examples examples;
+  for (std::size_t node = 0; node < first.size(); ++node)
+    if (first[node] != node) {
+      ++found.n_pairs;
+      found.distance =
+          std::max(found.distance, norm(difference(mesh.positions[first[node]], mesh.positions[node])));
+      examples.add(number(mesh.node_numbers[first[node]]) + " and " + number(mesh.node_numbers[node]));
+    }
+  found.examples = examples.text();
+  return found;
+}
+
 } // namespace
 
-void mend_and_check(MeshFile &mesh, const DoubledNodes doubled, const double distance) {
+NearNodes mend_and_check(MeshFile &mesh, const DoubledNodes doubled, const double distance) {
   drop_unused_nodes(mesh);
   Position least = mesh.positions.front(), most = least;
   for (const Position &position : mesh.positions)
@@ -251,18 +295,23 @@ void mend_and_check(MeshFile &mesh, const DoubledNodes doubled, const double dis
       most[c] = std::max(most[c], position[c]);
     }
   const double same_place = 1e-10 * norm(difference(most, least));
+  NearNodes near_nodes;
   if (doubled == DoubledNodes::merged) {
     check_collapsed(mesh, -1., false);
     renumber(mesh, nearest_first(mesh, std::max(distance, same_place)));
     check_collapsed(mesh, -1., true);
     drop_unused_nodes(mesh);
+    near_nodes = find_near_nodes(mesh, same_place);
   } else {
     check_collapsed(mesh, same_place, false);
     if (doubled == DoubledNodes::refused)
+      near_nodes = find_near_nodes(mesh, same_place);
+    if (near_nodes.n_pairs > 0) // these include those at the same place
       refuse_doubled(mesh, nearest_first(mesh, same_place));
   }
   check_repeated(mesh);
   check_inverted(mesh);
+  return near_nodes;
 }
 
 } // namespace billet

@@ -34,11 +34,37 @@ void MeshCollector::add_edge(const std::array<long long, 2> &nodes, const FaceGr
   edges_.push_back({nodes, group});
 }
 
+namespace {
+
+/// Returns a name without control characters: names appear in messages.
+std::string without_controls(std::string name) {
+  for (char &c : name)
+    c = static_cast<unsigned char>(c) < ' ' || c == '\x7F' ? '?' : c;
+  return name;
+}
+
+} // namespace
+
+std::size_t MeshCollector::volume(const std::string &name, const unsigned int number, const bool is_part) {
+  const std::string printable = without_controls(name);
+  const auto [found, is_new] = volume_index_.emplace(std::pair(printable, number), mesh_.volumes.size());
+  if (is_new)
+    mesh_.volumes.push_back({printable, number, is_part});
+  return found->second;
+}
+
+void MeshCollector::finish_volumes(const std::unordered_map<long long, unsigned int> &hexahedra) {
+  for (const auto &[volume, number] : volume_members_)
+    mesh_.volumes[volume].members.push_back(hexahedra.at(number));
+  for (MeshVolume &volume : mesh_.volumes) {
+    std::sort(volume.members.begin(), volume.members.end());
+    volume.members.erase(std::unique(volume.members.begin(), volume.members.end()), volume.members.end());
+  }
+}
+
 std::size_t MeshCollector::group(const std::string &name, const unsigned int number,
                                  const std::string &kind) {
-  std::string printable = name; // names appear in messages
-  for (char &c : printable)
-    c = static_cast<unsigned char>(c) < ' ' || c == '\x7F' ? '?' : c;
+  const std::string printable = without_controls(name);
   const auto [found, is_new] = group_index_.emplace(std::tuple(printable, number, kind), mesh_.groups.size());
   if (is_new)
     mesh_.groups.push_back({printable, number, kind});
@@ -121,9 +147,9 @@ MeshFile MeshCollector::finish() {
   check_kinds();
   if (hexahedra_.empty())
     finish_plane();
-  std::unordered_map<long long, std::size_t> numbers;
+  std::unordered_map<long long, unsigned int> numbers;
   for (const Hexahedron &hexahedron : hexahedra_) {
-    if (!numbers.emplace(hexahedron.number, 0).second)
+    if (!numbers.emplace(hexahedron.number, static_cast<unsigned int>(mesh_.hexahedra.size())).second)
       throw std::invalid_argument("element " + std::to_string(hexahedron.number) + " of it is given twice");
     mesh_.hexahedra.push_back({hexahedron.number, {}});
     std::transform(hexahedron.nodes.begin(), hexahedron.nodes.end(), mesh_.hexahedra.back().nodes.begin(),
@@ -134,6 +160,7 @@ MeshFile MeshCollector::finish() {
     std::transform(face.nodes.begin(), face.nodes.end(), mesh_.faces.back().nodes.begin(),
                    [&](const long long node) { return node_index(node, "a face at node", face.nodes[0]); });
   }
+  finish_volumes(numbers);
   return std::move(mesh_);
 }
 

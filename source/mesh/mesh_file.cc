@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/mesh/mesh_file.h"
 
+#include "billet/mesh/mesh_cursor.h"
 #include "billet/mesh/plane_mesh.h"
 #include "billet/printable.h"
 
@@ -34,6 +35,14 @@ std::vector<MeshFormat> &mesh_formats() {
 
 namespace {
 
+/// Whether this is a keyword file of LS-DYNA: its first line that is no comment is *KEYWORD.
+bool is_ls_dyna(const std::string &bytes) {
+  MeshCursor cursor(bytes);
+  while (cursor.next_word().substr(0, 1) == "$")
+    cursor.line();
+  return lower_case(cursor.next_word()) == "*keyword";
+}
+
 MeshFile parse(const std::string &bytes, const FileAccess &access) {
   const std::string byte_order_mark = "\xEF\xBB\xBF";
   if (bytes.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
@@ -49,7 +58,8 @@ MeshFile parse(const std::string &bytes, const FileAccess &access) {
   std::string known;
   for (const MeshFormat &format : mesh_formats())
     known += (known.empty() ? "" : ", ") + format.meaning;
-  throw std::invalid_argument("its content is in none of these formats: " + known +
+  throw std::invalid_argument((is_ls_dyna(bytes) ? "it is a keyword file of LS-DYNA, so that " : "") +
+                              std::string("its content is in none of these formats: ") + known +
                               "; Gmsh converts many others: 'gmsh -save -format msh41 -o part.msh part.unv'");
 }
 

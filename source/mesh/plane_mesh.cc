@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -55,6 +57,35 @@ double size_in_plane(const MeshFile &mesh) {
 
 } // namespace
 
+namespace {
+
+/// Makes the groups of quadrilaterals volumes of the layer.
+void find_volumes(MeshFile &mesh) {
+  std::map<std::array<unsigned int, 4>, unsigned int> index;
+  for (unsigned int i = 0; i < mesh.plane.quadrilaterals.size(); ++i) {
+    auto nodes = mesh.plane.quadrilaterals[i].nodes;
+    std::sort(nodes.begin(), nodes.end());
+    index.emplace(nodes, i);
+  }
+  std::map<std::size_t, std::set<unsigned int>> members;
+  for (const GroupedFace &face : mesh.faces) {
+    auto nodes = face.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    if (const auto found = index.find(nodes); found != index.end())
+      members[face.group].insert(found->second);
+  }
+  for (const auto &[group, quadrilaterals] : members) {
+    const FaceGroup &surface = mesh.groups[group];
+    if (surface.number != 0 || !surface.name.empty()) // 0 are those in no group
+      mesh.volumes.push_back({surface.name,
+                              surface.number,
+                              surface.number != FaceGroup::no_number,
+                              {quadrilaterals.begin(), quadrilaterals.end()}});
+  }
+}
+
+} // namespace
+
 void extrude_plane(MeshFile &mesh) {
   check_kinds(mesh);
   const double size = size_in_plane(mesh);
@@ -75,6 +106,7 @@ void extrude_plane(MeshFile &mesh) {
     }
     mesh.hexahedra.push_back(hexahedron);
   }
+  find_volumes(mesh);
   mesh.faces.clear(); // groups of quadrilaterals are the body, not its boundary
   for (const GroupedEdge &edge : mesh.plane.edges)
     mesh.faces.push_back({{edge.nodes[0], edge.nodes[1], edge.nodes[1] + n, edge.nodes[0] + n}, edge.group});

@@ -69,6 +69,8 @@ MeshFile read_ucd(const std::string &bytes, const FileAccess & /*access*/) {
                   shape.kind == CellKind::quadrilateral
                       ? std::vector<std::size_t>{mesh.numbered_group(material)}
                       : std::vector<std::size_t>());
+    if (shape.kind == CellKind::hexahedron && material >= 0 && material < FaceGroup::no_number)
+      mesh.add_to_volume(mesh.volume("", static_cast<unsigned int>(material), true), number);
     if (shape.kind == CellKind::line && material >= 0)
       mesh.add_edge({nodes[0], nodes[1]}, {"", static_cast<unsigned int>(std::min(material, 2147483648LL))});
   }

@@ -338,6 +338,10 @@ private:
       mesh_.add_cell(shape, static_cast<long long>(i), nodes.data(),
                      is_grouped ? std::vector<std::size_t>{mesh_.numbered_group(groups_[i])}
                                 : std::vector<std::size_t>());
+      if (shape.kind == CellKind::hexahedron && !groups_.empty() && groups_[i] >= 0 &&
+          groups_[i] < FaceGroup::no_number)
+        mesh_.add_to_volume(mesh_.volume("", static_cast<unsigned int>(groups_[i]), true),
+                            static_cast<long long>(i));
       if (shape.kind == CellKind::line && !groups_.empty() && groups_[i] >= 0)
         mesh_.add_edge({nodes[0], nodes[1]},
                        {"", static_cast<unsigned int>(std::min(groups_[i], 2147483648LL))});

@@ -86,12 +86,21 @@ void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const
   values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
 }
 
+double denominator_of(const ProbedEnergies &of, const EnergyLedger &energies) {
+  switch (of.denominator) {
+  case ProbedEnergies::Denominator::internal:
+    return energies.of_elements();
+  case ProbedEnergies::Denominator::external:
+    return energies.external;
+  case ProbedEnergies::Denominator::total:
+    break;
+  }
+  return energies.total();
+}
+
 double energy_ratio(const ProbedEnergies &of, const EnergyLedger &energies) {
   using Numerator = ProbedEnergies::Numerator;
-  using Denominator = ProbedEnergies::Denominator;
-  const double below = of.denominator == Denominator::internal   ? energies.of_elements()
-                       : of.denominator == Denominator::external ? energies.external
-                                                                 : energies.total();
+  const double below = denominator_of(of, energies);
   if (!(below > 0.))
     return 0.;
   switch (of.numerator) {

@@ -87,6 +87,12 @@ void Mesh::declare(ParameterHandler &prm) {
                     "CalculiX's .inp, UCD. "
                     "The content tells the format. Groups of faces give boundary ids and names.");
   prm.declare_entry(
+      "Volumes", "", Patterns::Anything(),
+      "Mesh files: names or numbers of the volumes that are this body, separated by commas: physical volumes "
+      "of Gmsh, sets of elements of a deck, numbers of materials in other formats; of a 'Section', "
+      "physical surfaces. Faces beside other volumes are boundary faces of this body, with the names "
+      "'interface' and 'interface NAME', where NAME is the other volume. Empty: the whole file is one body.");
+  prm.declare_entry(
       "Merge nodes within", "", Patterns::Anything(),
       "Mesh files: nodes within this distance of each other become one, in the file's unit of length, before "
       "'Scale'. Empty: nodes at the same place are refused. 0: they stay apart, for parts that only touch. "
@@ -182,6 +188,7 @@ void Mesh::parse(Reader &reader) {
   height = reader.positive("Height");
   n_layers = reader.count("Layers", 1);
   file_name = reader.located("File", reader.text("File"));
+  volumes = reader.located("Volumes", reader.parts("Volumes", ','));
   positions = reader.located("Positions", reader.parts("Positions"));
   const bool is_turned = section.value == Section::axisymmetric;
   if (is_turned && !positions.value.empty() && positions.value.size() != 2)
@@ -202,6 +209,8 @@ void Mesh::parse(Reader &reader) {
         throw std::invalid_argument("no condition");
       const std::string name = dealii::Utilities::trim(part.substr(0, colon));
       const bool is_name = is_boundary_name(name);
+      if (name == "all") // in pairs these are all faces
+        throw std::invalid_argument("reserved");
       boundary_ids.value.emplace_back(is_name ? 0 : parse_count(name),
                                       dealii::Utilities::trim(part.substr(colon + 1)));
       boundary_names.push_back(is_name ? name : "");
@@ -209,7 +218,7 @@ void Mesh::parse(Reader &reader) {
       reader.reject(
           "Boundary ids",
           "'id : condition', separated by semicolons, the id a whole number up to 999999999 or a name "
-          "with a letter and without a comma");
+          "with a letter and without a comma, but 'all'");
     }
   }
   const bool is_extruded = source == Source::extruded || section.value != Section::solid;
@@ -224,7 +233,7 @@ void Mesh::parse(Reader &reader) {
       reader.reject("File", "the name of a mesh file, since 'Source = file'");
     file_name.value = reader.file("File");
   } else {
-    for (const std::string key : {"File", "Merge nodes within"})
+    for (const std::string key : {"File", "Volumes", "Merge nodes within"})
       if (reader.is_set(key))
         reader.reject(key, "no value: the mesh does not come from a file");
     arguments = read_arguments(reader, is_extruded ? 2 : 3);
@@ -257,18 +266,23 @@ void Material::declare(ParameterHandler &prm) {
                     "of the scene is that of the process.");
 }
 
-bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set) {
-  return find_value(laws, law)
-      .value_or(std::nullopt)
+namespace {
+
+/// Whether the material has plasticity: as 'Law' says, or else if a parameter of plasticity is set.
+bool wants_plasticity(const Reader &reader) {
+  const auto is_set = [&](const std::string &key) { return reader.is_set(key); };
+  return chosen(laws, reader.text("Law"))
       .value_or(is_set("Hardening") || is_set("Rate factor") ||
                 join_parameters(hardening_types()).is_any_set(is_set) ||
                 join_parameters(rate_factor_types()).is_any_set(is_set));
 }
 
+} // namespace
+
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
-  if (!has_plasticity(reader.text("Law"), [&](const std::string &key) { return reader.is_set(key); })) {
+  if (!wants_plasticity(reader)) {
     // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
     for (const std::string key : {"Hardening", "Rate factor"})
       if (reader.is_set(key))
@@ -294,6 +308,8 @@ void Support::declare(ParameterHandler &prm) {
       "Boundary ids", "", Patterns::Anything(),
       "Boundary ids or names of the faces whose nodes have prescribed displacements, separated by "
       "commas. Names are those of the mesh file's groups and of 'Boundary ids' in Mesh.");
+  prm.declare_entry("Nodes", "", Patterns::Anything(),
+                    std::string(node_selection_meaning) + " It takes the place of 'Boundary ids'.");
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
                     "Components of the displacement that are prescribed: x, y and z are the first, second "
                     "and third of 'Axes'.");
@@ -361,8 +377,11 @@ template <class Timed> void parse_times(const Reader &reader, const std::string 
 
 void Support::parse(Reader &reader) {
   boundary_ids = reader.boundaries("Boundary ids");
-  if (boundary_ids.is_empty())
-    reader.reject("Boundary ids", "at least one boundary id");
+  nodes = read_nodes(reader, "Nodes");
+  if (boundary_ids.is_empty() && nodes.is_empty())
+    reader.reject("Boundary ids", "at least one boundary id, or 'Nodes'");
+  if (!boundary_ids.is_empty() && !nodes.is_empty())
+    reader.reject("Nodes", "no value: 'Boundary ids' says which nodes the support holds");
   for (const auto &component : reader.parts("Components", ',')) {
     if (component.size() != 1 || component[0] < 'x' || component[0] > 'z')
       reader.reject("Components", "a list of x, y and z");
@@ -397,6 +416,7 @@ void Load::parse(Reader &reader) {
   join_parameters(load_types())
       .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it");
   boundary_ids = reader.boundaries("Boundary ids");
+  nodes = read_nodes(reader, "Nodes");
   load = chosen->make(reader);
   if (load.acts_on_faces() && boundary_ids.is_empty())
     reader.reject("Boundary ids", "at least one boundary id");

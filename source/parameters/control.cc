@@ -75,14 +75,21 @@ const NamedValues<TimeStepping::Scheme> &schemes() {
 const std::string &name_of(const TimeStepping::Scheme scheme) { return name_in(schemes(), scheme); }
 
 const NamedValues<std::optional<LinearMethod>> &linear_methods() {
-  static const NamedValues<std::optional<LinearMethod>> methods = {
-      {"automatic", std::nullopt},
-      {name_of(DirectMethod::mumps_symmetric), DirectMethod::mumps_symmetric},
-      {name_of(DirectMethod::mumps), DirectMethod::mumps},
-      {name_of(DirectMethod::klu), DirectMethod::klu},
-      {name_of(IterativeMethod::conjugate_gradients), IterativeMethod::conjugate_gradients},
-      {name_of(IterativeMethod::gmres), IterativeMethod::gmres}};
+  static const NamedValues<std::optional<LinearMethod>> methods = [] {
+    NamedValues<std::optional<LinearMethod>> named = {{"automatic", std::nullopt}};
+    for (const LinearMethod &method : all_linear_methods())
+      named.emplace_back(name_of(method), method);
+    return named;
+  }();
   return methods;
+}
+
+std::string methods_for_unsymmetric() {
+  std::string names;
+  for (const auto &[name, method] : linear_methods())
+    if (!method || !requires_symmetry(*method))
+      names += (names.empty() ? "" : ", ") + name;
+  return names;
 }
 
 void Amplitude::declare(ParameterHandler &prm) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/profile.h"
-#include "billet/parameters/body.h"
 
 #include "billet/errors.h"
 #include "billet/friction/friction_law.h"
 #include "billet/material/elasticity.h"
+#include "billet/mechanics/explicit_block.h"
 #include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
 #include "billet/parameters/reader.h"
+#include "billet/parameters/registered.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -83,12 +84,13 @@ constexpr std::array<Row, 34> rows = {{
     {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.09 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "0.4", "0.9"},
-    {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},
     // Elements and laws. A target error changes neither elements nor the mesh. The law with the final
     // instantaneous rotation differs from the multiplicative law by less than a thousandth for small elastic
     // strains.
     {explicit_dynamics, "Bodies", "Element", "one point", "", ""},
     {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "hypoelastic"},
+    // After elements and laws, which must have kernels in float.
+    {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},
 }};
 
 constexpr const char *profile_key = "Profile", *target_key = "Target error",
@@ -105,22 +107,65 @@ double number_in(const std::string &text, const double otherwise) {
   }
 }
 
-/// Whether the law of the material in this subsection has plasticity.
-bool is_plastic(const SceneFile &file, const Path &path) {
-  return has_plasticity(file.value(path, "Law", "automatic"),
-                        [&](const std::string &key) { return file.is_set(path, key); });
-}
+/// Bodies as the scene and the presets so far make them, for presets that depend on their laws.
+class BodyDrafts {
+public:
+  BodyDrafts(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
 
-/// Whether stresses depend on the path. Friction does, too, but slip soon loses the influence of earlier
-/// steps, so that it needs no shorter ones.
-bool depends_on_path(const SceneFile &file) {
-  const std::vector<std::string> bodies = file.names_below({"Bodies"});
-  return std::any_of(bodies.begin(), bodies.end(), [&file](const std::string &name) {
-    const Path path = {"Bodies", name, "Material"};
-    const ElasticityType *type = elasticity_types().find(file.value(path, "Elasticity", ""));
-    return is_plastic(file, path) || (type != nullptr && type->depends_on_path);
-  });
-}
+  /// Returns the material of a body. Its law is null if values are refused, which reading the scene reports.
+  Material material(const std::string &body) const {
+    Material material;
+    read(body, [&](Reader &reader) { reader.in("Material", [&] { material.parse(reader); }); });
+    return material;
+  }
+  bool is_plastic(const std::string &body) const {
+    const auto law = material(body).law;
+    return law != nullptr && law->has_plasticity();
+  }
+  /// Whether the elastic strain at the initial yield stress is at most 1 %.
+  bool has_small_elastic_strains(const std::string &body) const {
+    constexpr double small = 0.01;
+    const Material draft = material(body);
+    return draft.law != nullptr && draft.law->has_plasticity() &&
+           draft.law->flow_stress()->stress(0.) <= small * draft.elasticity->young_modulus();
+  }
+  /// Whether the explicit kernels have the elements and laws of all bodies.
+  bool have_kernels() const {
+    const std::vector<std::string> bodies = file_.names_below({"Bodies"});
+    return std::all_of(bodies.begin(), bodies.end(), [this](const std::string &body) {
+      const auto law = material(body).law;
+      return law != nullptr && has_kernel(element(body), *law);
+    });
+  }
+  /// Whether stresses depend on the path. Friction does, too, but slip soon loses the influence of earlier
+  /// steps, so that it needs no shorter ones.
+  bool depend_on_path() const {
+    const std::vector<std::string> bodies = file_.names_below({"Bodies"});
+    return std::any_of(bodies.begin(), bodies.end(), [this](const std::string &body) {
+      const ElasticityType *type =
+          elasticity_types().find(file_.value({"Bodies", body, "Material"}, "Elasticity", ""));
+      return is_plastic(body) || (type != nullptr && type->depends_on_path);
+    });
+  }
+
+private:
+  BrickElement element(const std::string &body) const {
+    BrickElement element = BrickElement::assumed_strain;
+    read(body, [&](Reader &reader) { element = make_selected(reader, "Element", element_types()); });
+    return element;
+  }
+  /// Calls `read` in the subsection of a body, up to the first value that is refused.
+  template <class Read> void read(const std::string &body, const Read &read) const {
+    Reader reader(prm_, file_);
+    try {
+      reader.in("Bodies", [&] { reader.in(body, [&] { read(reader); }); });
+    } catch (const InputError &) { // reading the scene refuses it again
+    }
+  }
+
+  dealii::ParameterHandler &prm_;
+  const SceneFile &file_;
+};
 
 bool has_friction(const SceneFile &file) {
   const std::vector<std::string> pairs = file.names_below({"Contact pairs"});
@@ -142,17 +187,22 @@ bool folds_onto_itself(const SceneFile &file) {
   });
 }
 
-unsigned int scheme_of(const SceneFile &file) {
-  using Scheme = TimeStepping::Scheme;
-  switch (chosen(schemes(), file.value({"Time stepping"}, "Scheme", name_of(Scheme::quasi_static)))) {
-  case Scheme::explicit_dynamics:
+TimeStepping::Scheme scheme_of(const SceneFile &file) {
+  return chosen(schemes(),
+                file.value({"Time stepping"}, "Scheme", name_of(TimeStepping::Scheme::quasi_static)));
+}
+
+/// Returns the scheme in the sense of rows.
+unsigned int kind_of_scheme(const SceneFile &file, const BodyDrafts &bodies) {
+  switch (scheme_of(file)) {
+  case TimeStepping::Scheme::explicit_dynamics:
     return explicit_dynamics;
-  case Scheme::implicit_dynamics:
+  case TimeStepping::Scheme::implicit_dynamics:
     return implicit_dynamics;
-  case Scheme::quasi_static:
+  case TimeStepping::Scheme::quasi_static:
     break;
   }
-  return depends_on_path(file)     ? statics_with_path
+  return bodies.depend_on_path()   ? statics_with_path
          : folds_onto_itself(file) ? statics_with_folds
          : has_friction(file)      ? statics_with_slip
                                    : statics_without_path;
@@ -177,16 +227,9 @@ constexpr double min_target_of_float = 1e-5;
 // Minimum target for which the hypoelastic law may replace Hencky's: doc/results/profiles.md.
 constexpr double min_target_of_rates = 1e-3;
 
-/// Whether the elastic strain at the yield stress is at most 1 %.
-bool has_small_elastic_strains(const Path &material, const SceneFile &file) {
-  constexpr double small = 0.01;
-  const double yield =
-      number_in(file.value(material, "Yield stress", ""), std::numeric_limits<double>::infinity());
-  return yield <= small * number_in(file.value(material, "Young modulus", ""), 0.);
-}
-
 /// Whether the row is useful with the other settings of the scene.
-bool fits(const Row &row, const Path &path, const SceneFile &file, const double target) {
+bool fits(const Row &row, const Path &path, const SceneFile &file, const BodyDrafts &bodies,
+          const double target) {
   const std::string key = row.key;
   if (path == Path{"Time stepping"} && key != "Initial step")
     return file.value(path, "Step control", "automatic") == "automatic";
@@ -197,8 +240,10 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const double 
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
   if (key == "Elasticity") // hypoelastic laws do not conserve elastic energy
-    return is_plastic(file, path) &&
-           (target == 0. || (target >= min_target_of_rates && has_small_elastic_strains(path, file)));
+    return bodies.is_plastic(path[1]) &&
+           (target == 0. || (target >= min_target_of_rates && bodies.has_small_elastic_strains(path[1])));
+  if (key == "Number type")
+    return bodies.have_kernels();
   return true;
 }
 
@@ -279,17 +324,17 @@ void check_contradictions(const SceneFile &file, const double target) {
 /// Refuses settings that the error estimates do not cover: 'Penetration tolerance' in some pairs only, and,
 /// in explicit scenes, settings that change the physics.
 void check_what_is_estimated(const SceneFile &file, const double target) {
+  const bool is_explicit = scheme_of(file) == TimeStepping::Scheme::explicit_dynamics;
   const std::vector<Path> pairs = paths_of("Contact pairs", file);
   const std::string tolerance = "Penetration tolerance";
   const auto is_set = [&](const Path &pair) { return file.is_set(pair, tolerance); };
   const auto one = std::find_if(pairs.begin(), pairs.end(), is_set);
-  if (scheme_of(file) != explicit_dynamics && one != pairs.end() &&
-      !std::all_of(pairs.begin(), pairs.end(), is_set))
+  if (!is_explicit && one != pairs.end() && !std::all_of(pairs.begin(), pairs.end(), is_set))
     refuse(file, *one, tolerance,
            std::string("a number in every contact pair or in none, since there is a '") + target_key +
                "', which chooses those of all pairs or of none");
   const Path dynamics = {"Explicit dynamics"};
-  if (scheme_of(file) != explicit_dynamics)
+  if (!is_explicit)
     return;
   if (number_in(file.value(dynamics, "Mass scaling step", "0"), 0.) > 0.)
     refuse(file, dynamics, "Mass scaling step",
@@ -383,7 +428,8 @@ std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile
     check_what_is_estimated(file, target);
   }
   const std::string profile = file.value({}, profile_key, "balanced");
-  const unsigned int scheme = scheme_of(file);
+  const BodyDrafts bodies(prm, file);
+  const unsigned int scheme = kind_of_scheme(file, bodies);
   const Evaluation evaluate(file, target);
   std::vector<Preset> presets;
   for (const auto &row : rows) {
@@ -395,7 +441,7 @@ std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile
       continue;
     const std::vector<Path> paths = paths_of(row.section, file);
     for (const auto &path : paths) {
-      if (file.is_set(path, row.key) || !fits(row, path, file, target))
+      if (file.is_set(path, row.key) || !fits(row, path, file, bodies, target))
         continue;
       presets.push_back({path, row.key, between(row.key, evaluate(text), file)});
       for (const auto &name : path)

@@ -25,6 +25,10 @@ bool is_beyond_reach(const double value) {
   return std::abs(value) > max_number || (value != 0. && std::abs(value) < min_number);
 }
 
+InputError refuse(const std::string &origin, const std::string &value, const std::string &allowed) {
+  return InputError(origin + " is '" + value + "'; allowed is " + allowed);
+}
+
 } // namespace
 
 void Reader::enter(const std::string &name) {
@@ -37,12 +41,12 @@ void Reader::leave() {
   path_.pop_back();
 }
 
-/// Notes errors that are not noted yet: subsections that take the same value repeat its error.
-void Reader::note(const DiagnosticList &errors) {
-  for (const Diagnostic &error : errors)
-    if (std::none_of(errors_.begin(), errors_.end(),
-                     [&](const Diagnostic &noted) { return noted.text() == error.text(); }))
-      errors_.push_back(error);
+double Reader::replace(const std::string &key, const std::string &allowed, const double value) const {
+  const InputError error = refuse(origin(key), prm_.get(key), allowed);
+  if (!collects_)
+    throw error;
+  errors_.add(error.diagnostics());
+  return value;
 }
 
 std::string Reader::origin(const std::string &key) const {
@@ -53,46 +57,49 @@ std::string Reader::origin(const std::string &key) const {
 std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }
 
 void Reader::reject(const std::string &key, const std::string &allowed) const {
-  throw InputError(origin(key) + " is '" + prm_.get(key) + "'; allowed is " + allowed);
+  // A number that stands for a wrong one in this subsection may be the reason: then that error stays alone.
+  const Diagnostic *const known = path_.empty() ? nullptr : errors_.find(" in '" + join(path_) + "' is '");
+  if (known != nullptr)
+    throw InputError(*known);
+  throw refuse(origin(key), prm_.get(key), allowed);
 }
 
 std::string Reader::text(const std::string &key) const { return prm_.get(key); }
 
 bool Reader::flag(const std::string &key) const { return prm_.get_bool(key); }
 
-double Reader::number(const std::string &key) const {
-  double value = 0.;
+double Reader::number_within(const std::string &key, const std::string &allowed, const double stand_in,
+                             const std::function<bool(double)> &is_allowed) const {
+  double value = std::numeric_limits<double>::quiet_NaN();
   try {
     value = prm_.get_double(key);
-  } catch (const std::exception &) {
-    reject(key, "a finite number");
+  } catch (const std::exception &) { // as for numbers that are not finite
   }
   if (!std::isfinite(value))
-    reject(key, "a finite number");
+    return replace(key, "a finite number", stand_in);
   if (is_beyond_reach(value))
-    reject(key, within_reach);
-  return value;
+    return replace(key, within_reach, stand_in);
+  return is_allowed(value) ? value : replace(key, allowed, stand_in);
+}
+
+double Reader::number(const std::string &key) const {
+  return number_within(key, "", 0., [](const double) { return true; });
 }
 
 double Reader::positive(const std::string &key) const {
-  const double value = number(key);
-  if (!(value > 0.))
-    reject(key, "a number > 0");
-  return value;
+  return number_within(key, "a number > 0", 1., [](const double value) { return value > 0.; });
 }
 
 double Reader::not_negative(const std::string &key) const {
-  const double value = number(key);
-  if (!(value >= 0.))
-    reject(key, "a number >= 0");
-  return value;
+  return number_within(key, "a number >= 0", 0., [](const double value) { return value >= 0.; });
 }
 
 unsigned int Reader::count(const std::string &key, const unsigned int minimum,
                            const unsigned int maximum) const {
   const long value = prm_.get_integer(key);
   if (value < static_cast<long>(minimum) || value > static_cast<long>(maximum))
-    reject(key, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum));
+    return static_cast<unsigned int>(replace(
+        key, "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum), minimum));
   return static_cast<unsigned int>(value);
 }
 

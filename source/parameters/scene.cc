@@ -4,8 +4,10 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
+#include "billet/mechanics/explicit_block.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/declaration.h"
+#include "billet/parameters/expression_check.h"
 #include "billet/parameters/general_contact.h"
 #include "billet/parameters/scene_update.h"
 
@@ -19,6 +21,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <utility>
 
 namespace billet::parameters {
 
@@ -128,6 +131,83 @@ void check_amplitude_name(const std::string &name, const std::string &file_name)
     throw InputError(file_name + ": amplitude '" + name +
                      "' has a name that expressions cannot use; allowed are letters, digits and '_', first a "
                      "letter, but not x, y, z, t, pi");
+}
+
+/// Checks all expressions that could be read, and notes the errors.
+class ExpressionChecks {
+public:
+  ExpressionChecks(Reader &reader, const std::vector<Amplitude> &amplitudes)
+      : reader_(reader), amplitudes_(amplitudes) {}
+
+  void check(const Body &body) {
+    using Variables = ExpressionVariables;
+    if (!body.material.temperature.value.empty())
+      check(body.material.temperature.value, Variables::time, amplitudes_, body.material.temperature.origin);
+    check_all(body.initial_velocity, amplitudes_);
+    check_all(body.thickness_direction, {});
+    check_all(body.mesh.positions, {});
+    for (const auto &[id, condition] : body.mesh.boundary_ids.value)
+      check(condition, Variables::time_and_position, {}, body.mesh.boundary_ids.origin);
+    for (const Support &support : body.supports)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (support.components[i] && !support.displacement.origin.empty())
+          check(support.displacement.value[i], Variables::time_and_position, amplitudes_,
+                support.displacement.origin);
+    for (const Load &load : body.loads)
+      for (std::size_t i = 0; i < load.origins.size(); ++i) // none of loads with other errors
+        check(load.load.expressions[i].text,
+              load.load.expressions[i].uses_position ? Variables::time_and_position : Variables::time,
+              amplitudes_, load.origins[i]);
+  }
+  void check(const Tool &tool) {
+    using Variables = ExpressionVariables;
+    if (!tool.motion.translation.origin.empty())
+      for (const std::string &text : tool.motion.translation.value)
+        check(text, Variables::time, amplitudes_, tool.motion.translation.origin);
+    for (const auto *expression : {&tool.motion.rotation_angle, &tool.motion.load})
+      if (!expression->origin.empty())
+        check(expression->value, Variables::time, amplitudes_, expression->origin);
+  }
+
+private:
+  template <class Texts>
+  void check_all(const Located<Texts> &texts, const std::vector<Amplitude> &amplitudes) {
+    if (!texts.origin.empty())
+      for (const std::string &text : texts.value)
+        check(text, ExpressionVariables::time_and_position, amplitudes, texts.origin);
+  }
+  void check(const std::string &text, const ExpressionVariables variables,
+             const std::vector<Amplitude> &amplitudes, const std::string &origin) {
+    reader_.note_errors([&] { check_expression(text, variables, amplitudes, origin); });
+  }
+
+  Reader &reader_;
+  const std::vector<Amplitude> &amplitudes_;
+};
+
+/// Notes names of bodies and tools that the scene does not have.
+void check_names(const Scene &scene, Reader &reader) {
+  const auto check_name = [&reader](const auto &list, const Located<std::string> &name) {
+    if (!name.origin.empty() && !name.value.empty()) // otherwise what has it has other errors, or none
+      reader.note_errors([&] { index_of(list, name); });
+  };
+  for (const ContactPair &pair : scene.pairs) {
+    if (!pair.body.origin.empty())
+      reader.note_errors([&] { scene.body_index(pair); });
+    check_name(scene.bodies, pair.second_body);
+    check_name(scene.tools, pair.tool);
+  }
+  for (const Probe &probe : scene.probes)
+    check_name(scene.bodies, probe.body);
+}
+
+/// Notes expressions that make no sense.
+void check_expressions(const Scene &scene, Reader &reader) {
+  ExpressionChecks expressions(reader, scene.amplitudes);
+  for (const Body &body : scene.bodies)
+    expressions.check(body);
+  for (const Tool &tool : scene.tools)
+    expressions.check(tool);
 }
 
 /// One side of a contact pair: faces of a body.
@@ -263,6 +343,14 @@ private:
     if (scene_.is_explicit() && body.points_through.value > 2)
       throw InputError(body.points_through.origin + " is '" + std::to_string(body.points_through.value) +
                        "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
+    const bool in_float = scene_.explicit_dynamics.number_type == NumberType::float_precision;
+    if (scene_.is_explicit() && in_float && !has_kernel(body.element.value, *body.material.law))
+      throw InputError(
+          file_.where({"Explicit dynamics"}, "Number type") +
+          ": 'Number type' in 'Explicit dynamics' is 'float'; allowed is double, since no kernel "
+          "computes body '" +
+          body.name + "' in float: " + body.element.value.name() + ", " + body.material.law->name() + ", " +
+          body.material.law->description());
     if (scene_.is_explicit())
       return;
     if (!scene_.is_dynamic())
@@ -413,27 +501,29 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
   reader.in("Solver", [&] { scene.solver.parse(reader); });
   reader.in("Output", [&] { scene.output.parse(reader); });
   reader.in("Restart", [&] { scene.restart.parse(reader); });
+  bool has_amplitudes = true; // names that expressions can use
+  for (const auto &amplitude : scene.amplitudes)
+    reader.note_errors([&] {
+      const bool had_all = std::exchange(has_amplitudes, false);
+      check_amplitude_name(amplitude.name, file.where({"Amplitudes", amplitude.name}));
+      has_amplitudes = had_all;
+    });
+  check_names(scene, reader);
+  if (has_amplitudes)
+    check_expressions(scene, reader);
   reader.require_sound();
   if (scene.output.folder.value.empty())
     scene.output.folder.value = default_folder(file_name);
   if (!restart_file.empty())
     scene.restart.file = {restart_file, "command line: --restart"};
 
-  for (const auto &amplitude : scene.amplitudes)
-    check_amplitude_name(amplitude.name, file.where({"Amplitudes", amplitude.name}));
   if (scene.bodies.empty())
     throw InputError(file_name + ": the scene has no body; allowed is at least one subsection in 'Bodies'");
-  for (const auto &pair : scene.pairs) {
-    scene.body_index(pair);
-    if (pair.is_between_bodies())
-      scene.second_body_index(pair);
-    else
-      scene.tool_index(pair);
-  }
-  check_repeated_pairs(scene.pairs, false);
+  reader.note_errors([&] { check_repeated_pairs(scene.pairs, false); });
   for (const auto &probe : scene.probes)
-    check_probe(scene, probe);
-  SchemeCheck(scene, file, scene.warnings).check();
+    reader.note_errors([&] { check_probe(scene, probe); });
+  reader.note_errors([&] { SchemeCheck(scene, file, scene.warnings).check(); });
+  reader.require_sound();
   if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
     set_explicit_intervals(scene, file.is_set({"Output"}, "Interval"));
   for (const auto &tool : scene.tools)

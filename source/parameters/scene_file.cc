@@ -387,12 +387,6 @@ std::string SceneFile::where(const Path &path) const {
   return file_name_;
 }
 
-std::string SceneFile::last_opened(const Path &path) const {
-  const auto last = std::find_if(subsections_.rbegin(), subsections_.rend(),
-                                 [&](const Subsection &subsection) { return subsection.path == path; });
-  return last->where;
-}
-
 std::vector<SceneFile::Path> SceneFile::paths() const {
   std::vector<Path> paths;
   for (const auto &subsection : subsections_)

@@ -140,6 +140,9 @@ void Tool::parse(Reader &reader) {
   origin = reader.origin();
   SurfacePatches patches;
   reader.in("Surfaces", [&] {
+    if (reader.names().empty())
+      throw InputError(origin +
+                       ": the tool has no surface; allowed is at least one subsection in 'Surfaces'");
     for (const auto &part : reader.names())
       reader.in(part, [&] {
         const SurfaceType *type = surface_types().find(reader.text("Shape"));
@@ -148,9 +151,8 @@ void Tool::parse(Reader &reader) {
           patches.push_back(std::move(patch));
       });
   });
-  if (patches.empty())
-    throw InputError(origin + ": the tool has no surface; allowed is at least one subsection in 'Surfaces'");
-  surface = std::make_shared<const RigidSurface>(std::move(patches));
+  if (!patches.empty()) // otherwise their errors are noted
+    surface = std::make_shared<const RigidSurface>(std::move(patches));
   reader.in("Motion", [&] { motion.parse(reader); });
 }
 

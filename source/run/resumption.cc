@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 namespace billet {
 
@@ -26,8 +27,11 @@ bool Resumption::is_from(const std::string &folder) const {
 
 void Resumption::load(const Scene &scene, const Discretization &discretization,
                       const std::function<RestartReport()> &load) {
-  reader.load("scene", [&] { check_scene(reader, scene, discretization); });
+  std::vector<std::string> changed;
+  reader.load("scene", [&] { changed = check_scene(reader, scene, discretization); });
   reader.load("solution", [&] { report = load(); });
+  report.changed = std::move(changed);
+  report.is_exact = report.is_exact && report.changed.empty();
   const parameters::Scene &parameters = scene.parameters();
   if (report.time < parameters.time_stepping.end_time)
     return;
@@ -49,6 +53,8 @@ Diagnostic Resumption::describe(const double force_tolerance) const {
   text << "The run resumes from " << reader.file_name() << " at time " << report.time;
   for (const auto &part : report.gone)
     text << ", without " << part;
+  for (const auto &parameter : report.changed)
+    text << (&parameter == &report.changed.front() ? ". Parameters with other values: " : ", ") << parameter;
   if (report.kinetic_energy > 0.)
     text << ". The kinetic energy there, " << report.kinetic_energy << ", is discarded";
   if (report.imbalance > force_tolerance * report.force_scale)

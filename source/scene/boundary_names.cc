@@ -5,7 +5,7 @@
 #include "billet/mesh/mesh_cursor.h"
 #include "billet/nearest_name.h"
 #include "billet/scene/mesh_builder.h"
-#include "billet/scene/unread_keywords.h"
+#include "billet/scene/mesh_file_notes.h"
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -64,7 +64,8 @@ const std::vector<unsigned int> &find_ids(const std::string &name, const GroupNa
   if (found->empty())
     throw InputError(origin + " names boundary '" + name +
                      "', which has no whole face on the outside of body '" + body +
-                     "'; allowed are groups of exterior faces");
+                     "'; allowed are groups of exterior faces. 'Nodes = set " + name +
+                     "' of a support or a force takes a node set of an edge or of single nodes");
   return *found;
 }
 
@@ -104,13 +105,13 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 }
 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
-/// gives. Appends notes about the mesh file.
-GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, DiagnosticList &notes) {
+/// gives. Adds what is to be said of the mesh file to the notes.
+GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
   unsigned int new_id = least_new_id(mesh) + 1;
   GroupNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
     const LoadedMesh loaded = load_mesh_file(mesh);
-    append(notes, describe_unread_keywords(loaded.mesh.unread, mesh.file_name, body));
+    notes.add(loaded, mesh, body);
     names = loaded.groups.names();
     new_id = loaded.groups.new_id();
     if (mesh.section.value != parameters::Mesh::Section::solid)
@@ -193,44 +194,71 @@ unsigned int least_new_id(const parameters::Mesh &mesh) {
   return id;
 }
 
-parameters::Scene resolve_boundaries(parameters::Scene scene, std::vector<BoundaryNames> &names) {
+namespace {
+
+/// Resolves the boundaries of supports and loads. Returns the names of each body.
+std::vector<GroupNames> resolve_of_bodies(ResolvedScene &result) {
   std::vector<GroupNames> known;
-  for (auto &body : scene.bodies) {
-    known.push_back(read_boundary_names(body.mesh, body.name, scene.warnings));
-    for (auto &support : body.supports)
-      resolve(support.boundary_ids, known.back(), body.name);
-    for (auto &load : body.loads)
-      resolve(load.boundary_ids, known.back(), body.name);
+  MeshFileNotes notes;
+  for (std::size_t b = 0; b < result.parameters.bodies.size(); ++b) {
+    parameters::Body &body = result.parameters.bodies[b];
+    known.emplace_back();
+    result.has_meshes &= result.errors.note(
+        [&] { known.back() = read_boundary_names(body.mesh, body.name, notes); });
+    if (!result.has_meshes)
+      continue;
+    const auto resolve_of = [&](auto &of) {
+      if (!result.errors.note([&] { resolve(of.boundary_ids, known.back(), body.name); }))
+        result.unsound_bodies.insert(b);
+    };
+    std::for_each(body.supports.begin(), body.supports.end(), resolve_of);
+    std::for_each(body.loads.begin(), body.loads.end(), resolve_of);
   }
-  names.assign(known.begin(), known.end());
-  ExteriorIds exterior(scene.bodies);
+  append(result.parameters.warnings, notes.all());
+  return known;
+}
+
+} // namespace
+
+ResolvedScene resolve_boundaries(parameters::Scene scene) {
+  ResolvedScene result{std::move(scene)};
+  const std::vector<GroupNames> known = resolve_of_bodies(result);
+  result.names.assign(known.begin(), known.end());
+  if (!result.has_meshes)
+    return result;
+  parameters::Scene &resolved = result.parameters;
+  ExteriorIds exterior(resolved.bodies);
   const auto resolve_of_pair = [&](BoundaryIds &boundaries, const std::size_t body) {
-    if (boundaries.are_all)
-      boundaries.value = exterior.of(body);
-    else
-      resolve(boundaries, known[body], scene.bodies[body].name);
+    result.errors.note([&] {
+      if (boundaries.are_all)
+        boundaries.value = exterior.of(body);
+      else
+        resolve(boundaries, known[body], resolved.bodies[body].name);
+    });
   };
-  for (auto &pair : scene.pairs) {
-    resolve_of_pair(pair.boundary_ids, scene.body_index(pair));
+  for (auto &pair : resolved.pairs) {
+    resolve_of_pair(pair.boundary_ids, resolved.body_index(pair));
     if (pair.is_between_bodies())
-      resolve_of_pair(pair.second_boundary_ids, scene.second_body_index(pair));
+      resolve_of_pair(pair.second_boundary_ids, resolved.second_body_index(pair));
   }
-  for (auto &probe : scene.probes) {
-    const std::size_t body = scene.body_index(probe);
-    resolve(probe.boundary_ids, known[body], scene.bodies[body].name);
-    resolve(probe.opposite_ids, known[body], scene.bodies[body].name);
+  for (auto &probe : resolved.probes) {
+    const std::size_t body = resolved.body_index(probe);
+    for (BoundaryIds *const ids : {&probe.boundary_ids, &probe.opposite_ids})
+      result.errors.note([&] { resolve(*ids, known[body], resolved.bodies[body].name); });
   }
+  if (!result.errors.is_empty())
+    return result;
   // Ids of pairs without names and groups have been compared when the scene was read.
-  const bool has_names = std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const auto &pair) {
+  const bool has_names = std::any_of(resolved.pairs.begin(), resolved.pairs.end(), [](const auto &pair) {
     return !pair.boundary_ids.names.empty() || !pair.second_boundary_ids.names.empty() ||
            pair.boundary_ids.are_all || pair.second_boundary_ids.are_all;
   });
-  const bool has_groups = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &body) {
+  const bool has_groups = std::any_of(resolved.bodies.begin(), resolved.bodies.end(), [](const auto &body) {
     return body.mesh.source == parameters::Mesh::Source::file;
   });
   if (has_names || has_groups)
-    parameters::check_repeated_pairs(scene.pairs, true);
-  return scene;
+    result.errors.note([&] { parameters::check_repeated_pairs(resolved.pairs, true); });
+  return result;
 }
 
 } // namespace billet

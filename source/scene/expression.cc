@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <sstream>
 
@@ -48,16 +47,6 @@ std::vector<double> corners(const parameters::Amplitude &amplitude) {
 
 namespace {
 
-/// Whether the text has a comma outside parentheses. muParser would read "0,1" as two values and return the
-/// last; its author meant 0.1.
-bool has_free_comma(const std::string &text) {
-  int depth = 0;
-  return std::any_of(text.begin(), text.end(), [&depth](const char c) {
-    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    return c == ',' && depth == 0;
-  });
-}
-
 /// Whether the text contains one of the names x, y, z.
 bool has_position(const std::string &text) {
   const auto is_of_name = [](const char c) {
@@ -80,29 +69,10 @@ bool has_position(const std::string &text) {
 
 Expression::Expression(const std::string &text, const Variables variables,
                        std::vector<parameters::Amplitude> amplitudes, const std::string &origin)
-    : text_(text), origin_(origin),
-      // The parser needs three coordinates. Where they are not allowed, they have names that users cannot
-      // choose.
-      variables_(variables == Variables::time ? "_no_x,_no_y,_no_z,t" : "x,y,z,t"),
+    : text_(text), origin_(origin), variables_(parser_variables(variables)),
       amplitudes_(std::move(amplitudes)), is_uniform_(!has_position(text)) {
-  // deal.II also prints muParser's errors to the console.
-  std::ostringstream complaints;
-  std::streambuf *console = std::cerr.rdbuf(complaints.rdbuf());
-  bool makes_sense = !has_free_comma(text);
-  try {
-    const WithoutTraps quiet; // value() reports results that are not finite
-    parse(0.);
-    parser_->value(dealii::Point<3>());
-  } catch (...) { // muParser's exceptions are no std::exception
-    makes_sense = false;
-  }
-  std::cerr.rdbuf(console);
-  if (!makes_sense) {
-    std::string allowed = variables == Variables::time ? "t, pi" : "x, y, z, t, pi";
-    for (const auto &amplitude : amplitudes_)
-      allowed += ", " + amplitude.name;
-    throw InputError(origin + " contains '" + text + "'; allowed is a muParser expression of " + allowed);
-  }
+  check_expression(text, variables, amplitudes_, origin);
+  parse(0.);
 }
 
 void Expression::parse(const double t) const {

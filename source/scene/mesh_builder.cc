@@ -2,7 +2,6 @@
 #include "billet/scene/mesh_builder.h"
 
 #include "billet/errors.h"
-#include "billet/mesh/mesh_checks.h"
 #include "billet/scene/boundary_names.h"
 #include "billet/scene/expression.h"
 
@@ -207,8 +206,9 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
     name_sides(*loaded, section, mesh);
 }
 
-void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
+void read_file(const parameters::Mesh &parameters, Triangulation<3> &mesh, NodeSets &sets) {
   const LoadedMesh loaded = load_mesh_file(parameters);
+  sets.take(loaded.mesh);
   std::vector<dealii::Point<3>> vertices;
   for (const auto &x : loaded.mesh.positions)
     vertices.emplace_back(x[0], x[1], x[2]);
@@ -261,6 +261,15 @@ void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mes
   }
 }
 
+/// Keeps the volumes of a mesh file that the body takes.
+VolumeChoice take_volumes(const parameters::Mesh &parameters, MeshFile &mesh) {
+  try {
+    return choose_volumes(mesh, parameters.volumes.value);
+  } catch (const std::invalid_argument &error) {
+    throw InputError(parameters.volumes.origin + " " + error.what());
+  }
+}
+
 } // namespace
 
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
@@ -268,14 +277,15 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
   try {
     MeshFile mesh = is_plane ? read_plane_mesh_file(parameters.file_name.value)
                              : read_mesh_file(parameters.file_name.value);
+    VolumeChoice volumes = take_volumes(parameters, mesh);
     const auto &distance = parameters.merged_distance.value;
-    mend_and_check(mesh,
-                   !distance        ? DoubledNodes::refused
-                   : *distance > 0. ? DoubledNodes::merged
-                                    : DoubledNodes::kept,
-                   distance.value_or(0.));
+    NearNodes near_nodes = mend_and_check(mesh,
+                                          !distance        ? DoubledNodes::refused
+                                          : *distance > 0. ? DoubledNodes::merged
+                                                           : DoubledNodes::kept,
+                                          distance.value_or(0.));
     BoundaryGroups groups(mesh, least_new_id(parameters));
-    return {std::move(mesh), std::move(groups)};
+    return {std::move(mesh), std::move(groups), std::move(volumes), std::move(near_nodes)};
   } catch (const std::invalid_argument &error) {
     throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +
                      "'; allowed is a mesh of " + (is_plane ? "quadrilaterals" : "hexahedra") +
@@ -283,8 +293,10 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
   }
 }
 
-void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Triangulation<3> &mesh) {
+void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Triangulation<3> &mesh,
+                     NodeSets *const sets) {
   const parameters::Mesh &parameters = body.mesh;
+  NodeSets unused, &of_file = sets != nullptr ? *sets : unused;
   switch (parameters.source) {
   case parameters::Mesh::Source::extruded:
     generate_extruded(parameters, detail, mesh);
@@ -299,9 +311,11 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
       generate_extruded(parameters, detail, mesh);
       break;
     }
-    read_file(parameters, mesh);
-    if (detail == MeshDetail::full)
-      mesh.refine_global(parameters.refinements);
+    read_file(parameters, mesh, of_file);
+    for (unsigned int i = 0; detail == MeshDetail::full && i < parameters.refinements; ++i) {
+      mesh.refine_global(1);
+      of_file.refine(mesh);
+    }
     break;
   }
   flatten(mesh);

@@ -20,20 +20,6 @@ namespace billet {
 
 namespace {
 
-std::string describe(const DirectMethod method) {
-  switch (method) {
-  case DirectMethod::mumps_symmetric:
-    return "MUMPS, which factorises half";
-  case DirectMethod::mumps:
-  case DirectMethod::klu:
-    break;
-  }
-  return name_of(method);
-}
-std::string describe(const IterativeMethod method) {
-  return std::string(name_of(method)) + " with multigrid";
-}
-
 /// Returns the scheme of time integration in the summary of a scene.
 const char *describe_scheme(const parameters::TimeStepping::Scheme scheme) {
   using Scheme = parameters::TimeStepping::Scheme;
@@ -51,10 +37,10 @@ const char *describe_scheme(const parameters::TimeStepping::Scheme scheme) {
 /// `method`: none if the choice is automatic.
 std::string describe_solver(const std::optional<LinearMethod> &method, const bool unsymmetric) {
   if (method)
-    return std::visit([](const auto chosen) { return describe(chosen); }, *method);
-  return describe(unsymmetric ? DirectMethod::mumps : DirectMethod::mumps_symmetric) + ", above " +
+    return describe(*method);
+  return describe(default_direct_method(!unsymmetric)) + ", above " +
          std::to_string(parameters::Solver::max_direct_dofs) + " unknowns " +
-         describe(unsymmetric ? IterativeMethod::gmres : IterativeMethod::conjugate_gradients);
+         describe(default_iterative_method(!unsymmetric));
 }
 
 /// Whether the solver that the scene names is for symmetric matrices only.
@@ -62,10 +48,13 @@ bool wants_symmetry(const parameters::Solver &solver) {
   return solver.linear_solver.value && requires_symmetry(*solver.linear_solver.value);
 }
 
-/// Returns the beginning of a message: place and name of the linear solver.
-std::string quote_linear_solver(const parameters::Solver &solver) {
-  return solver.linear_solver.origin + " is '" +
-         parameters::name_in(parameters::linear_methods(), solver.linear_solver.value) + "'";
+/// Refuses the linear solver of the scene, which is for symmetric matrices. `reason` follows "but ";
+/// `otherwise` is what else would help, such as ", or ...".
+[[noreturn]] void refuse_symmetric_solver(const parameters::Solver &solver, const std::string &reason,
+                                          const std::string &otherwise = "") {
+  throw InputError(solver.linear_solver.origin + " is '" +
+                   parameters::name_in(parameters::linear_methods(), solver.linear_solver.value) + "', but " +
+                   reason + "; allowed are " + parameters::methods_for_unsymmetric() + otherwise);
 }
 
 struct ControlWords {
@@ -99,8 +88,8 @@ bool is_zero(const std::string &expression) {
 AppliedLoad make_load(const parameters::Load &parameters,
                       const std::vector<parameters::Amplitude> &amplitudes, const double fade_time) {
   const LoadTimes times{parameters.from, parameters.until, parameters.fade_time.value_or(fade_time)};
-  AppliedLoad applied{parameters.type, parameters.load,  parameters.boundary_ids.value, {},
-                      times,           parameters.origin};
+  AppliedLoad applied{parameters.type,   parameters.load, parameters.boundary_ids.value, {}, times,
+                      parameters.origin, parameters.name};
   for (std::size_t i = 0; i < applied.load.expressions.size(); ++i) {
     const LoadExpression &expression = applied.load.expressions[i];
     applied.expressions.emplace_back(expression.text,
@@ -110,6 +99,8 @@ AppliedLoad make_load(const parameters::Load &parameters,
   }
   return applied;
 }
+
+std::string name_of_support(const parameters::Support &support) { return "support " + support.name; }
 
 /// `fade_time`: of loads and supports that leave it open.
 Body make_body(const parameters::Body &parameters, const std::vector<parameters::Amplitude> &amplitudes,
@@ -147,7 +138,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
     for (unsigned int i = 0; i < 3; ++i)
       if (support.components[i]) {
         Hold hold;
-        hold.name = "support " + support.name;
+        hold.name = name_of_support(support);
         hold.origin = support.displacement.origin;
         hold.boundary_ids = support.boundary_ids.value;
         hold.normal[i] = 1.;
@@ -189,13 +180,6 @@ void check_state_fields(const Located<std::vector<std::string>> &wanted, const s
       throw InputError(wanted.origin + " names '" + name + "'; " +
                        (known.empty() ? "the materials of this scene have no state"
                                       : "allowed are those of the scene's materials: " + allowed));
-}
-
-/// Returns the scene with the ids of all boundaries that it names, and the names of each body.
-std::pair<parameters::Scene, std::vector<BoundaryNames>> resolve(const parameters::Scene &parameters) {
-  std::vector<BoundaryNames> names;
-  parameters::Scene scene = resolve_boundaries(parameters, names);
-  return {std::move(scene), std::move(names)};
 }
 
 /// Refuses an axisymmetric body beside one that is not, or is another wedge.
@@ -262,6 +246,35 @@ std::string describe_law(const parameters::Body &body) {
          body.material.law->name() + (body.material.law->has_plasticity() ? " J2 plasticity" : " elasticity");
 }
 
+/// Builds the meshes of all bodies in one.
+void merge_meshes(const std::vector<parameters::Body> &bodies, const MeshDetail detail,
+                  dealii::Triangulation<3> &mesh) {
+  std::vector<std::unique_ptr<dealii::Triangulation<3>>> meshes;
+  std::vector<const dealii::Triangulation<3> *> pointers;
+  for (const auto &body : bodies) {
+    meshes.push_back(std::make_unique<dealii::Triangulation<3>>());
+    build_body_mesh(body, detail, *meshes.back());
+    pointers.push_back(meshes.back().get());
+  }
+  merge_bodies(pointers, mesh);
+}
+
+/// Gives supports and loads the nodes that they select.
+void select_nodes(const parameters::Body &parameters, Body &body) {
+  NodeFinder finder(parameters);
+  ErrorNotes errors;
+  for (std::size_t i = 0; i < parameters.loads.size(); ++i)
+    errors.note([&] { body.loads[i].nodes = finder.find(parameters.loads[i].nodes); });
+  for (const auto &support : parameters.supports)
+    errors.note([&] {
+      const auto nodes = finder.find(support.nodes);
+      for (Hold &hold : body.holds)
+        if (!hold.on_plane && hold.name == name_of_support(support))
+          hold.nodes = nodes;
+    });
+  errors.require_none();
+}
+
 } // namespace
 
 ElementFormulation make_formulation(const parameters::Body &parameters) {
@@ -271,17 +284,21 @@ ElementFormulation make_formulation(const parameters::Body &parameters) {
   return formulation;
 }
 
-Scene::Scene(const parameters::Scene &parameters) : Scene(resolve(parameters)) {}
+Scene::Scene(const parameters::Scene &parameters) : Scene(resolve_boundaries(parameters)) {}
 
 Scene::~Scene() = default;
 
-Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
-    : parameters_(std::move(resolved.first)) {
+Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters)) {
   const parameters::Scene &parameters = parameters_;
+  ErrorNotes &errors = resolved.errors;
+  if (!resolved.has_meshes)
+    errors.require_none();
   for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
     bodies_.push_back(make_body(parameters.bodies[i], parameters.amplitudes,
                                 parameters.is_dynamic() ? 0. : 0.01 * parameters.time_stepping.end_time));
-    bodies_.back().boundary_names = std::move(resolved.second[i]);
+    bodies_.back().boundary_names = std::move(resolved.names[i]);
+    if (!errors.note([&] { select_nodes(parameters.bodies[i], bodies_.back()); }))
+      resolved.unsound_bodies.insert(i);
   }
   check_state_fields(parameters.output.state_fields, bodies_);
   check_before_start([&] {
@@ -296,6 +313,8 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
     }
   });
   make_pairs();
+  if (!errors.is_empty())
+    note_errors_on_outlines(errors, resolved.unsound_bodies);
   whole_section_ = find_whole_section(parameters.bodies);
 
   capabilities_.contact = !pairs_.empty() || !body_pairs_.empty();
@@ -324,13 +343,19 @@ Scene::Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved)
        (capabilities_.friction &&
         (contact_tangent_ == Tangent::consistent || contact_tangent_ == Tangent::continuum)));
   if (capabilities_.unsymmetric_matrix && is_symmetric)
-    throw InputError(quote_linear_solver(parameters.solver) +
-                     ", but this scene's contact tangent is unsymmetric; "
-                     "allowed are automatic, MUMPS, KLU, GMRES, or a symmetrised 'Contact tangent'");
+    refuse_symmetric_solver(parameters.solver, "this scene's contact tangent is unsymmetric",
+                            ", or a symmetrised 'Contact tangent'");
   if (!parameters.is_explicit()) {
     allow_for_loads();
     choose_material_tangents();
   }
+}
+
+void Scene::note_errors_on_outlines(ErrorNotes &errors, const std::set<std::size_t> &unsound) const {
+  dealii::Triangulation<3> mesh;
+  if (errors.note([&] { merge_meshes(parameters_.bodies, MeshDetail::outline, mesh); }))
+    check_on_mesh(mesh, MeshDetail::outline, errors, unsound);
+  errors.require_none();
 }
 
 void Scene::choose_material_tangents() {
@@ -348,10 +373,9 @@ void Scene::choose_material_tangents() {
     if (body.formulation.is_symmetrised)
       continue;
     if (wants_symmetry(parameters_.solver))
-      throw InputError(quote_linear_solver(parameters_.solver) +
-                       ", but the exact material tangent of body '" + body.name +
-                       "' is unsymmetric; allowed are automatic, MUMPS, KLU, GMRES, or another 'Material "
-                       "tangent'");
+      refuse_symmetric_solver(parameters_.solver,
+                              "the exact material tangent of body '" + body.name + "' is unsymmetric",
+                              ", or another 'Material tangent'");
     capabilities_.unsymmetric_matrix = true;
   }
 }
@@ -362,9 +386,8 @@ void Scene::allow_for_loads() {
       if (load.load.has_unsymmetric_tangent()) {
         capabilities_.unsymmetric_matrix = true;
         if (wants_symmetry(parameters_.solver))
-          throw InputError(quote_linear_solver(parameters_.solver) + ", but the " + load.type + " on body '" +
-                           body.name +
-                           "' makes the matrix unsymmetric; allowed are automatic, MUMPS, KLU, GMRES");
+          refuse_symmetric_solver(parameters_.solver, "the " + load.type + " on body '" + body.name +
+                                                          "' makes the matrix unsymmetric");
       }
 }
 
@@ -425,19 +448,10 @@ void Scene::make_pairs() {
 }
 
 void Scene::build_mesh(const MeshDetail detail, dealii::Triangulation<3> &mesh) const {
-  std::vector<std::unique_ptr<dealii::Triangulation<3>>> meshes;
-  std::vector<const dealii::Triangulation<3> *> pointers;
-  for (const auto &body : parameters_.bodies) {
-    meshes.push_back(std::make_unique<dealii::Triangulation<3>>());
-    build_body_mesh(body, detail, *meshes.back());
-    pointers.push_back(meshes.back().get());
-  }
-  merge_bodies(pointers, mesh);
-  check_boundary_ids(mesh, detail);
-  check_axes(mesh);
-  if (!parameters_.is_dynamic())
-    check_supports(mesh);
-  check_initial_penetration(mesh);
+  merge_meshes(parameters_.bodies, detail, mesh);
+  ErrorNotes errors;
+  check_on_mesh(mesh, detail, errors, {});
+  errors.require_none();
 }
 
 std::vector<double> Scene::stops() const {

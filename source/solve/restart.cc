@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace billet {
@@ -31,49 +32,23 @@ std::vector<double> measure(const Discretization &discretization, const std::siz
   return {own.begin(), own.end()};
 }
 
-/// Formulation and law that a history was computed with.
-template <class Formulation> struct StoredFormulation {
-  Formulation formulation;
-  SharedLaw law;
-};
-
-/// Returns the laws that a history may have: that of the body, and those with the same constants.
-std::vector<SharedLaw> laws_like(const SharedLaw &law) {
-  std::vector<SharedLaw> laws{law};
-  for (const ElasticityType &type : elasticity_types())
-    if (SharedLaw other = type.find_law(law->elastic(), law->shared_flow_stress()))
-      laws.push_back(std::move(other));
-  return laws;
+/// Returns the law of this elasticity with the constants of `law`; null if there is none.
+SharedLaw find_law(const std::string &elasticity, const SharedLaw &law) {
+  if (law->name() == elasticity)
+    return law;
+  const ElasticityType *type = elasticity_types().find(elasticity);
+  return type == nullptr ? nullptr : type->find_law(law->elastic(), law->shared_flow_stress());
 }
 
-std::optional<StoredFormulation<ElementFormulation>> find_implicit_formulation(const std::string &words,
-                                                                               const SharedLaw &law) {
-  for (const SharedLaw &candidate : laws_like(law))
-    for (const BrickElement element : all_elements())
-      for (const unsigned int points_through : all_points_through) {
-        ElementFormulation formulation;
-        formulation.element = element;
-        formulation.points_through = points_through;
-        if (describe(formulation, *candidate) == words)
-          return StoredFormulation<ElementFormulation>{formulation, candidate};
-      }
+std::optional<BrickElement> find_element(const std::string &name) {
+  for (const BrickElement element : all_elements())
+    if (element.name() == name)
+      return element;
   return {};
 }
 
-std::optional<StoredFormulation<ExplicitFormulation>> find_formulation(const std::string &words,
-                                                                       const SharedLaw &law) {
-  for (const SharedLaw &candidate : laws_like(law))
-    for (const BrickElement element : all_elements())
-      for (const auto number_type : {NumberType::double_precision, NumberType::float_precision}) {
-        ExplicitFormulation formulation;
-        formulation.instructions = InstructionSet::scalar;
-        formulation.element = element;
-        formulation.number_type = number_type;
-        if (describe(formulation, *candidate) == words)
-          return StoredFormulation<ExplicitFormulation>{formulation, candidate};
-      }
-  return {};
-}
+constexpr const char *explicit_method = "explicit", *implicit_method = "implicit", *in_float = "float",
+                     *in_double = "double";
 
 constexpr std::uint64_t max_ranks = 1U << 20U;
 
@@ -111,17 +86,99 @@ std::optional<std::vector<std::size_t>> find_places(const std::vector<StateField
 
 } // namespace
 
+HistoryFormat format_of(const ElementFormulation &formulation, const PointLaw &law) {
+  return {implicit_method, formulation.element.name(), law.name(), in_double, formulation.points_through};
+}
+
+HistoryFormat format_of(const ExplicitFormulation &formulation, const PointLaw &law) {
+  const bool is_float = formulation.number_type == NumberType::float_precision;
+  return {explicit_method, formulation.element.name(), law.name(), is_float ? in_float : in_double, 2};
+}
+
+void save_format(StateWriter &writer, const HistoryFormat &format) {
+  writer.write_text("method", format.method);
+  writer.write_text("element", format.element);
+  writer.write_text("elasticity", format.elasticity);
+  writer.write_text("number type", format.number_type);
+  writer.write("points through", {static_cast<double>(format.points_through)});
+}
+
+HistoryFormat load_format(const StateReader &reader) {
+  return {reader.read_text("method"), reader.read_text("element"), reader.read_text("elasticity"),
+          reader.read_text("number type"), to_count(reader.number("points through"))};
+}
+
+namespace {
+
+/// Parameters of a body's material that the scene sets, with their values.
+using MaterialTexts = std::map<std::string, std::string>;
+
+MaterialTexts material_of(const parameters::Scene &scene, const std::string &body) {
+  std::istringstream text(scene.text);
+  const SceneFile file = SceneFile::scan(text, scene.file_name);
+  MaterialTexts material;
+  for (const SceneFile::Entry &entry : file.entries())
+    if (entry.path == SceneFile::Path{"Bodies", body, "Material"})
+      material[entry.key] = entry.value;
+  return material;
+}
+
+/// Writes them, each with a line for its name and one for its value.
+std::string join_lines(const MaterialTexts &material) {
+  std::string lines;
+  for (const auto &[key, value] : material)
+    lines += key + "\n" + value + "\n";
+  return lines;
+}
+
+MaterialTexts split_lines(const std::string &text) {
+  MaterialTexts material;
+  std::istringstream lines(text);
+  std::string key, value;
+  while (std::getline(lines, key) && std::getline(lines, value))
+    material[key] = value;
+  return material;
+}
+
+bool is_same_value(const std::string &then, const std::string &now) {
+  try {
+    return parse_number(then) == parse_number(now);
+  } catch (const std::invalid_argument &) { // a name, a table or a file
+    return then == now;
+  }
+}
+
+/// Adds "'Yield stress' of body 'cube' (300, now 900)" for each parameter that is not as in the checkpoint.
+void compare_materials(const MaterialTexts &then, const MaterialTexts &now, const std::string &body,
+                       std::vector<std::string> &changed) {
+  MaterialTexts all = then;
+  all.insert(now.begin(), now.end());
+  const auto find = [](const MaterialTexts &material, const std::string &key) -> std::string {
+    const auto found = material.find(key);
+    return found == material.end() ? "default" : found->second;
+  };
+  for (const auto &[key, unused] : all)
+    if (const std::string before = find(then, key), after = find(now, key); !is_same_value(before, after))
+      changed.push_back("'" + key + "' of body '" + body + "' (" + before + ", now " + after + ")");
+}
+
+} // namespace
+
 void save_scene(StateWriter &writer, const Scene &scene, const Discretization &discretization) {
   writer.write("bodies", {static_cast<double>(scene.bodies().size())});
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
     writer.in(group("body", b), [&] {
       writer.write_text("name", scene.bodies()[b].name);
       writer.write_text("material", scene.bodies()[b].law->description());
+      writer.write_text("material parameters",
+                        join_lines(material_of(scene.parameters(), scene.bodies()[b].name)));
       writer.write("mesh", measure(discretization, b));
     });
 }
 
-void check_scene(StateReader &reader, const Scene &scene, const Discretization &discretization) {
+std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
+                                     const Discretization &discretization) {
+  std::vector<std::string> changed;
   const double n_bodies = reader.number("bodies");
   if (n_bodies != static_cast<double>(scene.bodies().size()))
     throw InputError("it has " + std::to_string(std::lround(n_bodies)) + " bodies, but this scene has " +
@@ -136,6 +193,8 @@ void check_scene(StateReader &reader, const Scene &scene, const Discretization &
       if (material != body.law->description())
         throw InputError("its body '" + name + "' is " + material + ", but here it is " +
                          body.law->description());
+      compare_materials(split_lines(reader.read_text("material parameters")),
+                        material_of(scene.parameters(), name), name, changed);
       const std::vector<double> then = reader.read("mesh", 5), now = measure(discretization, b);
       if (then.at(0) != now[0])
         throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +
@@ -150,6 +209,7 @@ void check_scene(StateReader &reader, const Scene &scene, const Discretization &
         throw InputError("its body '" + name +
                          "' has another mesh: elements have other positions or another order");
     });
+  return changed;
 }
 
 OwnedNodes::OwnedNodes(const Discretization &discretization, const NodeKeys &node_keys) {
@@ -235,63 +295,103 @@ std::vector<double> load_history(const StateReader &reader, const std::string &b
   return rows;
 }
 
-std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, const std::size_t body,
-                                       const Discretization &discretization, const Vector &displacements,
-                                       const double t) {
-  const std::string words = reader.read_text("formulation");
-  const auto keys = element_keys(discretization, body);
-  const SharedLaw &law = scene.bodies()[body].law;
-  const Expression *temperature = scene.bodies()[body].temperature.get();
-  const auto &elements = discretization.elements(body);
-  std::vector<ElementStress> stresses;
+namespace {
+
+/// History of a body that another formulation has written.
+struct ForeignHistory {
+  const StateReader &reader;
+  const Body &body;
+  const std::vector<Element> &elements;
+  HistoryFormat format;
+  BrickElement element;
+  SharedLaw law;
+};
+
+/// Reads the rows of a block's histories, with the keys of its elements.
+template <class Block>
+std::vector<double> rows_of(const ForeignHistory &history, const Block &block, const std::size_t width,
+                            const std::vector<std::uint64_t> &keys) {
+  if (width == 0)
+    return {};
+  return load_history(history.reader, history.body.name, *history.law, block.point_states(), width, keys);
+}
+
+std::vector<ElementStress> stress_of_implicit(const ForeignHistory &history,
+                                              const std::vector<std::uint64_t> &keys,
+                                              const Vector &displacements, const double t) {
+  ElementFormulation formulation;
+  formulation.element = history.element;
+  formulation.points_through = history.format.points_through;
+  const auto block = make_element_block(history.law, formulation);
+  std::vector<ElementVectors> positions;
+  positions.reserve(history.elements.size());
+  for (const auto &element : history.elements)
+    positions.push_back(nodal_positions(element.cell));
+  std::vector<ThicknessAxis> axes(history.elements.size());
+  if (formulation.points_through > 2)
+    axes = load_thickness_axes(history.reader, keys);
   std::size_t ignored = 0;
-  if (const auto implicit = find_implicit_formulation(words, law)) {
-    const auto block = make_element_block(implicit->law, implicit->formulation);
-    std::vector<ElementVectors> positions;
-    positions.reserve(elements.size());
-    for (const auto &element : elements)
-      positions.push_back(nodal_positions(element.cell));
-    std::vector<ThicknessAxis> axes(elements.size());
-    if (implicit->formulation.points_through > 2)
-      axes = load_thickness_axes(reader, keys);
-    block->initialize(positions, axes, ignored);
-    if (temperature != nullptr)
-      block->set_temperature(temperature->value(t));
-    const std::size_t width = block->state_size();
-    std::vector<double> rows;
+  block->initialize(positions, axes, ignored);
+  if (history.body.temperature != nullptr)
+    block->set_temperature(history.body.temperature->value(t));
+  const std::size_t width = block->state_size();
+  const std::vector<double> rows = rows_of(history, *block, width, keys);
+  std::vector<ElementStress> stresses;
+  stresses.reserve(history.elements.size());
+  for (std::size_t e = 0; e < history.elements.size(); ++e) {
     if (width > 0)
-      rows =
-          load_history(reader, scene.bodies()[body].name, *implicit->law, block->point_states(), width, keys);
-    stresses.reserve(elements.size());
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (width > 0)
-        block->set_state(e, &rows[width * e]);
-      stresses.push_back(block->compute_stress(e, gather(displacements, elements[e].dofs)));
-    }
-    return stresses;
+      block->set_state(e, &rows[width * e]);
+    stresses.push_back(block->compute_stress(e, gather(displacements, history.elements[e].dofs)));
   }
-  const auto formulation = find_formulation(words, law);
-  if (!formulation)
-    throw InputError("the history of its body '" + scene.bodies()[body].name + "' has an unknown type: '" +
-                     words + "'");
-  const LocalNodes nodes(discretization);
+  return stresses;
+}
+
+std::vector<ElementStress> stress_of_explicit(const ForeignHistory &history,
+                                              const std::vector<std::uint64_t> &keys, const LocalNodes &nodes,
+                                              const std::size_t body, const Vector &displacements,
+                                              const double t) {
   NodalVectors u = nodes.make_vectors();
   for (unsigned int node = 0; node < nodes.size(); ++node)
     for (unsigned int i = 0; i < 3; ++i)
       u[std::size_t{nodal_stride} * node + i] = displacements(nodes.dofs(node)[i]);
-  const auto block = make_explicit_block(formulation->law, 1., formulation->formulation);
+  ExplicitFormulation formulation;
+  formulation.instructions = InstructionSet::scalar;
+  formulation.element = history.element;
+  if (history.format.number_type == in_float)
+    formulation.number_type = NumberType::float_precision;
+  const auto block = make_explicit_block(history.law, 1., formulation);
+  std::size_t ignored = 0;
   block->initialize(nodes.elements(body), nodes.positions().data(), ignored);
-  if (temperature != nullptr)
-    block->set_temperature(temperature->value(t));
+  if (history.body.temperature != nullptr)
+    block->set_temperature(history.body.temperature->value(t));
   const std::size_t width = block->history_size();
-  const std::vector<double> rows =
-      load_history(reader, scene.bodies()[body].name, *formulation->law, block->point_states(), width, keys);
-  for (std::size_t e = 0; e < elements.size(); ++e)
+  const std::vector<double> rows = rows_of(history, *block, width, keys);
+  for (std::size_t e = 0; e < history.elements.size(); ++e)
     block->set_state(e, &rows[width * e]);
-  stresses.reserve(elements.size());
-  for (std::size_t e = 0; e < elements.size(); ++e)
+  std::vector<ElementStress> stresses;
+  stresses.reserve(history.elements.size());
+  for (std::size_t e = 0; e < history.elements.size(); ++e)
     stresses.push_back(block->compute_stress(e, u.data()));
   return stresses;
+}
+
+} // namespace
+
+std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, const std::size_t body,
+                                       const Discretization &discretization, const Vector &displacements,
+                                       const double t) {
+  const HistoryFormat format = load_format(reader);
+  const Body &of = scene.bodies()[body];
+  const SharedLaw law = find_law(format.elasticity, of.law);
+  const std::optional<BrickElement> element = find_element(format.element);
+  if (law == nullptr || !element)
+    throw InputError("the history of its body '" + of.name + "' has an unknown type: '" +
+                     (law == nullptr ? format.elasticity : format.element) + "'");
+  const ForeignHistory history{reader, of, discretization.elements(body), format, *element, law};
+  const auto keys = element_keys(discretization, body);
+  if (format.method == explicit_method)
+    return stress_of_explicit(history, keys, LocalNodes(discretization), body, displacements, t);
+  return stress_of_implicit(history, keys, displacements, t);
 }
 
 std::vector<std::string> group_names(StateReader &reader, const std::string &kind) {

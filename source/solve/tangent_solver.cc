@@ -16,17 +16,14 @@
 namespace billet {
 
 double direct_memory(const double n_dofs, const bool symmetric) {
-  return (symmetric ? 220. : 410.) * std::pow(n_dofs, 4. / 3.);
+  constexpr double of_symmetric = 220., of_unsymmetric = 410.; // bytes for one unknown, measured
+  return (symmetric ? of_symmetric : of_unsymmetric) * std::pow(n_dofs, 4. / 3.);
 }
 
 namespace {
 
 double machine_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-DirectMethod direct_method(const bool symmetric) {
-  return symmetric ? DirectMethod::mumps_symmetric : DirectMethod::mumps;
 }
 
 /// `wanted`: none for an automatic choice.
@@ -40,8 +37,8 @@ LinearMethod choose(const std::optional<LinearMethod> &wanted, const bool symmet
   constexpr double part_of_memory = 0.5;
   if (n_dofs > parameters::Solver::max_direct_dofs ||
       direct_memory(n_dofs, symmetric) > part_of_memory * minimum)
-    return symmetric ? IterativeMethod::conjugate_gradients : IterativeMethod::gmres;
-  return direct_method(symmetric);
+    return default_iterative_method(symmetric);
+  return default_direct_method(symmetric);
 }
 
 } // namespace
@@ -51,7 +48,7 @@ TangentSolver::TangentSolver(const parameters::Solver &settings, const bool symm
     : symmetric_(symmetric), matrix_(&matrix), communicator_(communicator) {
   const LinearMethod method = choose(settings.linear_solver.value, symmetric, matrix, communicator);
   const auto *direct = std::get_if<DirectMethod>(&method);
-  direct_method_ = direct != nullptr ? *direct : direct_method(symmetric);
+  direct_method_ = direct != nullptr ? *direct : default_direct_method(symmetric);
   is_direct_now_ = direct != nullptr;
   if (const auto *iterative_method = std::get_if<IterativeMethod>(&method)) {
     IterativeSolver::Settings iterative;

@@ -177,6 +177,17 @@ for begun, resumed in (("double", "float"), ("float", "double")):
         equal("end", rows_of(f"to_{resumed}/history.csv")[-1][1], rows_of(f"in_{begun}/history.csv")[-1][1])
 
 
+@check("a material that has changed is told")
+def _() -> None:
+    write_scene("harder.prm", BLOCK, "Output: Folder = harder & Material: Yield stress = 900")
+    text = resumes(1, "block1.whole/checkpoint_00003.h5", "harder.prm")
+    says(
+        r"^note\[resumed\]: The run resumes from .* at time [\d.e-]+\. Parameters with other values: 'Yield"
+        r" stress' of body 'block' \([\d.]+, now 900\)",
+        text,
+    )
+
+
 @check("a target error after a run without one: from then on")
 def _() -> None:
     write_scene("aimed_late.prm", BLOCK, f"Output: Folder = aimed_late{AIMED}")
@@ -385,9 +396,9 @@ REFUSED = [
     Refused("a flipped bit", spoiled("flipped.h5", FLIPPED), "", "is damaged: its checksum does not match;"),
     Refused(
         "another format",
-        spoiled("format.h5", WHOLE.replace(b"format 10", b"format 8", 1)),
+        spoiled("format.h5", WHOLE.replace(b"format 11", b"format 8", 1)),
         "",
-        "has format 8, but this program reads format 10;",
+        "has format 8, but this program reads format 11;",
     ),
     Refused(
         "another version",

@@ -190,6 +190,41 @@ end
         message != nullptr && message->advice() == "Use 'Element = assumed strain'");
 }
 
+/// The explicit kernels do not have the element, so that the profile 'fast' leaves its numbers double.
+void check_number_type() {
+  const auto read = [](const std::string &lines) {
+    std::ofstream("fast.prm") << R"(
+set Profile = fast
+subsection Bodies
+  subsection cube
+    set Element = fully integrated
+    subsection Material
+      set Young modulus = 200e3
+      set Poisson ratio = 0.3
+      set Density = 7.8e-9
+    end
+  end
+end
+subsection Time stepping
+  set Scheme = explicit
+end
+)" << lines;
+    return parameters::Scene::read("fast.prm");
+  };
+  check("the profile 'fast' computes it in double",
+        read("").explicit_dynamics.number_type == NumberType::double_precision);
+  std::string message;
+  try {
+    read("subsection Explicit dynamics\n  set Number type = float\nend\n");
+  } catch (const InputError &error) {
+    message = error.what();
+  }
+  check("float is refused where the scene sets it",
+        message.find(
+            "fast.prm:17: 'Number type' in 'Explicit dynamics' is 'float'; allowed is double, since no "
+            "kernel computes body 'cube' in float: fully integrated, Hencky, elastic") != std::string::npos);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -197,6 +232,7 @@ int main(int argc, char *argv[]) {
   element_types().add(make_element_type(fully_integrated, "eight points, for comparisons"));
   check_bending();
   check_advice();
+  check_number_type();
   for (const std::string law : {"Hencky", "neo-Hookean", "hypoelastic"}) {
     const auto found = testing::pull("fully integrated", plastic + law, 1.2, 1., 20),
                wanted = testing::pull("mean dilatation", plastic + law, 1.2, 1., 20);

@@ -18,7 +18,7 @@ using billet::testing::check;
 namespace {
 
 /// F_a = A_a t, where t is a force per undeformed area.
-class AddedTraction final : public NodalLoad {
+class AddedTraction final : public DeadLoad<NodalLoad> {
 public:
   void add_forces(const std::vector<LoadedNode> &nodes, const LoadValues &values,
                   const NodalMotion & /*motion*/, double *forces) const override {
@@ -27,7 +27,6 @@ public:
       add_vector(forces, nodes[k].node, nodes[k].area * dealii::Tensor<1, 3>({t[0], t[1], t[2]}));
     }
   }
-  LoadTangent tangent() const override { return LoadTangent::none; }
 };
 
 LoadType added_traction_type() {
@@ -45,6 +44,40 @@ LoadType added_traction_type() {
             for (const std::string &component : components)
               load.expressions.push_back({"Traction", component, true});
             return load;
+          }};
+}
+
+/// F_a = −c A_a v_a on the undeformed faces: a load on faces that limits explicit steps by its damping.
+class ViscousFaces final : public FaceLoad {
+public:
+  explicit ViscousFaces(const double damping) : damping_(damping) {}
+
+  void add_forces(const std::vector<LoadedFace> &faces, const LoadValues & /*values*/,
+                  const NodalMotion &motion, double *forces) const override {
+    for (const LoadedFace &face : faces)
+      for (unsigned int a = 0; a < 4; ++a)
+        add_vector(forces, face.nodes[a],
+                   -damping_ * face.areas[a] * get_vector(motion.velocities, face.nodes[a]));
+  }
+  LoadTangent tangent() const override { return LoadTangent::symmetric; }
+  Bound bound(const LoadedSurface & /*surface*/) const override { return {0., damping_}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const override {
+    return {};
+  }
+
+private:
+  double damping_;
+};
+
+LoadType viscous_faces_type() {
+  return {"viscous faces",
+          "against the velocity of the undeformed faces",
+          {loaded_faces(),
+           {"Viscosity", "0", TypeParameter::Kind::number,
+            "c >= 0. Force per area and velocity. "
+            "[stress time/length]"}},
+          [](const TypeInput &input) {
+            return Load{{}, std::make_shared<const ViscousFaces>(input.not_negative("Viscosity"))};
           }};
 }
 
@@ -95,6 +128,49 @@ parameters::Scene make_cube(const bool is_explicit, const std::string &planes, c
   return parameters::Scene::read(file);
 }
 
+/// A cube that moves along z, and that viscous faces hold, ten times stiffer than its waves: without the
+/// bound of the load, steps would be eight times too long.
+void check_viscous_faces() {
+  std::ofstream text("viscous.prm");
+  text << "subsection Bodies\n"
+          "  subsection cube\n"
+          "    set Initial velocity = 0 ; 0 ; 1\n"
+          "    subsection Mesh\n"
+          "      set Primitive = subdivided_hyper_rectangle\n"
+          "      set Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1 : true\n"
+          "    end\n"
+          "    subsection Material\n"
+          "      set Law = elastic\n"
+          "      set Young modulus = "
+       << young << "\n      set Poisson ratio = 0.3\n      set Density = " << density
+       << "\n"
+          "    end\n"
+          "    subsection Loads\n"
+          "      subsection brake\n"
+          "        set Type = viscous faces\n"
+          "        set Boundary ids = 4, 5\n"
+          "        set Viscosity = "
+       << 10. * std::sqrt(young * density)
+       << "\n"
+          "      end\n"
+          "    end\n"
+          "  end\n"
+          "end\n"
+          "subsection Time stepping\n"
+          "  set Scheme = explicit\n"
+          "  set End time = 1e-6\n"
+          "end\n"
+          "subsection Output\n"
+          "  set Format = none\n"
+          "end\n";
+  text.close();
+  testing::ExplicitRun run(parameters::Scene::read("viscous.prm"));
+  run.finish(1e-6, [] {});
+  // A wave loses a third of its energy at each of the five times that it comes to a face.
+  const double energy = run.state().energies.kinetic + run.state().energies.elastic;
+  check("viscous faces: they take most of the energy, in stable steps", energy < 0.25 * 0.5 * density);
+}
+
 /// Stretch λ of E ln λ/λ = t, the nominal stress of uniaxial Hencky tension.
 double stretch_of(const double t) {
   double low = 1., high = 2.;
@@ -123,6 +199,7 @@ void check_tension(const std::string &name, const Run &run, const SolutionState 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   load_types().add(added_traction_type());
+  load_types().add(viscous_faces_type());
 
   // Slow: 50 times what a wave takes through the cube and back.
   constexpr double duration = 4e-5, traction = 1e4;
@@ -150,5 +227,6 @@ int main(int argc, char *argv[]) {
     run.finish();
     check("implicit: momentum", std::abs(run.problem.state().momentum[0] / impulse - 1.), 1e-2);
   }
+  check_viscous_faces();
   return testing::exit_code();
 }

@@ -147,6 +147,22 @@ void check_texts() {
   check("cut short", !check_step_file(head + "#1=A();").fault.empty());
   check("faces are counted", check_step_file("#1=ADVANCED_FACE(); #2=ADVANCED_FACE ()").n_faces == 2);
 
+  // Entities by the grammar, and those of shapes by their parameters.
+  check("typed values, lists and complex entities",
+        fault("#1=A(.T.,LENGTH_MEASURE(-1.5E+3),((1,2),()),\"0F\",*);#2=(B()C(#1,'x')/* ( */D());").empty());
+  check("no number", fault("#1=CARTESIAN_POINT('',(0.,NaN,1.));").find("#1 has 'NaN'") != std::string::npos);
+  check("a bracket is missing", !fault("#1=A((1,2);").empty() && !fault("#1=A(1 2);").empty());
+  check("parameters are missing",
+        fault("#1=ORIENTED_EDGE();") == "its entity #1 has 0 parameters, where ORIENTED_EDGE has 5");
+  check("a radius of 0", !fault("#1=CIRCLE('',$,0.);").empty() && fault("#1=CIRCLE('',$,1.);").empty());
+  check("a number beyond all bounds", !fault("#1=CARTESIAN_POINT('',(1.E308,0.,0.));").empty());
+  check("a direction of length 0", !fault("#1=DIRECTION('',(0.,0.));").empty());
+  const std::string flat = "#1=CARTESIAN_POINT('',(0.,0.));";
+  check("a point of a face in two dimensions",
+        !fault(flat + "#2=VERTEX_POINT('',#1);#3=ADVANCED_FACE('',(#2),#2,.T.);").empty());
+  check("a point in the parameters of a face",
+        fault(flat + "#2=PCURVE('',#1,#1);#3=ADVANCED_FACE('',(#2),#2,.T.);").empty());
+
   const auto line = [](const std::string &text, const std::string &section) {
     return text + std::string(72 - text.size(), ' ') + section + "\n";
   };
@@ -158,6 +174,25 @@ void check_texts() {
         check_iges_file(lines + line("S      1G      1D      2P      2", "T      1")).fault ==
             "its section P has 1 lines, but its last line tells another number");
   check("faces of IGES are counted", check_iges_file(lines).n_faces == 1);
+}
+
+/// Numbers that the grammar allows, but for which edges miss their vertices.
+void check_vertices(const std::string &original) {
+  const std::string before = "VERTEX_POINT('',#";
+  std::string text = original;
+  const std::size_t place = text.find(before) + before.size();
+  const std::string point =
+      "#" + text.substr(place, text.find(')', place) - place) + " = CARTESIAN_POINT('',(";
+  const std::size_t number = text.find(point) + point.size();
+  text.replace(number, text.find(',', number) - number, "4.5");
+  std::ofstream("moved.step") << text;
+  std::string message;
+  try {
+    make_surface("CAD", "set File = moved.step");
+  } catch (const InputError &error) {
+    message = error.what();
+  }
+  check("a vertex beside its edges", message.find("they miss these by up to") != std::string::npos);
 }
 
 } // namespace
@@ -177,6 +212,7 @@ int main(int argc, char *argv[]) {
   iges.AddShape(plate(false));
   iges.ComputeModel();
   iges.Write("plate.iges");
+  check_vertices(text_of("plate.step"));
   check_all("step", text_of("plate.step"), n_files, argc > 1);
   check_all("stp", text_of("splines.stp"), n_files, argc > 1);
   check_all("iges", text_of("plate.iges"), n_files, argc > 1);

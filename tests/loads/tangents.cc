@@ -120,7 +120,7 @@ void check_load(const std::string &name, const NodalLoad &load, const LoadValues
     Matrix of_node(3, 3);
     load.add_tangent(sample.nodes[a], values.at(0), sample.motion(), damping_factor, of_node);
     tangent.add(of_node, 1., 3 * a, 3 * a);
-    const NodalLoad::Bound bound = load.bound();
+    const LoadAction::Bound bound = load.bound(sample.surface);
     is_bounded =
         is_bounded && of_node.frobenius_norm() <= std::sqrt(3.) * (1. + 1e-12) * sample.nodes[a].area *
                                                       (bound.stiffness + damping_factor * bound.damping);

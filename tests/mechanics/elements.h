@@ -93,7 +93,9 @@ inline NodalTensor displace(const Tensor<2, 3> &F, const NodalTensor &X) { retur
 
 inline std::string name_of(const LawFormulation &formulation) {
   const SharedLaw law = make_law({{1., 1.}, {}}, formulation.kinematics);
-  return describe(formulation, *law).substr(std::string("implicit, ").size());
+  const std::string points =
+      formulation.points_through > 2 ? std::to_string(formulation.points_through) + " points through, " : "";
+  return std::string(formulation.element.name()) + ", " + points + law->name();
 }
 
 /// Calls run(formulation) for every element and kinematics.

@@ -105,6 +105,10 @@ Errors compare(const Mesh &mesh, const MaterialLaw &material, const Formulation 
 template <class Function> void for_each_law(const Function &run) {
   run(MaterialLaw{steel, {}});
   for_each_hardening([&](const std::string &, const auto &hardening) { run(MaterialLaw{steel, hardening}); });
+  run(MaterialLaw{steel, at_rate(linear, cowper_symonds(40., 5.))});
+  run(MaterialLaw{steel, at_rate(voce, cowper_symonds(40., 5.))});
+  run(MaterialLaw{steel, at_rate(table, cowper_symonds(40., 5.))});
+  run(MaterialLaw{steel, at_rate(table, std::make_shared<const LogarithmicFactor>(2., 0.1))});
 }
 
 /// A mesh elsewhere: nodes are moved before all displacements, and once more by them.

@@ -157,6 +157,11 @@ int main() {
     test_instruction_sets(formulation, "elastic", {steel, {}});
     test_instruction_sets(formulation, "linear hardening", {steel, linear});
     test_instruction_sets(formulation, "Voce hardening", {steel, voce});
+    test_instruction_sets(formulation, "rate factor", {steel, at_rate(voce, cowper_symonds(40., 5.))});
+    test_instruction_sets(formulation, "rate factor, lane by lane",
+                          {steel, at_rate(table, std::make_shared<const LogarithmicFactor>(2., 0.1))});
+    test_instruction_sets(formulation, "rate factor of a table",
+                          {steel, at_rate(table, cowper_symonds(40., 5.))});
     test_masses(formulation);
     test_inverted(formulation);
     test_initialize(formulation);
@@ -167,5 +172,9 @@ int main() {
         Body(make_mesh(cube()), {steel, linear}, Formulation{}).block().history_size() == 59);
   check("history, Voce hardening",
         Body(make_mesh(cube()), {steel, voce}, Formulation{}).block().history_size() == 67);
+  check("history, Voce hardening with a rate factor",
+        Body(make_mesh(cube()), {steel, at_rate(voce, cowper_symonds(40., 5.))}, Formulation{})
+                .block()
+                .history_size() == 75);
   return exit_code();
 }

@@ -5,6 +5,8 @@
 #include "../fuzz/damage.h"
 #include "samples.h"
 
+#include "billet/mesh/mesh_volumes.h"
+
 #include <cstdint>
 
 using namespace billet;
@@ -33,6 +35,9 @@ bool is_sound(const MeshFile &mesh) {
   for (const auto &set : mesh.element_sets)
     for (const unsigned int element : set.members)
       holds = holds && element < mesh.hexahedra.size() && set.group < mesh.groups.size();
+  for (const auto &volume : mesh.volumes)
+    for (const unsigned int element : volume.members)
+      holds = holds && element < mesh.hexahedra.size();
   return holds;
 }
 
@@ -41,6 +46,10 @@ enum class Outcome { refused, accepted, unsound };
 Outcome judge(const std::string &bytes) {
   try {
     MeshFile mesh = parse_mesh(bytes, &access_sample);
+    if (!is_sound(mesh))
+      return Outcome::unsound;
+    if (!mesh.volumes.empty())
+      choose_volumes(mesh, {name_of(mesh.volumes.front())});
     if (!is_sound(mesh))
       return Outcome::unsound;
     mend_and_check(mesh, DoubledNodes::merged, 1e-6);

@@ -50,6 +50,70 @@ void check_doubled() {
             std::string::npos);
 }
 
+NearNodes near_nodes(const std::string &bytes, const DoubledNodes doubled = DoubledNodes::refused,
+                     const double distance = 0.) {
+  MeshFile mesh = parse_mesh(bytes, &access_sample);
+  return mend_and_check(mesh, doubled, distance);
+}
+
+/// Nodes that are probably doubled: closer than a thousandth of the edges at them.
+void check_near() {
+  const NearNodes near = near_nodes(doubled_deck("1.000001"));
+  check("nodes that nearly coincide", near.n_pairs == 4 && std::abs(near.distance - 1e-6) < 1e-12 &&
+                                          near.examples == "2 and 12; 3 and 13; 6 and 16");
+  check("nodes beyond a thousandth of an edge", near_nodes(doubled_deck("1.002")).n_pairs == 0);
+  check("nodes that the scene keeps apart",
+        near_nodes(doubled_deck("1.000001"), DoubledNodes::kept).n_pairs == 0);
+  check("nodes that the scene joins",
+        near_nodes(doubled_deck("1.000001"), DoubledNodes::merged, 2e-6).n_pairs == 0);
+  check("nodes beyond the distance of the scene",
+        near_nodes(doubled_deck("1.000001"), DoubledNodes::merged, 5e-7).n_pairs == 4);
+  // A third cube, a thousand times as small, at a corner of the first: its own edges count there.
+  const auto with_small = [](const std::string &gap) {
+    std::string nodes;
+    const std::string x[2] = {"-0.001", gap}, y[2] = {"-0.001", "0"}, order[4] = {"00", "10", "11", "01"};
+    for (unsigned int i = 0; i < 8; ++i)
+      nodes += std::to_string(31 + i) + "," + x[order[i % 4][0] - '0'] + "," + y[order[i % 4][1] - '0'] +
+               "," + (i < 4 ? "-0.001" : "0") + "\n";
+    return replaced(doubled_deck("1.000001"), "99,5,5,5\n", nodes) + "8,31,32,33,34,35,36,37,38\n";
+  };
+  check("small elements beside large ones", near_nodes(with_small("-0.0000002")).n_pairs == 5 &&
+                                                near_nodes(with_small("-0.000002")).n_pairs == 4);
+}
+
+/// Nodes and elements in files of their own.
+void check_input() {
+  const std::string deck = doubled_deck("1");
+  const std::size_t first = deck.find("1,0"), last = deck.find("*ELEMENT");
+  const std::string nodes = deck.substr(first, last - first);
+  const std::string elements = "1,1,2,3,4,5,6,7,8\n";
+  const auto read = [&](const std::string &text) {
+    return parse_mesh(text, [&](const std::string &name) {
+      if (name == "nodes.txt")
+        return nodes;
+      if (name == "deck.txt")
+        return std::string("*ELEMENT, TYPE=C3D8\n");
+      return name == "elements.txt" ? elements : throw std::invalid_argument("no '" + name + "'");
+    });
+  };
+  const MeshFile mesh = read("*NODE, NSET=N, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D8, INPUT=elements.txt\n"
+                             "7,12,22,23,13,16,26,27,17\n");
+  check("nodes and elements of other files",
+        mesh.positions.size() == 17 && mesh.hexahedra.size() == 2 && mesh.node_sets.size() == 1);
+  const auto says = [&](const std::string &text, const std::string &words) {
+    try {
+      read(text);
+    } catch (const std::invalid_argument &error) {
+      return std::string(error.what()).find(words) != std::string::npos;
+    }
+    return false;
+  };
+  check("a file of nodes that is not there",
+        says("*NODE, INPUT=no.txt\n", "line 1 of it, INPUT of *node fails: no 'no.txt'"));
+  check("a keyword where data should be",
+        says("*NODE, INPUT=deck.txt\n", "from 'deck.txt', and in line 1 of it, a keyword stands where"));
+}
+
 void check_elements(const std::string &deck) {
   const std::string first = "1, 1, 2, 5, 4,\n 7, 8, 11, 10";
   check_refusal("an inverted element", replaced(deck, first, "1, 7, 8, 11, 10, 1, 2, 5, 4"),
@@ -105,12 +169,17 @@ void check_counts() {
   check_refusal("no mesh at all", "no mesh", {"none of these formats", "(.msh)", "(.vtk)", "(.inp)", "UCD"});
   check_refusal("XML", "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">", {"meshio convert"});
   check_refusal("nothing", "", {"none of these formats"});
+  for (const std::string comment : {"", "$ a comment\n$# another\n"})
+    check_refusal("LS-DYNA", comment + "*KEYWORD\n*NODE\n1, 0., 0., 0.\n*END\n",
+                  {"a keyword file of LS-DYNA", "none of these formats", "(.inp)"});
 }
 
 } // namespace
 
 int main() {
   check_doubled();
+  check_near();
+  check_input();
   check_elements(read_text("part.inp"));
   check_sets(read_text("part.inp"));
   check_counts();

@@ -2,6 +2,7 @@
 // Runs that stop and go on, through a file: the rest is that of the run without interruption, bit by bit on
 // as many ranks, to 1e-8 on others. A press with friction, plasticity, a tool with a force, one that stops,
 // one that is taken away; an impact with all that an explicit scene may have; a ring that touches itself.
+#include "../sample_laws.h"
 #include "materials.h"
 #include "restart_run.h"
 
@@ -62,6 +63,9 @@ int main(int argc, char *argv[]) {
     parameters::Scene scene = testing::read_test_scene("explicit_ranks.prm");
     scene.explicit_dynamics.number_type = NumberType::float_precision;
     scene.time_stepping.end_time = 0.1e-3;
+    parameters::Material &material = scene.bodies[1].material; // whose points also store their plastic work
+    material.law = material.elasticity->make_plastic_law(
+        testing::at_rate(testing::linear_hardening(material), testing::cowper_symonds(1e4, 5.)));
     // Which elements stand together in a batch decides how many terms of a series all of them take.
     testing::test_going_on<testing::ExplicitStops>(
         "Impact in float", scene, {0.04e-3},

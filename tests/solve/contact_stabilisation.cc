@@ -42,6 +42,10 @@ double potential(const ContactStabilisation &stabilisation, const Values &u, con
 
 /// Checks the messages about a block without supports that has moved, where all work is so many times that of
 /// the stabilising forces, and where forces are so many times these forces.
+RigidBodies::LoadFilter springs_after(const double t) {
+  return [t](const LoadTimes &times) { return times.acts_after(t); };
+}
+
 void check_messages() {
   auto parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/confined_element.prm");
   parameters.bodies[0].supports.clear();
@@ -49,7 +53,7 @@ void check_messages() {
   const Scene scene(parameters);
   const Discretization discretization(scene, MPI_COMM_WORLD);
   BodyStabilisation stabilisation(scene, discretization);
-  stabilisation.prepare(RigidBodies(scene, discretization, holding_after(0.)));
+  stabilisation.prepare(RigidBodies(scene, discretization, holding_after(0.), springs_after(0.)));
   stabilisation.start_step(1.);
   StepState step(discretization);
   step.trial.displacements = 1.;
@@ -78,7 +82,8 @@ void check_messages() {
             !tells(diagnostic::stabilised_at_end, 1., 980., 980.));
   check("none, if it is less", !tells(diagnostic::stabilised_at_end, 1., 1020., 1020.));
   // In equilibrium all that moves the body is a load, as large as the viscous forces.
-  const double size = 2. * RigidBodies(scene, discretization, holding_after(0.)).frames[0].size;
+  const double size =
+      2. * RigidBodies(scene, discretization, holding_after(0.), springs_after(0.)).frames[0].size;
   const auto tells_of_drift = [&](const double distance) {
     support.unresisted = {{dealii::Tensor<1, 3>()}, {distance * dealii::Tensor<1, 3>({1., 0., 0.})}};
     stabilisation.commit(step, support, 0.);

@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_PROJECTED_AREAS_H
 
 #include "billet/contact/tool_contact_state.h"
+#include "billet/geometry/facet_point.h"
 
 #include <deal.II/base/tensor.h>
 
@@ -32,6 +33,19 @@ struct ProjectedAreas {
 
 /// Integrates by 2 × 2 Gauss points. Derivatives are 0 unless `with_derivatives`.
 ProjectedAreas compute_projected_areas(const CornerStates &states, bool with_derivatives);
+
+/// Returns the area shares of the corners by 2 × 2 Gauss points, whether they touch or not, along the normals
+/// normal_of(corner).
+template <class NormalOf>
+std::array<double, 4> projected_shares(const CornerStates &states, const NormalOf &normal_of) {
+  std::array<double, 4> shares{};
+  for (const auto &point : facet_points()) {
+    const auto area_vector = point.area_vector([&](const unsigned int a) { return states[a]->position; });
+    for (unsigned int a = 0; a < 4; ++a)
+      shares[a] += point.N[a] * std::max(0., -(area_vector * normal_of(a)));
+  }
+  return shares;
+}
 
 } // namespace billet
 

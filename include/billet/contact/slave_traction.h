@@ -3,10 +3,10 @@
 #define BILLET_CONTACT_SLAVE_TRACTION_H
 
 #include "billet/contact/friction_account.h"
+#include "billet/contact/friction_history.h"
 #include "billet/contact/traction.h"
 #include "billet/geometry/derivative.h"
 #include "billet/geometry/facet_projection.h"
-#include "billet/geometry/frame.h"
 
 #include <cmath>
 #include <type_traits>
@@ -15,13 +15,8 @@ namespace billet {
 
 /// Friction history of a slave node. It belongs to the node: sliding from one facet to the next does not
 /// change it. A node out of contact has a new one.
-struct SlaveHistory {
-  bool is_active = false; ///< whether the other members are set
-  Frame frame;
-  std::array<double, 2> tangential{}; ///< traction on the frame's q and r [stress]
-  double slip = 0.;                   ///< length of the path slipped [length]
-  double slip_rate = 0.;              ///< [length/time]
-  double area = 0.;                   ///< of the traction [length²]
+struct SlaveHistory : FrictionHistory {
+  double area = 0.; ///< of the traction [length²]
 };
 
 /// Motion of a slave node and of the facet that it touches over a step.

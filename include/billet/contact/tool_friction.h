@@ -3,8 +3,8 @@
 #define BILLET_CONTACT_TOOL_FRICTION_H
 
 #include "billet/contact/edge_fading.h"
+#include "billet/contact/friction_history.h"
 #include "billet/contact/pressure_record.h"
-#include "billet/geometry/frame.h"
 #include "billet/usage.h"
 
 #include <array>
@@ -17,13 +17,8 @@ namespace billet {
 class ToolFriction {
 public:
   /// History of a node.
-  struct History {
-    bool is_active = false;
-    Frame frame;
-    std::array<double, 2> tangential{};
+  struct History : FrictionHistory {
     dealii::Tensor<1, 3> tool_position; ///< of the slave node, in the tool's coordinates
-    double slip = 0.;                   ///< length of the path slipped
-    double slip_rate = 0.;
   };
 
   /// `stores` is whether springs store energy, see FrictionRule. The references must outlive this object.

@@ -34,7 +34,8 @@ template <class Add> void visit_areas(const RigidContactParts &parts, const Add 
 /// The excess acts on a fixed area: that of the last step in which the node was not so deep. The limit is 0
 /// for hardening springs, so that energy is conserved where the normal jumps, as at an edge of the tool.
 inline double penetration_on_current_areas(const ContactPoint &node) {
-  return std::isinf(node.hardening_penetration) ? 0.1 * node.spacing : 0.;
+  constexpr double part_of_spacing = 0.1;
+  return std::isinf(node.hardening_penetration) ? part_of_spacing * node.spacing : 0.;
 }
 
 /// Energies in the penalty springs of nodes on a tool, and the areas on which they act: those of the last

@@ -61,6 +61,7 @@ private:
   void place(const AppliedLoad &load, const NodalLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const SurfaceLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const PointLoad &action, std::size_t body);
+  void place_on_nodes(const AppliedLoad &load, const PointLoad &action, std::size_t body);
   /// Calls visit(placed) for each load, in their order.
   template <class Visit> void visit(const Visit &visit) const {
     std::for_each(on_bodies_.begin(), on_bodies_.end(), visit);

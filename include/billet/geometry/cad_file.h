@@ -17,7 +17,8 @@ struct CadFileReport {
   std::size_t n_faces = 0; ///< faces bounded by curves that it defines
 };
 
-/// Checks a STEP file (ISO 10303-21): its end, and that each entity that is named is defined once.
+/// Checks a STEP file (ISO 10303-21): its end, that each entity that is named is defined once, and what
+/// find_faulty_entity() finds.
 CadFileReport check_step_file(const std::string &text);
 
 /// Checks an IGES file of fixed line length: the numbers of lines of its sections, which its last line tells.

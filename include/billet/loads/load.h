@@ -12,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -75,6 +76,7 @@ struct LoadedFace {
   std::array<unsigned int, 4> nodes; ///< in the order of FacetPoint
   dealii::Point<3> centre;           ///< undeformed
   const LoadedSurface *surface = nullptr;
+  std::array<double, 4> areas{}; ///< shares of the corners in the undeformed face [length²]
 
   /// Returns the current positions of the corners.
   std::array<dealii::Tensor<1, 3>, 4> positions(const NodalMotion &motion) const {
@@ -97,23 +99,47 @@ struct LoadedNode {
 /// Derivatives of the forces by displacements and velocities.
 enum class LoadTangent { none, symmetric, unsymmetric };
 
-/// Load on the mass or the volume of a body.
-class BodyLoad {
+/// Properties that every kind of load states: what its forces depend on, and how far they limit explicit
+/// steps.
+class LoadAction {
 public:
-  virtual ~BodyLoad() = default;
+  virtual ~LoadAction() = default;
 
+  virtual LoadTangent tangent() const = 0;
+  /// Upper bounds per undeformed area; they limit the explicit time step.
+  struct Bound {
+    double stiffness = 0.; ///< [force/length³]
+    double damping = 0.;   ///< [force time/length³]
+  };
+  /// Returns the bounds for faces of this surface.
+  virtual Bound bound(const LoadedSurface &surface) const = 0;
+  /// Returns the directions in which it supports a node of a face with this normal: those of springs.
+  virtual std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const = 0;
+};
+
+/// Load of this kind whose forces depend on neither displacements nor velocities.
+template <class Kind> class DeadLoad : public Kind {
+public:
+  LoadTangent tangent() const final { return LoadTangent::none; }
+  LoadAction::Bound bound(const LoadedSurface & /*surface*/) const final { return {}; }
+  std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const final {
+    return {};
+  }
+};
+
+/// Load on the mass or the volume of a body.
+class BodyLoad : public DeadLoad<LoadAction> {
+public:
   /// Returns the force per mass [length/time²], or per undeformed volume [force/length³].
   virtual dealii::Tensor<1, 3> acceleration(const double *values) const = 0;
   virtual bool is_per_volume() const { return false; }
 };
 
-/// Force of fixed direction on a material point of a body.
-class PointLoad {
+/// Force of fixed direction on a material point of a body, or on nodes that the scene selects.
+class PointLoad : public DeadLoad<LoadAction> {
 public:
-  virtual ~PointLoad() = default;
-
-  /// Returns the undeformed position.
-  virtual dealii::Point<3> position() const = 0;
+  /// Returns the undeformed position; none if it acts on selected nodes, in equal parts.
+  virtual std::optional<dealii::Point<3>> position() const = 0;
   /// Whether it acts on the node nearest to it; otherwise on the nodes of its element, by their shape
   /// functions there.
   virtual bool takes_nearest_node() const = 0;
@@ -122,14 +148,11 @@ public:
 };
 
 /// Load on the deformed faces of a body.
-class FaceLoad {
+class FaceLoad : public LoadAction {
 public:
-  virtual ~FaceLoad() = default;
-
   /// Adds the forces on all faces [force].
   virtual void add_forces(const std::vector<LoadedFace> &faces, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
-  virtual LoadTangent tangent() const = 0;
   /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one face, 12 × 12, three rows for each corner [force/length]. It
   /// is called unless tangent() is none.
   virtual void add_tangent(const LoadedFace & /*face*/, const double * /*values*/,
@@ -138,30 +161,16 @@ public:
 };
 
 /// Load on the nodes of a body's faces, by their undeformed areas. A force depends on its own node alone.
-class NodalLoad {
+class NodalLoad : public LoadAction {
 public:
-  virtual ~NodalLoad() = default;
-
   /// Adds the forces on all nodes [force].
   virtual void add_forces(const std::vector<LoadedNode> &nodes, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
-  virtual LoadTangent tangent() const = 0;
   /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one node, 3 × 3 [force/length]. It is called unless tangent() is
   /// none.
   virtual void add_tangent(const LoadedNode & /*node*/, const double * /*values*/,
                            const NodalMotion & /*motion*/, double /*damping_factor*/,
                            dealii::FullMatrix<double> & /*matrix*/) const {}
-
-  /// Upper bounds per undeformed area; they limit the explicit time step.
-  struct Bound {
-    double stiffness = 0.; ///< [force/length³]
-    double damping = 0.;   ///< [force time/length³]
-  };
-  virtual Bound bound() const { return {}; }
-  /// Returns the directions in which it supports a node of a face with this normal: those of springs.
-  virtual std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> & /*normal*/) const {
-    return {};
-  }
 };
 
 /// Measures motion and shares of a surface with these faces on this rank; `sum` adds numbers over all ranks.
@@ -169,14 +178,11 @@ void measure_motion(const std::vector<LoadedFace> &faces, const NodalMotion &mot
                     const std::function<void(std::vector<double> &)> &sum);
 
 /// Load on a surface as a whole: the force on a node depends on the motion of all of its nodes.
-class SurfaceLoad {
+class SurfaceLoad : public LoadAction {
 public:
-  virtual ~SurfaceLoad() = default;
-
   /// Returns the force on a node; it is linear in the shares.
   virtual dealii::Tensor<1, 3> force(const SurfaceNode &node, const double *values,
                                      const LoadedSurface &surface) const = 0;
-  virtual LoadTangent tangent() const = 0;
 
   /// −∂F_a/∂x_b = m_ab D + Σ_k left_k(a) right_k(b), m_ab the integral of N_a N_b: D.
   virtual dealii::Tensor<2, 3> local_tangent(const double *values, const LoadedSurface &surface) const = 0;
@@ -186,9 +192,6 @@ public:
   };
   virtual Coupling coupling(const SurfaceNode &node, const double *values,
                             const LoadedSurface &surface) const = 0;
-  /// Returns an upper bound of the stiffness per undeformed area, which limits the explicit time step
-  /// [force/length³].
-  virtual double stiffness(const LoadedSurface & /*surface*/) const { return 0.; }
 };
 
 /// External load on a body, other than contact with tools and other bodies.
@@ -200,6 +203,8 @@ struct Load {
                std::shared_ptr<const SurfaceLoad>>
       action;
 
+  /// Returns the properties that all kinds of loads have.
+  const LoadAction &properties() const;
   bool acts_on_faces() const {
     return std::holds_alternative<std::shared_ptr<const FaceLoad>>(action) ||
            std::holds_alternative<std::shared_ptr<const NodalLoad>>(action) || acts_on_surface();
@@ -209,6 +214,8 @@ struct Load {
   bool acts_on_mass() const;
   /// Returns the directions in which it supports a node of a face with this normal.
   std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const;
+  /// Whether it supports nodes at all.
+  bool is_spring() const { return !supports(dealii::Tensor<1, 3>({1., 0., 0.})).empty(); }
   bool has_unsymmetric_tangent() const;
   /// Whether the load limits the explicit time step.
   bool limits_steps() const;

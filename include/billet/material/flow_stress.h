@@ -46,7 +46,7 @@ double solve_consistency(const Law &law, const double q, const double m, const d
 /// zero.
 class FlowStress {
 public:
-  static constexpr std::size_t max_state = 4;
+  static constexpr std::size_t max_state = max_flow_state;
   using State = std::array<double, max_state>;
 
   virtual ~FlowStress() = default;
@@ -77,10 +77,11 @@ public:
   virtual bool is_bounded() const = 0;
 
   /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
-  /// time.
+  /// time. With a rate factor that kernels have, the state is the plastic work alone.
   virtual LaneHardening lane_form() const { return {}; }
-  /// Whether it depends on α alone, so that kernels need no other state.
-  bool depends_on_strain_alone() const { return n_state() == 0; }
+
+  /// Returns the derivative of stress(), from the right where it has a kink [stress].
+  virtual double slope(double alpha) const = 0;
 };
 
 } // namespace billet

@@ -14,8 +14,6 @@ namespace billet {
 /// Isotropic hardening: the flow stress depends on the equivalent plastic strain alone.
 class HardeningLaw : public FlowStress {
 public:
-  /// Returns the derivative of stress(), from the right where it has a kink [stress].
-  virtual double slope(double alpha) const = 0;
   /// Returns the integral of the stress from 0 to α [stress].
   virtual double work(double alpha) const = 0;
   double plastic_work(const double alpha, const State &) const final { return work(alpha); }

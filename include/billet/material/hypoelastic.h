@@ -134,7 +134,7 @@ public:
   std::vector<StateField> fields() const {
     std::vector<StateField> result = HypoelasticElasticity::fields();
     result.push_back({"equivalent plastic strain", 1});
-    result.push_back({"flow stress history", flow_->n_state()});
+    result.push_back({flow_state_name, flow_->n_state()});
     return result;
   }
   void store(const History &history, double *numbers) const {

@@ -99,12 +99,7 @@ public:
       return law_.min_wave_stiffness(stretches);
   }
 
-  std::optional<LaneLaw> lane_law() const override {
-    if constexpr (Law::has_plasticity)
-      if (!law_.flow_stress()->depends_on_strain_alone())
-        return {};
-    return find_lane_law<Law>(0);
-  }
+  std::optional<LaneLaw> lane_law() const override { return find_lane_law<Law>(0); }
 
 private:
   template <class L> static auto find_lane_law(int) -> std::optional<std::decay_t<decltype(L::lane_law)>> {

@@ -28,7 +28,7 @@ public:
   std::vector<StateField> fields() const {
     return {symmetric_field("inverse plastic metric"),
             {"equivalent plastic strain", 1},
-            {"flow stress history", flow_->n_state()}};
+            {flow_state_name, flow_->n_state()}};
   }
   void store(const History &history, double *numbers) const {
     for (unsigned int i = 0; i < 6; ++i)

@@ -21,6 +21,9 @@ public:
   virtual double value(double rate) const = 0;
   /// Returns the derivative of value(); it may be infinite at rest [time].
   virtual double slope(double rate) const = 0;
+  /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
+  /// time.
+  virtual LaneRate lane_form() const { return {}; }
 };
 
 /// Rate factors that a scene file can name; "none" makes a null pointer. A new one is a file in
@@ -43,6 +46,9 @@ public:
   double plastic_work(double, const State &state) const override { return state[0]; }
   double plastic_work_at_rest(const double alpha) const override { return hardening_->work(alpha); }
   bool is_bounded() const override { return hardening_->is_bounded(); }
+  double slope(double alpha) const override { return hardening_->slope(alpha); }
+  /// Returns a form if the factor has one.
+  LaneHardening lane_form() const override;
 
 private:
   std::shared_ptr<const HardeningLaw> hardening_;

@@ -21,10 +21,6 @@ struct ElementFormulation {
   bool is_symmetrised = false;     ///< whether an unsymmetric tangent is replaced by its symmetric part
 };
 
-/// Returns text that identifies the meaning of a history: element, points through the thickness unless two,
-/// and elasticity.
-std::string describe(const ElementFormulation &formulation, const PointLaw &law);
-
 /// Averages and integrals over one element, for output.
 struct ElementSummary {
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< average over the current volume [stress]

@@ -62,7 +62,9 @@ public:
   struct StepResult {
     double stable_step;    ///< stable for every element, including viscosity [time]
     double elastic_energy; ///< current, without the stabilisation's [energy]
-    double plastic_work; ///< in this step: mean of both ends' yield stress times the plastic strain [energy]
+    /// In this step [energy]: mean of both ends' yield stress times the plastic strain; what the flow stress
+    /// says if it has a state, as with a rate factor.
+    double plastic_work;
     /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, by the trapezoidal rule, as
     /// for all works. It can be negative for a step in which the rate changes sign. The sum over equal steps
     /// from rest is non-negative if viscosity is linear.
@@ -119,8 +121,9 @@ public:
   virtual StateAverages average_states(std::size_t element, const double *displacements) const = 0;
 };
 
-/// Returns text that identifies the meaning of a history: element, elasticity and number type.
-std::string describe(const ExplicitFormulation &formulation, const PointLaw &law);
+/// Whether the kernels compute this element with this law; other ones are computed one by one, in double
+/// only.
+bool has_kernel(const BrickElement &element, const PointLaw &law);
 
 /// Makes the block; `density` is per reference volume. Throws std::invalid_argument, with the reason, for an
 /// unavailable instruction set and for numbers out of range. Every element supports every law: if the kernels

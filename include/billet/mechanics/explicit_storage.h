@@ -27,6 +27,13 @@ struct KernelUnits {
 /// time is a power of two as well.
 KernelUnits choose_units(double length, double stress, double density);
 
+/// Numbers that a point stores beside its tensor. With plasticity these are α, σ_y(α) unless hardening is
+/// linear, and the state of the flow stress.
+struct PlasticNumbers {
+  bool has_alpha = false, has_yield_stress = false;
+  std::size_t n_state = 0;
+};
+
 /// State at a point of an element, from its history.
 struct PointState {
   double reference_volume; ///< share of the element's reference volume
@@ -34,14 +41,15 @@ struct PointState {
   /// dev τ if the law is hypoelastic, otherwise b_e up to a factor
   dealii::SymmetricTensor<2, 3> tensor;
   double equivalent_plastic_strain;
-  dealii::Tensor<2, 3> F = {}; ///< F̄ of eight points with mean dilatation
+  dealii::Tensor<2, 3> F = {};   ///< F̄ of eight points with mean dilatation
+  FlowStress::State flow = {{}}; ///< state of the flow stress
 };
 
 /// Storage of the numbers that kernels read and write, laid out in batches. `Number` is double or float.
 template <class Number> class ExplicitStorage {
 public:
   ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, LaneLaw law, LaneElement element,
-                  bool has_plasticity, bool keeps_yield_stress);
+                  const PlasticNumbers &plastic);
 
   /// Initializes the storage, see ExplicitBlock::initialize(). `yield_stress` is the initial one, used if it
   /// is stored. Numbers are stored in `units`, those of the kernels; all arguments and results are in the
@@ -82,9 +90,9 @@ public:
 
   /// Returns the states of the eight points, or of the one; empty if the element is inverted.
   std::vector<PointState> compute_states(std::size_t element, const double *displacements) const;
-  /// Sets the states, the inverse of compute_states(): it reads tensor and plastic strain of each state; b_e
-  /// has determinant 1. `yield_stress` holds one value per state, used if it is stored. A one-point element
-  /// with plasticity also resets the energy of its stabilisation.
+  /// Sets the states, the inverse of compute_states(): it reads the tensor and plastic data of each state;
+  /// b_e has determinant 1. `yield_stress` holds one value per state, used if it is stored. A one-point
+  /// element with plasticity also resets the energy of its stabilisation.
   void set_states(std::size_t element, const double *displacements, const std::vector<PointState> &states,
                   const std::vector<double> &yield_stress);
 
@@ -93,6 +101,7 @@ public:
 
 private:
   static constexpr bool is_single = sizeof(Number) == sizeof(float);
+  static constexpr std::size_t n_parts = is_single ? 2 : 1; ///< of α and of the flow stress' state
   using NodalMasses = std::array<double, n_element_nodes>;
 
   std::size_t index(const std::size_t element, const std::size_t k, const std::size_t n) const {
@@ -132,7 +141,9 @@ private:
   /// `is_forgotten`.
   void set_hourglass(std::size_t element, const double *displacements, const dealii::Tensor<2, 3> &jacobian,
                      bool is_forgotten);
-  void set_alpha(std::size_t element, std::size_t &k, double alpha);
+  /// Set and get a number that floats store in two parts, and advance its place.
+  void set_in_parts(std::size_t element, std::size_t &k, double value);
+  double get_in_parts(std::size_t element, std::size_t &k) const;
   /// Sets the units of the numbers of an element's history.
   void set_history_units();
   bool is_rate() const { return law_ == LaneLaw::hypoelastic; }
@@ -143,7 +154,7 @@ private:
   ElasticModuli elastic_;
   LaneLaw law_;
   LaneElement element_;
-  bool has_plasticity_, keeps_yield_stress_;
+  PlasticNumbers plastic_;
   KernelUnits units_;
   explicit_kernels::Layout layout_;
   std::size_t first_point_, n_tensor_; ///< position in the history; size of a point's tensor

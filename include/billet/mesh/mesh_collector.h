@@ -55,6 +55,13 @@ public:
   /// Returns the index of the group without a name and with this number. Throws if it is no boundary id.
   std::size_t numbered_group(long long number);
 
+  /// Returns the index of the volume with this name and number; adds it if there is none.
+  std::size_t volume(const std::string &name, unsigned int number, bool is_part);
+  /// Adds a hexahedron, by its number, to a volume.
+  void add_to_volume(std::size_t volume, long long hexahedron) {
+    volume_members_.emplace_back(volume, hexahedron);
+  }
+
   /// Counts something of the file that is not read.
   void leave_unread(const std::string &keyword) { ++mesh_.unread[keyword]; }
 
@@ -87,6 +94,7 @@ private:
   std::size_t count(CellKind kind) const;
   void check_kinds() const;
   void finish_plane();
+  void finish_volumes(const std::unordered_map<long long, unsigned int> &hexahedra);
 
   std::string node_word_;
   MeshFile mesh_;
@@ -95,8 +103,10 @@ private:
   std::vector<Face> faces_;
   std::vector<Quadrilateral> quadrilaterals_;
   std::vector<Edge> edges_;
+  std::vector<std::pair<std::size_t, long long>> volume_members_;
   std::map<CellKind, std::size_t> n_cells_;
   std::map<std::tuple<std::string, unsigned int, std::string>, std::size_t> group_index_;
+  std::map<std::pair<std::string, unsigned int>, std::size_t> volume_index_;
 };
 
 } // namespace billet

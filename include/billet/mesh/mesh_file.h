@@ -64,6 +64,14 @@ struct PlaneMesh {
   std::size_t n_triangles = 0;
 };
 
+/// Volume of a file: a set of its hexahedra, as ascending indices. Volumes may overlap.
+struct MeshVolume {
+  std::string name;    ///< empty: a number only
+  unsigned int number; ///< FaceGroup::no_number: a name only
+  bool is_part;        ///< whether the file gives it a material, or means it as a body in another way
+  std::vector<unsigned int> members = {};
+};
+
 /// Content of a mesh file: hexahedra, and which faces its groups hold.
 struct MeshFile {
   std::vector<long long> node_numbers; ///< in the file
@@ -75,6 +83,7 @@ struct MeshFile {
   std::vector<FaceGroup> groups;
   std::vector<GroupedFace> faces;
   std::vector<GroupedSet> node_sets, element_sets;
+  std::vector<MeshVolume> volumes;
   /// Keywords of which nothing is read, in lower case, and how often each stands there.
   std::map<std::string, std::size_t> unread;
   PlaneMesh plane; ///< empty if there are hexahedra

@@ -6,10 +6,10 @@
 #include "billet/loads/load.h"
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_type.h"
+#include "billet/parameters/node_selection.h"
 #include "billet/parameters/reader.h"
 
 #include <array>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,6 +31,7 @@ struct Mesh {
   double height;
   unsigned int n_layers;
   Located<std::string> file_name;              ///< relative to the scene file
+  Located<std::vector<std::string>> volumes;   ///< of the file, by their names; empty: all of it
   Located<std::vector<std::string>> positions; ///< three expressions of x, y, z, or none
   double scale;
   dealii::Tensor<1, 3> rotation_axis;
@@ -53,10 +54,6 @@ private:
   void parse_section(const Reader &reader);
 };
 
-/// Whether a material has plasticity. `law`: value of 'Law', which is automatic by default; `is_set`: whether
-/// the scene sets a parameter of the material.
-bool has_plasticity(const std::string &law, const std::function<bool(const std::string &)> &is_set);
-
 /// Subsection Material.
 struct Material {
   Located<double> density;          ///< 0: not given
@@ -71,7 +68,8 @@ struct Material {
 /// One named subsection of Supports.
 struct Support {
   std::string name;
-  BoundaryIds boundary_ids;
+  BoundaryIds boundary_ids; ///< or, if they are empty, `nodes`
+  NodeSelection nodes;
   std::array<bool, 3> components{};
   /// Expressions of x, y, z (reference position), t and the amplitudes.
   Located<std::array<std::string, 3>> displacement;
@@ -90,6 +88,7 @@ struct Load {
   billet::Load load;
   std::vector<std::string> origins; ///< places of its expressions in the scene file, for messages
   BoundaryIds boundary_ids;         ///< only for loads on faces
+  NodeSelection nodes;              ///< only for forces on nodes
   double from = 0., until = std::numeric_limits<double>::infinity();
   std::optional<double> fade_time; ///< none: automatic
   std::string origin;

@@ -106,6 +106,8 @@ struct Solver {
 
 /// Linear solvers of scene files; none: automatic.
 const NamedValues<std::optional<LinearMethod>> &linear_methods();
+/// Returns the names of those that solve with unsymmetric matrices, separated by commas.
+std::string methods_for_unsymmetric();
 
 /// Subsection Output.
 struct Output {

@@ -2,12 +2,13 @@
 #ifndef BILLET_PARAMETERS_READER_H
 #define BILLET_PARAMETERS_READER_H
 
-#include "billet/errors.h"
+#include "billet/error_notes.h"
 #include "billet/parameters/scene_file.h"
 #include "billet/registered_type.h"
 
 #include <deal.II/base/tensor.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -48,40 +49,29 @@ class Reader : public TypeInput {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
 
-  /// Calls `read` inside the subsection `name`. At the top level errors are noted if they are collected.
+  /// Calls `read` inside the subsection `name`. Its errors are noted if they are collected.
   template <class Function> void in(const std::string &name, const Function &read) {
-    const auto read_inside = [&] {
-      enter(name);
-      try {
-        read();
-      } catch (...) {
-        leave();
-        throw;
-      }
+    enter(name);
+    try {
+      note_errors(read);
+    } catch (...) {
       leave();
-    };
-    if (path_.empty())
-      note_errors(read_inside);
-    else
-      read_inside();
+      throw;
+    }
+    leave();
   }
-  /// Makes later calls of in() at the top level, and of note_errors(), note errors instead of throwing them.
+  /// Makes later calls of in() and note_errors() note errors instead of throwing them, and single numbers
+  /// that are not allowed as well: what is read with errors is not to be used.
   void collect_errors() { collects_ = true; }
   /// Calls `read` and notes its errors if they are collected, so that those of other parts follow.
   template <class Function> void note_errors(const Function &read) {
-    if (!collects_)
-      return read();
-    try {
+    if (collects_)
+      errors_.note(read);
+    else
       read();
-    } catch (const InputError &error) {
-      note(error.diagnostics());
-    }
   }
   /// Throws InputError with all errors noted so far.
-  void require_sound() const {
-    if (!errors_.empty())
-      throw InputError(errors_);
-  }
+  void require_sound() const { errors_.require_none(); }
   /// Returns the names of the subsections that the user opened here.
   std::vector<std::string> names() const { return file_.names_below(path_); }
 
@@ -118,13 +108,17 @@ public:
 private:
   void enter(const std::string &name);
   void leave();
-  void note(const DiagnosticList &errors);
+  /// Returns a number that stands for one that is not allowed, whose error is noted, so that errors of other
+  /// parameters are found. Throws the error if errors are not collected.
+  double replace(const std::string &key, const std::string &allowed, double value) const;
+  double number_within(const std::string &key, const std::string &allowed, double stand_in,
+                       const std::function<bool(double)> &is_allowed) const;
 
   dealii::ParameterHandler &prm_;
   const SceneFile &file_;
   SceneFile::Path path_;
   bool collects_ = false;
-  DiagnosticList errors_;
+  mutable ErrorNotes errors_; ///< what is read does not depend on it
 };
 
 } // namespace billet

@@ -120,7 +120,6 @@ private:
   void note(const std::string &error);
   /// Throws InputError with this and all earlier errors.
   [[noreturn]] void fail(const std::string &error);
-  std::string last_opened(const Path &path) const;
   const Entry *find(const Path &path, const std::string &key) const;
 
   std::string file_name_;

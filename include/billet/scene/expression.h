@@ -2,7 +2,7 @@
 #ifndef BILLET_SCENE_EXPRESSION_H
 #define BILLET_SCENE_EXPRESSION_H
 
-#include "billet/parameters/control.h"
+#include "billet/parameters/expression_check.h"
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
@@ -25,7 +25,7 @@ std::vector<double> corners(const parameters::Amplitude &amplitude);
 /// y, z.
 class Expression {
 public:
-  enum class Variables { time, time_and_position };
+  using Variables = ExpressionVariables;
 
   /// Parses the text. Throws InputError, beginning with `origin`, if the text is invalid.
   Expression(const std::string &text, Variables variables, std::vector<parameters::Amplitude> amplitudes,

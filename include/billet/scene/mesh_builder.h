@@ -3,7 +3,10 @@
 #define BILLET_SCENE_MESH_BUILDER_H
 
 #include "billet/mesh/boundary_groups.h"
+#include "billet/mesh/mesh_checks.h"
+#include "billet/mesh/mesh_volumes.h"
 #include "billet/parameters/body.h"
+#include "billet/scene/node_sets.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -19,14 +22,17 @@ enum class MeshDetail {
 struct LoadedMesh {
   MeshFile mesh;
   BoundaryGroups groups;
+  VolumeChoice volumes;
+  NearNodes near_nodes;
 };
 
 /// Reads the mesh file of a body: of a section, as extrude_plane() makes it a layer. The first two new ids of
 /// its groups are then those of both sides. Throws InputError.
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters);
 
-/// Builds the mesh of one body. Throws InputError.
-void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh);
+/// Builds the mesh of one body. `sets`: if given, gets the node sets of its file. Throws InputError.
+void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh,
+                     NodeSets *sets = nullptr);
 
 /// Whether the primitive of a mesh has curves, which refinement follows. Throws InputError.
 bool has_curves(const parameters::Mesh &parameters);

@@ -3,12 +3,14 @@
 #define BILLET_SCENE_SCENE_H
 
 #include "billet/diagnostics.h"
+#include "billet/error_notes.h"
 #include "billet/friction/friction_law.h"
 #include "billet/geometry/axes.h"
 #include "billet/mechanics/element_block.h"
 #include "billet/mesh/boundary_groups.h"
 #include "billet/parameters/scene.h"
 #include "billet/scene/mesh_builder.h"
+#include "billet/scene/node_finder.h"
 #include "billet/scene/tool.h"
 #include "billet/scene/whole_section.h"
 
@@ -20,10 +22,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <utility>
+#include <set>
 #include <vector>
 
 namespace billet {
+
+struct ResolvedScene;
 
 /// Times between which a support holds its nodes.
 struct SupportTimes {
@@ -50,7 +54,9 @@ struct Hold {
   std::string origin; ///< place where its value is set, for messages
   /// Constrained nodes: either those of these boundaries ...
   std::vector<unsigned int> boundary_ids;
-  /// ... or, if there are none, boundary nodes on this plane.
+  /// ... or these nodes of the body ...
+  std::shared_ptr<const NodePlaces> nodes = {};
+  /// ... or, if there are neither, boundary nodes on this plane.
   bool on_plane = false;
   dealii::Tensor<1, 3> normal;
   double offset = 0.;
@@ -63,6 +69,10 @@ struct Hold {
   dealii::Tensor<1, 3> direction(const dealii::Tensor<1, 3> &position) const {
     return axes ? axes->at(position)[component] : normal;
   }
+  /// Whether it has a direction there: on the line of cylindrical axes, none is radial or circumferential.
+  bool has_direction(const dealii::Tensor<1, 3> &position, const double tolerance) const {
+    return !axes || !axes->are_cylindrical() || component == 2 || axes->radius(position) > tolerance;
+  }
 };
 
 /// Times between which a load acts.
@@ -71,11 +81,18 @@ struct LoadTimes {
   double until = std::numeric_limits<double>::infinity();
   double fade_time = 0.; ///< over which it fades after `until`; 0: at once
 
+  static constexpr double rounding = 1e-9;
+
   /// Whether it acts during the whole run.
   bool always() const { return !(from > 0.) && !std::isfinite(until); }
+  /// Whether it acts in a step that starts at t, before it fades.
+  bool acts_after(const double t) const { return t >= from * (1. - rounding) && t < until * (1. - rounding); }
+  /// Whether it begins or ends at t, the end of a step.
+  bool changes_at(const double t) const {
+    return acts_after(t) != acts_after(t * (1. - 4. * rounding)) && t > 0.;
+  }
   /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none yet.
   double factor(const double t) const {
-    constexpr double rounding = 1e-9;
     if (from > 0. && t <= from * (1. + rounding))
       return 0.;
     if (t <= until * (1. + rounding))
@@ -92,6 +109,8 @@ struct AppliedLoad {
   std::vector<Expression> expressions;    ///< expressions of the load
   LoadTimes times;
   std::string origin; ///< place in the scene file, for messages
+  std::string name;
+  std::shared_ptr<const NodePlaces> nodes = {}; ///< on which it acts; null: others
 };
 
 /// Returns the element formulation of a body.
@@ -248,10 +267,17 @@ private:
   void make_pairs();
   void allow_for_loads();
   void choose_material_tangents();
-  explicit Scene(std::pair<parameters::Scene, std::vector<BoundaryNames>> resolved);
+  explicit Scene(ResolvedScene resolved);
+  void note_errors_on_outlines(ErrorNotes &errors, const std::set<std::size_t> &unsound) const;
   void check_axes(const dealii::Triangulation<3> &mesh) const;
-  void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail) const;
-  void check_supports(const dealii::Triangulation<3> &mesh) const;
+  /// Notes errors, and in `unsound` the bodies whose supports or loads have some.
+  void check_boundary_ids(const dealii::Triangulation<3> &mesh, MeshDetail detail, ErrorNotes &errors,
+                          std::set<std::size_t> &unsound) const;
+  void check_planes(const dealii::Triangulation<3> &mesh, std::size_t b) const;
+  void check_support(const dealii::Triangulation<3> &mesh, std::size_t b) const;
+  /// Notes all errors that show on the meshes, except about the support of unsound bodies.
+  void check_on_mesh(const dealii::Triangulation<3> &mesh, MeshDetail detail, ErrorNotes &errors,
+                     std::set<std::size_t> unsound) const;
   /// Refuses a static body that supports which begin or end leave free, after the last of its tools is
   /// removed. Returns false if it has no such supports.
   bool check_support_times(std::size_t b, const dealii::Triangulation<3> &mesh, double last_removal) const;

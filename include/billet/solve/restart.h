@@ -18,19 +18,22 @@ namespace billet {
 /// Findings of a restart, beside the state itself.
 struct RestartReport {
   double time = 0.;
-  bool is_exact = true;          ///< as if the run had not been interrupted
-  double kinetic_energy = 0.;    ///< lost when a static scene starts [energy]
-  double imbalance = 0.;         ///< forces out of balance, which fade from the restart on [force]
-  double release_end = 0.;       ///< time at which they have faded
-  double force_scale = 0.;       ///< reference value of the imbalance [force]
-  std::vector<std::string> gone; ///< tools and pairs that this scene no longer has
+  bool is_exact = true;             ///< as if the run had not been interrupted
+  double kinetic_energy = 0.;       ///< lost when a static scene starts [energy]
+  double imbalance = 0.;            ///< forces out of balance, which fade from the restart on [force]
+  double release_end = 0.;          ///< time at which they have faded
+  double force_scale = 0.;          ///< reference value of the imbalance [force]
+  std::vector<std::string> gone;    ///< tools and pairs that this scene no longer has
+  std::vector<std::string> changed; ///< parameters of materials with another value now
 };
 
 /// Saves the properties that must agree between the scenes before and after a restart: bodies, their meshes
 /// and the kinds of their materials.
 void save_scene(StateWriter &writer, const Scene &scene, const Discretization &discretization);
-/// Checks these properties. Throws InputError that names the difference.
-void check_scene(StateReader &reader, const Scene &scene, const Discretization &discretization);
+/// Checks these properties. Throws InputError that names the difference. Returns the parameters of
+/// materials that have another value now: "'Yield stress' of body 'cube' (300, now 900)".
+std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
+                                     const Discretization &discretization);
 
 /// Nodes whose dofs this rank owns, with their keys.
 struct OwnedNodes {
@@ -51,6 +54,23 @@ void save_thickness_axes(StateWriter &writer, const ElementBlock &block,
                          const std::vector<std::uint64_t> &keys);
 std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
                                                const std::vector<std::uint64_t> &keys);
+
+/// Meaning of the numbers of a body's history.
+struct HistoryFormat {
+  std::string method; ///< implicit or explicit
+  std::string element, elasticity, number_type;
+  unsigned int points_through;
+
+  bool operator==(const HistoryFormat &other) const {
+    return method == other.method && element == other.element && elasticity == other.elasticity &&
+           number_type == other.number_type && points_through == other.points_through;
+  }
+  bool operator!=(const HistoryFormat &other) const { return !(*this == other); }
+};
+HistoryFormat format_of(const ElementFormulation &formulation, const PointLaw &law);
+HistoryFormat format_of(const ExplicitFormulation &formulation, const PointLaw &law);
+void save_format(StateWriter &writer, const HistoryFormat &format);
+HistoryFormat load_format(const StateReader &reader);
 
 /// Saves the names of the fields of a law's state, beside the histories that have them.
 void save_fields(StateWriter &writer, const PointLaw &law);

@@ -193,16 +193,16 @@ std::size_t ExplicitElements::history_size() const {
   return size;
 }
 
-std::string ExplicitElements::describe_formulation(const std::size_t body) const {
-  return describe(formulation_of(scene_.parameters(), scene_.parameters().bodies[body]),
-                  *scene_.bodies()[body].law);
+HistoryFormat ExplicitElements::history_format(const std::size_t body) const {
+  return format_of(formulation_of(scene_.parameters(), scene_.parameters().bodies[body]),
+                   *scene_.bodies()[body].law);
 }
 
 void ExplicitElements::save(StateWriter &writer) const {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     writer.in(group("body", b), [&] {
       const ExplicitBlock &block = *blocks_[b];
-      writer.write_text("formulation", describe_formulation(b));
+      save_format(writer, history_format(b));
       const std::size_t width = block.history_size();
       std::vector<double> rows(width * block.size());
       for (std::size_t e = 0; e < block.size(); ++e)
@@ -216,8 +216,7 @@ void ExplicitElements::save(StateWriter &writer) const {
 bool ExplicitElements::has_same_formulations(StateReader &reader) const {
   bool are_same = true;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    reader.in(group("body", b),
-              [&] { are_same = are_same && reader.read_text("formulation") == describe_formulation(b); });
+    reader.in(group("body", b), [&] { are_same = are_same && load_format(reader) == history_format(b); });
   return are_same;
 }
 

@@ -10,8 +10,16 @@ FreeTool::FreeTool(const Tool &tool, const parameters::Motion &motion)
       before_(tool.placement(0.)), now_(before_) {}
 
 double FreeTool::resistance(const ContactLoad &load) const {
-  return tool_.control() == Tool::Control::moment ? load.moment * tool_.rotation_axis()
-                                                  : load.force * tool_.force_direction();
+  switch (tool_.control()) {
+  case Tool::Control::moment:
+    return load.moment * tool_.rotation_axis();
+  case Tool::Control::force:
+  case Tool::Control::stop:
+    return load.force * tool_.force_direction();
+  case Tool::Control::motion:
+    break;
+  }
+  return 0.; // nothing resists a prescribed motion
 }
 
 void FreeTool::kick(const double t, const ContactLoad &load, const double step_before, const double step,
@@ -42,9 +50,15 @@ void FreeTool::remove() {
 }
 
 dealii::Tensor<1, 3> FreeTool::momentum() const {
-  return tool_.control() == Tool::Control::force
-             ? 0.5 * inertia_ * (rate_before_ + rate_) * tool_.force_direction()
-             : dealii::Tensor<1, 3>();
+  switch (tool_.control()) {
+  case Tool::Control::force:
+    return 0.5 * inertia_ * (rate_before_ + rate_) * tool_.force_direction();
+  case Tool::Control::moment:
+  case Tool::Control::stop:
+  case Tool::Control::motion:
+    break;
+  }
+  return {}; // it has no inertia, or turns about its axis
 }
 
 dealii::Tensor<1, 3> FreeTool::angular_momentum() const {

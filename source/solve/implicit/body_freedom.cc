@@ -33,12 +33,12 @@ bool is_held(const Constraints &constraints, const DofIndex dof) {
          });
 }
 
-/// Adds the resistances of springs that act on this rank's faces.
+/// Adds the resistances of springs on this rank's faces that act in the next step.
 void add_springs(const ImplicitProblem &problem, const std::size_t body,
                  std::vector<Resistance> &resistances) {
   const SolutionState &state = problem.state();
   for (const AppliedLoad &load : problem.scene().bodies()[body].loads) {
-    if (!load.load.acts_on_faces() || (load.times.factor(state.time) == 0.))
+    if (!load.load.is_spring() || !load.times.acts_after(state.time))
       continue;
     for (const auto &facet : collect_boundary_facets(problem.discretization(), body, load.boundary_ids)) {
       const dealii::Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();

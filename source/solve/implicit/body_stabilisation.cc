@@ -16,13 +16,12 @@ namespace billet {
 
 namespace {
 
-/// Calls visit(facet, corner, direction) for this rank's springs that support the body during the whole run.
+/// Calls visit(facet, corner, direction) for this rank's springs that support the body and act.
 template <class Visit>
 void visit_springs(const Body &body, const Discretization &discretization, const std::size_t index,
-                   const Visit &visit) {
+                   const RigidBodies::LoadFilter &act, const Visit &visit) {
   for (const AppliedLoad &load : body.loads) {
-    const dealii::Tensor<1, 3> any({1., 0., 0.});
-    if (!load.times.always() || load.load.supports(any).empty())
+    if (!load.load.is_spring() || !act(load.times))
       continue;
     for (const auto &facet : collect_boundary_facets(discretization, index, load.boundary_ids))
       for (const auto &direction : load.load.supports(facet.area_vector() / facet.area_vector().norm()))
@@ -33,7 +32,8 @@ void visit_springs(const Body &body, const Discretization &discretization, const
 
 } // namespace
 
-RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts) {
+RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts,
+                         const LoadFilter &springs_act) {
   const std::size_t n_bodies = scene.bodies().size();
   const double far = 10. * discretization.radius();
   std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far); // about the scene's centre, negative
@@ -65,7 +65,7 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
           support.add_support(body, entry.second.position, normal);
         }
   for (std::size_t body = 0; body < n_bodies; ++body)
-    visit_springs(scene.bodies()[body], discretization, body,
+    visit_springs(scene.bodies()[body], discretization, body, springs_act,
                   [&](const BoundaryFacet &facet, const unsigned int corner, const auto &direction) {
                     supported_nodes.push_back({body, facet.corners[corner], direction, facet.dofs[corner]});
                     support.add_support(body, facet.corners[corner], direction);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/implicit_problem.h"
 
+#include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
 #include "billet/solve/implicit/statics.h"
 
@@ -42,13 +43,33 @@ std::unique_ptr<ImplicitScheme> make_statics(const Scene &scene, const Discretiz
   return std::make_unique<ImplicitScheme>();
 }
 
-/// Returns a hundred times the force by the last bit of a displacement of the scene's size.
+/// Returns the stiffness of all springs of a load on a surface of a body [force/length]. Collective.
+double find_surface_stiffness(const AppliedLoad &load, const Discretization &discretization,
+                              const std::size_t body, const double young_modulus) {
+  const auto *action = std::get_if<std::shared_ptr<const SurfaceLoad>>(&load.load.action);
+  if (action == nullptr)
+    return 0.;
+  std::vector<double> sums(2, 0.); // area and number of faces
+  for (const auto &facet : collect_boundary_facets(discretization, body, load.boundary_ids)) {
+    sums[0] += facet.area_vector().norm();
+    sums[1] += 1.;
+  }
+  dealii::Utilities::MPI::sum(sums, discretization.communicator(), sums);
+  LoadedSurface surface;
+  surface.stiffness = young_modulus / std::sqrt(sums[0] / sums[1]);
+  return (*action)->stiffness(surface) * sums[0];
+}
+
+/// Returns a hundred times the force by the last bit of a displacement of the scene's size. Collective.
 double find_round_off_force(const Scene &scene, const Discretization &discretization) {
-  double stiffest = 0.;
-  for (const auto &body : scene.bodies())
-    stiffest = std::max(stiffest, body.max_modulus);
-  return Limits::last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius() *
-         discretization.radius();
+  double stiffest = 0.; // [force/length]
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    stiffest = std::max(stiffest, body.max_modulus * discretization.radius());
+    for (const AppliedLoad &load : body.loads)
+      stiffest = std::max(stiffest, find_surface_stiffness(load, discretization, b, body.young_modulus));
+  }
+  return Limits::last_bits * std::numeric_limits<double>::epsilon() * stiffest * discretization.radius();
 }
 
 } // namespace

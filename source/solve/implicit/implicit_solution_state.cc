@@ -45,8 +45,11 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   SolutionState &state = problem_.state();
   RestartReport report;
   using Scheme = parameters::TimeStepping::Scheme;
-  const std::optional<Scheme> scheme =
-      parameters::find_value(parameters::schemes(), reader.read_text("scheme"));
+  const std::string name_of_scheme = reader.read_text("scheme");
+  const std::optional<Scheme> scheme = parameters::find_value(parameters::schemes(), name_of_scheme);
+  if (!scheme)
+    throw InputError("its scheme '" + name_of_scheme + "' is unknown; known are " +
+                     parameters::selection(parameters::schemes()));
   const bool is_implicit = scheme != Scheme::explicit_dynamics, is_own = scheme == problem_.scheme().kind();
   report.is_exact = is_own;
   compare_parts(reader, problem_.scene(), report);

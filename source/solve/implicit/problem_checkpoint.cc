@@ -25,7 +25,7 @@ void ProblemCheckpoint::save_tools(StateWriter &writer, const OwnedNodes &nodes)
 
 void ProblemCheckpoint::save_body(const std::size_t body, StateWriter &writer) const {
   const ElementFormulation &formulation = problem_.scene().bodies()[body].formulation;
-  writer.write_text("formulation", describe(formulation, *problem_.scene().bodies()[body].law));
+  save_format(writer, format_of(formulation, *problem_.scene().bodies()[body].law));
   const ElementBlock &block = problem_.internal().block(body);
   const std::vector<std::uint64_t> keys = element_keys(problem_.discretization(), body);
   if (formulation.points_through > 2)
@@ -65,8 +65,7 @@ bool ProblemCheckpoint::load_body(const std::size_t body, StateReader &reader) {
   const Vector &displacements = problem_.state().displacements;
   ElementBlock &block = problem_.internal().block(body);
   const ElementFormulation &formulation = problem_.scene().bodies()[body].formulation;
-  bool is_same =
-      reader.read_text("formulation") == describe(formulation, *problem_.scene().bodies()[body].law);
+  bool is_same = load_format(reader) == format_of(formulation, *problem_.scene().bodies()[body].law);
   if (is_same && formulation.points_through > 2)
     is_same = problem_.on_all_ranks(load_thickness_axes(reader, element_keys(discretization, body)) ==
                                     block.thickness_axes());

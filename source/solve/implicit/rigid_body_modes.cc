@@ -10,26 +10,47 @@
 
 namespace billet {
 
+namespace {
+
+/// Returns the bodies with the supports that act now and the springs that act after t.
+RigidBodies find_rigid_bodies(const ImplicitProblem &problem, const double t) {
+  return {problem.scene(), problem.discretization(),
+          [&problem](const Hold &hold) { return problem.supports().acting()(hold); },
+          [t](const LoadTimes &times) { return times.acts_after(t); }};
+}
+
+bool has_switched_springs(const Scene &scene) {
+  const auto is_switched = [](const AppliedLoad &load) {
+    return load.load.is_spring() && !load.times.always();
+  };
+  return std::any_of(scene.bodies().begin(), scene.bodies().end(), [&](const Body &body) {
+    return std::any_of(body.loads.begin(), body.loads.end(), is_switched);
+  });
+}
+
+} // namespace
+
 RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
-    : problem_(problem), bodies_(problem.scene(), problem.discretization(),
-                                 [&problem](const Hold &hold) { return problem.supports().acting()(hold); }),
-      forces_n_(problem.scene().bodies().size(), 0.), max_forces_(forces_n_) {
+    : problem_(problem),
+      may_change_(problem.supports().acting().may_change() || has_switched_springs(problem.scene())),
+      bodies_(find_rigid_bodies(problem, 0.)), forces_n_(problem.scene().bodies().size(), 0.),
+      max_forces_(forces_n_) {
   // Bodies that lose their supports within the run may need it.
-  if (problem.supports().acting().may_change())
-    problem.stabilisation().prepare(RigidBodies(problem.scene(), problem.discretization(),
-                                                [](const Hold &hold) { return hold.times.always(); }));
+  if (may_change_)
+    problem.stabilisation().prepare(RigidBodies(
+        problem.scene(), problem.discretization(), [](const Hold &hold) { return hold.times.always(); },
+        [](const LoadTimes &times) { return times.always(); }));
   else
     problem.stabilisation().prepare(bodies_);
 }
 
-void RigidBodyModes::find_bodies() {
-  bodies_ = RigidBodies(problem_.scene(), problem_.discretization(),
-                        [this](const Hold &hold) { return problem_.supports().acting()(hold); });
-}
+void RigidBodyModes::find_bodies(const double t) { bodies_ = find_rigid_bodies(problem_, t); }
 
-void RigidBodyModes::follow_supports() {
+void RigidBodyModes::follow_supports(const double t) {
   support_ = RigidBodySupport::Result();
-  begin();
+  find_bodies(t);
+  if (!bodies_.are_held())
+    support_ = find_support();
 }
 
 void RigidBodyModes::add_supports(RigidBodySupport &support) const {
@@ -268,8 +289,8 @@ void RigidBodyModes::commit() {
 }
 
 void RigidBodyModes::begin() {
-  if (problem_.supports().acting().may_change())
-    find_bodies();
+  if (may_change_)
+    find_bodies(problem_.state().time);
   if (!bodies_.are_held())
     support_ = find_support();
 }
@@ -304,8 +325,8 @@ void RigidBodyModes::save(StateWriter &writer) const {
 
 void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
   problem_.stabilisation().load(reader);
-  if (problem_.supports().acting().may_change())
-    find_bodies();
+  if (may_change_)
+    find_bodies(problem_.state().time);
   if (!is_exact)
     return;
   if (reader.has("forces on bodies")) {

@@ -20,6 +20,25 @@ std::set<std::string> name_all(const std::string &kind, const std::set<std::stri
   return all;
 }
 
+/// Springs that begin or end at a time, and the names of those that end, by body.
+struct SwitchedSprings {
+  bool any = false;
+  std::map<std::size_t, std::set<std::string>> ended = {};
+};
+
+SwitchedSprings find_switched_springs(const Scene &scene, const double t) {
+  SwitchedSprings springs;
+  for (std::size_t body = 0; body < scene.bodies().size(); ++body)
+    for (const AppliedLoad &load : scene.bodies()[body].loads) {
+      if (!load.load.is_spring() || !load.times.changes_at(t))
+        continue;
+      springs.any = true;
+      if (!load.times.acts_after(t))
+        springs.ended[body].insert(load.name);
+    }
+  return springs;
+}
+
 } // namespace
 
 std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathGuard &paths,
@@ -94,12 +113,17 @@ void StaticRules::close_step(const double t) {
   for (const auto &[body, removed] : removal.let_go)
     if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
       free_body_ = describe_free_mode(problem_, body, name_all("tool", removed), "removed");
-  if (!problem_.switched_supports().is_due(t))
-    return;
-  for (const auto &[body, ended] : switch_supports(t, problem_.discretization().make_owned_vector()))
+  const bool is_due = problem_.switched_supports().is_due(t);
+  if (is_due)
+    for (const auto &[body, ended] : switch_supports(t, problem_.discretization().make_owned_vector()))
+      if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
+        free_body_ = describe_free_mode(problem_, body, name_all("support", ended), "switched off");
+  const SwitchedSprings springs = find_switched_springs(problem_.scene(), t);
+  for (const auto &[body, ended] : springs.ended)
     if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
-      free_body_ = describe_free_mode(problem_, body, name_all("support", ended), "switched off");
-  modes_.follow_supports();
+      free_body_ = describe_free_mode(problem_, body, name_all("spring", ended), "switched off");
+  if (is_due || springs.any)
+    modes_.follow_supports(t);
 }
 
 void StaticRules::explain(const double t, NewtonReport &report) {

@@ -14,23 +14,41 @@
 
 namespace billet::explicit_kernels {
 
+/// Plastic flow of one lane in a step, in the user's units.
+struct LaneFlow {
+  double strain;       ///< Δα ≥ 0
+  double yield_stress; ///< at the end of the step, at rest
+  double flow_stress;  ///< at the end of the step
+  double plastic_work; ///< of the step, per volume
+};
+
 /// Callbacks of a kernel for one lane at a time, where there is no vectorised form.
 struct LaneFunctions {
   /// Solves q − m Δα − σ_y(α + Δα) = 0 for the Δα > 0; `yield_stress` becomes σ_y(α + Δα).
   double (*harden)(const void *hardening, double q, double m, double alpha, double &yield_stress);
+  /// Solves q − m Δα = flow stress for the Δα > 0 of a step of dt, and advances the flow stress' `state`, see
+  /// FlowStress.
+  LaneFlow (*flow)(const void *hardening, double q, double m, double alpha, double dt, double *state);
+  /// Returns σ_y(α), at rest; `slope` becomes its derivative.
+  double (*yield_stress)(const void *hardening, double alpha, double &slope);
   /// Computes dev ln b and tr ln b / 3 of a symmetric b (11, 22, 33, 12, 13, 23). Returns false if b is not
   /// positive definite.
   bool (*logarithm)(const double *b, double *deviator, double &mean);
 };
 
-/// Constants of the body, in the kernel's units. `Number` is the number type of the kernel.
+/// Constants of the body and of the step, in the kernel's units. `Number` is the number type of the kernel.
 template <class Number> struct BasicMaterial {
   Number bulk, shear;
   HardeningKind hardening_kind;
   Number yield_stress, hardening_modulus;    ///< linear; Voce
   Number saturation_stress, saturation_rate; ///< Voce
   Number prestrain, exponent, strength;      ///< power law
-  const void *hardening;                     ///< the law, for LaneFunctions
+  RateKind rate_kind;                        ///< other: the flow stress as a whole is computed lane by lane
+  Number rate_exponent;                      ///< p of the rate factor
+  Number reference_increment;                ///< D Δt of the step: the Δα at which the rate factor is 2
+  double dt;                                 ///< of the step, in the user's units
+  const void *hardening;                     ///< the flow stress, for LaneFunctions
+  unsigned int n_flow_state;                 ///< count of numbers of its state
   double stress_unit;                        ///< unit of the kernel's stresses
   Number density;
   Number wave_speed;
@@ -79,12 +97,13 @@ using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Numbe
 // Order of these numbers. Constants of the eight-point element: V, 1/(smallest nodal mass), then, unless
 // hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the viscous pressure of
 // the last call, then the history of each point. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹
-// in the element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, with plasticity, α and, unless
-// hardening is linear, σ_y(α). The constants of the other elements are listed below.
+// in the element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, with plasticity, α, unless
+// hardening is linear, σ_y(α), and the state of the flow stress, in the user's units. The constants of the
+// other elements are listed below.
 //
 // In float, differences must be formed before rounding, so the modes of the reference positions (21 numbers)
 // are constants, too. History: J̄ − 1 instead of v; for each point spatial b_e − 1 up to a factor (6 numbers)
-// or dev τ; then α in two parts, and σ_y(α).
+// or dev τ; then α in two parts, σ_y(α), and each number of the flow stress' state in two parts.
 
 /// Offsets of the data of the last call that every element stores; data of its kind follow. In float J̄ − 1
 /// replaces the volume.

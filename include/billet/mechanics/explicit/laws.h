@@ -149,6 +149,8 @@ BILLET_INLINE Real compute_slope(const Material &material, const Real alpha, con
     return material.saturation_rate *
                (material.saturation_stress + material.hardening_modulus * alpha - yield_stress) +
            material.hardening_modulus;
+  if (material.hardening_kind == HardeningKind::linear)
+    return broadcast(material.hardening_modulus);
   return material.exponent * yield_stress / (material.prestrain + alpha);
 }
 
@@ -157,6 +159,8 @@ BILLET_INLINE Real compute_yield_stress(const Material &material, const Real alp
     return material.saturation_stress + material.hardening_modulus * alpha -
            (material.saturation_stress - material.yield_stress) *
                exponential(-material.saturation_rate * alpha);
+  if (material.hardening_kind == HardeningKind::linear)
+    return material.yield_stress + material.hardening_modulus * alpha;
   return material.strength * exponential(material.exponent * logarithm(material.prestrain + alpha));
 }
 
@@ -189,25 +193,148 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
   return delta;
 }
 
-/// Offsets of a point's plastic data. In float α is the sum of two parts, since increments may be below the
-/// last digit of the first.
-constexpr unsigned int rest_of_alpha = 1, place_of_yield_stress = is_single ? 2 : 1;
+/// Offsets of a point's plastic data. In float α and the state of the flow stress are sums of two parts,
+/// since increments may be below the last digit of the first.
+constexpr unsigned int n_parts = is_single ? 2 : 1, place_of_yield_stress = n_parts;
 
-/// Adds an increment to α.
+BILLET_INLINE std::size_t place_of_state(const Material &material) {
+  return place_of_yield_stress + (material.hardening_kind == HardeningKind::linear ? 0 : 1);
+}
+
+/// Adds an increment to a number that is stored in parts.
 BILLET_INLINE void accumulate(const Real delta, Number *history) {
-  const Real alpha = load(history);
+  const Real before = load(history);
   if constexpr (!is_single) {
-    store(history, alpha + delta);
+    store(history, before + delta);
     return;
   }
-  const Real more = load(history + rest_of_alpha * n_lanes) + delta;
-  const Real sum = alpha + more;
+  const Real more = load(history + n_lanes) + delta;
+  const Real sum = before + more;
   store(history, sum);
-  store(history + rest_of_alpha * n_lanes, more - (sum - alpha));
+  store(history + n_lanes, more - (sum - before));
+}
+
+/// Plastic flow of a step.
+struct Flow {
+  Real strain;       ///< Δα ≥ 0
+  Real yield_stress; ///< σ_y(α + Δα), at rest
+  Real flow_stress;  ///< q − m Δα
+  Real plastic_work; ///< of the step, per volume
+};
+
+/// Computes the flow in the lanes that yield, one after the other, and advances their state. Lanes without
+/// time to flow no longer yield. `history` points at α, `before` is σ_y(α).
+BILLET_INLINE Flow flow_by_lane(const Material &material, const LaneFunctions &functions, const Real q,
+                                const Real m, const Real before, Number *history, Mask &yields) {
+  Flow flow{Real{}, before, q, Real{}};
+  Number *state = history + place_of_state(material) * n_lanes;
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    if (get_mask(yields, lane)) {
+      double numbers[max_flow_state] = {};
+      for (std::size_t k = 0; k < material.n_flow_state; ++k)
+        for (std::size_t part = 0; part < n_parts; ++part)
+          numbers[k] += state[(k * n_parts + part) * n_lanes + lane];
+      const double unit = material.stress_unit;
+      const LaneFlow own = functions.flow(material.hardening, unit * get(q, lane), unit * get(m, lane),
+                                          history[lane], material.dt, numbers);
+      set(flow.strain, lane, static_cast<Number>(own.strain));
+      set(flow.yield_stress, lane, static_cast<Number>(own.yield_stress / unit));
+      set(flow.flow_stress, lane, static_cast<Number>(own.flow_stress / unit));
+      set(flow.plastic_work, lane, static_cast<Number>(own.plastic_work / unit));
+      for (std::size_t k = 0; k < material.n_flow_state; ++k)
+        for (std::size_t part = 0; part < n_parts; ++part) {
+          Number &stored = state[(k * n_parts + part) * n_lanes + lane];
+          stored = static_cast<Number>(numbers[k]);
+          numbers[k] -= stored;
+        }
+    }
+  yields = flow.strain > Real{};
+  return flow;
+}
+
+/// Computes σ_y(α) and its slope in the lanes that yield.
+BILLET_INLINE void evaluate_hardening(const Material &material, const LaneFunctions &functions,
+                                      const Mask yields, const Real alpha, Real &yield, Real &slope) {
+  if (material.hardening_kind != HardeningKind::other) {
+    yield = compute_yield_stress(material, alpha);
+    slope = compute_slope(material, alpha, yield);
+    return;
+  }
+  for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    if (get_mask(yields, lane)) {
+      double own_slope = 0.;
+      const double own = functions.yield_stress(material.hardening, get(alpha, lane), own_slope);
+      set(yield, lane, static_cast<Number>(own / material.stress_unit));
+      set(slope, lane, static_cast<Number>(own_slope / material.stress_unit));
+    }
+}
+
+/// Returns x^p for positive x.
+BILLET_INLINE Real power(const Real x, const Number p) { return exponential(p * logarithm(x)); }
+
+/// Of the last change of Δα, relative to Δα: what is left is below consistency_tolerance.
+constexpr Number root_tolerance = is_single ? 1e-3_r : 6e-8_r;
+
+/// Computes the flow at a rate, q − m Δα = σ_y(α + Δα) (1 + x) with x = (Δα/DΔt)^{1/p}, in the lanes that
+/// yield; `before` is σ_y(α). In x the slope at rest is finite. Each side alone bounds x from above; Halley's
+/// method starts at the smaller bound, and bisects where it would leave the bracket. Without time to flow no
+/// lane yields.
+BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &functions, const Real all_q,
+                                const Real m, const Real alpha, const Real before, Mask &yields) {
+  const Number p = material.rate_exponent, unit = material.reference_increment;
+  if (!(unit > 0._r)) {
+    yields = Mask{};
+    return {Real{}, before, all_q, Real{}};
+  }
+  const Real q = select(yields, all_q, 2._r * before), excess = q - before; // other lanes: any number
+  Real x = min(excess / before, power(excess / (unit * m), 1._r / p));
+  Real low{}, high = x, step{}, delta{}, yield = before, slope{};
+  for (unsigned int iteration = 0; iteration < 60; ++iteration) {
+    delta = unit * power(x, p);
+    evaluate_hardening(material, functions, yields, alpha + delta, yield, slope);
+    const Real residual = q - m * delta - yield * (1._r + x);
+    const Real stiffness = m + slope * (1._r + x), change = p * delta / x;  // dΔα/dx
+    const Real descent = stiffness * change + yield;                        // −d residual/dx
+    const Real bend = ((p - 1._r) * stiffness / x + 2._r * slope) * change; // its derivative, but for σ_y''
+    const Real newton = residual / descent;
+    const Real halley = newton / (1._r + 0.5_r * newton * bend / descent);
+    const Mask is_below = residual > Real{};
+    low = select(is_below, x, low);
+    high = select(is_below, high, x);
+    const Real next = x + halley;
+    step = select((next >= low) & (next <= high), halley, 0.5_r * (low + high) - x);
+    x += step;
+    const Mask moves = p * abs(step) > root_tolerance * x, is_off = abs(residual) > consistency_tolerance * q;
+    if (!any(moves & is_off))
+      break;
+  }
+  const Real part = step / (x - step);
+  const Real last = p * part * (1._r + (0.5_r * (p - 1._r)) * part) * delta; // change of Δα by the last step
+  delta = select(yields, delta + last, Real{});
+  yield = select(yields, yield + slope * last, before);
+  const Real factor = 1._r + x;
+  return {delta, yield, factor * yield, (0.5_r * factor) * (before + yield) * delta};
+}
+
+/// Computes the flow of laws beyond the closed forms, and stores σ_y and the state behind α.
+__attribute__((noinline)) Flow flow_with_state(const Material &material, const LaneFunctions &functions,
+                                               const Real q, const Real m, const Real before, Number *history,
+                                               Mask &yields) {
+  Flow flow;
+  if (material.rate_kind != RateKind::power_law)
+    flow = flow_by_lane(material, functions, q, m, before, history, yields);
+  else {
+    flow = flow_at_rate(material, functions, q, m, load(history), before, yields);
+    accumulate(static_cast<Number>(material.stress_unit) * flow.plastic_work,
+               history + place_of_state(material) * n_lanes);
+  }
+  if (material.hardening_kind != HardeningKind::linear)
+    store(history + place_of_yield_stress * n_lanes, flow.yield_stress);
+  return flow;
 }
 
 /// Performs the return map: if the yield condition is exceeded, α increases. Returns β = (q − m Δα)/q, or 1.
-/// `history` points at α (and σ_y).
+/// `history` points at α, then as in kernel.h.
 template <bool is_plastic>
 BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
                               const Real m, Number *history, Mask &yields, Watch &watch) {
@@ -222,7 +349,12 @@ BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &fun
   if (!any(yields))
     return broadcast(1._r);
   Real delta{};
-  if (is_linear) {
+  if (material.rate_kind != RateKind::none) {
+    const Flow flow = flow_with_state(material, functions, q, m, yield, history, yields);
+    delta = flow.strain;
+    watch.plastic_work = flow.plastic_work;
+    yield = flow.flow_stress;
+  } else if (is_linear) {
     delta = select(yields, (q - yield) / (m + material.hardening_modulus), delta);
     watch.plastic_work = delta * (yield + (0.5_r * material.hardening_modulus) * delta);
     if constexpr (is_single)

@@ -71,7 +71,7 @@ private:
   void set_temperatures(double t);
   double stable_step_of(std::size_t body, std::size_t begin, std::size_t end, double min_step) const;
   void count_memory();
-  std::string describe_formulation(std::size_t body) const;
+  HistoryFormat history_format(std::size_t body) const;
   SolutionFailure describe_inverted(std::size_t body, std::size_t element, const double *displacements,
                                     const ExplicitClock &clock) const;
 

@@ -13,10 +13,14 @@
 
 namespace billet {
 
-/// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports constrain.
+/// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports and springs
+/// constrain.
 struct RigidBodies {
-  /// For the supports that `acts` chooses. Collective.
-  RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts);
+  using LoadFilter = std::function<bool(const LoadTimes &)>;
+
+  /// For the supports that `acts`, and the springs that `springs_act` chooses. Collective.
+  RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts,
+              const LoadFilter &springs_act);
 
   /// Whether supports alone resist all rigid-body modes; then the other members are empty.
   bool are_held() const { return frames.empty(); }

@@ -24,8 +24,8 @@ public:
   void commit();
   /// Finds the support after a restart with other contacts. Collective.
   void begin();
-  /// Follows supports that have begun or ended after the step. Collective.
-  void follow_supports();
+  /// Follows supports and springs that begin or end at t, the end of the last step. Collective.
+  void follow_supports(double t);
 
   /// Returns a text about the body that slid on all its contacts at the end of the last step, for a failed
   /// step.
@@ -49,7 +49,7 @@ private:
     /// body without a force.
     static constexpr double little = 0.01, unloaded = 1e-5;
   };
-  void find_bodies();
+  void find_bodies(double t);
   struct Loss {
     double time = -1.;
     Explanation why;
@@ -80,6 +80,7 @@ private:
   void report_let_go(double t, NewtonReport &report);
 
   ImplicitProblem &problem_;
+  bool may_change_; ///< whether supports or springs begin or end
   RigidBodies bodies_;
   std::vector<double> forces_n_, max_forces_; ///< on bodies at the end of the last step; maxima so far
   std::vector<FrictionUse> friction_n_;       ///< of the contacts at the end of the last step
