@@ -6,6 +6,7 @@
 #   benchmarks  compare with CalculiX, billet-trade included
 #   python      format and check the Python of the repository
 #   pictures    draw the manual's pictures with ParaView, without a display
+#   documentation  build the site of the documentation, and check its spelling
 #
 # BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an own deal.II, which
 # libdeal.ii-dev would only shadow.
@@ -28,9 +29,13 @@ for group in "$@"; do
     trade) packages+=(python3 python3-matplotlib python3-paraview) ;;
     benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
     python) packages+=(black flake8 mypy python3-numpy) ;;
-    pictures) packages+=(paraview python3-paraview xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
+    pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
+    documentation)
+      packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse
+        libjs-katex codespell python3-numpy python3-matplotlib)
+      ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, pictures)" >&2
+      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, pictures, documentation)" >&2
       exit 2
       ;;
   esac

@@ -5,8 +5,8 @@ The last state of a quarter or an eighth of a body, mirrored to all of it but on
 is seen: equivalent plastic strain, element edges, the tools half transparent, and the body's outline at time
 0. It is an eighth where scene.prm beside the scene has a symmetry plane z = 0. Scenes without symmetry planes
 x = 0 and y = 0 are shown as they are, without tools, at the times given, side by side; scenes that are flat
-along y are seen along it, one time below the other, whole where they have a symmetry plane x = 0. What does
-not yield shows the von Mises stress.
+along y are seen along it, one time below the other, whole where they have a symmetry plane x = 0. Scenes that
+are flat along z are seen along it. What does not yield shows the von Mises stress.
 """
 
 from __future__ import annotations
@@ -183,6 +183,21 @@ def draw_flat(bodies: Sequence[Proxy], largest: float) -> None:
     SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
 
 
+def draw_along_z(bodies: Sequence[Proxy], largest: float) -> None:
+    """From left to right, above the bar of colours."""
+    centre, size = box(bodies[0])
+    width, height = 1.1 * size[0] * len(bodies), 1.25 * size[1]
+    view = make_view(1200)
+    view.ViewSize = [1200, max(360, int(1200 * height / width))]
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = 0.5 * max(height, width * view.ViewSize[1] / 1200)
+    for i, body in enumerate(bodies):
+        at = 1.1 * size[0] * (i - 0.5 * (len(bodies) - 1)) - centre[0]
+        show_field(body, view, largest, i == 0).Position = [at, 0.08 * height - centre[1], 0.0]
+    view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0], [0, 0, 10 * width], [0, 1, 0]
+    SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")
+
+
 def draw_as_it_is(bodies: Sequence[Proxy], largest: float) -> None:
     """From left to right along y."""
     view = make_view(800 * len(bodies))
@@ -213,9 +228,13 @@ shown_times = [float(time) for time in sys.argv[3:]] or [last]
 plain = [smoothed(blocks_at(file_at(time), "Bodies")) for time in shown_times]
 extent = box(plain[0])[1]
 is_flat = extent[1] < 0.2 * min(extent[0], extent[2])
+is_flat_along_z = extent[2] < 0.2 * min(extent[0], extent[1])
 FIELD = STRAIN if largest_of(plain, STRAIN[0]) > 0.0 else STRESS
 if is_flat:
     plain = [mirrored(body, "X") for body in plain] if "x = 0" in planes else plain
+if is_flat_along_z:
+    draw_along_z(plain, largest_of(plain, FIELD[0]))
+    sys.exit()
 if is_flat or not is_quarter:
     plain = [merged(body) for body in plain]
     (draw_flat if is_flat else draw_as_it_is)(plain, largest_of(plain, FIELD[0]))
@@ -249,4 +268,6 @@ view.CameraFocalPoint = [0.0, 0.0, -0.16 * size if is_eighth else -0.25 * size]
 view.CameraPosition = [x * size for x in ((3.3, -4.15, 2.35) if is_eighth else (3.0, -3.8, 1.7))]
 view.CameraViewUp = [0.0, 0.0, 1.0]
 view.CameraViewAngle = 27
+if not is_eighth and extent[2] > 0.8 * max(extent[:2]):  # taller than a drawn sheet
+    view.ResetCamera(True)
 SaveScreenshot(picture_file, view, ImageResolution=view.ViewSize, CompressionLevel="9")

@@ -224,18 +224,20 @@ def _() -> None:
     near("force, without volume change", last["die.force_z"], 100 * 100 * 20 / 12, 1e-3)
 
 
-def scenes_of_guide() -> list[tuple[str, str]]:
-    """Returns the pages of the user guide and the parts of scenes on them."""
-    pages = sorted((HERE.parents[1] / "doc/guide").glob("*.md"))
+def scenes_of_guide(*others: str) -> list[tuple[str, str]]:
+    """Returns the pages of the user guide, and others of doc/, and the parts of scenes on them."""
+    pages = [
+        page for glob in ("guide/*.md", *others) for page in sorted((HERE.parents[1] / "doc").glob(glob))
+    ]
     return [
         (page.name, part) for page in pages for part in re.findall(r"```prm\n(.*?)```", read_text(page), re.S)
     ]
 
 
-@check("scenes of the user guide set parameters of the program")
+@check("scenes of the user guide and the tutorials set parameters of the program")
 def _() -> None:
     names = set(re.findall(r"^ *set (.*?) *=", run(program, "--print-parameters").output, re.M))
-    parts = scenes_of_guide()
+    parts = scenes_of_guide("start.md", "tutorials/*.md")
     require(len(parts) > 20, f"only {len(parts)} parts of scenes")
     for page, part in parts:
         unknown = [name for name in re.findall(r"^ *set (.*?) *=", part, re.M) if name not in names]
@@ -250,6 +252,7 @@ def _() -> None:
     first, pad = whole
     indented = "".join(f"    {line}\n" for line in first.splitlines()[1:])
     require(indented in read_text(SHIPPED.parent / "README.md"), "the README has another first scene")
+    require(first in read_text(SHIPPED.parent / "doc/start.md"), "doc/start.md has another first scene")
     write_text("pad.prm", pad)
     ended = run(program, "pad.prm")
     equal("exit code", ended.code, 0)

@@ -21,7 +21,8 @@ setting within an error, as lines to paste into the scene. What has been run is 
 the page of what was run, and the same command continues."""
 
 
-def parse(arguments: Sequence[str]) -> Options:
+def make_parser() -> argparse.ArgumentParser:
+    """Returns the parser of the command line; the manual page is made from it, too."""
     parser = argparse.ArgumentParser(
         prog="billet-trade", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -191,7 +192,11 @@ def parse(arguments: Sequence[str]) -> Options:
     add("--output", metavar="NAME", help="NAME.csv, NAME.md and NAME.png are written (FOLDER/trade)")
     add("--picture", metavar="FILE", help="another place for the picture, .png, .svg or .pdf")
     add("--title", help="of picture and page (the scene's)")
-    options = parser.parse_args(arguments)
+    return parser
+
+
+def parse(arguments: Sequence[str]) -> Options:
+    options = make_parser().parse_args(arguments)
     options.budget = Budget(options.budget)
     options.repeat = (1 if options.explain else 3) if options.repeat is None else options.repeat
     for name, least in (("ranks", 1), ("jobs", 1), ("repeat", 1)):

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Configuration of the site for Sphinx.
+
+scripts/documentation builds it; doc/site/assemble.py writes its generated pages.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import Any, Iterator
+from unittest.mock import MagicMock
+
+from docutils import nodes
+from pygments.lexer import RegexLexer, bygroups
+from pygments.token import Comment, Keyword, Name, Operator, Punctuation, String, Text
+from sphinx.application import Sphinx
+from sphinx.domains.math import MathDomain
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+sys.path.insert(0, str(ROOT / "tools"))  # for billet-trade's options, which need no VTK
+for _module in ("util", "util.numpy_support", "vtkIOXML", "vtkCommonCore", "vtkCommonDataModel"):
+    sys.modules.setdefault("vtkmodules", MagicMock())
+    sys.modules.setdefault(f"vtkmodules.{_module}", MagicMock())
+
+project = "billet"
+author = "the authors of billet"
+copyright = "the authors of billet; LGPL 2.1 or later"
+_version = re.search(r"project\(billet VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
+version = release = _version[1] if _version else ""
+
+extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinxarg.ext"]
+if (HERE / "references.bib").exists():
+    extensions.append("sphinxcontrib.bibtex")
+    bibtex_bibfiles = ["references.bib"]
+    bibtex_default_style = "plain"
+if (HERE / "equation_links.py").exists():
+    sys.path.insert(0, str(HERE))
+    extensions.append("equation_links")
+
+source_suffix = {".md": "markdown"}
+root_doc = "index"
+exclude_patterns = ["site", "news", "_static"]
+nitpicky = True
+highlight_language = "none"
+
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath", "html_image"]
+myst_heading_anchors = 6
+myst_dmath_double_inline = True
+suppress_warnings = ["myst.header"]  # pages of results begin at any level
+
+html_theme = "furo"
+html_title = "billet"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_show_sourcelink = False
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#7a3b10", "color-brand-content": "#8a4413"},
+    "dark_css_variables": {"color-brand-primary": "#f0a875", "color-brand-content": "#f0a875"},
+}
+
+# KaTeX, which stands beside the pages, sets formulas: they need neither a server nor the internet.
+mathjax_path = "katex/katex.min.js"
+mathjax_options = {"defer": "defer"}
+math_eqref_format = "({number})"
+
+man_pages = [("reference/billet-trade", "billet-trade", "accuracy against cost of a scene", "", 1)]
+man_show_urls = False
+
+
+class SceneLexer(RegexLexer):
+    """Colours scene files."""
+
+    name = "billet scene"
+    aliases = ["prm"]
+    filenames = ["*.prm"]
+    tokens = {
+        "root": [
+            (r"\s*#.*", Comment.Single),
+            (r"(\s*)(subsection)(\s+)(.*)", bygroups(Text, Keyword, Text, Name.Namespace)),
+            (r"(\s*)(end)\b", bygroups(Text, Keyword)),
+            (r"(\s*)(include)(\s+)(.*)", bygroups(Text, Keyword, Text, String)),
+            (
+                r"(\s*)(set)(\s+)([^=\n]*?)(\s*)(=)(.*)",
+                bygroups(Text, Keyword, Text, Name.Attribute, Text, Operator, String),
+            ),
+            (r"\S+", Punctuation),
+            (r"\s+", Text),
+        ]
+    }
+
+
+class TaggedMathDomain(MathDomain):
+    """Numbers equations as their labels do: eq-T1 is (T1)."""
+
+    def note_equation(self, docname: str, labelid: str, location: Any = None) -> None:
+        super().note_equation(docname, labelid, location)
+        tag = re.fullmatch(r"eq-([A-Z]\d+[a-z]?)", labelid)
+        if tag:
+            self.equations[labelid] = (docname, tag[1])
+
+
+def remove_shown_tags(app: Sphinx, tree: nodes.document) -> None:
+    """Removes the \\tag of a numbered equation, which the page shows beside it already."""
+    blocks: Iterator[nodes.math_block] = tree.findall(nodes.math_block)
+    for block in list(blocks):
+        number = block.get("number")
+        if number is None:
+            continue
+        text = block.astext().replace(rf"\tag{{{number}}}", "").strip()
+        inside = re.fullmatch(r"\\begin\{equation\}(.*)\\end\{equation\}", text, re.DOTALL)
+        if inside:
+            text = inside[1].strip()
+            block["nowrap"] = False
+        block.children = []
+        block += nodes.Text(text)
+
+
+def add_formulas(app: Sphinx, page: str, template: str, context: dict[str, Any], tree: Any) -> None:
+    """Loads what sets formulas on the pages that have some."""
+    if tree is not None and any(True for kind in (nodes.math, nodes.math_block) for _ in tree.findall(kind)):
+        app.add_css_file("katex/katex.min.css")
+        app.add_js_file("katex/auto-render.js", defer="defer")
+        app.add_js_file("formulas.js", defer="defer")
+
+
+def setup(app: Sphinx) -> None:
+    """Adds what the site needs beyond its extensions."""
+    app.add_lexer("prm", SceneLexer)
+    app.add_domain(TaggedMathDomain, override=True)
+    app.connect("doctree-read", remove_shown_tags)
+    app.connect("html-page-context", add_formulas)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: gallery.py PROGRAM FOLDER [SCENE...]
+
+Runs shipped scenes, all or those named, and writes what they cost to doc/scenes/costs.csv. Results go to
+FOLDER/SCENE. The processor time is that of the process, its start included; one run each, on one process.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+COSTS = ROOT / "doc/scenes/costs.csv"
+COLUMNS = (
+    "scene",
+    "method",
+    "elements",
+    "unknowns",
+    "steps",
+    "iterations",
+    "processor time, s",
+    "memory, MB",
+    "program",
+)
+
+
+def measure(program: str, scene: Path, folder: Path) -> dict[str, str]:
+    """Runs a scene; returns what it costs."""
+    command = [program, str(scene), "--output", str(folder), "--force"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        assert process.stdout
+        output = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise SystemExit(f"{scene.name}: exit code {process.returncode}\n{output[-2000:]}")
+    with (folder / "history.csv").open(encoding="utf-8", newline="") as file:
+        last = list(csv.DictReader(file))[-1]
+    text = (folder / "scene.prm").read_text(encoding="utf-8")
+    scheme = re.search(r"^\s*set Scheme\s*=\s*([^#\n]+?)\s*(?:#.*)?$", text, re.MULTILINE)
+    elements = re.search(r"^(\d+) elements", output, re.MULTILINE)
+    unknowns = re.search(r"\b(\d+) unknowns", output)
+    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    return {
+        "scene": scene.stem,
+        "method": scheme[1] if scheme else "quasi-static",
+        "elements": elements[1] if elements else "",
+        "unknowns": unknowns[1] if unknowns else "",
+        "steps": last["step"],
+        "iterations": last.get("total_iterations", ""),
+        "processor time, s": f"{usage.ru_utime + usage.ru_stime:.3g}",
+        "memory, MB": f"{usage.ru_maxrss / 1024:.0f}",
+        "program": version.split("\n")[0].strip(),
+    }
+
+
+def main() -> None:
+    program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
+    names = sys.argv[3:] or sorted(path.stem for path in (ROOT / "prm").glob("*.prm"))
+    rows: dict[str, dict[str, str]] = {}
+    if COSTS.exists():
+        with COSTS.open(encoding="utf-8", newline="") as file:
+            rows = {row["scene"]: row for row in csv.DictReader(file)}
+    for name in names:
+        rows[name] = measure(program, ROOT / f"prm/{name}.prm", folder / name)
+        print(", ".join(rows[name].values()), flush=True)
+        with COSTS.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows[key] for key in sorted(rows))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What pages insert by '<!-- insert: NAME ARGUMENT... -->'."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+from typing import Mapping, Optional
+
+import verification
+from pages import table
+from reference import Reference
+from results import tables_of
+
+INSERTION = re.compile(r"^<!-- insert: (.+?) -->$", re.MULTILINE)
+TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+
+
+class Insertions:
+    """Makes insertions by name."""
+
+    def __init__(self, root: Path, pages: Mapping[str, str], reference: Optional[Reference]) -> None:
+        self._root = root
+        self._pages = pages
+        self._reference = reference
+        self._costs: dict[str, dict[str, str]] = {}
+        costs = root / "doc/scenes/costs.csv"
+        if costs.exists():
+            with costs.open(encoding="utf-8", newline="") as file:
+                self._costs = {row["scene"]: row for row in csv.DictReader(file)}
+
+    def replace(self, page: str, text: str) -> str:
+        """Returns the text of a page with its insertions."""
+
+        def made(match: re.Match[str]) -> str:
+            return self._make(page, match[1])
+
+        return INSERTION.sub(made, text)
+
+    def _make(self, page: str, words: str) -> str:
+        """Returns an insertion of a page."""
+        name, *arguments = words.split()
+        method = f"_insert_{name.replace('-', '_')}"
+        if not hasattr(self, method):
+            raise SystemExit(f"{page}: no insertion '{name}'")
+        text: str = getattr(self, method)(page, *arguments)
+        return text.rstrip("\n")
+
+    def _insert_help(self, page: str) -> str:
+        """Shows what --help prints."""
+        if not self._reference:
+            return "This site was built without the program: `billet --help` prints its options."
+        return f"```\n{self._reference.help()}```\n"
+
+    def _insert_scene(self, page: str, path: str) -> str:
+        """Shows a scene file."""
+        return f"```prm\n{(self._root / path).read_text(encoding='utf-8')}```\n"
+
+    def _insert_closed_forms(self, page: str) -> str:
+        return verification.make_table(self._root, page, verification.CLOSED_FORMS)
+
+    def _insert_benchmarks(self, page: str, name: str = "") -> str:
+        """Shows the table of benchmarks, or the part of it that one page of results has."""
+        cases = [case for case in verification.BENCHMARKS if case.page.endswith(name)]
+        return verification.make_table(self._root, page, cases)
+
+    def _insert_table(self, page: str, path: str, *heading: str) -> str:
+        """Shows the first table below a heading of a page, with a link to that page."""
+        for found in tables_of(self._root / f"doc/{path}.md"):
+            if not heading or found.heading == " ".join(heading):
+                up = "../" * page.count("/")
+                return table(found.head, found.rows) + f"From [{Path(path).name}]({up}{path}.md)."
+        raise SystemExit(f"{page}: no table below '{' '.join(heading)}' in {path}.md")
+
+    def _insert_cost(self, page: str, *scenes: str) -> str:
+        """Shows what scenes cost."""
+        rows = [self._costs[scene] for scene in scenes if scene in self._costs]
+        if not rows:
+            return "`scripts/gallery` has not measured the cost of this scene yet."
+        head = [name for name in rows[0] if name != "program" and any(row[name] for row in rows)]
+        return table(head, [[row[name] for name in head] for row in rows])
+
+    def _insert_error_estimate(self, page: str) -> str:
+        """Shows what a run with a target error printed at its end."""
+        text = (self._root / "doc/tutorials/error_estimate.txt").read_text(encoding="utf-8")
+        return f"```\n{text}```\n"
+
+    def _insert_values(self, page: str, tutorial: str) -> str:
+        """Shows the figures of a tutorial's run."""
+        with (self._root / "doc/tutorials/values.csv").open(encoding="utf-8", newline="") as file:
+            rows = [row for row in csv.DictReader(file) if row["tutorial"] == tutorial]
+        if not rows:
+            raise SystemExit(f"{page}: no values of '{tutorial}'")
+        return table(("quantity", "value"), [(row["quantity"], row["value"]) for row in rows])
+
+    def _insert_gallery(self, page: str) -> str:
+        """Shows a table of all scenes that have a page."""
+        rows = []
+        gallery = "".join(text for name, text in self._pages.items() if name.startswith("scenes/"))
+        for scene in sorted((self._root / "prm").glob("*.prm")):
+            if f"prm/{scene.name}]" not in gallery:
+                raise SystemExit(f"{page}: no page names prm/{scene.name}")
+        for name, text in sorted(self._pages.items()):
+            if not name.startswith("scenes/") or name == "scenes/index.md":
+                continue
+            stem = Path(name).stem
+            picture = re.search(r"!\[[^\]]*\]\(\.\./(images/\S+?)\)", text)
+            title = TITLE.search(text)
+            cost = self._costs.get(stem, {})
+            rows.append(
+                (
+                    f"[![{stem}](../{picture[1]})]({stem}.md)" if picture else "",
+                    f"[{title[1] if title else stem}]({stem}.md)",
+                    cost.get("method", ""),
+                    cost.get("elements", ""),
+                    cost.get("processor time, s", ""),
+                )
+            )
+        return table(("", "scene", "method", "elements", "processor time, s"), rows)
+
+    def _insert_trades(self, page: str) -> str:
+        """Shows what the pages of results/trade say of their scenes as they are written."""
+        rows = []
+        for name, text in sorted(self._pages.items()):
+            found = re.search(r"has an error of (.+?); it takes (.+?) core-seconds", text)
+            title = TITLE.search(text)
+            if name.startswith("results/trade/") and found and title:
+                rows.append((f"[{title[1].split(': ', 1)[-1]}]({name})", found[1], found[2]))
+        return table(("scene", "error as it is written", "core-seconds"), rows)
+
+    def _insert_safe_ranges(self, page: str) -> str:
+        """Shows the safe ranges of parameters of scripts/extremes."""
+        for found in tables_of(self._root / "doc/results/extremes.md"):
+            if found.heading == "By parameter":
+                columns = [found.head.index(name) for name in found.head[:2] + found.head[-3:]]
+                rows = [[row[i] for i in columns] for row in found.rows]
+                return table([found.head[i] for i in columns], rows)
+        raise SystemExit("no table of safe ranges in results/extremes.md")
+
+    def _insert_changes(self, page: str) -> str:
+        """Shows CHANGELOG.md, without its title, with links as from doc/."""
+        text = (self._root / "CHANGELOG.md").read_text(encoding="utf-8").split("\n", 1)[1]
+        text = text.replace("[doc/news/README.md](doc/news/README.md)", "`doc/news/README.md`")
+        return text.replace("](doc/", "](")

@@ -1,0 +1,359 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The reference: pages of parameters, types and messages, from what the program prints of itself."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from collections import defaultdict
+from pathlib import Path
+from typing import Any, NamedTuple, Sequence
+
+from pages import code, escaped, prose, table, target
+
+NAME = "NAME"
+# Values of parameters that neither a shipped scene nor the guide sets, and whose default shows little.
+EXAMPLES = {
+    "Axis direction": "0, 0, 1",
+    "Axis point": "0, 0, 0",
+    "Body force": "0 ; 0 ; -7.7e-5",
+    "Decay coefficient": "0.5",
+    "Error tolerance": "1e-3",
+    "First axis": "1, 1, 0",
+    "Initial gap": "close within 0.1",
+    "Kinetic friction coefficient": "0.1",
+    "Mass scaling step": "5e-7",
+    "Maximum shear stress": "150",
+    "Merge nodes within": "1e-6",
+    "Moment of inertia": "2.5",
+    "Penetration tolerance": "1e-3",
+    "Pressure exponent": "0.8",
+    "Ramp time": "1",
+    "Reference pressure": "100",
+    "Release time": "0.5",
+    "Second axis": "0, 0, 1",
+    "Step interval": "20",
+    "Table": "0 : 250, 0.1 : 310, 0.5 : 380",
+    "Table file": "curve.csv",
+    "Temperature": "20",
+}
+BEGINS_WITH_RANGE = re.compile(r"^([^.:]{0,24}?[<>]=? ?-?[\w./]+(?: \+ \w+)?(?:, [^.:]{1,20})?)\. ")
+UNIT = re.compile(r"\s*\[([^\[\]]+)\]$")
+
+
+class Parameter(NamedTuple):
+    """One parameter of scenes."""
+
+    path: tuple[str, ...]  # subsections, with NAME for what a scene names
+    name: str
+    schema: dict[str, Any]
+
+    @property
+    def target(self) -> str:
+        return target("parameter", *(part for part in self.path if part != NAME), self.name)
+
+
+class Example(NamedTuple):
+    """A line of a scene that sets a parameter."""
+
+    value: str
+    scene: str  # path in the repository
+
+
+class Reference:
+    """What the program says of itself, and where the repository uses it."""
+
+    def __init__(self, program: Path, root: Path, pages: dict[str, str]) -> None:
+        self._program = program
+        self._root = root
+        self._pages = pages  # all other pages of the site by path, to link to
+        self._schema = json.loads(self._ask("--print-parameters", "--json"))
+        self.parameters = list(self._collect(self._schema, ()))
+        unknown = set(EXAMPLES) - {parameter.name for parameter in self.parameters}
+        if unknown:
+            raise SystemExit(f"reference.py: examples of unknown parameters {sorted(unknown)}")
+        self.messages: list[dict[str, str]] = json.loads(self._ask("--print-diagnostics", "--json"))
+        self.lists: list[dict[str, str]] = json.loads(self._ask("--list", "--json"))
+        self._examples = self._find_examples()
+
+    def help(self) -> str:
+        return self._ask("--help")
+
+    def write(self) -> dict[str, str]:
+        """Returns the pages by path."""
+        pages = {"messages.md": self._message_page()}
+        sections: dict[str, list[Parameter]] = defaultdict(list)
+        for parameter in self.parameters:
+            sections[parameter.path[0] if parameter.path else "General"].append(parameter)
+        for section, parameters in sections.items():
+            pages[f"reference/parameters/{target(section)}.md"] = self._section_page(section, parameters)
+        pages["reference/parameters/index.md"] = self._parameter_index(sections)
+        pages["reference/types/index.md"] = self._list_index()
+        for entry in self.lists:
+            pages[f"reference/types/{entry['name']}.md"] = self._list_page(entry)
+        return pages
+
+    def _ask(self, *arguments: str) -> str:
+        answer = subprocess.run(
+            [str(self._program), *arguments], capture_output=True, text=True, encoding="utf-8", check=False
+        )
+        if answer.returncode:
+            raise SystemExit(f"{self._program} {' '.join(arguments)}: {answer.stderr}")
+        return answer.stdout
+
+    def _collect(self, schema: dict[str, Any], path: tuple[str, ...]) -> Any:
+        for name, entry in schema.get("properties", {}).items():
+            if entry.get("type") == "object":
+                yield from self._collect(entry, (*path, name))
+            else:
+                yield Parameter(path, name, entry)
+        others = schema.get("additionalProperties")
+        if isinstance(others, dict) and others.get("type") == "object":
+            yield from self._collect(others, (*path, NAME))
+
+    # --- where it is used ----------------------------------------------------------------------------------
+
+    def _find_examples(self) -> dict[tuple[tuple[str, ...], str], Example]:
+        found: dict[tuple[tuple[str, ...], str], Example] = {}
+        known = {(parameter.path, parameter.name): parameter for parameter in self.parameters}
+        shipped = sorted((self._root / "prm").glob("*.prm"))
+        parts = sorted((self._root / "prm").glob("*/*.prm"))
+        tests = sorted((self._root / "tests").rglob("*.prm"))
+        for file in [*shipped, *parts, *tests]:
+            path: list[str] = []
+            for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
+                words = line.split("#")[0].strip()
+                if words.startswith("subsection "):
+                    path.append(words.split(None, 1)[1])
+                elif words == "end" and path:
+                    path.pop()
+                elif words.startswith("set ") and "=" in words and not words.endswith("\\"):
+                    name, value = (part.strip() for part in words[4:].split("=", 1))
+                    key = (self._generic(path), " ".join(name.split()))
+                    if key not in known or key in found or len(value) > 70 or not value or "@" in value:
+                        continue
+                    if value != str(known[key].schema.get("default", "")):
+                        found[key] = Example(value, file.relative_to(self._root).as_posix())
+        return found
+
+    def _generic(self, path: Sequence[str]) -> tuple[str, ...]:
+        """Returns a path of subsections with NAME for what the scene names."""
+        schema = self._schema
+        result = []
+        for part in path:
+            if schema.get("properties", {}).get(part, {}).get("type") == "object":
+                schema = schema["properties"][part]
+                result.append(part)
+            elif isinstance(schema.get("additionalProperties"), dict):
+                schema = schema["additionalProperties"]
+                result.append(NAME)
+            else:
+                return ("",)
+        return tuple(result)
+
+    def _mentions(self, pattern: str, levels: int, maximum: int = 4) -> list[str]:
+        """Returns links to pages of the guide, the tutorials and the theory that match a pattern."""
+        found = []
+        for folder in ("guide/", "tutorials/", "theory/"):
+            for page, text in sorted(self._pages.items()):
+                if page.startswith(folder) and not page.endswith("index.md") and re.search(pattern, text):
+                    title = re.search(r"^# (.+)$", text, re.MULTILINE)
+                    found.append(f"[{title[1] if title else page}]({'../' * levels}{page})")
+        return found[:maximum]
+
+    def _link(self, name: str, shown: str | None = None) -> str:
+        """Returns a link to the parameter of this name if there is one only."""
+        hits = [parameter for parameter in self.parameters if parameter.name == name]
+        return f"[{code(shown or name)}]({hits[0].target})" if len(hits) == 1 else code(shown or name)
+
+    def _linked(self, text: str) -> str:
+        """Returns text of the program with links to the parameters that it quotes."""
+
+        def link(match: re.Match[str]) -> str:
+            quoted = match[1].replace("\\|", "|")
+            name = quoted.split(" = ")[0].split("/")[-1].strip()
+            return self._link(name, quoted)
+
+        return re.sub(r"(?<!`)`([^`\n]+)`(?!`)", link, prose(text))
+
+    # --- pages ---------------------------------------------------------------------------------------------
+
+    def _section_page(self, section: str, parameters: list[Parameter]) -> str:
+        title = f"Parameters: {section}"
+        page = f"({target('parameters', section)})=\n# {title}\n\n"
+        if section == "General":
+            page += "These parameters stand outside of all subsections.\n\n"
+        last: tuple[str, ...] | None = None
+        for parameter in parameters:
+            if parameter.path != last:
+                last = parameter.path
+                if last:
+                    page += f"## {' / '.join(last)}\n\n"
+                    if NAME in last:
+                        page += f"`{NAME}` stands for a name that the scene chooses.\n\n"
+            page += self._entry(parameter)
+        return page
+
+    def _entry(self, parameter: Parameter) -> str:
+        schema = parameter.schema
+        text = schema["description"]
+        unit = UNIT.search(text)
+        text = UNIT.sub("", text)
+        begins = BEGINS_WITH_RANGE.match(text + " ")
+        allowed = ""
+        if "enum" in schema:
+            allowed = ", ".join(code(str(value)) for value in schema["enum"])
+        elif begins:
+            allowed = escaped(begins[1])
+            text = text[begins.end() :].strip() or text
+        elif schema["type"] in ("integer", "number"):
+            allowed = self._number_range(schema)
+        elif schema["type"] == "boolean":
+            allowed = "`true`, `false`"
+        else:
+            allowed = "text, as described"
+        default = schema.get("default", "")
+        default = str(default).lower() if isinstance(default, bool) else str(default)
+        page = f"({parameter.target})=\n### {escaped(parameter.name)}\n\n{self._meaning(text, schema)}\n\n"
+        page += f"- Default: {code(default)}\n- Range: {allowed}\n"
+        page += f"- Unit: {escaped(unit[1]) if unit else 'none'}\n"
+        page += f"- For `--set`: {code('/'.join((*parameter.path, parameter.name)))}\n"
+        page += self._example(parameter)
+        name = re.escape(parameter.name)
+        messages = [
+            f"[{message['key']}](message-{message['key']})"
+            for message in self.messages
+            if re.search(rf"'{name}(?: = [^']*)?'", message["remedy"] + message["meaning"])
+        ]
+        if messages:
+            page += f"- Messages: {', '.join(messages)}\n"
+        pages = self._mentions(rf"(?:`|set |/){name}(?:`|\s*=)", 2)
+        if pages:
+            page += f"- See also: {', '.join(pages)}\n"
+        return page + "\n"
+
+    def _example(self, parameter: Parameter) -> str:
+        """Returns a line of a scene, else of the guide, else one with a value that the parameter accepts."""
+        example = self._examples.get((parameter.path, parameter.name))
+        if example:
+            line = code(f"set {parameter.name} = {example.value}")
+            return f"- Example: {line}, in {self._scene(example)}\n"
+        pattern = re.compile(rf"^ *set +{re.escape(parameter.name)} *= *([^#\n]+?) *(?:#.*)?$", re.MULTILINE)
+        for page, text in sorted(self._pages.items()):
+            found = pattern.search(text) if page.startswith("guide/") else None
+            if found:
+                title = re.search(r"^# (.+)$", text, re.MULTILINE)
+                link = f"[{title[1] if title else page}](../../{page})"
+                return f"- Example: {code(f'set {parameter.name} = {found[1]}')}, in {link}\n"
+        default = parameter.schema.get("default", "")
+        if isinstance(default, bool):
+            default = str(not default).lower()
+        others = [value for value in parameter.schema.get("enum", []) if value != default]
+        quoted = re.search(r"such as '([^'=]+)'", parameter.schema["description"])
+        value = EXAMPLES.get(parameter.name) or (
+            others[0] if others else quoted[1] if quoted else str(default)
+        )
+        return f"- Example: {code(f'set {parameter.name} = {value}')}\n" if value else ""
+
+    def _meaning(self, text: str, schema: dict[str, Any]) -> str:
+        """Returns a meaning, with the values of the parameter as a list if the text has all of them."""
+        starts = []
+        for value in schema.get("enum", []):
+            match = re.search(rf"(?:^|[.;:] ){re.escape(str(value))}(?:, [\w ]+)?: ", text)
+            if not match:
+                return self._linked(text)
+            starts.append(match.start() if match.start() == 0 else match.start() + 2)
+        if not starts:
+            return self._linked(text)
+        starts.sort()
+        lines = [self._linked(text[: starts[0]].strip()) + "\n"]
+        for begin, end in zip(starts, [*starts[1:], len(text)]):
+            value, meaning = text[begin:end].strip().rstrip(";.").split(": ", 1)
+            lines.append(f"* {code(value)}: {self._linked(meaning)}.")  # another bullet, another list
+        return "\n".join(lines).strip()
+
+    def _scene(self, example: Example) -> str:
+        """Returns a link to a scene, or to its page where it has one."""
+        path = Path(example.scene)
+        if path.parent.as_posix() == "prm" and f"scenes/{path.stem}.md" in self._pages:
+            return f"[{path.name}](../../scenes/{path.stem}.md)"
+        return f"[{path.name}](../../../{example.scene})"
+
+    @staticmethod
+    def _number_range(schema: dict[str, Any]) -> str:
+        kind = "whole numbers" if schema["type"] == "integer" else "numbers"
+        low, high = schema.get("minimum"), schema.get("maximum")
+        has_high = high is not None and abs(high) < 2e9
+        if low is not None and has_high:
+            return f"{kind} from {low:g} to {high:g}"
+        if low is not None and abs(low) < 2e9:
+            return f"{kind} from {low:g}"
+        return f"{kind} up to {high:g}" if has_high else kind
+
+    def _parameter_index(self, sections: dict[str, list[Parameter]]) -> str:
+        page = (
+            "# Parameter reference\n\n"
+            f"`billet --print-parameters` prints these {len(self.parameters)} parameters. Units are those of"
+            " the scene, which must be consistent.\n\n```{toctree}\n:maxdepth: 1\n\n"
+        )
+        page += "".join(f"{target(section)}\n" for section in sections) + "```\n\n## All parameters\n\n"
+        rows = [
+            (f"[{escaped(parameter.name)}]({parameter.target})", code("/".join(parameter.path) or "–"))
+            for parameter in sorted(self.parameters, key=lambda entry: (entry.name.lower(), entry.path))
+        ]
+        return page + table(("parameter", "subsection"), rows)
+
+    def _message_page(self) -> str:
+        page = (
+            "# Messages\n\n"
+            f"Each message of a run has a key. These are the {len(self.messages)} keys;"
+            " `billet --print-diagnostics` prints them. The file `diagnostics.jsonl` in the output folder has"
+            " the messages of a run.\n\n"
+        )
+        rows = [(f"[{entry['key']}](message-{entry['key']})", entry["severity"]) for entry in self.messages]
+        page += table(("key", "severity"), rows)
+        for entry in self.messages:
+            page += f"(message-{entry['key']})=\n## {entry['key']}\n\n*{entry['severity'].capitalize()}.* "
+            page += self._linked(entry["meaning"]) + "\n\n"
+            if entry["remedy"]:
+                page += f"What to do: {self._linked(entry['remedy'])}.\n\n"
+            pages = self._mentions(rf"\b{re.escape(entry['key'])}\b(?!\.)", 0)
+            if pages:
+                page += f"See also: {', '.join(pages)}\n\n"
+        return page
+
+    def _list_index(self) -> str:
+        page = "# Lists of types\n\n`billet --list` prints what scenes can name.\n\n"
+        rows = [(f"[{entry['name']}]({entry['name']}.md)", prose(entry["meaning"])) for entry in self.lists]
+        page += table(("list", "meaning"), rows) + "```{toctree}\n:hidden:\n\n"
+        return page + "".join(f"{entry['name']}\n" for entry in self.lists) + "```\n"
+
+    def _list_page(self, entry: dict[str, str]) -> str:
+        page = (
+            f"# {entry['name'].capitalize()}\n\n{prose(entry['meaning'][:1].upper() + entry['meaning'][1:])}."
+        )
+        page += f" `billet --list {entry['name']}` prints this list.\n\n"
+        for kind in json.loads(self._ask("--list", "--json", entry["name"])):
+            meaning = kind["meaning"].rstrip(".")
+            page += f"## {escaped(kind['name'])}\n\n{prose(meaning[:1].upper() + meaning[1:])}.\n\n"
+            if kind.get("use"):
+                page += "```prm\n" + "\n".join(kind["use"].split("; ")) + "\n```\n\n"
+            parameters = kind.get("parameters", [])
+            if parameters:
+                has_defaults = any(parameter.get("default") for parameter in parameters)
+                head = ("name", "default", "meaning") if has_defaults else ("name", "meaning")
+                rows = []
+                for parameter in parameters:
+                    row = [code(parameter["name"]), prose(parameter["meaning"])]
+                    if has_defaults:
+                        row.insert(1, code(parameter["default"]) if parameter["default"] else "–")
+                    rows.append(row)
+                page += table(head, rows)
+            others = [key for key in kind if key not in ("name", "meaning", "use", "parameters")]
+            for key in others:
+                if kind[key] and isinstance(kind[key], list) and isinstance(kind[key][0], dict):
+                    heads = list(kind[key][0])
+                    lines = [[prose(str(line.get(head, ""))) for head in heads] for line in kind[key]]
+                    page += f"{key.capitalize()}:\n\n" + table(heads, lines)
+        return page

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads the tables of doc/results, so that no page copies a number."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Mapping
+
+
+class Table:
+    """One table of a page."""
+
+    def __init__(self, heading: str, head: list[str]) -> None:
+        self.heading = heading
+        self.head = head
+        self.rows: list[list[str]] = []
+
+    def fits(self, row: list[str], wanted: Mapping[str, str]) -> bool:
+        return all(row[self.head.index(name)].strip("`") == value for name, value in wanted.items())
+
+
+def tables_of(page: Path) -> list[Table]:
+    """Returns the tables of a page."""
+    tables: list[Table] = []
+    heading = ""
+    inside = False
+    for line in page.read_text(encoding="utf-8").splitlines():
+        if line.startswith("#"):
+            heading = line.lstrip("# ")
+        if not line.startswith("|"):
+            inside = False
+            continue
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not inside:
+            tables.append(Table(heading, cells))
+            inside = True
+        elif not all(set(cell) <= set(":- ") for cell in cells):
+            tables[-1].rows.append(cells + [""] * (len(tables[-1].head) - len(cells)))
+    return tables
+
+
+def cell_of(page: Path, wanted: Mapping[str, str], column: str, heading: str = "") -> str:
+    """Returns the cell of the only row with the wanted values; raises SystemExit where it is not there."""
+    found = [
+        row[table.head.index(column)]
+        for table in tables_of(page)
+        if (not heading or table.heading == heading)
+        and column in table.head
+        and set(wanted) <= set(table.head)
+        for row in table.rows
+        if table.fits(row, wanted)
+    ]
+    if len(found) != 1:
+        raise SystemExit(f"{page}: {len(found)} rows with {dict(wanted)} and '{column}' below '{heading}'")
+    return found[0]

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: tutorials.py PROGRAM FOLDER [NAME...]
+
+Runs the scenes of the tutorials, all or those named, as their pages say. Draws doc/images/tutorial_NAME.png
+and writes the figures that the pages insert to doc/tutorials/values.csv. Results go to FOLDER/NAME.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+from matplotlib import pyplot
+
+ROOT = Path(__file__).resolve().parents[2]
+VALUES = ROOT / "doc/tutorials/values.csv"
+
+# Pressure of the press fit in plane strain: E d (c^2 - b^2) (b^2 - a^2) / (2 b^3 (1 - nu^2) (c^2 - a^2))
+LAME = (
+    2e5
+    / (1 - 0.3**2)
+    * 0.01
+    * (30**2 - 20**2)
+    * (20**2 - 10**2)
+    / (2 * 20**3 * (30**2 - 10**2))
+)
+
+Rows = list[dict[str, float]]
+Value = tuple[str, Callable[[Rows], str]]
+
+
+class Curve(NamedTuple):
+    """A line of the plot."""
+
+    label: str
+    x: Callable[[dict[str, float]], float]
+    y: Callable[[dict[str, float]], float]
+
+
+class Tutorial(NamedTuple):
+    """A scene, what is plotted of it and which figures its page has."""
+
+    scene: str
+    options: tuple[str, ...]
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+    values: tuple[Value, ...]
+
+
+def at(rows: Rows, time: float) -> dict[str, float]:
+    """Returns the row nearest to a time."""
+    return min(rows, key=lambda row: abs(row["time"] - time))
+
+
+def largest(rows: Rows, value: Callable[[dict[str, float]], float]) -> float:
+    return max(abs(value(row)) for row in rows)
+
+
+def mean(rows: Rows, value: Callable[[dict[str, float]], float], begin: float, end: float) -> float:
+    chosen = [value(row) for row in rows if begin <= row["time"] <= end]
+    return sum(chosen) / len(chosen)
+
+
+def friction_of_ironing(row: dict[str, float]) -> float:
+    """Returns the horizontal over the vertical force."""
+    return abs(row["face.force_x"] / row["face.force_z"])
+
+
+TUTORIALS = {
+    "forging": Tutorial(
+        "prm/billet_upsetting.prm",
+        (),
+        "travel of the die, mm",
+        "force on the whole billet, kN",
+        (Curve("", lambda r: -r["die.travel_z"], lambda r: 4e-3 * abs(r["die.force_z"])),),
+        (
+            ("force on the whole billet at the end, kN", lambda r: f"{4e-3 * abs(r[-1]['die.force_z']):.1f}"),
+            ("plastic work of the modelled eighth, J", lambda r: f"{1e-3 * r[-1]['plastic_work']:.1f}"),
+        ),
+    ),
+    "drawing": Tutorial(
+        "prm/templates/drawing.prm",
+        (),
+        "travel of the punch, mm",
+        "force, quarter, kN",
+        (
+            Curve("punch", lambda r: abs(r["punch.travel_z"]), lambda r: 1e-3 * abs(r["punch.force_z"])),
+            Curve("holder", lambda r: abs(r["punch.travel_z"]), lambda r: 1e-3 * abs(r["holder.force_z"])),
+        ),
+        (
+            (
+                "largest vertical force of the punch, quarter, kN",
+                lambda r: f"{1e-3 * largest(r, lambda x: x['punch.force_z']):.2f}",
+            ),
+            (
+                "friction dissipation over plastic work",
+                lambda r: f"{r[-1]['friction_dissipation'] / r[-1]['plastic_work']:.3f}",
+            ),
+        ),
+    ),
+    "press_fit": Tutorial(
+        "prm/press_fit.prm",
+        ("--set", "Time stepping/Initial step=0.1"),
+        "radial interference so far, mm",
+        "pressure between the rings, MPa",
+        (
+            Curve("run", lambda r: 0.01 * r["time"], lambda r: abs(r["fit.force_x"]) / 20),
+            Curve("Lamé", lambda r: 0.01 * r["time"], lambda r: LAME * r["time"]),
+        ),
+        (
+            ("pressure of the run, MPa", lambda r: f"{abs(r[-1]['fit.force_x']) / 20:.2f}"),
+            ("pressure by Lamé, MPa", lambda r: f"{LAME:.2f}"),
+        ),
+    ),
+    "ironing": Tutorial(
+        "prm/ironing.prm",
+        (),
+        "time",
+        "force on the slab, N",
+        (
+            Curve("vertical", lambda r: r["time"], lambda r: abs(r["face.force_z"])),
+            Curve("horizontal", lambda r: r["time"], lambda r: abs(r["face.force_x"])),
+        ),
+        (
+            (
+                "horizontal over vertical force, mean while drawn",
+                lambda r: f"{mean(r, friction_of_ironing, 1.2, 2.8):.3f}",
+            ),
+            ("largest vertical force, N", lambda r: f"{largest(r, lambda x: x['face.force_z']):.1f}"),
+        ),
+    ),
+    "tube_crush": Tutorial(
+        "prm/tube_crush.prm",
+        ("--set", "Time stepping/End time=1e-3"),
+        "travel of the plane, mm",
+        "force of the whole tube, kN",
+        (Curve("", lambda r: -r["plane.travel_z"], lambda r: 4e-3 * abs(r["plane.force_z"])),),
+        (
+            ("explicit steps", lambda r: f"{r[-1]['step']:.0f}"),
+            ("plastic work, quarter, J", lambda r: f"{1e-3 * r[-1]['plastic_work']:.1f}"),
+            (
+                "kinetic energy over plastic work",
+                lambda r: f"{r[-1]['kinetic_energy'] / r[-1]['plastic_work']:.3f}",
+            ),
+        ),
+    ),
+    "taylor_bar": Tutorial(
+        "prm/taylor_bar.prm",
+        (),
+        "time, µs",
+        "energy, quarter, J",
+        (
+            Curve("kinetic", lambda r: 1e6 * r["time"], lambda r: 1e-3 * r["kinetic_energy"]),
+            Curve("plastic work", lambda r: 1e6 * r["time"], lambda r: 1e-3 * r["plastic_work"]),
+        ),
+        (
+            ("explicit steps", lambda r: f"{r[-1]['step']:.0f}"),
+            (
+                "kinetic energy at the end over that at the start",
+                lambda r: f"{r[-1]['kinetic_energy'] / r[0]['kinetic_energy']:.4f}",
+            ),
+        ),
+    ),
+    "springback": Tutorial(
+        "prm/templates/bending.prm",
+        (),
+        "time",
+        "force, N/mm",
+        (
+            Curve("punch", lambda r: r["time"], lambda r: abs(r["punch.force_z"])),
+            Curve("holder", lambda r: r["time"], lambda r: abs(r["holder.force_z"])),
+        ),
+        (
+            (
+                "largest vertical force of the punch, N/mm",
+                lambda r: f"{largest(r, lambda x: x['punch.force_z']):.1f}",
+            ),
+            ("elastic energy when the punch leaves, mJ", lambda r: f"{at(r, 1)['elastic_energy']:.1f}"),
+            ("elastic energy at the end, mJ", lambda r: f"{r[-1]['elastic_energy']:.1f}"),
+        ),
+    ),
+}
+
+
+def run(program: str, name: str, folder: Path) -> tuple[Rows, list[tuple[str, str]]]:
+    """Runs a tutorial; returns its history and what it cost."""
+    tutorial = TUTORIALS[name]
+    output = folder / name
+    command = [program, str(ROOT / tutorial.scene), *tutorial.options, "--output", str(output), "--force"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        assert process.stdout
+        text = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise SystemExit(f"{name}: exit code {process.returncode}\n{text[-2000:]}")
+    with (output / "history.csv").open(encoding="utf-8", newline="") as file:
+        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    elements = re.search(r"^(\d+) elements", text, re.MULTILINE)
+    cost = [("elements", elements[1] if elements else "")]
+    if "total_iterations" in rows[-1]:
+        cost.append(
+            ("steps and Newton iterations", f"{rows[-1]['step']:.0f} and {rows[-1]['total_iterations']:.0f}")
+        )
+    cost.append(("processor time, s", f"{usage.ru_utime + usage.ru_stime:.2g}"))
+    return rows, cost
+
+
+def draw(name: str, rows: Rows) -> None:
+    tutorial = TUTORIALS[name]
+    figure, axes = pyplot.subplots(figsize=(6.4, 3.6), layout="constrained")
+    for curve in tutorial.curves:
+        style = "o" if curve.label == "run" else "-"  # beside a closed form
+        axes.plot([curve.x(row) for row in rows], [curve.y(row) for row in rows], style, label=curve.label)
+    axes.set_xlabel(tutorial.x_label)
+    axes.set_ylabel(tutorial.y_label)
+    axes.set_ylim(bottom=0)
+    axes.grid(alpha=0.3)
+    if len(tutorial.curves) > 1:
+        axes.legend()
+    figure.savefig(ROOT / f"doc/images/tutorial_{name}.png", dpi=100, metadata={"Software": None})
+    pyplot.close(figure)
+
+
+def show_estimate(program: str, folder: Path) -> None:
+    """Keeps what a run with a target error prints at its end."""
+    command = [program, str(ROOT / "prm/billet_upsetting.prm"), "--set", "Target error=1 percent"]
+    command += ["--output", str(folder / "accuracy"), "--force"]
+    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    lines = [line for line in output.splitlines() if re.match(r"note\[(error-estimate|mesh-)", line)]
+    (ROOT / "doc/tutorials/error_estimate.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def main() -> None:
+    program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
+    names = sys.argv[3:] or [*TUTORIALS, "accuracy"]
+    if "accuracy" in names:
+        names.remove("accuracy")
+        show_estimate(program, folder)
+    kept: list[list[str]] = []
+    if VALUES.exists():
+        with VALUES.open(encoding="utf-8", newline="") as file:
+            kept = list(csv.reader(file))[1:]
+    for name in names:
+        rows, cost = run(program, name, folder)
+        if TUTORIALS[name].curves:
+            draw(name, rows)
+        figures = [*cost, *((label, value(rows)) for label, value in TUTORIALS[name].values)]
+        kept = [row for row in kept if row[0] != name] + [[name, *figure] for figure in figures]
+        print(name, figures, flush=True)
+        with VALUES.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(("tutorial", "quantity", "value"))
+            writer.writerows(row for key in TUTORIALS for row in kept if row[0] == key)
+
+
+if __name__ == "__main__":
+    main()

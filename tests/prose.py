@@ -1,0 +1,273 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: prose.py [--list | --shrink] [--program BILLET] [FILE.md...]
+       prose.py --self-check
+
+Checks the prose of README.md, CHANGELOG.md and doc/: no line has more than 100 columns, no sentence more
+than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+
+Pages in tests/prose.txt are not mended yet; one without errors must leave that list, and none may join it.
+--shrink removes those without errors, --list shows the errors of all pages, FILE.md those of some. --program
+checks what a program says of its parameters and messages, too.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, Iterator, NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+LIST = Path("tests/prose.txt")
+MAX_COLUMNS = 100
+MAX_WORDS = 25
+MAX_SENTENCES = 5
+LEFT_OUT = ("doc/site/", "doc/news/")
+
+FENCE = re.compile(r"\s*(`{3,}|~{3,}|\$\$)")
+ITEM = re.compile(r"(\s*)(?:[-*+]|\d+[.)])\s+(.*)")
+SKIPPED = re.compile(r"\s*(?:#|\||<!--|:::|\(\S+\)=$|\[\S+\]: |-{3,}$)")
+ABBREVIATION = re.compile(
+    r"\b(?:e\.g|i\.e|cf|ch|vol|no|pp?|eds?|eqs?|figs?|sec|vs|al|st|approx)\.$", re.IGNORECASE
+)
+END = re.compile(r"[.!?][)\"'»”*_]*(?=\s+[^a-zµ]|\s*$)")
+
+
+class Paragraph(NamedTuple):
+    """Text between blank lines, or an item of a list."""
+
+    line: int
+    text: str
+
+
+class Fault(NamedTuple):
+    """Something that breaks a rule."""
+
+    line: int
+    what: str
+
+
+def plain(text: str) -> str:
+    """Returns Markdown without what is no word: code and formulas count as one word, links as their text."""
+    text = re.sub(r"<!--.*?-->", " ", text)
+    text = re.sub(r"!\[[^\]]*\]\([^)]*\)", " ", text)
+    text = re.sub(r"\{[\w:.-]+\}`[^`]*`", "R", text)
+    text = re.sub(r"(`+)[^`].*?\1", "C", text)
+    text = re.sub(r"\$[^$]+\$", "F", text)
+    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
+    return re.sub(r"<[^>]+>", " ", text)
+
+
+def sentences_of(text: str) -> list[str]:
+    """Returns the sentences of a paragraph."""
+    text = " ".join(plain(text).split())
+    sentences = []
+    begin = 0
+    for match in END.finditer(text):
+        if ABBREVIATION.search(text[begin : match.start() + 1]) and match.end() < len(text):
+            continue
+        sentences.append(text[begin : match.end()].strip())
+        begin = match.end()
+    rest = text[begin:].strip()
+    return [sentence for sentence in [*sentences, rest] if n_words(sentence)]
+
+
+def n_words(sentence: str) -> int:
+    return sum(1 for word in sentence.split() if re.search(r"\w", word))
+
+
+def prose_lines(text: str) -> Iterator[tuple[int, str]]:
+    """Returns the lines that are prose, with their numbers; an empty one where anything else stands."""
+    fence = ""
+    was_blank = True
+    in_list = False
+    in_code = False
+    for number, line in enumerate(text.splitlines(), 1):
+        opened = FENCE.match(line)
+        if fence:
+            if opened and opened[1].startswith(fence):
+                fence = ""
+            yield number, ""
+            continue
+        if opened and not (opened[1] == "$$" and line.count("$$") > 1):
+            fence = opened[1]
+            yield number, ""
+            continue
+        if not line.strip():
+            was_blank = True
+            yield number, ""
+            continue
+        indent = len(line) - len(line.lstrip())
+        if indent == 0:
+            in_list = bool(ITEM.match(line)) or (in_list and not was_blank)
+        in_code = indent >= 4 and not in_list and (was_blank or in_code)
+        was_blank = False
+        yield number, "" if in_code or SKIPPED.match(line) or line.count("$$") > 1 else line
+
+
+def paragraphs_of(text: str) -> list[Paragraph]:
+    """Returns the paragraphs of a page."""
+    found: list[Paragraph] = []
+    lines: list[str] = []
+    begin = 0
+
+    def close() -> None:
+        if lines:
+            found.append(Paragraph(begin, " ".join(lines)))
+        lines.clear()
+
+    for number, line in prose_lines(text):
+        item = ITEM.match(line)
+        if not line or item:
+            close()
+        if line:
+            if not lines:
+                begin = number
+            lines.append(item[2] if item else line.strip().lstrip("> "))
+    close()
+    return found
+
+
+def faults_of(text: str) -> list[Fault]:
+    """Returns what breaks the rules in a page."""
+    faults = [
+        Fault(number, f"{len(line)} columns")
+        for number, line in prose_lines(text)
+        if len(line) > MAX_COLUMNS and " " in re.sub(r"\]\([^)]*\)", "]", line.strip())
+    ]
+    for paragraph in paragraphs_of(text):
+        sentences = sentences_of(paragraph.text)
+        faults += [
+            Fault(paragraph.line, f"{n_words(sentence)} words: {sentence[:60]}...")
+            for sentence in sentences
+            if n_words(sentence) > MAX_WORDS
+        ]
+        if len(sentences) > MAX_SENTENCES:
+            faults.append(Fault(paragraph.line, f"{len(sentences)} sentences in a paragraph"))
+    return sorted(faults)
+
+
+def descriptions_of(program: str) -> Iterator[tuple[str, str]]:
+    """Returns what a program says of its parameters and messages."""
+
+    def ask(option: str) -> object:
+        command = [program, option, "--json"]
+        return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+    def walk(schema: dict[str, Any], path: str) -> Iterator[tuple[str, str]]:
+        for name, entry in schema.get("properties", {}).items():
+            yield f"{path}{name}", entry.get("description", "")
+            yield from walk(entry, f"{path}{name}/")
+        if isinstance(schema.get("additionalProperties"), dict):
+            yield from walk(schema["additionalProperties"], f"{path}NAME/")
+
+    schema = ask("--print-parameters")
+    assert isinstance(schema, dict)
+    yield from walk(schema, "")
+    messages = ask("--print-diagnostics")
+    assert isinstance(messages, list)
+    for message in messages:
+        yield f"message {message['key']}", message["meaning"]
+        yield f"message {message['key']}", message["remedy"]
+
+
+def check_program(program: str) -> int:
+    """Prints sentences that are too long; returns their number."""
+    n_faults = 0
+    for name, text in descriptions_of(program):
+        for sentence in sentences_of(re.sub(r"(?<!\w)'[^']+'(?!\w)", "C", text)):
+            for part in sentence.split("; "):  # the values of a parameter, each with its meaning
+                if n_words(part) > MAX_WORDS:
+                    print(f"{name}: {n_words(part)} words: {part}")
+                    n_faults += 1
+    return n_faults
+
+
+def pages() -> list[str]:
+    files = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "doc").rglob("*.md"))]
+    names = [file.relative_to(ROOT).as_posix() for file in files if file.exists()]
+    return [name for name in names if not name.startswith(LEFT_OUT)]
+
+
+def check_pages(is_shrunk: bool) -> int:
+    """Prints what is wrong; returns the number of errors."""
+    listed = [
+        line for line in (ROOT / LIST).read_text(encoding="utf-8").split("\n") if line and line[0] != "#"
+    ]
+    n_errors = 0
+    mended = []
+    for name in pages():
+        faults = faults_of((ROOT / name).read_text(encoding="utf-8"))
+        if name in listed and not faults:
+            mended.append(name)
+        elif name not in listed:
+            for fault in faults:
+                print(f"{name}:{fault.line}: {fault.what}")
+            n_errors += len(faults)
+    gone = [name for name in listed if not (ROOT / name).exists()]
+    if is_shrunk:
+        text = (ROOT / LIST).read_text(encoding="utf-8")
+        for name in mended + gone:
+            text = text.replace(f"{name}\n", "")
+        (ROOT / LIST).write_text(text, encoding="utf-8")
+    else:
+        for name in mended + gone:
+            print(f"{name}: no errors left, remove it from {LIST}: python3 tests/prose.py --shrink")
+        n_errors += len(mended + gone)
+    print(f"{len(pages())} pages, {len(listed)} of them not mended yet, {n_errors} errors")
+    return n_errors
+
+
+SAMPLES: tuple[tuple[str, list[str]], ...] = (
+    ("A short sentence.\n", []),
+    ("word " * 26 + "\n", ["130 columns", "26 words"]),
+    ("One. Two. Three. Four. Five. Six.\n", ["6 sentences"]),
+    ("One, e.g. two. Three `a. B` four. See ch. 5. Five. Six.\n", []),
+    ("| " + "wide " * 40 + "|\n", []),
+    ("    " + "code " * 40 + "\n", []),
+    ("```\n" + "code " * 40 + "\n```\n", []),
+    ("- " + "item " * 15 + "\n- " + "item " * 15 + "\n", []),
+    ("[link](" + "x" * 120 + ")\n", []),
+    ("Formula\n\n$$\n" + "a " * 60 + "\n$$\n", []),
+    ("- one\n\n    " + "text " * 26 + "\n", ["134 columns", "26 words"]),
+)
+
+
+def self_check() -> int:
+    """Tests the test; returns the number of errors."""
+    n_errors = 0
+    for text, expected in SAMPLES:
+        faults = [fault.what for fault in faults_of(text)]
+        if len(faults) != len(expected) or not all(f.startswith(e) for f, e in zip(faults, sorted(expected))):
+            print(f"{text[:40]!r}: found {faults}, expected {expected}")
+            n_errors += 1
+    print(f"{len(SAMPLES)} samples, {n_errors} errors")
+    return n_errors
+
+
+def main() -> int:
+    """Returns the exit code."""
+    arguments = sys.argv[1:]
+    n_errors = 0
+    if "--self-check" in arguments:
+        return 1 if self_check() else 0
+    if "--program" in arguments:
+        at = arguments.index("--program")
+        n_errors += check_program(arguments[at + 1])
+        del arguments[at : at + 2]
+    files = [argument for argument in arguments if not argument.startswith("--")]
+    if files or "--list" in arguments:
+        for name in files or pages():
+            for fault in faults_of((ROOT / name).read_text(encoding="utf-8")):
+                print(f"{name}:{fault.line}: {fault.what}")
+                n_errors += 1
+    else:
+        n_errors += check_pages("--shrink" in arguments)
+    return 1 if n_errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
