@@ -57,7 +57,7 @@ double find_surface_stiffness(const AppliedLoad &load, const Discretization &dis
   dealii::Utilities::MPI::sum(sums, discretization.communicator(), sums);
   LoadedSurface surface;
   surface.stiffness = young_modulus / std::sqrt(sums[0] / sums[1]);
-  return (*action)->stiffness(surface) * sums[0];
+  return (*action)->bound(surface).stiffness * sums[0];
 }
 
 /// Returns a hundred times the force by the last bit of a displacement of the scene's size. Collective.
