@@ -203,8 +203,8 @@ std::vector<GroupNames> resolve_of_bodies(ResolvedScene &result) {
   for (std::size_t b = 0; b < result.parameters.bodies.size(); ++b) {
     parameters::Body &body = result.parameters.bodies[b];
     known.emplace_back();
-    result.has_meshes &= result.errors.note(
-        [&] { known.back() = read_boundary_names(body.mesh, body.name, notes); });
+    result.has_meshes &=
+        result.errors.note([&] { known.back() = read_boundary_names(body.mesh, body.name, notes); });
     if (!result.has_meshes)
       continue;
     const auto resolve_of = [&](auto &of) {

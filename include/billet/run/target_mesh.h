@@ -17,9 +17,9 @@ struct MeshLevelError {
 
 /// Extrapolates the error from the differences between each mesh and the next finer one, at least one,
 /// coarsest first (Richardson): with differences D_1 and D_2 the order is p = log2(D_1/D_2), at most 2, that
-/// of forces and energies of trilinear bricks, and the error D_2/(2^p − 1). A single difference stands for the
-/// error, as of first order. Differences that do not fall have no order; then the largest of the last two stands
-/// for the error.
+/// of forces and energies of trilinear bricks, and the error D_2/(2^p − 1). A single difference stands for
+/// the error, as of first order. Differences that do not fall have no order; then the largest of the last two
+/// stands for the error.
 MeshLevelError extrapolate(const std::vector<double> &differences);
 
 /// Runs a scene as run_simulation() does. With 'Target error of = everything', runs it on levels of the given
