@@ -389,7 +389,7 @@ inline const DiagnosticKind mesh_levels(
     "mesh-levels", Severity::note,
     "This is the error of the mesh by comparison of whole runs on levels of the given mesh, as 'Target error "
     "of = everything' asks for.",
-    "");
+    "For a smaller error choose a smaller 'Target error', or a larger 'Finest mesh level'");
 
 inline const DiagnosticKind mesh_target_missed(
     "mesh-target-missed", Severity::warning,
@@ -403,7 +403,7 @@ inline const DiagnosticKind unneeded_cost(
     "The run spent more than a tenth of its time on what the scene did not need: an unsymmetric matrix where "
     "nothing slides, self-contact of surfaces that never touch, output of fields, or steps far finer than "
     "the 'Target error' requires.",
-    "");
+    "Leave out or change what the message names");
 
 inline const DiagnosticKind target_error_expensive(
     "target-error-expensive", Severity::warning,
