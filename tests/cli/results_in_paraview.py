@@ -26,10 +26,15 @@ NUMBERS = ["element_id", "body", "material"]
 
 
 def pvbatch(*arguments: str, display: bool = False) -> str:
-    """Runs a script by ParaView."""
-    server = ["xvfb-run", "-a", "-n", str(100 + os.getpid() % 900)]  # others may start one now, too
-    command = [*(server if display else []), "pvbatch", *arguments]
-    ended = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    """Runs a script by ParaView, once more where the display was not there in time."""
+    for attempt in range(3):
+        number = 100 + (os.getpid() + 7 * attempt) % 900  # others may start a display now, too
+        server = ["xvfb-run", "-a", "-n", str(number)] if display else []
+        ended = subprocess.run(
+            [*server, "pvbatch", *arguments], capture_output=True, text=True, timeout=300, check=False
+        )
+        if "bad X server connection" not in ended.stderr + ended.stdout:
+            break
     require(ended.returncode == 0, ended.stdout + ended.stderr)
     return ended.stdout
 
