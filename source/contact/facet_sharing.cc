@@ -36,6 +36,7 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
   const FacetProjection &own = touched.projection;
   const Tensor<1, 3> &x = facets.position(node);
   const std::size_t first = shares.size();
+  bool has_ridge = false;
   const auto part_of = [&](const unsigned int f, const FacetProjection &p) {
     if (meet_smoothly(own.normal, p.normal))
       return p.share;
@@ -46,6 +47,7 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
     const bool is_shared =
         part > 0. && form_ridge(facets.plane(touched.facet), facets.plane(f)) &&
         (limits.max_alignment >= 1. || compute_node_normal(facets, node) * p.normal < limits.max_alignment);
+    has_ridge = has_ridge || is_shared;
     return is_shared ? part * p.share : 0.;
   };
   // Twice the zone, since that of a larger neighbour is wider: (1 − |ξ|)/2 is the distance from the edge.
@@ -66,7 +68,15 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
     shares.push_back({touched.facet, 1., own});
     return {own.normal, own.gap};
   }
-  return combine(shares, first);
+  SharedGap result = combine(shares, first);
+  if (has_ridge) {
+    Tensor<1, 3> mean;
+    for (std::size_t i = first; i < shares.size(); ++i)
+      mean += shares[i].share * shares[i].projection.normal;
+    result.gap *= mean.norm_square();
+    result.energy_factor = 1. / mean.norm_square();
+  }
+  return result;
 }
 
 #define BILLET_INSTANTIATE(Facet)                                                                            \

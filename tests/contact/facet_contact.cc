@@ -423,7 +423,8 @@ template <class Facet> void check_ridge(const std::string &name) {
   });
   FacetSearch search(FacetSearch::Partners::other_surfaces, 0.05);
   search.set_surface(surface.facets, {});
-  const ContactLimits limits;
+  ContactLimits limits;
+  limits.max_alignment = 1.; // the node has no facets of its own
   const double depth = 0.01; // below the ridge
   WorstError off_middle, off_side;
   unsigned int n_chosen = 0;
@@ -442,7 +443,7 @@ template <class Facet> void check_ridge(const std::string &name) {
                                                      positions.size() - 1, 0., limits, shares);
         if (aside == 0.)
           off_middle.add((result.normal - Tensor<1, 3>({0., 0., 1.})).norm() +
-                         std::abs(result.gap / depth + 1.));
+                         std::abs(result.gap / depth + 0.5));
         else
           off_side.add((result.normal - touched.projection.normal).norm());
       }

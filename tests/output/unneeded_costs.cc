@@ -46,6 +46,7 @@ int main() {
   costs.steps_error = 0.0005;
   check("finer ones", std::abs(seconds(costs) - 6.), 1e-12);
   costs.all = 0.9;
+  costs.fields = 0.;
   costs.error_control = 0.8;
   check("a short run", seconds(costs), 0.);
   return testing::exit_code();

@@ -27,6 +27,7 @@ using FacetShare = FacetShareOf<double>;
 template <class Number> struct SharedGapOf {
   dealii::Tensor<1, 3, Number> normal; ///< unit
   Number gap;                          ///< [length]
+  double energy_factor = 1.;           ///< stored energy over ½ k gap²
 };
 using SharedGap = SharedGapOf<double>;
 
@@ -101,8 +102,10 @@ SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std
 ///
 /// Facets that meet in a sharp convex edge share a node that is equally deep below both, for example where
 /// edges of two bodies cross at nodes: the shortest way out is the same through either, and round-off must
-/// not choose. Their parts are multiplied by part_at_ridge(). `raised` is the gap offset of the node
-/// [length]. Beyond that and at concave edges the choice decides.
+/// not choose. Their parts are multiplied by part_at_ridge(). The gap then is |Σ s_f n_f| Σ s_f g_f, so that
+/// the force is the gradient of ½ k (Σ s_f g_f)², the energy through either facet: a node that leaves by one
+/// flank has stored there what it takes. `raised` is the gap offset of the node [length]. Beyond that and at
+/// concave edges the choice decides.
 template <class Facet>
 SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, unsigned int node,
                        double raised, const ContactLimits &limits, std::vector<FacetShare> &shares);
