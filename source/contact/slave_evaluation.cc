@@ -34,9 +34,6 @@ private:
       state.traction = parts_.friction->press(s);
     else
       parts_.friction->release(s);
-    if (state.presses()) // on ridges the springs hold more than the gap says
-      state.traction.stored_energy -=
-          0.5 * (state.contact.energy_factor - 1.) * state.traction.pressure * state.contact.gap;
   }
 
   void add_forces(const std::size_t s, FacetSearch::Positions &forces) const {

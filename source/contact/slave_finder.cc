@@ -24,8 +24,9 @@ template <class Facet> void SlaveFinder<Facet>::find(const std::size_t s) {
   if (has_candidates || parts_.start.touched(s).exists())
     state.touched = choose(s, last_iteration);
   if (state.touched.exists()) {
-    state.contact = share_facets<Facet>(parts_.surfaces.moved(), state.touched, parts_.slaves.node(s),
-                                        parts_.offsets.of(s).now, parts_.settings.limits, shares);
+    state.contact = share_facets<Facet>(parts_.surfaces.moved(), state.touched,
+                                        parts_.surfaces.positions()[parts_.slaves.node(s)],
+                                        parts_.settings.limits, shares);
     state.contact.gap -= parts_.offsets.of(s).now;
     if (!(state.contact.gap < 0.)) {
       state.touched = TouchedFacet();

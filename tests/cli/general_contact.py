@@ -30,9 +30,7 @@ from checks import (
     write_text,
 )
 
-BLOCK, IMPACT, BOLT, EDGES = (
-    read_text(HERE / f"{name}.prm") for name in ("block", "impact", "bolt", "edges")
-)
+BLOCK, IMPACT, BOLT = (read_text(HERE / f"{name}.prm") for name in ("block", "impact", "bolt"))
 program = Program(sys.argv[1:])
 runner = Runner(program)
 check = Checks()
@@ -252,44 +250,6 @@ def _() -> None:
     cost = items_of_matrix(everything) / items_of_matrix(needed)
     require(cost < 1.05, f"{cost} times the entries")
     near("the force", everything.last("die.force_z"), needed.last("die.force_z"), 1e-8)
-
-
-# --- edges that cross ----------------------------------------------------------------------------
-
-CORNER = (
-    "a / Mesh: Arguments = 2, 2, 2 : -2.5, -2.5, -2.5 : 2.5, 2.5, 2.5 & a / Mesh: Rotation axis = 1, -1, 0 & "
-    "a / Mesh: Rotation angle = 54.735610317245346 & a / Mesh: Translation = 0, 0, 4.35 & "
-    "b / Mesh: Arguments = 4, 4, 2 : -10, -10, -5 : 10, 10, 0 & b / Mesh: Rotation angle = 0 & "
-    "b / Mesh: Translation = 0, 0, 0 & Time stepping: End time = 2e-5"
-)
-
-
-def largest(ran: Run, column: str) -> float:
-    """Returns the largest magnitude of a column."""
-    return max(abs(number) for number in ran.column(column))
-
-
-for n in (7, 8):
-    for friction in ("0", "0.3"):
-
-        @check(f"bars of {n} bricks that cross edge on edge are not pushed aside, friction {friction}")
-        def _() -> None:
-            ran = billet(
-                EDGES,
-                f"a / Mesh: Arguments = {n}, 1, 1 : -20, -2.5, -2.5 : 20, 2.5, 2.5 & "
-                f"b / Mesh: Arguments = 1, {n}, 1 : -2.5, -20, -2.5 : 2.5, 20, 2.5 & "
-                + general(f"Friction coefficient = {friction}").replace("set Contact = all\n", ""),
-            )
-            aside = max(largest(ran, f"a on b.force_{axis}") for axis in "xy")
-            require(aside <= 1e-6 * largest(ran, "a on b.force_z") > 0, f"a force of {aside}")
-
-
-@check("a cube's corner on a node of a plate keeps the symmetry about x = y")
-def _() -> None:
-    ran = billet(EDGES, CORNER)
-    pushes = zip(ran.column("a on b.force_x"), ran.column("a on b.force_y"))
-    askew = max(abs(x - y) for x, y in pushes)
-    require(askew <= 1e-6 * largest(ran, "a on b.force_z") > 0, f"{askew} askew")
 
 
 # --- tables from files ----------------------------------------------------------------------------

@@ -387,8 +387,6 @@ template <class Facet> void check_sharing(const std::string &name) {
                            Tensor<1, 3>({0., 0., random(0., 0.01)});
     bool is_first = true;
     SharedGap expected{Tensor<1, 3>(), 0.};
-    Positions positions = surface.positions;
-    positions.push_back(x);
     for (const FacetSearch *at : {&search, &reversed})
       for (unsigned int f = 0; f < at->facets().size(); ++f) {
         const TouchedFacet touched{f, Facet(corners_of(at->facets()[f], surface.positions))
@@ -396,8 +394,8 @@ template <class Facet> void check_sharing(const std::string &name) {
         if (!touched.projection.exists || !(touched.projection.share > 0.))
           continue;
         std::vector<FacetShare> shares;
-        const SharedGap result = share_facets<Facet>(MovedFacets(*at, positions), touched,
-                                                     positions.size() - 1, 0., limits, shares);
+        const SharedGap result =
+            share_facets<Facet>(MovedFacets(*at, surface.positions), touched, x, limits, shares);
         double sum = 0.;
         for (const auto &share : shares)
           sum += share.share;
@@ -412,45 +410,6 @@ template <class Facet> void check_sharing(const std::string &name) {
   report(name + ": corner: four facets share a node", std::abs(max_shares - 4.), 0.);
   report(name + ": corner: all of it", sum_of_shares.value(), 1e-15);
   report(name + ": corner: whichever facet was chosen", differ.value(), 1e-14);
-}
-
-/// A node below a ridge of 90 degrees: where it is as deep below both flanks they share it, and it is pushed
-/// straight up, whichever facet was chosen; where it is twice as deep below one, it leaves by the other.
-template <class Facet> void check_ridge(const std::string &name) {
-  Surface surface;
-  add_sheet(surface, 2, 2, 0, 0.5, [](const double s, const double t) {
-    return Tensor<1, 3>({2. * s - 1., 2. * t - 1., -std::abs(2. * s - 1.)});
-  });
-  FacetSearch search(FacetSearch::Partners::other_surfaces, 0.05);
-  search.set_surface(surface.facets, {});
-  ContactLimits limits;
-  limits.max_alignment = 1.; // the node has no facets of its own
-  const double depth = 0.01; // below the ridge
-  WorstError off_middle, off_side;
-  unsigned int n_chosen = 0;
-  for (const double along : {0., 0.01, 0.5})
-    for (const double aside : {0., depth / 3.}) {
-      Positions positions = surface.positions;
-      positions.emplace_back(Tensor<1, 3>({aside, along, -depth}));
-      for (unsigned int f = 0; f < search.facets().size(); ++f) {
-        const TouchedFacet touched{f, Facet(corners_of(search.facets()[f], surface.positions))
-                                          .project(positions.back(), make_limits(limits.zone, limits))};
-        if (!touched.projection.exists)
-          continue;
-        ++n_chosen;
-        std::vector<FacetShare> shares;
-        const SharedGap result = share_facets<Facet>(MovedFacets(search, positions), touched,
-                                                     positions.size() - 1, 0., limits, shares);
-        if (aside == 0.)
-          off_middle.add((result.normal - Tensor<1, 3>({0., 0., 1.})).norm() +
-                         std::abs(result.gap / depth + 0.5));
-        else
-          off_side.add((result.normal - touched.projection.normal).norm());
-      }
-    }
-  report(name + ": ridge: each flank is chosen", n_chosen >= 12 ? 0. : 1., 0.);
-  report(name + ": ridge: straight up where both are as deep", off_middle.value(), 1e-14);
-  report(name + ": ridge: through one flank elsewhere", off_side.value(), 1e-14);
 }
 
 /// A node that goes to and fro between the flanks of a valley, behind both, in the iterations of one step.
@@ -610,8 +569,6 @@ int main(int argc, char *argv[]) {
   }
   check_sharing<PlanedFacet>("planed");
   check_sharing<BilinearFacet>("bilinear");
-  check_ridge<PlanedFacet>("planed");
-  check_ridge<BilinearFacet>("bilinear");
   check_restless();
   check_new_overlap(nullptr, "frictionless");
   check_new_overlap(make_coulomb(0.2), "Coulomb");

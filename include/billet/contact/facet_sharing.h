@@ -27,7 +27,6 @@ using FacetShare = FacetShareOf<double>;
 template <class Number> struct SharedGapOf {
   dealii::Tensor<1, 3, Number> normal; ///< unit
   Number gap;                          ///< [length]
-  double energy_factor = 1.;           ///< stored energy over ½ k gap²
 };
 using SharedGap = SharedGapOf<double>;
 
@@ -93,26 +92,17 @@ SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std
   return result;
 }
 
-/// Appends to `shares` the facets that share a node which touches `touched`. These are that facet and, if the
-/// node is within the zone of its edges, others around its nearest corner, whose zones contain the node, too.
-/// Those that meet `touched` smoothly have their parts in combine() by FacetProjection::share. The result
-/// does not jump where the node slides from one facet to the next. It does not depend on the choice among
-/// them, as long as neighbours differ less than twofold in size. Its gap may be >= 0, though that of
+/// Appends to `shares` the facets that share a node at x which touches `touched`. These are that facet and,
+/// if the node is within the zone of its edges, others around its nearest corner. The others meet it
+/// smoothly, and their zones contain the node. Their parts in combine() are FacetProjection::share. The
+/// result does not jump where the node slides from one facet to the next. It does not depend on the choice
+/// among them, as long as neighbours differ less than twofold in size. Its gap may be >= 0, though that of
 /// `touched` is not. A node well inside a facet costs nothing.
 ///
-/// Facets that meet in a sharp convex edge share a node that is equally deep below both, for example where
-/// edges of two bodies cross at nodes: the shortest way out is the same through either, and round-off must
-/// not choose. Their parts are multiplied by part_at_ridge(). The gap then is |Σ s_f n_f| Σ s_f g_f, so that
-/// the force is the gradient of ½ k (Σ s_f g_f)², the energy through either facet: a node that leaves by one
-/// flank has stored there what it takes. `raised` is the gap offset of the node [length]. Beyond that and at
-/// concave edges the choice decides.
+/// Facets do not share nodes at corners and sharp edges: there the choice decides.
 template <class Facet>
-SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, unsigned int node,
-                       double raised, const ContactLimits &limits, std::vector<FacetShare> &shares);
-
-/// Returns the factor, from 0 to 1, on the part of a facet beyond a sharp convex edge, from the depths > 0
-/// below it and below the touched facet: 1 up to a ratio of 1.05 either way, 0 from 1.1 on.
-double part_at_ridge(double depth, double touched_depth);
+SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, const dealii::Tensor<1, 3> &x,
+                       const ContactLimits &limits, std::vector<FacetShare> &shares);
 
 } // namespace billet
 
