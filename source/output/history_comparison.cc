@@ -41,14 +41,15 @@ std::pair<double, double> integrate(const HistoryTable &a, const HistoryTable &b
   std::set_union(a.times().begin(), a.times().end(), b.times().begin(), b.times().end(),
                  std::back_inserter(times));
   double difference = 0., size = 0.;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    const double half = 0.5 * (times[i] - times[i - 1]);
-    for (const std::string &name : names)
-      for (const double time : {times[i - 1], times[i]}) {
-        const double of_b = value_at(b.times(), b.column(name), time);
-        difference += half * std::abs(value_at(a.times(), a.column(name), time) - of_b);
-        size += half * std::abs(of_b);
-      }
+  for (const std::string &name : names) {
+    const std::vector<double> &of_a = a.column(name), &of_b = b.column(name);
+    for (std::size_t i = 0; i < times.size(); ++i) { // trapezoids
+      const double before = i > 0 ? times[i - 1] : times[i],
+                   after = i + 1 < times.size() ? times[i + 1] : times[i];
+      const double weight = 0.5 * (after - before), value = value_at(b.times(), of_b, times[i]);
+      difference += weight * std::abs(value_at(a.times(), of_a, times[i]) - value);
+      size += weight * std::abs(value);
+    }
   }
   return {difference, size};
 }

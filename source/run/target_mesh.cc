@@ -50,7 +50,7 @@ struct Level {
   int level = 0;
   double seconds = 0.;    ///< of all processors
   double difference = 0.; ///< from the level before; 0: there is none
-  MeshLevelError error;   ///< of this level, from the third line on by extrapolation
+  MeshLevelError error;   ///< of this level, if there is one before it
   ExitCode code = ExitCode::success;
 };
 
@@ -152,7 +152,6 @@ private:
       if (is_first_)
         std::cout << failure.diagnostic().text() << std::endl;
       levels_.clear(); // too coarse: the ladder begins above
-      differences_.clear();
       return;
     }
     result.seconds = dealii::Utilities::MPI::sum(processor_time() - start, communicator_);
@@ -170,8 +169,11 @@ private:
       level.difference = difference.part;
       of_what_ = difference.of_what.empty() ? "results" : difference.of_what;
     });
-    differences_.push_back(level.difference);
-    level.error = extrapolate(differences_);
+    std::vector<double> differences;
+    for (std::size_t l = 1; l < levels_.size(); ++l)
+      differences.push_back(levels_[l].difference);
+    differences.push_back(level.difference);
+    level.error = extrapolate(differences);
   }
 
   /// Moves the results of the last level into the output folder, and reports. `limit`: what kept the run from
@@ -225,7 +227,7 @@ private:
            << percent(error.error);
       if (!error.is_known)
         text << " or more: the differences do not fall";
-      else if (differences_.size() > 1)
+      else if (levels_.size() > 2)
         text << ", of order " << error.order;
     }
     Diagnostic message(diagnostic::mesh_levels, text.str());
@@ -258,7 +260,6 @@ private:
   bool is_first_;
   std::string folder_, of_what_ = "results";
   std::vector<Level> levels_;
-  std::vector<double> differences_;
 };
 
 } // namespace
