@@ -31,9 +31,8 @@ BodyContact::BodyContact(const Scene &scene, const std::size_t pair, const Local
   settings.search_margin = std::max(pair_.search_margin * surfaces_.find_smallest_size(communicator),
                                     2. * pair_.overlap.closed_gap);
   settings.limits.zone = pair_.smoothing;
-  constexpr unsigned int max_changes = 8;
   if (!scene.parameters().is_explicit())
-    settings.max_changes = max_changes;
+    settings.max_changes = RestlessNodes::max_changes;
   if (!scene.parameters().is_dynamic())
     settings.touching_gap = touching_gap;
   const PairPenalties penalties = compute_penalties(scene, pair_, surfaces_, communicator);

@@ -54,6 +54,13 @@ std::pair<Tensor<2, 3>, double> centre_gradient(const ElementVectors &positions,
   return {derivatives * dealii::invert(jacobian), 8. * determinant};
 }
 
+/// Returns the positions of an element's nodes in the middle between two displacements.
+ElementVectors middle_of(ElementVectors positions, const ElementVectors &before, const ElementVectors &now) {
+  for (unsigned int i = 0; i < n_element_dofs; ++i)
+    positions[i] += 0.5 * (before[i] + now[i]);
+  return positions;
+}
+
 double equivalent_of(const dealii::SymmetricTensor<2, 3> &tensor) { return dealii::deviator(tensor).norm(); }
 
 } // namespace
@@ -70,12 +77,11 @@ MeshErrors::MeshErrors(const Discretization &discretization)
 
 MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const OwnedElement &before,
                                          const Stress &stress, const ElementVectors &displacements) {
-  ElementVectors middle = positions, increment{};
-  for (unsigned int i = 0; i < n_element_dofs; ++i) {
-    middle[i] += 0.5 * (before.displacements[i] + displacements[i]);
-    increment[i] = displacements[i] - before.displacements[i];
-  }
-  const auto [gradient, volume] = centre_gradient(middle, increment);
+  ElementVectors increment = displacements;
+  for (unsigned int i = 0; i < n_element_dofs; ++i)
+    increment[i] -= before.displacements[i];
+  const auto [gradient, volume] =
+      centre_gradient(middle_of(positions, before.displacements, displacements), increment);
   const Stress strain = dealii::symmetrize(gradient);
   Interval interval;
   interval.stress = 0.5 * (before.stress + stress);
@@ -160,10 +166,9 @@ void MeshErrors::add(const Solution &solution) {
       OwnedElement &own = elements_[body][e];
       const ElementVectors displacements = gather(solution.state().displacements, element.dofs);
       if (has_begun_) {
-        ElementVectors middle = nodal_positions(element.cell);
-        for (unsigned int i = 0; i < n_element_dofs; ++i)
-          middle[i] += 0.5 * (own.displacements[i] + displacements[i]);
-        const double saved = saved_work(element.cell, middle, intervals);
+        const double saved =
+            saved_work(element.cell,
+                       middle_of(nodal_positions(element.cell), own.displacements, displacements), intervals);
         own.error += saved;
         sums[body] += saved;
         sums.back() += std::abs(intervals[element.cell->active_cell_index()].work);

@@ -10,6 +10,9 @@ namespace billet {
 /// Counts the changes of touched facet or status of nodes (chatter) in the iterations of one step.
 class RestlessNodes {
 public:
+  /// Changes in the iterations of an implicit step above which a node is restless.
+  static constexpr unsigned int max_changes = 8;
+
   /// Constructs the counter. A node with more changes than `max_changes` is restless; 0 disables counting.
   explicit RestlessNodes(const unsigned int max_changes) : max_changes_(max_changes) {}
 

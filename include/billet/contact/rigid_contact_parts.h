@@ -42,11 +42,11 @@ struct RigidContactParts {
   ToolStep step;
   NeighbouringTools neighbours;
   MissedEdge missed_edge;
-  RestlessNodes restless{max_changes};    ///< in iterations
-  PressureRecord pressures;               ///< not known in explicit schemes
-  std::optional<ToolFriction> friction;   ///< none without friction
-  std::optional<ThinToolWatch> thin_tool; ///< none unless the tool is thin on any rank
-  double tool_reach = 0.;                 ///< maximum radius of curvature, at most the tool's size [length]
+  RestlessNodes restless{RestlessNodes::max_changes}; ///< in iterations
+  PressureRecord pressures;                           ///< not known in explicit schemes
+  std::optional<ToolFriction> friction;               ///< none without friction
+  std::optional<ThinToolWatch> thin_tool;             ///< none unless the tool is thin on any rank
+  double tool_reach = 0.; ///< maximum radius of curvature, at most the tool's size [length]
   HeldMemory memory{Capability::contact};
 
   CornerStates states_of(const ContactFacet &facet) const {
@@ -72,9 +72,6 @@ struct RigidContactParts {
   void begin(const ContactStep &at, const std::vector<dealii::Tensor<1, 3>> &displacements);
 
 private:
-  /// Changes in the iterations of a step above which a node is restless.
-  static constexpr unsigned int max_changes = 8;
-
   /// Whether an initial gap counts as closed, or an initial penetration as allowed.
   bool allows(const RigidSurface::Projection &projection) const;
   /// Starts the histories of friction at the current positions.
