@@ -7,6 +7,7 @@
 #   python      format and check the Python of the repository
 #   pictures    draw the manual's pictures with ParaView, without a display
 #   documentation  build the site of the documentation, and check its spelling
+#   package     make and try a package for Debian
 #
 # BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an own deal.II, which
 # libdeal.ii-dev would only shadow.
@@ -34,8 +35,9 @@ for group in "$@"; do
       packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse
         libjs-katex codespell python3-numpy python3-matplotlib)
       ;;
+    package) packages+=(lintian mmdebstrap dpkg-dev) ;;
     *)
-      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, pictures, documentation)" >&2
+      echo "packages.sh: unknown group '$group' (build, trade, benchmarks, python, pictures, documentation, package)" >&2
       exit 2
       ;;
   esac

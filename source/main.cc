@@ -15,11 +15,15 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <spawn.h>
 #include <string>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -39,6 +43,7 @@ const char help[] =
        billet --list [LIST [NAME...]]   what scenes can name: primitives, materials, surfaces, loads, ...
        billet --print-parameters        every parameter with default, range, unit and meaning
        billet --print-diagnostics       every message by its key, with meaning and remedy
+       billet --manual                  open the manual, or say where it is
        billet --version | --help
 
 Options of runs, checks and previews:
@@ -71,13 +76,35 @@ std::string find_shipped(const std::vector<std::string> &places) {
   return places.back() + " in the sources";
 }
 
+/// Returns the manual: the site if it is there, else its source.
+std::string find_manual() {
+  return find_shipped({"share/doc/billet/html/index.html", "doc/html/index.html",
+                       "share/doc/billet/manual.md", "doc/manual.md"});
+}
+
 void print_help(std::ostream &stream) {
   stream << help << "Shipped scenes:  "
          << find_shipped({"share/billet/prm/billet_upsetting.prm", "prm/billet_upsetting.prm"})
-         << " and others beside it\nManual:          "
-         << find_shipped({"share/doc/billet/manual.md", "doc/manual.md"})
+         << " and others beside it\nManual:          " << find_manual()
          << "\nbillet-trade:    measures accuracy against cost of a scene's parameters; see 'billet-trade "
             "--help'\n";
+}
+
+/// Prints where the manual is. In a graphical session the desktop's program for such files shows it.
+void open_manual() {
+  std::string manual = find_manual();
+  std::cout << "The manual is " << manual << std::endl;
+  const auto is_set = [](const char *name) {
+    const char *const value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
+    return;
+  std::string program = "xdg-open";
+  std::array<char *, 3> arguments = {program.data(), manual.data(), nullptr};
+  pid_t viewer = 0;
+  if (posix_spawnp(&viewer, program.c_str(), nullptr, nullptr, arguments.data(), environ) != 0)
+    std::cout << "xdg-open, which would show it, is not installed" << std::endl;
 }
 
 enum class Task {
@@ -89,6 +116,7 @@ enum class Task {
   list,
   print_parameters,
   print_diagnostics,
+  manual,
   version,
   help
 };
@@ -110,6 +138,7 @@ const std::vector<std::string> options = {"--check",
                                           "--help",
                                           "--json",
                                           "--list",
+                                          "--manual",
                                           "--new",
                                           "--output",
                                           "--preview",
@@ -177,6 +206,10 @@ void check_new(const CommandLine &command) {
     refuse(command.scenes[2]);
 }
 
+/// Options that end the reading of the command line.
+const std::vector<std::pair<std::string, Task>> information_options = {
+    {"--help", Task::help}, {"-h", Task::help}, {"--manual", Task::manual}, {"--version", Task::version}};
+
 CommandLine read_command_line(const std::vector<std::string> &arguments) {
   CommandLine command;
   const std::vector<std::pair<std::string, Task>> tasks = {{"--print-parameters", Task::print_parameters},
@@ -190,10 +223,11 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     const std::string argument = arguments[next];
     const auto task = std::find_if(tasks.begin(), tasks.end(),
                                    [&](const auto &candidate) { return candidate.first == argument; });
-    if (argument == "--help" || argument == "-h" || argument == "--version") {
-      command.task = argument == "--version" ? Task::version : Task::help;
-      return command;
-    }
+    for (const auto &[name, information] : information_options)
+      if (argument == name) {
+        command.task = information;
+        return command;
+      }
     if (argument == "--json")
       command.json = true;
     else if (task != tasks.end())
@@ -329,6 +363,10 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
     if (is_first)
       std::cout << "billet " << billet::version << " (" << billet::git_revision << "), deal.II "
                 << billet::dealii_version << "\n";
+    break;
+  case Task::manual:
+    if (is_first)
+      open_manual();
     break;
   case Task::list:
     billet::fail_together(MPI_COMM_WORLD, [&] {

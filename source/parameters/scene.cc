@@ -9,6 +9,7 @@
 #include "billet/parameters/declaration.h"
 #include "billet/parameters/expression_check.h"
 #include "billet/parameters/general_contact.h"
+#include "billet/parameters/libraries.h"
 #include "billet/parameters/scene_update.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -55,6 +56,11 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
                     "Title of the scene, for the console and --check.");
   prm.declare_entry("Warnings", "report", dealii::Patterns::Selection("report|errors"),
                     "errors: a run that ends with warnings exits with code 6, but completes.");
+  prm.declare_entry(
+      libraries_key, "", dealii::Patterns::Anything(),
+      "Shared libraries with types of your own, such as laws, separated by ';': names of files, "
+      "relative to the scene file. They are loaded before the scene is read, and run with your "
+      "rights. See the chapter on materials.");
   declare_presets(prm);
   declare_named(prm, "Amplitudes", names_below({"Amplitudes"}),
                 [&](const std::string &) { Amplitude::declare(prm); });
@@ -467,6 +473,7 @@ Scene::~Scene() = default;
 Scene Scene::read(const std::string &file_name, const std::string &restart_file,
                   const std::vector<SceneFile::Setting> &settings) {
   SceneFile file = SceneFile::read(file_name, settings);
+  load_libraries(file);
   const std::vector<std::string> generated = add_general_contact(file);
   ParameterHandler prm;
   declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
