@@ -27,7 +27,7 @@ ContactLoad BodyMeasures::compute_load() const {
   ContactLoad load;
   load.force = all.force;
   load.moment = all.moment;
-  load.area = all.area;
+  load.area = has_two_passes() ? 0.5 * all.area : all.area; // both passes count it
   load.stored_energy = all.stored_energy;
   load.dissipation = all.dissipation;
   load.damping = all.damping;
@@ -63,6 +63,8 @@ std::vector<ContactNodeReport> BodyMeasures::report() const {
     reports.push_back({nodes_.dofs(surfaces_.local_nodes[i]), states[i].status, states[i].pressure,
                        states[i].gap, states[i].slip, area, states[i].traction, states[i].penetration,
                        surfaces_.sizes[i], states[i].tangential_stiffness});
+    if (has_two_passes())
+      reports.back().total = states[i].total;
   }
   return reports;
 }

@@ -56,17 +56,17 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
   Usage::count_if(parts_.settings.has_self_contact(), Capability::self_contact, n_slaves);
   update_surfaces(positions_n, positions);
   const SurfaceExchange &exchange = parts_.surfaces.exchange();
-  nodal_forces_.assign(exchange.n_nodes(), Tensor<1, 3>());
-  evaluation_->run(duration, nodal_forces_);
+  parts_.nodal_forces.assign(exchange.n_nodes(), Tensor<1, 3>());
+  evaluation_->run(duration, parts_.nodal_forces);
   if (parts_.restless.is_counting())
     count_changes();
   if (parts_.edges) {
     parts_.edges->update(parts_.surfaces, parts_.start.has_started());
-    parts_.edges->add_forces(nodal_forces_);
+    parts_.edges->add_forces(parts_.nodal_forces);
   }
-  exchange.collect(nodal_forces_);
+  exchange.collect(parts_.nodal_forces);
   for (std::size_t i = 0; i < exchange.n_own_nodes(); ++i)
-    forces[i] += nodal_forces_[i];
+    forces[i] += parts_.nodal_forces[i];
 }
 
 void FacetContact::set_friction_account(const double start_weight, const bool is_static) {

@@ -69,8 +69,24 @@ std::vector<SlaveForce> FacetMeasures::slave_forces() const {
   return result;
 }
 
+std::vector<SurfaceForce> FacetMeasures::nodal_forces() const {
+  std::vector<SurfaceForce> forces(parts_.surfaces.exchange().n_own_nodes());
+  for (std::size_t i = 0; i < std::min(forces.size(), parts_.nodal_forces.size()); ++i)
+    forces[i].force = parts_.nodal_forces[i];
+  for (unsigned int f = 0; f < parts_.surfaces.exchange().n_own_facets(); ++f) {
+    const FacetAreas &areas = parts_.surfaces.moved().areas(f);
+    const dealii::Tensor<1, 3> normal = parts_.surfaces.moved().plane(f).normal();
+    for (unsigned int a = 0; a < 4; ++a) {
+      const double area = areas.share(a, -normal);
+      forces[parts_.surfaces.facet(f).nodes[a]] += {{}, area * normal, area};
+    }
+  }
+  return forces;
+}
+
 std::vector<FacetMeasures::NodeReport> FacetMeasures::report() const {
-  std::vector<NodeReport> reports(parts_.surfaces.exchange().n_own_nodes());
+  const std::vector<SurfaceForce> forces = nodal_forces();
+  std::vector<NodeReport> reports(forces.size());
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];
     const bool touches = state.presses();
@@ -84,6 +100,8 @@ std::vector<FacetMeasures::NodeReport> FacetMeasures::report() const {
         state.has_pressure() ? parts_.touching.penetration_of(s) : 0.,
         parts_.penalties[s].tangential};
   }
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    reports[i].total = forces[i];
   if (parts_.friction)
     for (std::size_t s = 0; s < parts_.touching.size(); ++s)
       reports[parts_.slaves.node(s)].slip = parts_.friction->slip(s);

@@ -35,6 +35,9 @@ public:
   void visit_supporting(const VisitSupporting &visit) const override;
 
 private:
+  /// Whether nodes of both surfaces are slaves.
+  bool has_two_passes() const { return pair_.two_passes || pair_.is_self_contact; }
+
   const BodyPair &pair_;
   const LocalNodes &nodes_;
   const BodySurfaces &surfaces_;

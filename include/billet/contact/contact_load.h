@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -79,6 +80,28 @@ struct Crossings {
   }
 };
 
+/// All forces on a node of a contact surface: its own, and the reactions to other nodes that touch its
+/// facets. With two passes, pressure and traction of a slave are only its own part.
+struct SurfaceForce {
+  dealii::Tensor<1, 3> force;  ///< on the body [force]
+  dealii::Tensor<1, 3> normal; ///< outward normal times area, of the facets around it [length²]
+  double area = 0.;            ///< of these facets [length²]
+
+  SurfaceForce &operator+=(const SurfaceForce &other) {
+    force += other.force;
+    normal += other.normal;
+    area += other.area;
+    return *this;
+  }
+  /// Returns the pressure [stress], > 0 in compression; 0 without an area.
+  double pressure() const {
+    const double projected = normal.norm() * area;
+    return projected > 0. ? -(force * normal) / projected : 0.;
+  }
+  /// Returns the traction [stress]; 0 without an area.
+  dealii::Tensor<1, 3> traction() const { return area > 0. ? force / area : dealii::Tensor<1, 3>(); }
+};
+
 /// State of a slave node, for output.
 struct ContactNodeReport {
   std::array<DofIndex, 3> dofs;
@@ -90,6 +113,8 @@ struct ContactNodeReport {
   double facet_size = 0.;           ///< of the facets around it
   double tangential_stiffness = 0.; ///< of the spring that it sticks to; 0 without friction [force/length³]
   double curvature = 0.; ///< change of the tool's normal along a facet there, over its size [1/length]
+  /// This rank's parts of all forces, of surfaces whose nodes are slaves and whose facets are touched, too.
+  std::optional<SurfaceForce> total = {};
 };
 
 } // namespace billet

@@ -105,7 +105,6 @@ private:
   FacetPenalties penalties_;
   FacetWorks works_;
   FacetBounds bounds_;
-  Positions nodal_forces_; ///< with ghosts, of one step
 };
 
 } // namespace billet

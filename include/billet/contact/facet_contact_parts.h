@@ -37,6 +37,9 @@ struct FacetContactParts {
   std::optional<SlaveOverlaps> overlaps; ///< only with FacetMethod::overlap
   std::optional<SlaveFriction> friction; ///< none without friction
   std::optional<EdgeSprings> edges;      ///< none unless the settings enable them
+  /// Forces on this rank's nodes and ghosts at the last evaluation. Those of other ranks' facets on a node
+  /// are on one of the ranks that have it.
+  ContactSurfaces::Positions nodal_forces;
 };
 
 } // namespace billet

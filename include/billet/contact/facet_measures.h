@@ -40,6 +40,7 @@ public:
     dealii::Tensor<1, 3> traction;
     double penetration = 0.;          ///< where it presses, as in penetration()
     double tangential_stiffness = 0.; ///< 0 without friction [force/length³]
+    SurfaceForce total = {};
   };
   /// Reports each of this rank's nodes.
   std::vector<NodeReport> report() const;
@@ -69,6 +70,9 @@ public:
   }
 
 private:
+  /// Returns the forces on this rank's nodes, and their areas.
+  std::vector<SurfaceForce> nodal_forces() const;
+
   const FacetContactParts &parts_;
 };
 

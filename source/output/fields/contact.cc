@@ -2,9 +2,61 @@
 #include "billet/output/contact_fields.h"
 #include "billet/output/field_quantity.h"
 
+#include <algorithm>
+
 namespace billet {
 
 NodalQuantity contact_quantity();
+
+namespace {
+
+/// Returns for each pair whether its nodes have total forces. Collective.
+std::vector<int> find_two_passes(const std::vector<std::vector<ContactNodeReport>> &reports,
+                                 const MPI_Comm communicator) {
+  std::vector<int> flags;
+  for (const auto &pair : reports)
+    flags.push_back(
+        std::any_of(pair.begin(), pair.end(), [](const ContactNodeReport &node) { return node.total; }));
+  std::vector<int> all(flags.size());
+  dealii::Utilities::MPI::max(flags, communicator, all);
+  return all;
+}
+
+/// Replaces pressures and tractions of a pair, which are those of one pass, by all forces over the area.
+/// Collective.
+void take_total_forces(const Discretization &discretization, std::vector<ContactNodeReport> &reports) {
+  std::array<Vector, 3> sums; // forces, normals, areas
+  for (auto &sum : sums)
+    sum = discretization.make_additive_vector();
+  for (const auto &node : reports)
+    if (node.total)
+      for (unsigned int i = 0; i < 3; ++i) {
+        sums[0].add(1, &node.dofs[i], &node.total->force[i]);
+        sums[1].add(1, &node.dofs[i], &node.total->normal[i]);
+        if (i == 0)
+          sums[2].add(1, &node.dofs[i], &node.total->area);
+      }
+  std::array<Vector, 3> owned;
+  for (unsigned int k = 0; k < 3; ++k) {
+    sums[k].compress(dealii::VectorOperation::add);
+    owned[k] = discretization.make_owned_vector();
+    owned[k] = sums[k];
+  }
+  for (auto &node : reports) {
+    if (!node.total || !discretization.owned_dofs().is_element(node.dofs[0]))
+      continue;
+    SurfaceForce all;
+    for (unsigned int i = 0; i < 3; ++i) {
+      all.force[i] = owned[0](node.dofs[i]);
+      all.normal[i] = owned[1](node.dofs[i]);
+    }
+    all.area = owned[2](node.dofs[0]);
+    node.pressure = all.pressure();
+    node.traction = all.traction();
+  }
+}
+
+} // namespace
 
 std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution) {
   std::array<Vector, 3> owned;
@@ -15,7 +67,11 @@ std::array<Vector, 3> collect_contact_fields(const Discretization &discretizatio
   for (const auto i : discretization.owned_dofs())
     if ((i - *discretization.owned_dofs().begin()) % 3 != 1)
       owned[1](i) = -1.;
-  const auto reports = solution.report_contacts();
+  auto reports = solution.report_contacts();
+  const std::vector<int> have_two_passes = find_two_passes(reports, discretization.communicator());
+  for (std::size_t p = 0; p < reports.size(); ++p)
+    if (have_two_passes[p])
+      take_total_forces(discretization, reports[p]);
   for (std::size_t p = 0; p < reports.size(); ++p)
     for (const auto &node : reports[p]) {
       area_sums.add(1, &node.dofs[1], &node.area);
