@@ -67,6 +67,7 @@ const NamedValues<Output::Verbosity> verbosities = {{"quiet", Output::Verbosity:
 const NamedValues<TimeStepping::Scheme> &schemes() {
   static const NamedValues<TimeStepping::Scheme> names = {
       {"quasi-static", TimeStepping::Scheme::quasi_static},
+      {"static", TimeStepping::Scheme::quasi_static}, // as most users and the manual say
       {"explicit", TimeStepping::Scheme::explicit_dynamics},
       {"implicit dynamics", TimeStepping::Scheme::implicit_dynamics}};
   return names;

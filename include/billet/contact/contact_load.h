@@ -80,7 +80,7 @@ struct Crossings {
   }
 };
 
-/// All forces on a node of a contact surface: its own, and the reactions to other nodes that touch its
+/// All forces on a node of a contact surface (C13): its own, and the reactions to other nodes that touch its
 /// facets. With two passes, pressure and traction of a slave are only its own part.
 struct SurfaceForce {
   dealii::Tensor<1, 3> force;  ///< on the body [force]
