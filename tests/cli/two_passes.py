@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: two_passes.py BILLET LAUNCHER
+
+Presses a block on another one in an empty current folder, with both surfaces as slaves. Probes must show the
+whole pressure, not the half that each pass bears, and the area in contact must count once.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from checks import Checks, enter_folder, near, require, run
+from shipped import history
+
+program, *launcher = sys.argv[1:]
+check = Checks()
+enter_folder()
+PRESSURE, AREA = 100.0, 100.0
+# Step 2 of an explicit run lets the blocks oscillate a little.
+STATIC, MOVING = 1e-6, 2e-2
+FINER = "Bodies/bottom/Mesh/Arguments=3, 3, 2 : 0, 0, 0 : 10, 10, 10"
+EXPLICIT = ("Time stepping/Scheme=explicit", "Time stepping/End time=4e-4", "Time stepping/Initial step=")
+RAMP = ("Bodies/top/Loads/press/Pressure=100*min(1, 5e3*t)", "Bodies/top/Contact stabilisation=")
+
+
+def last_row(ranks: int, *changes: str) -> dict[str, float]:
+    """Runs the scene with changes, and returns the last row of its history."""
+    options = [part for change in changes for part in ("--set", change)]
+    prefix = [*launcher, str(ranks)] if ranks > 1 else []
+    ended = run(*prefix, program, "two_passes.prm", "--output", "pressed", "--force", *options)
+    require(ended.code == 0, ended.output + ended.errors)
+    return history("pressed")[-1]
+
+
+def check_pressures(row: dict[str, float], tolerance: float, is_uniform: bool) -> None:
+    """Compares pressures and area with those of the load."""
+    near("area", row["pair.contact_area"], AREA, max(tolerance, 1e-3))
+    for side in ("above", "below"):
+        for statistic in ("least", "mean", "largest") if is_uniform else ("mean",):
+            near(f"{side}, {statistic}", row[f"{side}.{statistic}_contact_pressure"], PRESSURE, tolerance)
+
+
+for method in ("planed", "bilinear"):
+    facets = f"Contact pairs/pair/Facets={method}"
+
+    @check(f"equal meshes, {method} facets")
+    def _() -> None:
+        check_pressures(last_row(1, facets), STATIC, True)
+
+    @check(f"other meshes, {method} facets")
+    def _() -> None:
+        check_pressures(last_row(1, facets, FINER), STATIC, False)
+
+
+@check("two ranks")
+def _() -> None:
+    check_pressures(last_row(2, FINER), STATIC, False)
+
+
+@check("one pass has the same pressure")
+def _() -> None:
+    row = last_row(1, "Contact pairs/pair/Passes=one")
+    near("pressure", row["above.mean_contact_pressure"], PRESSURE, STATIC)
+    near("area", row["pair.contact_area"], AREA, STATIC)
+
+
+@check("explicit")
+def _() -> None:
+    check_pressures(last_row(1, *EXPLICIT, *RAMP), MOVING, True)
+
+
+sys.exit(check.finish())
