@@ -3,6 +3,7 @@
 
 #include "billet/nearest_name.h"
 #include "billet/parameters/tool.h"
+#include "billet/registered_type.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <stdexcept>
 
 namespace billet::parameters {
 
@@ -68,6 +70,22 @@ Partners partners_of(const SceneFile &file, const std::string &pair) {
           !tool.empty()};
 }
 
+/// Returns the Young's modulus that a body sets; 0 if it sets no number.
+double young_modulus(const SceneFile &file, const std::string &body) {
+  try {
+    return parse_number(file.value({"Bodies", body, "Material"}, "Young modulus", "0"));
+  } catch (const std::invalid_argument &) { // reported when the body is read
+    return 0.;
+  }
+}
+
+/// Returns two bodies, the softer one first where both moduli are known: its nodes are the slaves in one
+/// pass. Those of a much stiffer body let the soft one through between them.
+Partners soft_before_stiff(const SceneFile &file, const std::string &body, const std::string &other) {
+  const double modulus = young_modulus(file, body), of_other = young_modulus(file, other);
+  return of_other > 0. && of_other < modulus ? Partners{other, body, false} : Partners{body, other, false};
+}
+
 /// Returns all partners of the scene that 'General contact' does not exclude.
 std::vector<Partners> all_partners(const SceneFile &file) {
   std::vector<std::string> faulty;
@@ -88,7 +106,7 @@ std::vector<Partners> all_partners(const SceneFile &file) {
     for (const auto &tool : file.names_below({"Tools"}))
       add({*body, tool, true});
     for (auto other = body; other != bodies.end(); ++other)
-      add({*body, *other, false});
+      add(soft_before_stiff(file, *body, *other));
   }
   return all;
 }
@@ -196,8 +214,8 @@ void declare_general_contact(dealii::ParameterHandler &prm) {
   prm.declare_entry(
       switch_key, "pairs", dealii::Patterns::Selection("pairs|all"),
       "pairs: what touches is in 'Contact pairs'. all: the exterior faces of all bodies touch "
-      "each other, themselves and all tools, except those on symmetry planes. A contact pair of "
-      "the scene replaces that of the same two.");
+      "each other, themselves and all tools, except those on symmetry planes. Of two bodies the "
+      "softer one is 'Body'. A contact pair of the scene replaces that of the same two.");
   prm.enter_subsection(section);
   prm.declare_entry(
       exclusions_key, "", dealii::Patterns::Anything(),

@@ -112,7 +112,7 @@ void print(const PairReport &pair, const double size, std::ostream &stream) {
                                           : count(pair.meeting->n_nodes, "node") + " touch")
            << " at the start, first " << vector(pair.meeting->first, size);
   else
-    stream << "; never meets " << motions;
+    stream << "; never meets " << motions << ", which leave a body at rest that others push";
   stream << (pair.depends_on_forces ? "; loads, driven tools or deformation may change that\n" : "\n");
 }
 
