@@ -602,10 +602,10 @@ def main():
 main()
 )py";
 
-std::string name_of(const WholeSection::Kind section) {
-  switch (section) {
+std::string name_of(const WholeSection &section) {
+  switch (section.kind) {
   case WholeSection::Kind::model:
-    return "solid";
+    return section.is_layer ? "plane strain" : "solid";
   case WholeSection::Kind::per_width:
     return "plane strain";
   case WholeSection::Kind::full_circle:
@@ -641,7 +641,7 @@ std::string boundary_names(const Scene &scene) {
 } // namespace
 
 std::string paraview_script(const std::string &index, const Scene &scene, const bool is_preview) {
-  return head + "INDEX = " + quoted(index) + "\nSECTION = " + quoted(name_of(scene.whole_section().kind)) +
+  return head + "INDEX = " + quoted(index) + "\nSECTION = " + quoted(name_of(scene.whole_section())) +
          "\nPREVIEW = " + (is_preview ? "True" : "False") + "\nTITLE = " + quoted(scene.parameters().title) +
          "\nBOUNDARIES = " + boundary_names(scene) + "\n" + body;
 }

@@ -22,22 +22,25 @@ namespace {
 /// Dimensions of arrows, relative to their length, and lengths relative to half the diagonal of the scene.
 struct Sizes {
   static constexpr double shaft = 0.03, head = 0.09, head_length = 0.3;
-  static constexpr double support = 0.06; ///< of a support that does not move
+  static constexpr double support = 0.06;        ///< of a support that does not move
+  static constexpr double longest_slender = 0.1; ///< whose shaft and head are as wide as given here
   static constexpr double longest_load = 0.25;
 };
 
 /// Adds a square shaft and a pyramid.
-void add_arrow(Grid &grid, const Arrow &arrow) {
+/// `radius`: half the diagonal of the scene.
+void add_arrow(Grid &grid, const Arrow &arrow, const double radius) {
   const double length = (arrow.to - arrow.from).norm();
   if (!(length > 0.))
     return;
+  const double size = std::min(length, Sizes::longest_slender * radius); // of shaft and head
   const Tensor<1, 3> direction = (arrow.to - arrow.from) / length;
   const Frame frame = Frame::from_normal(direction);
-  const Tensor<1, 3> neck = arrow.to - Sizes::head_length * length * direction;
+  const Tensor<1, 3> neck = arrow.to - Sizes::head_length * size * direction;
   const std::uint64_t first = grid.n_points();
   const auto add_square = [&](const Tensor<1, 3> &centre, const double width) {
     for (const auto &sign : {std::array<double, 2>{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.}}) {
-      const Tensor<1, 3> corner = centre + width * length * (sign[0] * frame.q + sign[1] * frame.r);
+      const Tensor<1, 3> corner = centre + width * size * (sign[0] * frame.q + sign[1] * frame.r);
       for (unsigned int i = 0; i < 3; ++i)
         grid.points.push_back(corner[i]);
     }
@@ -140,7 +143,7 @@ std::vector<Arrow> make_load_arrows(const LocalNodes &nodes, const NodalVectors 
 } // namespace
 
 Grid make_arrow_grid(const std::string &group, const std::string &name, const std::string &value_name,
-                     const std::vector<Arrow> &arrows, const MPI_Comm communicator) {
+                     const std::vector<Arrow> &arrows, const double radius, const MPI_Comm communicator) {
   std::vector<double> own;
   for (const Arrow &arrow : arrows)
     for (const Tensor<1, 3> &part : {arrow.from, arrow.to, arrow.value})
@@ -151,8 +154,10 @@ Grid make_arrow_grid(const std::string &group, const std::string &name, const st
   for (const auto &of_rank : mpi::gather(communicator, own)) // empty but on the first rank
     for (std::size_t i = 0; i + 9 <= of_rank.size(); i += 9) {
       const double *x = &of_rank[i];
-      add_arrow(grid, {Tensor<1, 3>({x[0], x[1], x[2]}), Tensor<1, 3>({x[3], x[4], x[5]}),
-                       Tensor<1, 3>({x[6], x[7], x[8]})});
+      add_arrow(grid,
+                {Tensor<1, 3>({x[0], x[1], x[2]}), Tensor<1, 3>({x[3], x[4], x[5]}),
+                 Tensor<1, 3>({x[6], x[7], x[8]})},
+                radius);
     }
   return grid;
 }
@@ -166,7 +171,8 @@ std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization 
     if (!discretization.owned_dofs().is_element(dof))
       continue;
     for (const Hold &hold : holds) {
-      if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
+      // A section has its sides everywhere: their arrows would hide all others.
+      if (hold.is_of_section || std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
         continue;
       const Tensor<1, 3> direction = hold.direction(node.position);
       const double value =
@@ -216,10 +222,11 @@ std::vector<Grid> make_preview_grids(const Scene &scene, const Discretization &d
       std::vector<Arrow> arrows;
       fail_together(communicator, [&] { arrows = find_support_arrows(scene, discretization, body); });
       grids.push_back(make_arrow_grid(preview_group::supports, scene.bodies()[body].name,
-                                      "displacement_at_end", arrows, communicator));
+                                      "displacement_at_end", arrows, discretization.radius(), communicator));
     }
   for (const LoadArrows &load : find_load_arrows(scene, discretization))
-    grids.push_back(make_arrow_grid(preview_group::loads, load.name, "force", load.arrows, communicator));
+    grids.push_back(make_arrow_grid(preview_group::loads, load.name, "force", load.arrows,
+                                    discretization.radius(), communicator));
   return grids;
 }
 

@@ -572,8 +572,10 @@ void Body::parse(Reader &reader) {
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
   for (const auto &part : reader.parts("Symmetry planes"))
     symmetry_planes.value.push_back(parse_plane(reader, part));
-  for (const SymmetryPlane &plane : sides_of_section(mesh))
+  for (const SymmetryPlane &plane : sides_of_section(mesh)) {
     symmetry_planes.value.push_back(plane);
+    symmetry_planes.value.back().is_of_section = true;
+  }
 }
 
 } // namespace billet::parameters

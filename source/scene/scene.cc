@@ -130,6 +130,7 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
     Hold hold;
     hold.name = "symmetry plane " + plane.text;
     hold.on_plane = true;
+    hold.is_of_section = plane.is_of_section;
     hold.normal = plane.normal;
     hold.offset = plane.offset;
     body.holds.push_back(hold);
@@ -225,11 +226,12 @@ WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
     whole.factor = 2. * M_PI / std::sin(mesh.wedge_angle); // by the area of the bricks' section
     return whole;
   }
+  const auto all = [&](const auto &is) { return std::all_of(bodies.begin(), bodies.end(), is); };
+  whole.is_layer =
+      all([](const parameters::Body &body) { return body.mesh.section.value == Section::plane_strain; });
   const double width = mesh.scale * mesh.height;
-  if (width != 1. && std::all_of(bodies.begin(), bodies.end(), [&](const parameters::Body &body) {
-        return body.mesh.section.value == Section::plane_strain &&
-               body.mesh.scale * body.mesh.height == width;
-      })) {
+  if (whole.is_layer && width != 1. &&
+      all([width](const parameters::Body &body) { return body.mesh.scale * body.mesh.height == width; })) {
     whole.kind = WholeSection::Kind::per_width;
     whole.factor = 1. / width;
   }

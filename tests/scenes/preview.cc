@@ -167,8 +167,8 @@ void check_arrow() {
   const Arrow arrow{Tensor<1, 3>({1., 2., 3.}), Tensor<1, 3>({1., 2., 13.}), Tensor<1, 3>({7., 8., 9.})};
   const bool is_last = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) + 1 ==
                        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  const Grid grid = make_arrow_grid(
-      "group", "name", "value", is_last ? std::vector<Arrow>{arrow} : std::vector<Arrow>{}, MPI_COMM_WORLD);
+  const std::vector<Arrow> arrows = is_last ? std::vector<Arrow>{arrow} : std::vector<Arrow>{};
+  const Grid grid = make_arrow_grid("group", "name", "value", arrows, 1., MPI_COMM_WORLD);
   if (!testing::is_first_rank()) {
     testing::check("arrow: the first rank has it", grid.n_points() == 0 && grid.n_cells() == 0);
     return;
@@ -180,6 +180,10 @@ void check_arrow() {
     high = std::max(high, grid.points[i]);
   }
   check("arrow: from one point to the other", std::abs(low - 3.) + std::abs(high - 13.), 1e-12);
+  double widest = 0.;
+  for (std::size_t i = 0; i < grid.points.size(); i += 3)
+    widest = std::max(widest, std::hypot(grid.points[i] - 1., grid.points[i + 1] - 2.));
+  check("arrow: no wider than one of a tenth of the scene", widest > 0. && widest < 0.02);
   const GridField &field = grid.cell_fields.front();
   check("arrow: each cell has its value", field.name == "value" && field.values.size() == 27 &&
                                               field.values[24] == 7. && field.values[26] == 9.);

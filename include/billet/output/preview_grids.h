@@ -22,9 +22,10 @@ struct Arrow {
 };
 
 /// Returns a surface of the arrows of all ranks, which the first rank has. Each cell has the value of its
-/// arrow under this name. Collective.
+/// arrow under this name. `radius`: half the diagonal of the scene, to which the width of long arrows is
+/// relative [length]. Collective.
 Grid make_arrow_grid(const std::string &group, const std::string &name, const std::string &value_name,
-                     const std::vector<Arrow> &arrows, MPI_Comm communicator);
+                     const std::vector<Arrow> &arrows, double radius, MPI_Comm communicator);
 
 /// Arrows of the supports of a body, one for each constraint of each node. Where a support moves, the arrow
 /// is the displacement at the end time; else it points at the node, with the value 0. Those of this rank.

@@ -102,6 +102,7 @@ struct SymmetryPlane {
   dealii::Tensor<1, 3> normal;
   double offset;
   std::string text;
+  bool is_of_section = false; ///< a side of the layer or of the wedge
 };
 
 /// One named subsection of Bodies.

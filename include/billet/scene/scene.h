@@ -58,6 +58,7 @@ struct Hold {
   std::shared_ptr<const NodePlaces> nodes = {};
   /// ... or, if there are neither, boundary nodes on this plane.
   bool on_plane = false;
+  bool is_of_section = false; ///< a side of the layer or of the wedge
   dealii::Tensor<1, 3> normal;
   double offset = 0.;
   const Expression *value = nullptr; ///< null: 0

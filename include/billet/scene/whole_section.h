@@ -18,6 +18,7 @@ struct WholeSection {
   };
 
   Kind kind = Kind::model;
+  bool is_layer = false;     ///< whether all bodies are layers in plane strain, of any width
   double factor = 1.;        ///< of forces on the model
   dealii::Tensor<1, 3> axis; ///< of the circle, a unit vector
 
