@@ -50,7 +50,7 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
   for (const auto &node : slaves.nodes)
     max_size = std::max(max_size, node.size);
   thin_tool = ThinToolWatch::make(tool.surface(), dealii::Utilities::MPI::max(max_size, communicator));
-  if (is_explicit && !pair.input->has_own_penalty && thin_tool)
+  if (is_explicit && !pair.input->penalty.is_given && thin_tool)
     slaves.harden_springs(thin_tool->thickness());
   for (auto &node : slaves.nodes)
     node.given = node.stiffness;

@@ -323,7 +323,7 @@ public:
                 tool.motion.control == Motion::Control::force ? "Mass" : "Moment of inertia");
     }
     for (const auto &pair : scene_.pairs)
-      if (pair.edges == ContactPair::Edges::held && !scene_.is_explicit())
+      if (pair.facets.edges == ContactPair::Edges::held && !scene_.is_explicit())
         refuse_entry({"Contact pairs", pair.name}, "Edge contact");
       else if (scene_.is_explicit()) {
         refuse({"Contact pairs", pair.name}, "Initial penetration");

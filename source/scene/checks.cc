@@ -331,7 +331,7 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
         }
       }
     });
-    const auto &allowed = pair.input->allowed_penetration;
+    const auto &allowed = pair.input->initial.allowed_penetration;
     if (-deepest > allowed.value * size_there) {
       std::ostringstream message;
       message << pair.input->origin << ": body '" << bodies_[pair.body].name

@@ -397,7 +397,7 @@ void Scene::make_pairs() {
   };
   const auto is_raised = [&](const parameters::ContactPair &pair) {
     // A raise in implicit dynamics treats existing penetration as allowed overlap; with a ramp it would fade.
-    const bool may_grow = parameters_.is_explicit() || !(pair.ramp_time > 0.);
+    const bool may_grow = parameters_.is_explicit() || !(pair.initial.ramp_time > 0.);
     return parameters_.is_dynamic() && !pair.penetration_tolerance && may_grow;
   };
   for (const auto &pair : parameters_.pairs) {
@@ -405,21 +405,21 @@ void Scene::make_pairs() {
     const PairSettings settings{pair.name,
                                 &pair,
                                 pair.friction,
-                                pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor,
-                                parameters_.is_dynamic() && !pair.has_own_penalty,
-                                pair.normal_penalty,
-                                pair.tangential_penalty,
+                                pair.penalty.unit == parameters::ContactPair::PenaltyUnit::factor,
+                                parameters_.is_dynamic() && !pair.penalty.is_given,
+                                pair.penalty.normal,
+                                pair.penalty.tangential,
                                 penetration_tolerance(pair),
                                 is_raised(pair),
-                                {pair.may_overlap, pair.ramp_time, pair.closed_gap}};
+                                {pair.initial.may_overlap, pair.initial.ramp_time, pair.initial.closed_gap}};
     if (!pair.is_between_bodies()) {
       pairs_.push_back({settings, body, pair.boundary_ids.value, parameters_.tool_index(pair)});
       continue;
     }
     using Pair = parameters::ContactPair;
-    const FacetMethod facets =
-        pair.facets.value.value_or(parameters_.is_explicit() ? FacetMethod::planed : FacetMethod::overlap);
-    Pair::PenaltyOf penalty_of = pair.penalty_of;
+    const FacetMethod facets = pair.facets.method.value.value_or(
+        parameters_.is_explicit() ? FacetMethod::planed : FacetMethod::overlap);
+    Pair::PenaltyOf penalty_of = pair.penalty.of;
     if (penalty_of == Pair::PenaltyOf::automatic)
       penalty_of = parameters_.is_explicit() ? Pair::PenaltyOf::stiffer : Pair::PenaltyOf::series;
     const std::size_t second = parameters_.second_body_index(pair);
@@ -430,12 +430,13 @@ void Scene::make_pairs() {
          {pair.boundary_ids.value, second_ids.empty() ? pair.boundary_ids.value : second_ids},
          body == second && second_ids.empty(),
          facets,
-         pair.passes == Pair::Passes::automatic ? facets != FacetMethod::overlap
-                                                : pair.passes == Pair::Passes::two,
-         parameters_.is_explicit() && facets != FacetMethod::overlap && pair.edges != Pair::Edges::free,
+         pair.facets.passes == Pair::Passes::automatic ? facets != FacetMethod::overlap
+                                                       : pair.facets.passes == Pair::Passes::two,
+         parameters_.is_explicit() && facets != FacetMethod::overlap &&
+             pair.facets.edges != Pair::Edges::free,
          penalty_of,
-         pair.smoothing,
-         pair.search_margin,
+         pair.facets.smoothing,
+         pair.facets.search_margin,
          pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;
     if (body == second && !second_ids.empty())

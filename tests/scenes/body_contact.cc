@@ -32,7 +32,7 @@ using Facets = FacetMethod;
 parameters::Scene read(const Facets facets) {
   parameters::Scene parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/restart_blocks.prm");
   parameters.bodies[lower].mesh.arguments = "9, 3, 2 : -0.5, -0.5, -1.5 : 8.5, 2.5, 0 : true";
-  parameters.pairs[0].facets.value = facets;
+  parameters.pairs[0].facets.method.value = facets;
   parameters.pairs[0].penetration_tolerance = tolerance;
   return parameters;
 }

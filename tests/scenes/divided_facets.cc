@@ -60,7 +60,7 @@ struct Pressed {
     parameters::Scene parameters = testing::read_test_scene("hard_blow.prm");
     parameters.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
     parameters.tools[0].surface = testing::make_surface(part.shape, part.lines);
-    parameters.pairs[0].has_own_penalty = !hardens;
+    parameters.pairs[0].penalty.is_given = !hardens;
     return parameters;
   }
   ContactLoad press() {

@@ -34,7 +34,7 @@ struct Variant {
 std::array<double, 3> run(const Variant &variant) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   parameters.pairs[0].friction = nullptr;
-  parameters.pairs[0].normal_penalty = variant.penalty;
+  parameters.pairs[0].penalty.normal = variant.penalty;
   parameters.bodies[0].mesh.refinements = variant.refinements;
   parameters.bodies[0].mesh.n_layers = variant.layers;
   testing::set_fixed_steps(parameters, variant.steps);

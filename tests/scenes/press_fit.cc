@@ -172,7 +172,7 @@ int main(int argc, char *argv[]) {
   // Chords of different lengths reach into each other in the middle of facets: shifted, nothing presses.
   auto shifted = testing::read_shipped_scene("press_fit.prm");
   shifted.bodies[1].mesh.arguments = "6, 18, 1 : 20, 0, 0 : 30, 90, 1 : true";
-  shifted.pairs[0].ramp_time = 0.;
+  shifted.pairs[0].initial.ramp_time = 0.;
   SceneRun rings(shifted);
   rings.finish();
   check("shifted rings whose meshes do not fit: no force",

@@ -23,8 +23,8 @@ struct Drawn {
 parameters::Scene make_scene(const double penalty, const double tangential) {
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/drawn_block.prm");
   scene.pairs[0].friction = make_coulomb(0.25);
-  scene.pairs[0].normal_penalty = penalty;
-  scene.pairs[0].tangential_penalty = tangential;
+  scene.pairs[0].penalty.normal = penalty;
+  scene.pairs[0].penalty.tangential = tangential;
   return scene;
 }
 

@@ -63,7 +63,7 @@ inline parameters::Scene make_curved(const SurfacePart &part, const double frict
   scene.tools[0].motion.rotation_angle.value = "0.05*t";
   scene.tools[0].motion.translation.value = {"0.01*t", "0", "0.01*t"};
   scene.pairs[0].friction = make_coulomb(friction_coefficient);
-  scene.pairs[0].allowed_penetration.value = 1.;
+  scene.pairs[0].initial.allowed_penetration.value = 1.;
   scene.time_stepping.initial_step = 0.1;
   return scene;
 }

@@ -30,8 +30,8 @@ parameters::Scene read_bar(const std::string &motion, const double penalty = 10.
   parameters.bodies[0].supports[0].displacement.value[2] = motion;
   auto &pair = parameters.pairs[0];
   pair.penetration_tolerance = 0.;
-  pair.has_own_penalty = true;
-  pair.normal_penalty = penalty;
+  pair.penalty.is_given = true;
+  pair.penalty.normal = penalty;
   return parameters;
 }
 

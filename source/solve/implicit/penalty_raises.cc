@@ -62,7 +62,7 @@ std::vector<double> PenaltyRaises::find_factors() const {
     // are about to go deeper than contact follows them.
     const PairSettings &pair = contacts[i].settings();
     const bool is_too_much =
-        !pair.has_tolerance() && factors[i] > (pair.input->has_own_penalty && !is_short ? Limits::deep : 1.);
+        !pair.has_tolerance() && factors[i] > (pair.input->penalty.is_given && !is_short ? Limits::deep : 1.);
     const double raise =
         std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), max_raise * room[i]);
     factors[i] = is_too_much && raise >= Limits::min_raise ? whole_octaves(raise) : 1.;
@@ -111,8 +111,8 @@ DiagnosticList PenaltyRaises::describe() const {
       continue;
     const ContactInterface &contact = problem_.contacts()[i];
     const parameters::ContactPair &input = *contact.settings().input;
-    const double penalty = input.normal_penalty * contact.penalties().stiffening();
-    const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
+    const double penalty = input.penalty.normal * contact.penalties().stiffening();
+    const bool is_factor = input.penalty.unit == parameters::ContactPair::PenaltyUnit::factor;
     std::ostringstream text;
     text.precision(3);
     text << "The penalty of the pair rises by a factor of " << factors_[i] << ", to " << penalty
