@@ -42,12 +42,6 @@ EXCEPTIONS: list[tuple[str, str, int, str]] = [
         "all of the interface ImplicitScheme, and access to its parts",
     ),
     ("billet::ImplicitSolution", "functions", 44, "all of the interface Solution, which output asks"),
-    (
-        "billet::RigidContact",
-        "functions",
-        41,
-        "all of the interface ContactInterface, which has two protocols",
-    ),
 ]
 
 Sizes = dict[str, dict[str, int]]  # by name of a class or function, and by limit

@@ -149,7 +149,8 @@ void DrivenTools::assemble_tangent() {
     double slope = 0.;
     for (const auto &contact : contacts_.of_tools())
       if (contact.tool() == unknown_[k])
-        slope += contact.drive().add_derivatives(contact.tangents(), rate_of(unknown_[k]), column, row);
+        slope += contact.drive().add_derivatives(contact.with_matrix().tangents(), rate_of(unknown_[k]),
+                                                 column, row);
     column.compress(dealii::VectorOperation::add);
     row.compress(dealii::VectorOperation::add);
     const bool has_mass = scheme_.has_mass(unknown_[k]);

@@ -178,7 +178,7 @@ StatusChanges ImplicitProblem::find_status_changes() const {
 
 bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double yield_slack) {
   for (auto &contact : contacts_)
-    contact.update(step_.ghosted);
+    contact.with_matrix().update(step_.ghosted);
   tangent_.follow_couplings();
   system.matrix = 0.;
   if (!on_all_ranks(internal_.assemble_tangent(step_.ghosted, system, yield_slack)))
@@ -187,10 +187,10 @@ bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double
   const TangentSystem contact_system{system.constraints, system.matrix, system.lift,
                                      scheme().contact_weight()};
   for (const auto &contact : contacts_.of_tools())
-    contact.add_tangent(contact_system);
+    contact.with_matrix().add_tangent(contact_system);
   tangent_.start_contact();
   for (const auto &contact : contacts_.of_bodies())
-    contact.add_tangent(contact_system);
+    contact.with_matrix().add_tangent(contact_system);
   scheme().add_tangent(step_.time, {supports().homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
   tools_.assemble_tangent();

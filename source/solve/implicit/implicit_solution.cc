@@ -30,7 +30,7 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
   ContactSet &contacts = problem_.contacts();
   if (!contacts.of_bodies().empty()) {
     for (auto &contact : contacts)
-      contact.update(state().displacements);
+      contact.with_matrix().update(state().displacements);
     for (auto &contact : contacts.of_bodies())
       contact.allow_overlap();
     rules_->check_start();

@@ -48,7 +48,7 @@ void ProblemCheckpoint::save_contacts(StateWriter &writer, const NodeKeys &keys)
       if (!contact.rigid_tool())
         writer.write("load", to_numbers(*body_pair_load++));
       contact.save(writer, keys);
-      contact.couplings().save(writer);
+      contact.with_matrix().couplings().save(writer);
     });
 }
 
@@ -117,7 +117,8 @@ void ProblemCheckpoint::load_contacts(StateReader &reader, const NodeKeys &keys)
         *load = to_contact_load(reader.read("load"));
     });
     if (!is_known)
-      contact.begin({state.time, state.time, 0., state.placements, state.placements}, state.displacements);
+      contact.with_matrix().begin({state.time, state.time, 0., state.placements, state.placements},
+                                  state.displacements);
   }
 }
 
@@ -127,9 +128,10 @@ void ProblemCheckpoint::update_contacts(StateReader &reader, const bool is_exact
   bool couplings_are_known = is_exact;
   problem_.start_at_rest();
   for (auto &contact : problem_.contacts().of_bodies()) {
-    contact.update(problem_.state().displacements);
+    contact.with_matrix().update(problem_.state().displacements);
     if (couplings_are_known)
-      load_pair(reader, contact, [&] { couplings_are_known = contact.couplings().load(reader); });
+      load_pair(reader, contact,
+                [&] { couplings_are_known = contact.with_matrix().couplings().load(reader); });
   }
   problem_.tangent().build(couplings_are_known);
 }
