@@ -128,7 +128,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   bool may_continue = control_.reject() && !newton.is_lost_in_round_off;
   report_.total_cuts = control_.n_cuts();
   if (!may_continue && !newton.is_lost_in_round_off && !newton.is_explained) {
-    may_continue = problem_.take_exact_tangent();
+    may_continue = problem_.equation().parts().tangent().take_exact();
     if (may_continue)
       output.report(Diagnostic(diagnostic::exact_tangent,
                                "Newton's method failed with this 'Contact tangent'; the run "
@@ -172,7 +172,7 @@ void ImplicitRun::control_errors(RunOutput &output) {
     const double factor = errors_->step_factor();
     errors_->add(control_.time(), problem_.state().energies,
                  carried_energy(scene_.free_directions(), problem_.state().momentum,
-                                problem_.equation().scheme().mass()));
+                                problem_.equation().parts().scheme().mass()));
     if (errors_->step_factor() < factor)
       control_.limit(errors_->step_factor() * report_.length);
   }

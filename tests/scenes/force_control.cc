@@ -180,6 +180,7 @@ int main(int argc, char *argv[]) {
     const EnergyLedger &energies = back.problem.state().energies;
     back.finish([&](const NewtonReport &) {
       strain_after = back.problem.equation()
+                         .parts()
                          .internal()
                          .summarize(0, back.problem.state().displacements)
                          .front()

@@ -51,7 +51,7 @@ std::array<double, 3> run(const Variant &variant) {
   });
   double minimum = 1e9, maximum = 0.;
   for (const auto &element :
-       scene.problem.equation().internal().summarize(0, scene.problem.state().displacements)) {
+       scene.problem.equation().parts().internal().summarize(0, scene.problem.state().displacements)) {
     minimum = std::min(minimum, element.equivalent_plastic_strain);
     maximum = std::max(maximum, element.equivalent_plastic_strain);
   }

@@ -38,7 +38,7 @@ parameters::Scene read_scene(const unsigned int n, const double tolerance) {
 /// With this pressure between the rings, and stresses that make up the hoop stress A ± B/r² of each.
 Errors find_errors(const SceneRun &fit, const double p, const std::array<std::array<double, 2>, 2> &hoops) {
   Errors errors{0., 0.};
-  for (const auto &node : fit.problem.equation().contacts().of_bodies()[0].measures().report())
+  for (const auto &node : fit.problem.equation().parts().contacts().of_bodies()[0].measures().report())
     if (node.area > 0.)
       errors.pressure = std::max(errors.pressure, std::abs(node.pressure / p - 1.));
   double square = 0., exact_square = 0.;

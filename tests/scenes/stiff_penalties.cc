@@ -78,12 +78,12 @@ int main(int argc, char *argv[]) {
     has_failed = true;
   }
   check("a symmetrised tangent fails", has_failed);
-  check("the exact one takes over", rescued.problem.take_exact_tangent());
+  check("the exact one takes over", rescued.problem.equation().parts().tangent().take_exact());
   rescued.finish();
   check("and ends the run with its solution",
         difference(rescued.problem.state().body_pair_loads[0].force,
                    as_given.problem.state().body_pair_loads[0].force),
         0.01);
-  check("it can be taken once", !rescued.problem.take_exact_tangent());
+  check("it can be taken once", !rescued.problem.equation().parts().tangent().take_exact());
   return billet::testing::exit_code();
 }

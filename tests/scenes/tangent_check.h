@@ -31,7 +31,7 @@ inline double tangent_error(SceneRun &run, const double t, const unsigned int n_
     for (const auto i : owned)
       direction(i) = random(-1., 1.);
     direction.compress(dealii::VectorOperation::insert);
-    problem.supports().homogeneous().distribute(direction);
+    problem.parts().supports().homogeneous().distribute(direction);
     double *const offsets = std::copy(direction.begin(), direction.end(), v.begin());
     std::generate(offsets, v.end(), [&random] { return random(-1., 1.); });
     const double h = 1e-7;
@@ -79,7 +79,7 @@ inline void check_curved(const std::string &name, const SurfacePart &part) {
     SceneRun exact(scene);
     check(name + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
     unsigned int n_touch = 0, n_stick = 0;
-    for (const auto &node : exact.problem.equation().contacts().of_tools()[0].measures().report()) {
+    for (const auto &node : exact.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
       n_touch += node.status != ContactStatus::open;
       n_stick += node.status == ContactStatus::stick;
     }

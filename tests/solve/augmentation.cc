@@ -58,7 +58,7 @@ struct Pressed {
   explicit Pressed(const Spring &spring) : Pressed(read(spring)) {}
   /// The factor by which the penalty has risen.
   double stiffening(const std::size_t contact = 0) const {
-    return run->problem.equation().contacts()[contact].penalties().stiffening();
+    return run->problem.equation().parts().contacts()[contact].penalties().stiffening();
   }
 };
 double stiffening(const parameters::Scene &parameters) { return Pressed(parameters).stiffening(); }

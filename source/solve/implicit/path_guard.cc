@@ -20,13 +20,13 @@ bool fail(NewtonReport &report, const Explanation &why) {
 } // namespace
 
 bool PathGuard::may_be_cut(const double t) const {
-  const auto &stepping = problem_.parameters().time_stepping;
+  const auto &stepping = parts_.parameters().time_stepping;
   return stepping.control == parameters::TimeStepping::Control::automatic &&
          t - problem_.state().time > stepping.min_step * (1. + Limits::rounding);
 }
 
 bool PathGuard::goes_through_thin_tool(NewtonReport &report) const {
-  for (const auto &contact : problem_.contacts())
+  for (const auto &contact : parts_.contacts())
     if (contact.checks().may_let_nodes_through() &&
         !problem_.on_all_ranks(!contact.checks().lets_nodes_through()))
       return fail(report, contact.checks().describe_passage());
@@ -42,22 +42,22 @@ bool PathGuard::goes_through(const bool is_thorough, NewtonReport &report) {
 
 bool PathGuard::turns_too_far(const double t, NewtonReport &report) const {
   const SolutionState &state = problem_.state();
-  for (const auto &contact : problem_.contacts().of_tools()) {
+  for (const auto &contact : parts_.contacts().of_tools()) {
     const std::size_t tool = contact.tool();
     const double angle =
-        std::abs(problem_.tools().place(tool, t, problem_.tools().offsets()[tool]).rotation_angle -
+        std::abs(parts_.tools().place(tool, t, parts_.tools().offsets()[tool]).rotation_angle -
                  state.placements[tool].rotation_angle);
-    if (problem_.removal().is_removed(tool) || !contact.settings().has_friction() ||
+    if (parts_.removal().is_removed(tool) || !contact.settings().has_friction() ||
         angle <= Limits::max_turn * (1. + Limits::rounding) ||
         !(state.tool_loads[tool].area > 0. ||
           !problem_.on_all_ranks(!contact.measures().has_touching_nodes())))
       continue;
     std::ostringstream text;
     text.precision(3);
-    text << "tool '" << problem_.scene().tools()[tool].name() << "' turns by " << angle * 180. / M_PI
+    text << "tool '" << parts_.scene().tools()[tool].name() << "' turns by " << angle * 180. / M_PI
          << " degrees in the step, but friction allows at most " << Limits::max_turn * 180. / M_PI;
     const bool is_fixed =
-        problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed;
+        parts_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed;
     return fail(report, {text.str(),
                          std::string("Try a smaller ") + (is_fixed ? "'Initial step'" : "'Minimum step'")});
   }
@@ -83,8 +83,8 @@ DiagnosticList PathGuard::check_motion(const double t) const {
 bool PathGuard::meets_too_early(const double t, NewtonReport &report) const {
   if (!may_be_cut(t))
     return false;
-  const double maximum = problem_.contacts().max(
-      [](const auto &contact) { return contact.measures().closing_of_new_contacts(); });
+  const double maximum =
+      parts_.contacts().max([](const auto &contact) { return contact.measures().closing_of_new_contacts(); });
   if (!(maximum > Limits::max_closing))
     return false;
   std::ostringstream text;

@@ -5,18 +5,19 @@ namespace billet {
 
 void StepAttempt::begin(const double t) {
   ImplicitProblem &problem = p_.problem;
+  ImplicitParts &parts = problem.parts();
   problem.step().time = t;
   p_.measurement.begin();
-  problem.tools().clear_failure();
+  parts.tools().clear_failure();
   problem.clear_obstacle();
-  problem.tools().restart();
+  parts.tools().restart();
   std::vector<std::size_t> pressing;
-  const auto &tools = problem.scene().tools();
+  const auto &tools = parts.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i)
-    if (tools[i].is_driven() && !problem.removal().is_removed(i))
+    if (tools[i].is_driven() && !parts.removal().is_removed(i))
       pressing.push_back(i);
-  problem.tools().choose_unknown(pressing);
-  problem.stabilisation().start_step(t - problem.state().time);
+  parts.tools().choose_unknown(pressing);
+  parts.stabilisation().start_step(t - problem.state().time);
   stopping_.clear();
   p_.rules.begin_attempt();
 }
@@ -24,10 +25,11 @@ void StepAttempt::begin(const double t) {
 bool StepAttempt::find_guess(const double t, const double previous_step, NewtonIteration &linear_step,
                              NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
+  ImplicitParts &parts = problem.parts();
   Predictor &predictor = p_.rules.predictor();
   bool has_guess = predictor.guess(t, previous_step), takes_solution = !has_guess;
-  problem.scheme().start_step(problem.state().time, t, problem.step().start.displacements,
-                              problem.tools().start_offsets());
+  parts.scheme().start_step(problem.state().time, t, problem.step().start.displacements,
+                            parts.tools().start_offsets());
   if (takes_solution)
     has_guess = predictor.follow_tangent(t, linear_step);
   problem.start_step(t);
@@ -41,9 +43,9 @@ bool StepAttempt::find_guess(const double t, const double previous_step, NewtonI
   problem.clear_obstacle();
   if (has_guess)
     return true;
-  report.failure = !problem.tools().failure().empty()              ? problem.tools().failure()
-                   : !problem.tangent().solver().failure().empty() ? problem.tangent().solver().failure()
-                                                                   : "the initial guess is not admissible";
+  report.failure = !parts.tools().failure().empty()              ? parts.tools().failure()
+                   : !parts.tangent().solver().failure().empty() ? parts.tangent().solver().failure()
+                                                                 : "the initial guess is not admissible";
   return false;
 }
 
@@ -62,8 +64,8 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
   NewtonIteration linear_step{};
   if (!find_guess(t, previous_step, linear_step, report))
     return report;
-  Unknowns x{p_.problem.step().trial.displacements, p_.problem.tools().offsets()};
-  p_.problem.contacts().restart();
+  Unknowns x{p_.problem.step().trial.displacements, p_.problem.parts().tools().offsets()};
+  p_.problem.parts().contacts().restart();
   const bool is_direct = way == Way::direct;
   report = is_direct
                ? p_.solver.iterate(x.offsets, x.displacements)
@@ -86,14 +88,15 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
 
 void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
-  stopping_ = problem.tools().find_stopping(
-      t, [&](const std::size_t tool) { return problem.removal().is_removed(tool); });
+  ImplicitParts &parts = problem.parts();
+  stopping_ = parts.tools().find_stopping(
+      t, [&](const std::size_t tool) { return parts.removal().is_removed(tool); });
   if (stopping_.empty())
     return;
   const bool has_measured = p_.measurement.has_begun();
-  std::vector<std::size_t> pressing = problem.tools().unknown();
+  std::vector<std::size_t> pressing = parts.tools().unknown();
   pressing.insert(pressing.end(), stopping_.begin(), stopping_.end());
-  problem.tools().choose_unknown(pressing);
+  parts.tools().choose_unknown(pressing);
   report.append(p_.solver.iterate(x.offsets, x.displacements));
   p_.augmentation.augment(report, x.offsets, x.displacements);
   if (has_measured) // it holds for the former position of the tool
@@ -102,9 +105,10 @@ void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) 
 
 void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
+  ImplicitParts &parts = problem.parts();
   // The line search may have evaluated other states since: the histories have to be those of the accepted
   // state.
-  Vector accepted = problem.tools().pack(x.displacements, x.offsets);
+  Vector accepted = parts.tools().pack(x.displacements, x.offsets);
   Vector residual(accepted);
   problem.compute_residual(accepted, residual);
   if (!p_.measurement.is_wanted() || p_.solver.is_probing())
@@ -116,7 +120,7 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
     return;
   p_.augmentation.allow_penetration(allowed);
   p_.augmentation.augment(report, x.offsets, x.displacements);
-  accepted = problem.tools().pack(x.displacements, x.offsets);
+  accepted = parts.tools().pack(x.displacements, x.offsets);
   problem.compute_residual(accepted, residual);
 }
 

@@ -61,6 +61,7 @@ protected:
   ElementImbalance element_imbalance() const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   /// Energy that contact has taken and not yet returned; in static scenes, of all steps except jumps.
   double contact_balance_ = 0.;
   InternalForces::Energies trial_energies_;

@@ -12,7 +12,7 @@ namespace billet {
 class PathGuard {
 public:
   explicit PathGuard(ImplicitProblem &problem)
-      : problem_(problem), motions_(problem.scene(), problem.supports(), problem.discretization()) {}
+      : problem_(problem), motions_(parts_.scene(), parts_.supports(), parts_.discretization()) {}
 
   /// Whether steps to t may be cut.
   bool may_be_cut(double t) const;
@@ -44,6 +44,7 @@ private:
   };
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   MotionWatch motions_;
 };
 

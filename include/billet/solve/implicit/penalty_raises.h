@@ -34,6 +34,7 @@ private:
                   DiagnosticList &messages);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   std::vector<double> of_tools_; ///< energy in the springs of each contact with a tool
   PenaltyWatch watch_;
 };
@@ -63,6 +64,7 @@ private:
   DiagnosticList describe() const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   SpringBooks &books_;
   std::vector<double> factors_; ///< result of the last is_needed()
 };
@@ -73,7 +75,7 @@ class DynamicPenalties {
 public:
   DynamicPenalties(ImplicitProblem &problem, SpringBooks &books)
       : problem_(problem), books_(books),
-        control_(problem.scene(), problem.discretization(), PenaltyControl::in_implicit_scenes) {}
+        control_(parts_.scene(), parts_.discretization(), PenaltyControl::in_implicit_scenes) {}
 
   /// `solution` is that of the step. Collective.
   DiagnosticList control(const Solution &solution);
@@ -83,6 +85,7 @@ public:
 
 private:
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   SpringBooks &books_;
   PenaltyControl control_;
 };

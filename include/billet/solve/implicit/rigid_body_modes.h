@@ -80,6 +80,7 @@ private:
   void report_let_go(double t, NewtonReport &report);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   bool may_change_; ///< whether supports or springs begin or end
   RigidBodies bodies_;
   std::vector<double> forces_n_, max_forces_; ///< on bodies at the end of the last step; maxima so far

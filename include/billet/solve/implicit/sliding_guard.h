@@ -53,6 +53,7 @@ private:
   Explanation describe(std::size_t contact, double t, const Explanation &cause) const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   std::vector<FrictionUse> friction_; ///< of the contacts in the last converged step
   unsigned int n_refused_ = 0;        ///< states of this attempt that slid too far
   std::size_t refused_ = 0;           ///< contact pair of the last one

@@ -84,6 +84,7 @@ protected:
   std::map<std::size_t, std::set<std::string>> switch_supports(double t, const Vector &inertia);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   const PathGuard &paths_;
   SpringBooks &books_;
 };
