@@ -25,9 +25,9 @@ BodyContactParts::BodyContactParts(const Scene &scene, const BodyPair &of_pair, 
   settings.search_margin =
       std::max(pair.search_margin * surfaces.find_smallest_size(communicator), 2. * pair.overlap.closed_gap);
   settings.limits.zone = pair.smoothing;
-  if (!scene.parameters().is_explicit())
+  if (scene.parameters().scheme().has_matrix)
     settings.max_changes = RestlessNodes::max_changes;
-  if (!scene.parameters().is_dynamic())
+  if (!scene.parameters().scheme().has_inertia)
     settings.touching_gap = touching_gap;
   const PairPenalties penalties = compute_penalties(scene, pair, surfaces, communicator);
   settings.penetration_tolerance = pair.penetration_tolerance.value_or(0.);

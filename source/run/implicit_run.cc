@@ -14,10 +14,10 @@ namespace billet {
 namespace {
 
 EnergyWatch make_energy_watch(const parameters::Scene &parameters) {
-  const double max_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.max_drift : 0.;
-  return max_drift > 0.            ? EnergyWatch(EnergyWatch::Balance::is_kept, max_drift)
-         : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_reported)
-                                   : EnergyWatch(EnergyWatch::Balance::is_left);
+  const double max_drift = parameters.scheme().has_inertia ? parameters.implicit_dynamics.max_drift : 0.;
+  return max_drift > 0.                    ? EnergyWatch(EnergyWatch::Balance::is_kept, max_drift)
+         : parameters.scheme().has_inertia ? EnergyWatch(EnergyWatch::Balance::is_reported)
+                                           : EnergyWatch(EnergyWatch::Balance::is_left);
 }
 
 bool has_sticking_overlaps(const Scene &scene) {
@@ -32,7 +32,7 @@ ImplicitRun::ImplicitRun(const Scene &scene, const MPI_Comm communicator, Resump
     : Run(scene, communicator), problem_(scene, discretization_),
       control_(parameters_.time_stepping, parameters_.output.interval, load_problem(resumption)),
       energies_(make_energy_watch(parameters_)) {
-  if (parameters_.is_dynamic() && parameters_.target_error > 0.)
+  if (parameters_.scheme().has_inertia && parameters_.target_error > 0.)
     errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
   else if (ErrorWatch::is_wanted(parameters_))
     watch_ = std::make_unique<ErrorWatch>(scene, discretization_, problem_);

@@ -28,14 +28,14 @@ std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretiza
     supports.at_time(0.);
     supports.at_time(scene.parameters().time_stepping.end_time);
   });
-  if (scene.parameters().is_dynamic())
+  if (scene.parameters().scheme().has_inertia)
     return std::make_unique<ImplicitMotion>(scene, discretization, supports);
   return nullptr;
 }
 
 /// Makes what time adds to a static scene; null for a dynamic one.
 std::unique_ptr<ImplicitScheme> make_statics(const Scene &scene, const Discretization &discretization) {
-  if (scene.parameters().is_dynamic())
+  if (scene.parameters().scheme().has_inertia)
     return nullptr;
   const auto &bodies = scene.bodies();
   if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))

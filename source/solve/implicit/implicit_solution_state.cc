@@ -50,7 +50,7 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   if (!scheme)
     throw InputError("its scheme '" + name_of_scheme + "' is unknown; known are " +
                      parameters::selection(parameters::schemes()));
-  const bool is_implicit = scheme != Scheme::explicit_dynamics, is_own = scheme == parts_.scheme().kind();
+  const bool is_implicit = parameters::type_of(*scheme).has_matrix, is_own = scheme == parts_.scheme().kind();
   report.is_exact = is_own;
   compare_parts(reader, parts_.scene(), report);
   state.energies = to_energies(reader.read("energies"));
