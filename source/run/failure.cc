@@ -172,7 +172,7 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
 Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
                                const double from, const double to, const bool is_unstable) {
   const NewtonReport &newton = report.newton;
-  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained; // which is not the iterations
+  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained(); // which is not the iterations
   std::ostringstream what, results;
   what << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
        << report.step << " accepted steps and " << report.total_cuts << " cuts: " << newton.failure

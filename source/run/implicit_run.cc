@@ -127,7 +127,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   // If round-off limits the residual, smaller load steps make it worse.
   bool may_continue = control_.reject() && !newton.is_lost_in_round_off;
   report_.total_cuts = control_.n_cuts();
-  if (!may_continue && !newton.is_lost_in_round_off && !newton.is_explained) {
+  if (!may_continue && !newton.is_lost_in_round_off && !newton.is_explained()) {
     may_continue = problem_.equation().parts().tangent().take_exact();
     if (may_continue)
       output.report(Diagnostic(diagnostic::exact_tangent,
@@ -137,7 +137,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   }
   // Steps that fail whatever their length need another start, as do those that cannot be cut.
   constexpr unsigned int max_cuts_in_a_row = 4;
-  if (!newton.is_lost_in_round_off && !newton.is_explained &&
+  if (!newton.is_lost_in_round_off && !newton.is_explained() &&
       (!may_continue || ++n_failed_ >= max_cuts_in_a_row))
     may_continue = problem_.take_low_penalties() || may_continue;
   if (may_continue)

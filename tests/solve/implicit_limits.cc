@@ -157,8 +157,7 @@ void check_far_motion() {
       }
     step.start.displacements.compress(dealii::VectorOperation::insert);
     step.trial.displacements.compress(dealii::VectorOperation::insert);
-    NewtonReport report;
-    return moves_too_far(problem, 1., report);
+    return judge_travel(problem, 1.).has_value();
   };
   check("nodes move by one diameter in a step", !is_too_far(0., 0.98) && is_too_far(0., 1.02));
   check("and by ten in all", !is_too_far(9.3, 0.5) && is_too_far(9.7, 0.5));
@@ -188,9 +187,9 @@ Loss lose(const double force, const double length) {
   writer.write("free modes", {0.});
   testing::MemoryReader reader(state);
   modes.load(reader, true);
-  NewtonReport report;
+  DiagnosticList messages;
   try {
-    modes.rejects(length, report);
+    modes.judge(length, messages);
   } catch (const SolutionFailure &) {
     return Loss::final;
   }
@@ -233,12 +232,12 @@ Judged judge(const Energies &energies) {
   problem.parts().scheme().start_step(0., step, problem.step().start.displacements,
                                       problem.parts().tools().start_offsets());
   problem.start_step(step);
-  NewtonReport report;
-  balance.is_inaccurate(step, report);
+  balance.judge_accuracy(step);
   const double error = balance.time_error();
-  report = NewtonReport();
-  balance.rejects(step, report);
-  return {report.makes_energy, report.is_explained, error};
+  DiagnosticList messages;
+  const std::optional<StepFailure> failure = balance.judge_contact(step, messages);
+  const auto is_of = [&failure](const StepFailure::Kind kind) { return failure && failure->kind == kind; };
+  return {is_of(StepFailure::Kind::makes_energy), is_of(StepFailure::Kind::explained), error};
 }
 
 void check_dynamic_balance() {

@@ -151,7 +151,7 @@ double prescribed_motion(const ImplicitProblem &problem, const double t) {
   return of_tools + dealii::Utilities::MPI::max(of_supports, problem.parts().communicator());
 }
 
-bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport &report) {
+std::optional<StepFailure> judge_travel(const ImplicitProblem &problem, const double t) {
   const StepState &step = problem.step();
   const double radius = problem.parts().discretization().radius(), diameter = 2. * radius;
   // Motion that the scene prescribes, in the step and since the start.
@@ -177,10 +177,10 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
                               dealii::ArrayView<double>(maximum.data(), maximum.size()));
   driven_so_far += maximum[0];
   const auto fail = [&](const std::string &what) {
-    report.fail({what + ". Quasi-static solutions do not move this far",
-                 "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free motion, or "
-                 "smaller steps"});
-    return true;
+    return StepFailure{StepFailure::Kind::explained,
+                       {what + ". Quasi-static solutions do not move this far",
+                        "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free "
+                        "motion, or smaller steps"}};
   };
   std::ostringstream text;
   text.precision(3);
@@ -196,7 +196,7 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
          << " diameters more than twice the path of tools and supports";
     return fail(text.str());
   }
-  return false;
+  return {};
 }
 
 } // namespace billet

@@ -10,9 +10,9 @@
 
 namespace billet {
 
-bool EnergyBalance::is_inaccurate(double /*t*/, NewtonReport & /*report*/) {
+std::optional<StepFailure> EnergyBalance::judge_accuracy(double /*t*/) {
   trial_energies_ = parts_.internal().compute_energies(problem_.step().ghosted, Beat::evaluated);
-  return false;
+  return {};
 }
 
 EnergyBalance::ElementImbalance EnergyBalance::element_imbalance() const {
@@ -82,10 +82,10 @@ void EnergyBalance::load(const StateReader &reader) {
   contact_balance_ = reader.number("contact balance");
 }
 
-bool StaticBalance::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> StaticBalance::judge_contact(const double t, DiagnosticList &messages) {
   trial_contact_loss_ = 0.;
   if (parts_.contacts().empty())
-    return false;
+    return {};
   const StepState &step = problem_.step();
   Vector increment = step.trial.displacements, mean = step.trial.internal;
   increment -= step.start.displacements;
@@ -102,7 +102,7 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
   const double t_n = problem_.state().time;
   const StepEnergy::Verdict verdict = step_energy_.judge(t_n, t - t_n, works, floor);
   if (verdict == StepEnergy::Verdict::balanced)
-    return false;
+    return {};
   const double percent = 100. * StepEnergy::part_of_all(works);
   std::ostringstream text;
   text.precision(3);
@@ -110,19 +110,20 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
        << ": " << percent << " % of all work so far";
   if (verdict == StepEnergy::Verdict::jump) {
     trial_contact_loss_ = 0.;
-    report.diagnostics.push_back(
+    messages.push_back(
         Diagnostic(diagnostic::energy_imbalance, text.str())
             .time(t)
             .measure("part of all work [%]", percent)
             .advice("Smaller steps do not change this. The solution jumps to another branch, as when one "
                     "body slips off another, or bodies pass through each other. Check the field output at "
                     "this time; 'Scheme = implicit dynamics' resolves jumps"));
-    return false;
+    return {};
   }
   text << ", more than the allowed " << 100. * StepEnergy::max_part
        << " %. The solution jumps to another branch, or bodies pass through each other";
-  report.fail({text.str(), "Reduce 'Maximum step' or the penalty, or use a finer mesh where they touch"});
-  return true;
+  return StepFailure{
+      StepFailure::Kind::explained,
+      {text.str(), "Reduce 'Maximum step' or the penalty, or use a finer mesh where they touch"}};
 }
 
 void StaticBalance::commit(double /*t*/) {
@@ -167,8 +168,8 @@ double DynamicBalance::energy_error(const double imbalance) const {
   return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
 }
 
-bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
-  EnergyBalance::is_inaccurate(t, report);
+std::optional<StepFailure> DynamicBalance::judge_accuracy(const double t) {
+  EnergyBalance::judge_accuracy(t);
   motion_.contact().finish(problem_.step().trial.contact);
   time_error_ = motion_.step_error(problem_.step().trial.displacements);
   std::ostringstream message;
@@ -187,9 +188,8 @@ bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
     time_error_ = std::max(time_error_, error);
   }
   if (time_error_ <= 1.)
-    return false;
-  report.fail({message.str(), advice});
-  return true;
+    return {};
+  return StepFailure{StepFailure::Kind::explained, {message.str(), advice}};
 }
 
 EnergyBalance::ContactLoss DynamicBalance::dynamic_loss(const double t) const {
@@ -202,22 +202,16 @@ double DynamicBalance::taken_by_contact(const ContactLoss &loss) const {
                           : contact_balance_ + loss.total - Limits::may_make * max_energy_of_trial());
 }
 
-bool DynamicBalance::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> DynamicBalance::judge_contact(const double t, DiagnosticList & /*messages*/) {
   update_largest_energy();
   const double maximum = max_energy_of_trial(); // in the first step there has been none before
   const ContactLoss loss = dynamic_loss(t);
-  report.makes_energy =
-      !motion_.contact().is_on() && contact_balance_ + loss.total < -Limits::may_make * maximum;
+  if (!motion_.contact().is_on() && contact_balance_ + loss.total < -Limits::may_make * maximum)
+    return StepFailure{StepFailure::Kind::makes_energy, {"contact creates energy in the step", ""}};
   // The step is so long that bodies meet within it rather than at its end.
-  const bool takes_too_much =
-      taken_by_contact(loss) - loss.friction > Limits::may_take * maximum && paths_.may_be_cut(t);
-  if (!report.makes_energy && !takes_too_much)
-    return false;
-  report.converged = false;
-  report.is_explained = takes_too_much;
-  report.failure =
-      std::string("contact ") + (report.makes_energy ? "creates" : "removes") + " energy in the step";
-  return true;
+  if (taken_by_contact(loss) - loss.friction > Limits::may_take * maximum && paths_.may_be_cut(t))
+    return StepFailure{StepFailure::Kind::explained, {"contact removes energy in the step", ""}};
+  return {};
 }
 
 void DynamicBalance::commit(const double t) {

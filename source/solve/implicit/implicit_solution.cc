@@ -72,11 +72,11 @@ NewtonReport ImplicitSolution::attempt(const double t, const double previous_ste
 }
 
 void ImplicitSolution::repeat(const double t, const double previous_step, NewtonReport &report) {
-  for (unsigned int n = 0; report.penetrates && n < Limits::max_raises; ++n) {
+  for (unsigned int n = 0; report.rejection == StepFailure::Kind::penetrates && n < Limits::max_raises; ++n) {
     append(report.diagnostics, rules_->raise_penalties());
     report.append_anew(attempt(t, previous_step));
   }
-  if (report.makes_energy) { // repeat with damped contact
+  if (report.rejection == StepFailure::Kind::makes_energy) { // repeat with damped contact
     parts_.scheme().contact().damp(problem_.step().start);
     report.append_anew(attempt(t, previous_step));
   }
@@ -85,11 +85,11 @@ void ImplicitSolution::repeat(const double t, const double previous_step, Newton
 void ImplicitSolution::recover(const double t, const double previous_step, NewtonReport &report,
                                DiagnosticList &messages) {
   bool may_accept_stalled = report.is_stalled;
-  if (!report.converged && (!report.is_explained || rules_->may_mend_explained()) &&
+  if (!report.converged && (!report.is_explained() || rules_->may_mend_explained()) &&
       augmentation_.soften_contacts(messages))
     report.append_anew(attempt(t, previous_step));
   const auto continue_from = [&](const PenaltyContinuation::Start start, const StepAttempt::Way way) {
-    if (report.converged || report.is_explained || report.iterations.empty() ||
+    if (report.converged || report.is_explained() || report.iterations.empty() ||
         !may_continue_penalties(start))
       return;
     report.append_anew(attempt(t, previous_step, way));
@@ -99,7 +99,7 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
   };
   continue_from(PenaltyContinuation::Start::enough, StepAttempt::Way::by_enough_penalties);
   continue_from(PenaltyContinuation::Start::low, StepAttempt::Way::by_low_penalties);
-  if (!report.converged && !report.is_explained && may_accept_stalled && !solver_.accepts_stalled()) {
+  if (!report.converged && !report.is_explained() && may_accept_stalled && !solver_.accepts_stalled()) {
     solver_.accept_stalled(true);
     report.append_anew(attempt(t, previous_step));
   }
@@ -134,7 +134,7 @@ NewtonReport ImplicitSolution::step(const double t, const double previous_step) 
 
 void ImplicitSolution::explain_failure(NewtonReport &report) {
   report.is_lost_in_round_off =
-      report.is_lost_in_round_off || (!report.is_explained && round_off_.may_explain(report));
+      report.is_lost_in_round_off || (!report.is_explained() && round_off_.may_explain(report));
   if (report.is_lost_in_round_off) {
     const Explanation why = round_off_.describe(report.force);
     report.failure = why.what;
@@ -142,7 +142,7 @@ void ImplicitSolution::explain_failure(NewtonReport &report) {
     return;
   }
   Explanation why{report.failure, report.advice};
-  if (!report.is_explained) {
+  if (!report.is_explained()) {
     why += diagnosis_.describe_contacts();
     why += rules_->describe_sliding();
     why += diagnosis_.describe_residual();

@@ -70,14 +70,11 @@ std::vector<double> PenaltyRaises::find_factors() const {
   return factors;
 }
 
-bool PenaltyRaises::is_needed(NewtonReport &report) {
+std::optional<StepFailure> PenaltyRaises::judge() {
   factors_ = find_factors();
   if (std::none_of(factors_.begin(), factors_.end(), [](const double factor) { return factor > 1.; }))
-    return false;
-  report.converged = false;
-  report.penetrates = true;
-  report.failure = "the penetration of nodes is too large";
-  return true;
+    return {};
+  return StepFailure{StepFailure::Kind::penetrates, {"the penetration of nodes is too large", ""}};
 }
 
 DiagnosticList PenaltyRaises::raise() {

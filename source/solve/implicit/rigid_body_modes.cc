@@ -219,7 +219,7 @@ Explanation RigidBodyModes::explain_sliding() const {
   return why.empty() || !find_sliding_soon() ? Explanation() : why; // else the failed state resists
 }
 
-bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
+StepFailure RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t) {
   const bool is_held = hold_if_let_go(mode);
   std::ostringstream text;
   text << "body '" << parts_.scene().bodies()[mode.body].name << "' has no support at time " << t
@@ -237,36 +237,35 @@ bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, Ne
             .time(t)
             .advice(why.advice + ". Results until then are in '" + parameters.output.folder.value + "'"));
   loss_ = {t, why};
-  report.fail(why);
-  return true;
+  return {StepFailure::Kind::explained, why};
 }
 
-bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> RigidBodyModes::judge(const double t, DiagnosticList &messages) {
   if (bodies_.are_held())
-    return moves_too_far(problem_, t, report);
+    return judge_travel(problem_, t);
   const RigidBodySupport::Result found = find_support();
   if (found.n_free > support_.n_free)
-    return lose(*found.free, t, report);
-  if (moves_too_far(problem_, t, report))
-    return true;
+    return lose(*found.free, t);
+  if (const auto failure = judge_travel(problem_, t))
+    return failure;
   forces_n_ = contact_forces_on_bodies();
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
     max_forces_[body] = std::max(max_forces_[body], forces_n_[body]);
   support_ = found;
   friction_n_ = parts_.contacts().friction_uses();
   hold_unloaded_bodies();
-  report_let_go(t, report);
+  report_let_go(t, messages);
   if (!support_.sliding)
     support_.sliding = find_sliding_soon();
   if (parts_.stabilisation().acts())
     support_by_contact_ = find_support_by_contact();
-  return false;
+  return {};
 }
 
-void RigidBodyModes::report_let_go(const double t, NewtonReport &report) {
+void RigidBodyModes::report_let_go(const double t, DiagnosticList &messages) {
   for (const RigidBodySupport::Mode &mode : let_go_) {
     const std::string &name = parts_.scene().bodies()[mode.body].name;
-    report.diagnostics.push_back(
+    messages.push_back(
         Diagnostic(
             diagnostic::unsupported_body,
             "No contact presses on body '" + name +

@@ -8,12 +8,11 @@
 
 namespace billet {
 
-bool RoundOffGuard::rejects(const double t, NewtonReport &report) const {
+std::optional<StepFailure> RoundOffGuard::judge(const double t, const NewtonReport &report) const {
   const bool is_last = t >= parts_.parameters().time_stepping.end_time;
   if (!report.is_lost_in_round_off || (n_lost_ < Limits::max_lost_steps && !is_last))
-    return false;
-  report.converged = false;
-  return true;
+    return {};
+  return StepFailure{StepFailure::Kind::round_off, {report.failure, report.advice}};
 }
 
 void RoundOffGuard::commit(const double t, const NewtonReport &report) {

@@ -84,29 +84,25 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
   return {text.str(), advice};
 }
 
-bool SlidingGuard::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> SlidingGuard::judge(const double t, DiagnosticList &messages) {
   const bool is_idle = parts_.contacts().empty() || !has_forces();
   const Sliding sliding = is_idle ? Sliding() : measure();
-  if (sliding.facets > Limits::max_sliding && !has_fixed_steps()) {
-    report.converged = false;
-    report.failure = refuse(sliding);
-    return true;
-  }
+  if (sliding.facets > Limits::max_sliding && !has_fixed_steps())
+    return StepFailure{StepFailure::Kind::slides, {refuse(sliding), ""}};
   n_attempts_ = 0;
   slides_too_far_ = false;
   cause_ = {};
   if (is_idle)
-    return false;
+    return {};
   friction_ = parts_.contacts().friction_uses();
   if (sliding.facets <= Limits::max_sliding)
-    return false;
+    return {};
   const Explanation why = describe(sliding.contact, t, {});
-  report.diagnostics.push_back(
-      Diagnostic(diagnostic::untracked_sliding, why.what)
-          .time(t)
-          .measure("sliding [facet sizes]", sliding.facets)
-          .advice("Use 'Step control = automatic', which cuts such steps. " + why.advice));
-  return false;
+  messages.push_back(Diagnostic(diagnostic::untracked_sliding, why.what)
+                         .time(t)
+                         .measure("sliding [facet sizes]", sliding.facets)
+                         .advice("Use 'Step control = automatic', which cuts such steps. " + why.advice));
+  return {};
 }
 
 Explanation SlidingGuard::explain(const double t, const Explanation &cause) {

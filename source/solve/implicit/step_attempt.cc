@@ -33,13 +33,15 @@ bool StepAttempt::find_guess(const double t, const double previous_step, NewtonI
   if (takes_solution)
     has_guess = predictor.follow_tangent(t, linear_step);
   problem.start_step(t);
-  if (has_guess && !takes_solution && predictor.has_alternative() && p_.paths.goes_through(false, report)) {
-    report = NewtonReport();
+  if (has_guess && !takes_solution && predictor.has_alternative() && p_.paths.judge_path(false)) {
     has_guess = predictor.follow_tangent(t, linear_step);
     problem.start_step(t);
   }
-  if (has_guess && p_.paths.goes_through(false, report))
-    return false;
+  if (has_guess)
+    if (const auto failure = p_.paths.judge_path(false)) {
+      report.reject(*failure);
+      return false;
+    }
   problem.clear_obstacle();
   if (has_guess)
     return true;
@@ -51,16 +53,23 @@ bool StepAttempt::find_guess(const double t, const double previous_step, NewtonI
 
 NewtonReport StepAttempt::make(const double t, const double previous_step, const Way way) {
   NewtonReport report = solve(t, previous_step, way);
-  if (!report.converged && !report.is_explained && !p_.solver.is_probing())
-    p_.rules.explain(t, report);
+  if (!report.converged && !report.is_explained() && !p_.solver.is_probing())
+    if (auto failure = p_.rules.explain(t)) {
+      if (report.rejection == StepFailure::Kind::penetrates) // higher penalties come first
+        failure->kind = StepFailure::Kind::penetrates;
+      report.reject(*failure);
+    }
   return report;
 }
 
 NewtonReport StepAttempt::solve(const double t, const double previous_step, const Way way) {
   NewtonReport report;
   begin(t);
-  if (p_.paths.turns_too_far(t, report) || p_.paths.skips_motion(t, report))
+  if (const auto failure = find_first_failure([&] { return p_.paths.judge_turns(t); },
+                                              [&] { return p_.paths.judge_prescribed_motion(t); })) {
+    report.reject(*failure);
     return report;
+  }
   NewtonIteration linear_step{};
   if (!find_guess(t, previous_step, linear_step, report))
     return report;
@@ -81,8 +90,9 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
     stop_tools(t, x, report);
   if (report.converged)
     evaluate(x, report);
-  if (report.converged)
-    judge(t, report);
+  if (report.converged && !p_.solver.is_probing())
+    if (const auto failure = judge(t, report))
+      report.reject(*failure);
   return report;
 }
 
@@ -124,13 +134,11 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   problem.compute_residual(accepted, residual);
 }
 
-void StepAttempt::judge(const double t, NewtonReport &report) {
-  if (p_.solver.is_probing())
-    return;
-  // Each sets report.converged to false if it is true.
-  static_cast<void>(p_.round_off.rejects(t, report) || p_.rules.balance().is_inaccurate(t, report) ||
-                    p_.paths.goes_through_thin_tool(report) || p_.paths.goes_through(true, report) ||
-                    p_.paths.turns_too_far(t, report) || p_.rules.rejects(t, report));
+std::optional<StepFailure> StepAttempt::judge(const double t, NewtonReport &report) {
+  return find_first_failure(
+      [&] { return p_.round_off.judge(t, report); }, [&] { return p_.rules.balance().judge_accuracy(t); },
+      [&] { return p_.paths.judge_thin_tools(); }, [&] { return p_.paths.judge_path(true); },
+      [&] { return p_.paths.judge_turns(t); }, [&] { return p_.rules.judge(t, report.diagnostics); });
 }
 
 } // namespace billet

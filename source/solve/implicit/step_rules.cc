@@ -90,9 +90,10 @@ void StaticRules::check_next_step() const {
                                       parts_.parameters().output.folder.value + "'"));
 }
 
-bool StaticRules::rejects(const double t, NewtonReport &report) {
-  return sliding_.rejects(t, report) || raises_.is_needed(report) || balance_.rejects(t, report) ||
-         modes_.rejects(t, report);
+std::optional<StepFailure> StaticRules::judge(const double t, DiagnosticList &messages) {
+  return find_first_failure([&] { return sliding_.judge(t, messages); }, [&] { return raises_.judge(); },
+                            [&] { return balance_.judge_contact(t, messages); },
+                            [&] { return modes_.judge(t, messages); });
 }
 
 DiagnosticList StaticRules::raise_penalties() {
@@ -125,12 +126,12 @@ void StaticRules::close_step(const double t) {
     modes_.follow_supports(t);
 }
 
-void StaticRules::explain(const double t, NewtonReport &report) {
+std::optional<StepFailure> StaticRules::explain(const double t) {
   const Explanation cause = modes_.explain_sliding();
   const Explanation jump = sliding_.explain(t, cause);
   const Explanation &why = jump.empty() ? cause : jump;
   if (why.empty())
-    return;
+    return {};
   const double t_n = problem_.state().time;
   if (lost_.add(t_n, t - t_n))
     throw SolutionFailure(
@@ -138,7 +139,7 @@ void StaticRules::explain(const double t, NewtonReport &report) {
             .time(t_n)
             .advice(why.advice + ". Results until then are in '" + parts_.parameters().output.folder.value +
                     "'"));
-  report.fail(why);
+  return StepFailure{StepFailure::Kind::explained, why};
 }
 
 void StaticRules::save(StateWriter &writer) const {
@@ -179,8 +180,9 @@ void DynamicRules::start(const Solution &solution) {
   penalties_.control(solution); // records the motion at the start, and raises nothing yet
 }
 
-bool DynamicRules::rejects(const double t, NewtonReport &report) {
-  return paths_.meets_too_early(t, report) || balance_.rejects(t, report);
+std::optional<StepFailure> DynamicRules::judge(const double t, DiagnosticList &messages) {
+  return find_first_failure([&] { return paths_.judge_first_contact(t); },
+                            [&] { return balance_.judge_contact(t, messages); });
 }
 
 void DynamicRules::close_step(const double t) {

@@ -44,8 +44,9 @@ class PenaltyRaises {
 public:
   PenaltyRaises(ImplicitProblem &problem, SpringBooks &books) : problem_(problem), books_(books) {}
 
-  /// Whether penetration is too large at the end of the step, so that it has to be repeated. Collective.
-  bool is_needed(NewtonReport &report);
+  /// Returns a failure if penetration is too large at the end of the step, which has to be repeated then.
+  /// Collective.
+  std::optional<StepFailure> judge();
   /// Raises the penalties at the start of the step. Compressed springs receive the energy that stiffer ones
   /// store, and start the step with their forces. Collective.
   DiagnosticList raise();
@@ -66,7 +67,7 @@ private:
   ImplicitProblem &problem_;
   ImplicitParts &parts_ = problem_.parts();
   SpringBooks &books_;
-  std::vector<double> factors_; ///< result of the last is_needed()
+  std::vector<double> factors_; ///< result of the last judge()
 };
 
 /// Raises penalties of dynamic scenes after a step. The contacts are then in their accepted state, so that a
