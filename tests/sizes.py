@@ -27,35 +27,7 @@ MAX_MEMBERS, MAX_FUNCTIONS, MAX_LINES = 20, 40, 90
 LIMITS = {"data members": MAX_MEMBERS, "functions": MAX_FUNCTIONS, "lines": MAX_LINES}
 
 # What is larger: name, limit, number, reason.
-EXCEPTIONS: list[tuple[str, str, int, str]] = [
-    ("billet::parameters::ContactPair", "data members", 26, "a field for each parameter of the subsection"),
-    (
-        "billet::explicit_kernels::BasicMaterial",
-        "data members",
-        21,
-        "the constants of all hardenings side by side, as the kernels read them",
-    ),
-    ("billet::ImplicitProblem", "data members", 21, "twelve are the parts that it sums up, ImplicitParts"),
-    (
-        "billet::ImplicitProblem",
-        "functions",
-        54,
-        "access to these parts, and two interfaces of Newton's method",
-    ),
-    (
-        "billet::ImplicitMotion",
-        "functions",
-        58,
-        "all of the interface ImplicitScheme, and access to its parts",
-    ),
-    ("billet::ImplicitSolution", "functions", 44, "all of the interface Solution, which output asks"),
-    (
-        "billet::RigidContact",
-        "functions",
-        41,
-        "all of the interface ContactInterface, which has two protocols",
-    ),
-]
+EXCEPTIONS: list[tuple[str, str, int, str]] = []
 
 Sizes = dict[str, dict[str, int]]  # by name of a class or function, and by limit
 

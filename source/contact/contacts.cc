@@ -24,11 +24,10 @@ Contacts::~Contacts() = default;
 Contacts::Contacts(const Scene &scene, const LocalNodes &nodes) : n_tools_(scene.tools().size()) {
   const Discretization &discretization = nodes.discretization();
   for (std::size_t p = 0; p < scene.pairs().size(); ++p) {
-    of_tools_.emplace_back(scene, p, discretization, ContactTangent::consistent);
-    of_tools_.back().bind(nodes);
+    of_tools_.emplace_back(scene, p, nodes);
   }
   for (std::size_t p = 0; p < scene.body_pairs().size(); ++p) {
-    of_bodies_.emplace_back(scene, p, nodes, ContactTangent::consistent);
+    of_bodies_.emplace_back(scene, p, nodes);
     if (!scene.parameters().restart.is_wanted()) // a restart begins with deformed bodies
       check_overlap(scene, p, discretization);
   }

@@ -306,7 +306,7 @@ DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &
     if (!is_faceted(pair))
       continue;
     const ChordGap chords = find_chord_gap(discretization, pair);
-    if (chords.relative > pair.input->allowed_penetration.value)
+    if (chords.relative > pair.input->initial.allowed_penetration.value)
       diagnostics.push_back(describe(pair, chords, ""));
   }
   return diagnostics;
@@ -334,7 +334,7 @@ DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &
     if (!is_faceted(pair))
       continue;
     const ChordGap at_start = find_chord_gap(discretization, pair);
-    const double allowed = pair.input->allowed_penetration.value;
+    const double allowed = pair.input->initial.allowed_penetration.value;
     if (!at_start.fits || at_start.relative > allowed)
       continue;
     const ChordGap chords = find_chord_gap(discretization, pair, &displacements);

@@ -398,7 +398,7 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   const double of_edges =
       bodies.correction.kind == parameters::ContactPair::Correction::Kind::sphere ? 2.02 : 1.01;
   const double allowed = bodies.overlap.is_allowed ? found
-                                                   : bodies.input->allowed_penetration.value * size +
+                                                   : bodies.input->initial.allowed_penetration.value * size +
                                                          of_edges * (chords[0] + chords[1]);
   if (deepest.penetration <= allowed)
     return;
@@ -414,7 +414,7 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
             << ". Reduce the overlap, and move the bodies by 'Supports'"
             << (is_by_overlaps ? "" : ", or use 'Facets = overlap'");
   else
-    message << "allowed are " << bodies.input->allowed_penetration.value
+    message << "allowed are " << bodies.input->initial.allowed_penetration.value
             << " facet sizes ('Allowed initial penetration')";
   throw InputError(message.str());
 }

@@ -16,7 +16,8 @@ using dealii::Tensor;
 RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_pair,
                                      const Discretization &discretization)
     : pair(of_pair), tool(scene.tools()[pair.tool]), communicator(discretization.communicator()),
-      has_inertia(scene.parameters().is_dynamic()), is_explicit(scene.parameters().is_explicit()),
+      has_inertia(scene.parameters().scheme().has_inertia),
+      is_explicit(!scene.parameters().scheme().has_matrix),
       slaves(pair, tool, discretization, scene.bodies()[pair.body].young_modulus,
              has_inertia && !is_explicit ? 0. : touching_gap),
       states(slaves.nodes.size()), step(tool.surface(), tool.placement(0.)), missed_edge(step, neighbours) {
@@ -50,7 +51,7 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
   for (const auto &node : slaves.nodes)
     max_size = std::max(max_size, node.size);
   thin_tool = ThinToolWatch::make(tool.surface(), dealii::Utilities::MPI::max(max_size, communicator));
-  if (is_explicit && !pair.input->has_own_penalty && thin_tool)
+  if (is_explicit && !pair.input->penalty.is_given && thin_tool)
     slaves.harden_springs(thin_tool->thickness());
   for (auto &node : slaves.nodes)
     node.given = node.stiffness;

@@ -62,16 +62,16 @@ PlasticNumbers plastic_numbers(const FlowStress *flow) {
 void set_hardening(const FlowStress &flow, Material &material) {
   const LaneHardening form = flow.lane_form();
   const bool by_lane = form.kind == HardeningKind::other && form.rate.kind == RateKind::none;
-  material.hardening_kind = form.kind;
-  material.yield_stress = form.yield_stress;
-  material.hardening_modulus = form.hardening_modulus;
-  material.saturation_stress = form.saturation_stress;
-  material.saturation_rate = form.saturation_rate;
-  material.strength = form.strength;
-  material.prestrain = form.prestrain;
-  material.exponent = form.exponent;
-  material.rate_kind = by_lane && flow.n_state() > 0 ? RateKind::other : form.rate.kind;
-  material.rate_exponent = form.rate.exponent;
+  material.hardening.kind = form.kind;
+  material.hardening.yield_stress = form.yield_stress;
+  material.hardening.modulus = form.hardening_modulus;
+  material.hardening.saturation_stress = form.saturation_stress;
+  material.hardening.saturation_rate = form.saturation_rate;
+  material.hardening.strength = form.strength;
+  material.hardening.prestrain = form.prestrain;
+  material.hardening.exponent = form.exponent;
+  material.rate.kind = by_lane && flow.n_state() > 0 ? RateKind::other : form.rate.kind;
+  material.rate.exponent = form.rate.exponent;
 }
 
 bool compute_logarithm(const double *b, double *deviator, double &mean) {
@@ -98,23 +98,23 @@ explicit_kernels::BasicMaterial<Number> convert(const Material &material, const 
   explicit_kernels::BasicMaterial<Number> result{};
   result.bulk = to_number(material.bulk / units.stress);
   result.shear = to_number(material.shear / units.stress);
-  result.hardening_kind = material.hardening_kind;
-  result.yield_stress = to_number(material.yield_stress / units.stress);
-  result.hardening_modulus = to_number(material.hardening_modulus / units.stress);
-  result.saturation_stress = to_number(material.saturation_stress / units.stress);
-  result.saturation_rate = to_number(material.saturation_rate);
-  result.prestrain = to_number(material.prestrain);
-  result.exponent = to_number(material.exponent);
-  result.strength = to_number(material.strength / units.stress);
-  result.rate_kind = material.rate_kind;
-  result.rate_exponent = to_number(material.rate_exponent);
-  result.hardening = material.hardening;
-  result.n_flow_state = material.n_flow_state;
+  result.hardening.kind = material.hardening.kind;
+  result.hardening.yield_stress = to_number(material.hardening.yield_stress / units.stress);
+  result.hardening.modulus = to_number(material.hardening.modulus / units.stress);
+  result.hardening.saturation_stress = to_number(material.hardening.saturation_stress / units.stress);
+  result.hardening.saturation_rate = to_number(material.hardening.saturation_rate);
+  result.hardening.prestrain = to_number(material.hardening.prestrain);
+  result.hardening.exponent = to_number(material.hardening.exponent);
+  result.hardening.strength = to_number(material.hardening.strength / units.stress);
+  result.rate.kind = material.rate.kind;
+  result.rate.exponent = to_number(material.rate.exponent);
+  result.hardening.flow_stress = material.hardening.flow_stress;
+  result.hardening.n_state = material.hardening.n_state;
   result.stress_unit = units.stress;
   result.density = to_number(material.density / units.density);
   result.wave_speed = to_number(material.wave_speed * units.time / units.length);
-  result.linear_viscosity = to_number(material.linear_viscosity);
-  result.quadratic_viscosity = to_number(material.quadratic_viscosity);
+  result.viscosity.linear = to_number(material.viscosity.linear);
+  result.viscosity.quadratic = to_number(material.viscosity.quadratic);
   return result;
 }
 
@@ -178,13 +178,13 @@ public:
     material_.shear = elastic.shear;
     material_.density = density;
     material_.wave_speed = std::sqrt((elastic.bulk + 4. / 3. * elastic.shear) / density);
-    material_.linear_viscosity = formulation.linear_viscosity;
-    material_.quadratic_viscosity = formulation.quadratic_viscosity;
+    material_.viscosity.linear = formulation.linear_viscosity;
+    material_.viscosity.quadratic = formulation.quadratic_viscosity;
     if (flow_ != nullptr) {
       set_hardening(*flow_, material_);
       reference_rate_ = flow_->lane_form().rate.reference;
-      material_.hardening = flow_;
-      material_.n_flow_state = static_cast<unsigned int>(flow_->n_state());
+      material_.hardening.flow_stress = flow_;
+      material_.hardening.n_state = static_cast<unsigned int>(flow_->n_state());
       functions_.harden = &harden;
       functions_.flow = &find_flow;
       functions_.yield_stress = &find_yield_stress;
@@ -237,8 +237,8 @@ public:
         std::any_of(nodes.displacements, nodes.displacements + storage_.nodal_size(), is_moved))
       storage_.renew(nodes.displacements, true);
     is_fresh_ = false;
-    kernel_material_.dt = dt;
-    kernel_material_.reference_increment = static_cast<Number>(reference_rate_ * dt);
+    kernel_material_.rate.dt = dt;
+    kernel_material_.rate.reference_increment = static_cast<Number>(reference_rate_ * dt);
     [[maybe_unused]] const std::conditional_t<is_single, NoSubnormals, std::monostate> guard{};
     kernel_(storage_.elements(), kernel_material_, functions_, make_step(nodes, dt), result);
     const double energy = units_.energy(), rate = max_rate(result);

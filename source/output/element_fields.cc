@@ -132,7 +132,7 @@ std::vector<std::vector<GridField>> collect_element_fields(const Scene &scene, c
   const WrittenQuantities written(scene);
   const bool has_layers = std::any_of(scene.bodies().begin(), scene.bodies().end(),
                                       [](const Body &body) { return body.formulation.points_through > 2; }) &&
-                          !scene.parameters().is_explicit();
+                          scene.parameters().scheme().has_matrix;
   std::vector<std::vector<GridField>> result;
   for (std::size_t body = 0; body < scene.bodies().size(); ++body) {
     const BodyAverages averages(solution, scene, body, written, has_layers);

@@ -459,8 +459,9 @@ ProbeRows ProbeReader::read_travel(const Placed &placed, const State &state) con
 
 std::vector<double> ProbeReader::read_motion(const Placed &placed, const State &state) const {
   const double density = scene_.bodies()[placed.body].density;
-  const bool is_lumped = scene_.parameters().is_explicit() || scene_.parameters().implicit_dynamics.mass ==
-                                                                  parameters::ImplicitDynamics::Mass::lumped;
+  const bool is_lumped =
+      scene_.parameters().scheme().lumps_mass ||
+      scene_.parameters().implicit_dynamics.mass == parameters::ImplicitDynamics::Mass::lumped;
   std::vector<double> sums(6, 0.); // momentum, mass, kinetic and internal energy
   sums[5] = state.internal_energy(placed.body);
   if (state.velocities().size() > 0)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 namespace billet::parameters {
 
@@ -64,16 +65,35 @@ const NamedValues<Output::Verbosity> verbosities = {{"quiet", Output::Verbosity:
 
 } // namespace
 
+const std::vector<SchemeType> &scheme_types() {
+  using Scheme = TimeStepping::Scheme;
+  static const std::vector<SchemeType> types = {
+      // scheme, name, description, has inertia, has a matrix, lumps the mass
+      {Scheme::quasi_static, "quasi-static", "quasi-static, implicit", false, true, false},
+      {Scheme::explicit_dynamics, "explicit", "dynamic, explicit", true, false, true},
+      {Scheme::implicit_dynamics, "implicit dynamics", "dynamic, implicit", true, true, false}};
+  return types;
+}
+
+const SchemeType &type_of(const TimeStepping::Scheme scheme) {
+  for (const SchemeType &type : scheme_types())
+    if (type.scheme == scheme)
+      return type;
+  throw std::logic_error("a scheme has no row in scheme_types()");
+}
+
 const NamedValues<TimeStepping::Scheme> &schemes() {
-  static const NamedValues<TimeStepping::Scheme> names = {
-      {"quasi-static", TimeStepping::Scheme::quasi_static},
-      {"static", TimeStepping::Scheme::quasi_static}, // as most users and the manual say
-      {"explicit", TimeStepping::Scheme::explicit_dynamics},
-      {"implicit dynamics", TimeStepping::Scheme::implicit_dynamics}};
+  static const NamedValues<TimeStepping::Scheme> names = [] {
+    NamedValues<TimeStepping::Scheme> values;
+    for (const SchemeType &type : scheme_types())
+      values.emplace_back(type.name, type.scheme);
+    values.emplace_back("static", TimeStepping::Scheme::quasi_static); // as most users and the manual say
+    return values;
+  }();
   return names;
 }
 
-const std::string &name_of(const TimeStepping::Scheme scheme) { return name_in(schemes(), scheme); }
+const std::string &name_of(const TimeStepping::Scheme scheme) { return type_of(scheme).name; }
 
 const NamedValues<std::optional<LinearMethod>> &linear_methods() {
   static const NamedValues<std::optional<LinearMethod>> methods = [] {
@@ -182,7 +202,7 @@ void TimeStepping::parse(Reader &reader) {
     if (!(stop > 0. && stop <= end_time))
       reader.reject("Stops", "numbers > 0, not above the end time");
   scheme = chosen(schemes(), reader.text("Scheme"));
-  if (scheme == Scheme::explicit_dynamics) {
+  if (!type_of(scheme).has_matrix) {
     for (const std::string key :
          {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",
           "Shrink iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
@@ -222,7 +242,7 @@ void TimeStepping::parse(Reader &reader) {
   error_tolerance = reader.not_negative("Error tolerance");
   if (error_tolerance >= 1.)
     reader.reject("Error tolerance", "a number >= 0 and < 1");
-  if (error_tolerance > 0. && scheme == Scheme::implicit_dynamics)
+  if (error_tolerance > 0. && type_of(scheme).has_inertia)
     reader.reject("Error tolerance", "no value: that of 'Implicit dynamics' holds");
   few_iterations = reader.count("Growth iterations");
   many_iterations = reader.count("Shrink iterations");

@@ -324,7 +324,7 @@ void check_contradictions(const SceneFile &file, const double target) {
 /// Refuses settings that the error estimates do not cover: 'Penetration tolerance' in some pairs only, and,
 /// in explicit scenes, settings that change the physics.
 void check_what_is_estimated(const SceneFile &file, const double target) {
-  const bool is_explicit = scheme_of(file) == TimeStepping::Scheme::explicit_dynamics;
+  const bool is_explicit = !type_of(scheme_of(file)).has_matrix;
   const std::vector<Path> pairs = paths_of("Contact pairs", file);
   const std::string tolerance = "Penetration tolerance";
   const auto is_set = [&](const Path &pair) { return file.is_set(pair, tolerance); };

@@ -275,11 +275,12 @@ void check_probe(const Scene &scene, const Probe &probe) {
     throw InputError(probe.body.origin + " is ''; allowed is the name of a body, since there are several");
   const std::size_t body = scene.body_index(probe);
   const std::string is_static = "'Scheme' in 'Time stepping' is " + name_of(scene.time_stepping.scheme);
-  if (!scene.is_dynamic() && probe.probe.reads(ProbeQuantity::Kind::velocity))
+  if (!scene.scheme().has_inertia && probe.probe.reads(ProbeQuantity::Kind::velocity))
     throw InputError(probe.origin_of_quantities + " names 'velocity'; allowed are other quantities, since " +
                      is_static + ", without velocities");
   const auto *energies = std::get_if<ProbedEnergies>(&probe.probe.where);
-  if (!scene.is_dynamic() && energies != nullptr && energies->numerator == ProbedEnergies::Numerator::kinetic)
+  if (!scene.scheme().has_inertia && energies != nullptr &&
+      energies->numerator == ProbedEnergies::Numerator::kinetic)
     throw InputError(probe.origin_of_energy + " is 'kinetic'; allowed are other energies, since " +
                      is_static + ", without kinetic energy");
   const bool has_pair = std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const ContactPair &pair) {
@@ -301,12 +302,12 @@ public:
         sets_scheme_(file.where(scheme_path, "Scheme").rfind("--set ", 0) == 0) {}
 
   void check() const {
-    refuse_subsection({scene_.is_explicit() ? "Solver" : "Explicit dynamics"});
-    if (scene_.is_explicit() || !scene_.is_dynamic())
+    refuse_subsection({scene_.scheme().has_matrix ? "Explicit dynamics" : "Solver"});
+    if (!scene_.scheme().has_matrix || !scene_.scheme().has_inertia)
       refuse_subsection({"Implicit dynamics"});
-    if (!scene_.is_explicit())
+    if (scene_.scheme().has_matrix)
       refuse({"Output"}, "History interval");
-    if (scene_.is_dynamic())
+    if (scene_.scheme().has_inertia)
       refuse({"Restart"}, "Release time");
     constexpr double max_times = 1e7; // maximum number of outputs; more would fill a disk
     for (const std::string key : {"Interval", "History interval"}) {
@@ -320,7 +321,7 @@ public:
       check(body, {"Bodies", body.name});
     for (const auto &tool : scene_.tools) {
       const SceneFile::Path path{"Tools", tool.name, "Motion"};
-      if (!scene_.is_dynamic())
+      if (!scene_.scheme().has_inertia)
         for (const std::string key : {"Mass", "Moment of inertia", "Initial speed"})
           refuse(path, key);
       else if (tool.motion.control == Motion::Control::force ||
@@ -329,9 +330,9 @@ public:
                 tool.motion.control == Motion::Control::force ? "Mass" : "Moment of inertia");
     }
     for (const auto &pair : scene_.pairs)
-      if (pair.edges == ContactPair::Edges::held && !scene_.is_explicit())
+      if (pair.facets.edges == ContactPair::Edges::held && scene_.scheme().has_matrix)
         refuse_entry({"Contact pairs", pair.name}, "Edge contact");
-      else if (scene_.is_explicit()) {
+      else if (!scene_.scheme().has_matrix) {
         refuse({"Contact pairs", pair.name}, "Initial penetration");
         if (pair.penetration_tolerance.value_or(0.) > 0.)
           refuse_entry({"Contact pairs", pair.name}, "Penetration tolerance");
@@ -340,26 +341,26 @@ public:
 
 private:
   void check(const Body &body, const SceneFile::Path &path) const {
-    if (scene_.is_dynamic())
+    if (scene_.scheme().has_inertia)
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
-    if (scene_.is_dynamic() && body.is_stabilised.value)
+    if (scene_.scheme().has_inertia && body.is_stabilised.value)
       throw InputError(body.is_stabilised.origin +
                        " is 'until contact'; allowed is 'none', since 'Scheme' is " + name_of_scheme() +
                        ": the mass of a body resists its motion");
-    if (scene_.is_explicit() && body.points_through.value > 2)
+    if (!scene_.scheme().has_matrix && body.points_through.value > 2)
       throw InputError(body.points_through.origin + " is '" + std::to_string(body.points_through.value) +
                        "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
     const bool in_float = scene_.explicit_dynamics.number_type == NumberType::float_precision;
-    if (scene_.is_explicit() && in_float && !has_kernel(body.element.value, *body.material.law))
+    if (!scene_.scheme().has_matrix && in_float && !has_kernel(body.element.value, *body.material.law))
       throw InputError(
           file_.where({"Explicit dynamics"}, "Number type") +
           ": 'Number type' in 'Explicit dynamics' is 'float'; allowed is double, since no kernel "
           "computes body '" +
           body.name + "' in float: " + body.element.value.name() + ", " + body.material.law->name() + ", " +
           body.material.law->description());
-    if (scene_.is_explicit())
+    if (!scene_.scheme().has_matrix)
       return;
-    if (!scene_.is_dynamic())
+    if (!scene_.scheme().has_inertia)
       refuse(path, "Initial velocity");
     for (const Load &load : body.loads)
       if (load.load.acts_on_mass() && !(body.material.density.value > 0.))
@@ -531,7 +532,7 @@ Scene Scene::read(const std::string &file_name, const std::string &restart_file,
     reader.note_errors([&] { check_probe(scene, probe); });
   reader.note_errors([&] { SchemeCheck(scene, file, scene.warnings).check(); });
   reader.require_sound();
-  if (scene.is_explicit() && !file.is_set({"Output"}, "Step interval"))
+  if (!scene.scheme().has_matrix && !file.is_set({"Output"}, "Step interval"))
     set_explicit_intervals(scene, file.is_set({"Output"}, "Interval"));
   for (const auto &tool : scene.tools)
     if (std::isfinite(tool.motion.removal_time.value) &&

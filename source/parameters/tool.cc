@@ -321,7 +321,7 @@ void ContactPair::parse_penetration_tolerance(Reader &reader) {
   const std::string key = "Penetration tolerance";
   penetration_tolerance.reset();
   if (reader.text(key).empty()) {
-    if (has_own_penalty)
+    if (penalty.is_given)
       penetration_tolerance = 0.;
     return;
   }
@@ -342,42 +342,42 @@ void ContactPair::parse(Reader &reader) {
     reader.reject("Boundary ids", "at least one boundary id");
   refuse_twice(reader, "Boundary ids", boundary_ids);
   friction = read_friction(reader);
-  penalty_unit = chosen(penalty_units, reader.text("Penalty unit"));
-  normal_penalty = reader.positive("Normal penalty");
-  has_own_penalty = reader.is_set("Normal penalty");
-  if (penalty_unit == PenaltyUnit::absolute && !has_own_penalty)
+  penalty.unit = chosen(penalty_units, reader.text("Penalty unit"));
+  penalty.normal = reader.positive("Normal penalty");
+  penalty.is_given = reader.is_set("Normal penalty");
+  if (penalty.unit == PenaltyUnit::absolute && !penalty.is_given)
     reader.reject("Penalty unit", "factor, as long as there is no 'Normal penalty'");
-  has_own_tangential_penalty = !reader.text("Tangential penalty").empty();
-  if (!has_own_tangential_penalty)
-    tangential_penalty = normal_penalty;
+  penalty.is_tangential_given = !reader.text("Tangential penalty").empty();
+  if (!penalty.is_tangential_given)
+    penalty.tangential = penalty.normal;
   else {
     const auto values = reader.numbers("Tangential penalty");
     if (values.size() != 1 || !(values[0] > 0.))
       reader.reject("Tangential penalty", "a number > 0, or nothing");
     if (friction == nullptr)
       reader.reject("Tangential penalty", "no value: the pair has no friction");
-    tangential_penalty = values[0];
+    penalty.tangential = values[0];
   }
   parse_initial_state(reader);
   parse_penetration_tolerance(reader);
-  allowed_penetration =
+  initial.allowed_penetration =
       reader.located("Allowed initial penetration", reader.not_negative("Allowed initial penetration"));
 }
 
 void ContactPair::parse_initial_state(Reader &reader) {
-  const Overlap initial = chosen(overlaps, reader.text("Initial penetration"));
-  may_overlap = initial != Overlap::refused;
-  ramp_time = reader.not_negative("Ramp time");
-  if ((initial == Overlap::ramped) != (ramp_time > 0.))
-    reader.reject("Ramp time", initial == Overlap::ramped ? "a number > 0" : "no value: nothing is ramped");
+  const Overlap overlap = chosen(overlaps, reader.text("Initial penetration"));
+  initial.may_overlap = overlap != Overlap::refused;
+  initial.ramp_time = reader.not_negative("Ramp time");
+  if ((overlap == Overlap::ramped) != (initial.ramp_time > 0.))
+    reader.reject("Ramp time", overlap == Overlap::ramped ? "a number > 0" : "no value: nothing is ramped");
 
-  closed_gap = 0.;
+  initial.closed_gap = 0.;
   const std::string gap = reader.text("Initial gap"), close = "close within ";
   if (gap != "open") {
     char *end = nullptr;
     if (gap.rfind(close, 0) == 0)
-      closed_gap = std::strtod(gap.c_str() + close.size(), &end);
-    if (end == nullptr || *end != '\0' || !(closed_gap > 0.) || !std::isfinite(closed_gap))
+      initial.closed_gap = std::strtod(gap.c_str() + close.size(), &end);
+    if (end == nullptr || *end != '\0' || !(initial.closed_gap > 0.) || !std::isfinite(initial.closed_gap))
       reader.reject("Initial gap", "'open' or 'close within D' with a number D > 0");
   }
 
@@ -393,7 +393,7 @@ void ContactPair::parse_initial_state(Reader &reader) {
     reader.reject("Surface correction", allowed);
   if (!is_between_bodies() || second_body.value == body.value)
     reader.reject("Surface correction", "'none': the pair is not of two bodies");
-  if (facets.value == FacetMethod::mean_gap)
+  if (facets.method.value == FacetMethod::mean_gap)
     reader.reject("Surface correction", "'none': 'Facets = mean gap' has no position on a facet");
   const auto vectors = dealii::Utilities::split_string_list(text.substr(colon + 1), ';');
   std::array<dealii::Tensor<1, 3>, 2> values;
@@ -429,20 +429,20 @@ void ContactPair::parse_bodies(Reader &reader) {
         reader.reject(key, "no value: the pair is of a body and a tool");
   if (is_between_bodies() && second_body.value != body.value && second_boundary_ids.is_empty())
     reader.reject("Second boundary ids", "at least one boundary id");
-  facets = reader.located("Facets", chosen(facet_methods(), reader.text("Facets")));
-  passes = chosen(numbers_of_passes, reader.text("Passes"));
-  if (passes == Passes::one && second_body.value == body.value)
+  facets.method = reader.located("Facets", chosen(facet_methods(), reader.text("Facets")));
+  facets.passes = chosen(numbers_of_passes, reader.text("Passes"));
+  if (facets.passes == Passes::one && second_body.value == body.value)
     reader.reject("Passes", "two: in self-contact every node is a slave");
-  edges = chosen(edge_contacts, reader.text("Edge contact"));
-  if (edges == Edges::held && facets.value == FacetMethod::overlap)
+  facets.edges = chosen(edge_contacts, reader.text("Edge contact"));
+  if (facets.edges == Edges::held && facets.method.value == FacetMethod::overlap)
     reader.reject("Edge contact", "no value: 'Facets = overlap' detects edges");
-  smoothing = reader.positive("Smoothing");
-  if (smoothing > 0.5)
+  facets.smoothing = reader.positive("Smoothing");
+  if (facets.smoothing > 0.5)
     reader.reject("Smoothing", "a number > 0 and <= 0.5");
-  if (facets.value == FacetMethod::overlap && reader.is_set("Smoothing"))
+  if (facets.method.value == FacetMethod::overlap && reader.is_set("Smoothing"))
     reader.reject("Smoothing", "no value: 'Facets = overlap' blends facets by their areas");
-  search_margin = reader.positive("Search margin");
-  penalty_of = chosen(reference_stiffnesses, reader.text("Reference stiffness"));
+  facets.search_margin = reader.positive("Search margin");
+  penalty.of = chosen(reference_stiffnesses, reader.text("Reference stiffness"));
 }
 
 } // namespace billet::parameters

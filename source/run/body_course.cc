@@ -24,7 +24,7 @@ BodyCourse::BodyCourse(const Scene &scene, const std::size_t body, const BodyRep
     if (hold.value != nullptr && !has_axis)
       is_rigid_ = false;
   }
-  if (scene.parameters().is_dynamic())
+  if (scene.parameters().scheme().has_inertia)
     set_velocity(of_scene, extent);
   constexpr unsigned int n_samples = 20;
   for (unsigned int k = 0; k <= n_samples && is_rigid_; ++k)

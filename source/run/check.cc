@@ -43,7 +43,7 @@ DiagnosticList check_start(const Scene &scene, MPI_Comm communicator, SceneRepor
   report.bodies = report_bodies(scene, discretization);
   if (scene.parameters().restart.is_wanted())
     return messages;
-  if (scene.parameters().is_explicit()) {
+  if (!scene.parameters().scheme().has_matrix) {
     ExplicitDynamics problem(scene, discretization);
     append(messages, problem.initial_diagnostics());
     report.pairs = report_pairs(scene, discretization, report.bodies);

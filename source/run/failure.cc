@@ -66,7 +66,7 @@ std::string advise_on_steps(const parameters::Scene &parameters, const bool is_c
     return "Steps are fixed. Try a smaller 'Initial step' or 'Step control = automatic'";
   std::ostringstream text;
   text << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.min_step << ". "
-       << (parameters.is_dynamic() ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
+       << (parameters.scheme().has_inertia ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
        << (is_cycling                 ? ""
            : parameters.pairs.empty() ? "Try a larger 'Maximum iterations'. "
                                       : "Try a lower penalty or a larger 'Maximum iterations'. ")
@@ -145,8 +145,8 @@ std::string describe_limit_load(const parameters::Scene &parameters) {
   return "Body '" + body->name + "' yields without hardening, and " +
          (has_tool ? "tool '" + tool->name + (turns ? "' applies a given moment" : "' applies a given force")
                    : "loads act on it") +
-         (parameters.is_dynamic() ? ". Above the limit load, plastic flow is unbounded"
-                                  : ". Above the limit load, no equilibrium exists") +
+         (parameters.scheme().has_inertia ? ". Above the limit load, plastic flow is unbounded"
+                                          : ". Above the limit load, no equilibrium exists") +
          ". If that is the cause, " +
          (!has_tool
               ? std::string()
@@ -172,7 +172,7 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
 Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
                                const double from, const double to, const bool is_unstable) {
   const NewtonReport &newton = report.newton;
-  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained; // which is not the iterations
+  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained(); // which is not the iterations
   std::ostringstream what, results;
   what << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
        << report.step << " accepted steps and " << report.total_cuts << " cuts: " << newton.failure

@@ -14,10 +14,10 @@ namespace billet {
 namespace {
 
 EnergyWatch make_energy_watch(const parameters::Scene &parameters) {
-  const double max_drift = parameters.is_dynamic() ? parameters.implicit_dynamics.max_drift : 0.;
-  return max_drift > 0.            ? EnergyWatch(EnergyWatch::Balance::is_kept, max_drift)
-         : parameters.is_dynamic() ? EnergyWatch(EnergyWatch::Balance::is_reported)
-                                   : EnergyWatch(EnergyWatch::Balance::is_left);
+  const double max_drift = parameters.scheme().has_inertia ? parameters.implicit_dynamics.max_drift : 0.;
+  return max_drift > 0.                    ? EnergyWatch(EnergyWatch::Balance::is_kept, max_drift)
+         : parameters.scheme().has_inertia ? EnergyWatch(EnergyWatch::Balance::is_reported)
+                                           : EnergyWatch(EnergyWatch::Balance::is_left);
 }
 
 bool has_sticking_overlaps(const Scene &scene) {
@@ -32,7 +32,7 @@ ImplicitRun::ImplicitRun(const Scene &scene, const MPI_Comm communicator, Resump
     : Run(scene, communicator), problem_(scene, discretization_),
       control_(parameters_.time_stepping, parameters_.output.interval, load_problem(resumption)),
       energies_(make_energy_watch(parameters_)) {
-  if (parameters_.is_dynamic() && parameters_.target_error > 0.)
+  if (parameters_.scheme().has_inertia && parameters_.target_error > 0.)
     errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
   else if (ErrorWatch::is_wanted(parameters_))
     watch_ = std::make_unique<ErrorWatch>(scene, discretization_, problem_);
@@ -127,8 +127,8 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   // If round-off limits the residual, smaller load steps make it worse.
   bool may_continue = control_.reject() && !newton.is_lost_in_round_off;
   report_.total_cuts = control_.n_cuts();
-  if (!may_continue && !newton.is_lost_in_round_off && !newton.is_explained) {
-    may_continue = problem_.take_exact_tangent();
+  if (!may_continue && !newton.is_lost_in_round_off && !newton.is_explained()) {
+    may_continue = problem_.equation().parts().tangent().take_exact();
     if (may_continue)
       output.report(Diagnostic(diagnostic::exact_tangent,
                                "Newton's method failed with this 'Contact tangent'; the run "
@@ -137,7 +137,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   }
   // Steps that fail whatever their length need another start, as do those that cannot be cut.
   constexpr unsigned int max_cuts_in_a_row = 4;
-  if (!newton.is_lost_in_round_off && !newton.is_explained &&
+  if (!newton.is_lost_in_round_off && !newton.is_explained() &&
       (!may_continue || ++n_failed_ >= max_cuts_in_a_row))
     may_continue = problem_.take_low_penalties() || may_continue;
   if (may_continue)
@@ -172,7 +172,7 @@ void ImplicitRun::control_errors(RunOutput &output) {
     const double factor = errors_->step_factor();
     errors_->add(control_.time(), problem_.state().energies,
                  carried_energy(scene_.free_directions(), problem_.state().momentum,
-                                problem_.equation().scheme().mass()));
+                                problem_.equation().parts().scheme().mass()));
     if (errors_->step_factor() < factor)
       control_.limit(errors_->step_factor() * report_.length);
   }

@@ -133,7 +133,7 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
         prepare_output_folder(parameters, EarlierResults::replaced);
     });
   };
-  if (parameters.is_explicit()) {
+  if (!parameters.scheme().has_matrix) {
     ExplicitDynamics problem(scene, discretization);
     append(messages, problem.initial_diagnostics());
     prepare();

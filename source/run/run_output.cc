@@ -29,7 +29,7 @@ bool console_is_terminal() {
 
 /// Returns the interval between checks for signals [s]; 0 for implicit runs, whose steps are long.
 double seconds_between_checks(const parameters::Scene &parameters) {
-  return parameters.is_explicit() ? 0.1 : 0.;
+  return parameters.scheme().has_matrix ? 0. : 0.1;
 }
 
 } // namespace

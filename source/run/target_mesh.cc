@@ -165,7 +165,7 @@ private:
     fail_together(communicator_, [&] {
       const HistoryTable coarse = HistoryTable::read(folder_of(level.level - 1) + "/history.csv"),
                          fine = HistoryTable::read(folder_of(level.level) + "/history.csv");
-      const HistoryDifference difference = compare_histories(coarse, fine, given_.is_dynamic());
+      const HistoryDifference difference = compare_histories(coarse, fine, given_.scheme().has_inertia);
       level.difference = difference.part;
       of_what_ = difference.of_what.empty() ? "results" : difference.of_what;
     });

@@ -301,7 +301,7 @@ void Scene::check_on_mesh(const Triangulation<3> &mesh, const MeshDetail detail,
                           std::set<std::size_t> unsound) const {
   check_boundary_ids(mesh, detail, errors, unsound);
   errors.note([&] { check_axes(mesh); });
-  for (std::size_t b = 0; b < bodies_.size() && !parameters_.is_dynamic(); ++b)
+  for (std::size_t b = 0; b < bodies_.size() && !parameters_.scheme().has_inertia; ++b)
     if (errors.note([&] { check_planes(mesh, b); }) && unsound.count(b) == 0)
       errors.note([&] { check_support(mesh, b); });
   errors.note([&] { check_initial_penetration(mesh); });
@@ -331,7 +331,7 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
         }
       }
     });
-    const auto &allowed = pair.input->allowed_penetration;
+    const auto &allowed = pair.input->initial.allowed_penetration;
     if (-deepest > allowed.value * size_there) {
       std::ostringstream message;
       message << pair.input->origin << ": body '" << bodies_[pair.body].name

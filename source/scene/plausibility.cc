@@ -65,7 +65,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
       continue;
     const std::size_t b = cell->material_id();
     const Body &body = scene.bodies()[b];
-    if (scene.parameters().is_explicit()) {
+    if (!scene.parameters().scheme().has_matrix) {
       double max_face = 0.;
       for (const unsigned int f : cell->face_indices())
         max_face = std::max(max_face, cell->face(f)->measure());
@@ -75,7 +75,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
     for (const unsigned int v : cell->vertex_indices()) {
       boxes[b].add(cell->vertex(v));
       all.add(cell->vertex(v));
-      if (scene.parameters().is_dynamic()) {
+      if (scene.parameters().scheme().has_inertia) {
         Tensor<1, 3> velocity;
         for (unsigned int i = 0; i < 3; ++i)
           velocity[i] = body.initial_velocity[i].value(0., cell->vertex(v));
@@ -299,7 +299,7 @@ void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagno
                            steps.end_time / crossing))
               .body(body.name)
               .value("end time / crossing time", steps.end_time / crossing));
-    if (!scene.parameters().is_explicit() && steps.control == parameters::TimeStepping::Control::fixed &&
+    if (scene.parameters().scheme().has_matrix && steps.control == parameters::TimeStepping::Control::fixed &&
         start.speeds[b] > 0. && scene.capabilities().contact && steps.initial_step > coarse * crossing)
       diagnostics.push_back(
           Diagnostic(diagnostic::step_longer_than_period,
@@ -374,9 +374,9 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   DiagnosticList diagnostics;
   for (const Body &body : scene.bodies())
     check_yield_stress(body, diagnostics);
-  if (scene.parameters().is_dynamic())
+  if (scene.parameters().scheme().has_inertia)
     check_speeds(scene, start, diagnostics);
-  if (scene.parameters().is_explicit())
+  if (!scene.parameters().scheme().has_matrix)
     check_number_of_steps(scene, start, diagnostics);
   for (const auto &pair : scene.parameters().pairs)
     check_friction(pair, diagnostics);

@@ -20,20 +20,6 @@ namespace billet {
 
 namespace {
 
-/// Returns the scheme of time integration in the summary of a scene.
-const char *describe_scheme(const parameters::TimeStepping::Scheme scheme) {
-  using Scheme = parameters::TimeStepping::Scheme;
-  switch (scheme) {
-  case Scheme::quasi_static:
-    return "quasi-static, implicit";
-  case Scheme::explicit_dynamics:
-    return "dynamic, explicit";
-  case Scheme::implicit_dynamics:
-    return "dynamic, implicit";
-  }
-  return "";
-}
-
 /// `method`: none if the choice is automatic.
 std::string describe_solver(const std::optional<LinearMethod> &method, const bool unsymmetric) {
   if (method)
@@ -296,8 +282,9 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
   if (!resolved.has_meshes)
     errors.require_none();
   for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
-    bodies_.push_back(make_body(parameters.bodies[i], parameters.amplitudes,
-                                parameters.is_dynamic() ? 0. : 0.01 * parameters.time_stepping.end_time));
+    bodies_.push_back(
+        make_body(parameters.bodies[i], parameters.amplitudes,
+                  parameters.scheme().has_inertia ? 0. : 0.01 * parameters.time_stepping.end_time));
     bodies_.back().boundary_names = std::move(resolved.names[i]);
     if (!errors.note([&] { select_nodes(parameters.bodies[i], bodies_.back()); }))
       resolved.unsound_bodies.insert(i);
@@ -347,7 +334,7 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
   if (capabilities_.unsymmetric_matrix && is_symmetric)
     refuse_symmetric_solver(parameters.solver, "this scene's contact tangent is unsymmetric",
                             ", or a symmetrised 'Contact tangent'");
-  if (!parameters.is_explicit()) {
+  if (parameters.scheme().has_matrix) {
     allow_for_loads();
     choose_material_tangents();
   }
@@ -395,35 +382,36 @@ void Scene::allow_for_loads() {
 
 void Scene::make_pairs() {
   const auto penetration_tolerance = [&](const parameters::ContactPair &pair) {
-    return parameters_.is_dynamic() ? pair.penetration_tolerance.value_or(0.) : pair.penetration_tolerance;
+    return parameters_.scheme().has_inertia ? pair.penetration_tolerance.value_or(0.)
+                                            : pair.penetration_tolerance;
   };
   const auto is_raised = [&](const parameters::ContactPair &pair) {
     // A raise in implicit dynamics treats existing penetration as allowed overlap; with a ramp it would fade.
-    const bool may_grow = parameters_.is_explicit() || !(pair.ramp_time > 0.);
-    return parameters_.is_dynamic() && !pair.penetration_tolerance && may_grow;
+    const bool may_grow = !parameters_.scheme().has_matrix || !(pair.initial.ramp_time > 0.);
+    return parameters_.scheme().has_inertia && !pair.penetration_tolerance && may_grow;
   };
   for (const auto &pair : parameters_.pairs) {
     const std::size_t body = parameters_.body_index(pair);
     const PairSettings settings{pair.name,
                                 &pair,
                                 pair.friction,
-                                pair.penalty_unit == parameters::ContactPair::PenaltyUnit::factor,
-                                parameters_.is_dynamic() && !pair.has_own_penalty,
-                                pair.normal_penalty,
-                                pair.tangential_penalty,
+                                pair.penalty.unit == parameters::ContactPair::PenaltyUnit::factor,
+                                parameters_.scheme().has_inertia && !pair.penalty.is_given,
+                                pair.penalty.normal,
+                                pair.penalty.tangential,
                                 penetration_tolerance(pair),
                                 is_raised(pair),
-                                {pair.may_overlap, pair.ramp_time, pair.closed_gap}};
+                                {pair.initial.may_overlap, pair.initial.ramp_time, pair.initial.closed_gap}};
     if (!pair.is_between_bodies()) {
       pairs_.push_back({settings, body, pair.boundary_ids.value, parameters_.tool_index(pair)});
       continue;
     }
     using Pair = parameters::ContactPair;
-    const FacetMethod facets =
-        pair.facets.value.value_or(parameters_.is_explicit() ? FacetMethod::planed : FacetMethod::overlap);
-    Pair::PenaltyOf penalty_of = pair.penalty_of;
+    const FacetMethod facets = pair.facets.method.value.value_or(
+        parameters_.scheme().has_matrix ? FacetMethod::overlap : FacetMethod::planed);
+    Pair::PenaltyOf penalty_of = pair.penalty.of;
     if (penalty_of == Pair::PenaltyOf::automatic)
-      penalty_of = parameters_.is_explicit() ? Pair::PenaltyOf::stiffer : Pair::PenaltyOf::series;
+      penalty_of = parameters_.scheme().has_matrix ? Pair::PenaltyOf::series : Pair::PenaltyOf::stiffer;
     const std::size_t second = parameters_.second_body_index(pair);
     const auto &second_ids = pair.second_boundary_ids.value;
     body_pairs_.push_back(
@@ -432,12 +420,13 @@ void Scene::make_pairs() {
          {pair.boundary_ids.value, second_ids.empty() ? pair.boundary_ids.value : second_ids},
          body == second && second_ids.empty(),
          facets,
-         pair.passes == Pair::Passes::automatic ? facets != FacetMethod::overlap
-                                                : pair.passes == Pair::Passes::two,
-         parameters_.is_explicit() && facets != FacetMethod::overlap && pair.edges != Pair::Edges::free,
+         pair.facets.passes == Pair::Passes::automatic ? facets != FacetMethod::overlap
+                                                       : pair.facets.passes == Pair::Passes::two,
+         !parameters_.scheme().has_matrix && facets != FacetMethod::overlap &&
+             pair.facets.edges != Pair::Edges::free,
          penalty_of,
-         pair.smoothing,
-         pair.search_margin,
+         pair.facets.smoothing,
+         pair.facets.search_margin,
          pair.correction});
     const auto &ids = body_pairs_.back().boundary_ids;
     if (body == second && !second_ids.empty())
@@ -479,7 +468,7 @@ std::vector<double> Scene::stops() const {
     for (const Hold &hold : body.holds)
       add_times(hold.times);
   }
-  if (parameters_.time_stepping.scheme != parameters::TimeStepping::Scheme::explicit_dynamics)
+  if (parameters_.scheme().has_matrix)
     add_corners(times);
   return times;
 }
@@ -568,7 +557,7 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
            std::count_if(body_pairs_.begin(), body_pairs_.end(), has);
   };
   const std::size_t n_all_pairs = pairs_.size() + body_pairs_.size();
-  const bool is_explicit = parameters_.is_explicit();
+  const parameters::SchemeType &scheme = parameters_.scheme();
   add(Capability::plasticity, capabilities_.plasticity,
       "history of " + part(std::count_if(bodies_.begin(), bodies_.end(),
                                          [](const Body &body) { return body.law->has_plasticity(); }),
@@ -600,16 +589,16 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   const auto n_loaded =
       std::count_if(bodies_.begin(), bodies_.end(), [](const Body &body) { return !body.loads.empty(); });
   add(Capability::loads, n_loaded > 0, "on " + part(n_loaded, bodies_.size(), "bodies"));
-  add(Capability::inertia, parameters_.is_dynamic(), is_explicit ? "lumped" : "");
-  const bool has_inertia = parameters_.is_dynamic() && !is_explicit;
+  add(Capability::inertia, scheme.has_inertia, scheme.lumps_mass ? "lumped" : "");
+  const bool is_implicit_motion = scheme.has_inertia && scheme.has_matrix;
   add(Capability::error_control,
       parameters_.target_error > 0. || parameters_.time_stepping.error_tolerance > 0. ||
-          (has_inertia && parameters_.implicit_dynamics.error_tolerance > 0.),
+          (is_implicit_motion && parameters_.implicit_dynamics.error_tolerance > 0.),
       "");
   const auto &[every_steps, interval, keep] = parameters_.output.checkpoint;
   add(Capability::checkpoints, every_steps > 0 || interval > 0.,
       "the last " + std::to_string(keep) + " are kept");
-  add(Capability::matrix, !is_explicit,
+  add(Capability::matrix, scheme.has_matrix,
       (capabilities_.unsymmetric_matrix ? "unsymmetric; " : "symmetric; ") +
           describe_solver(parameters_.solver.linear_solver.value, capabilities_.unsymmetric_matrix));
   return uses;
@@ -632,7 +621,7 @@ void Scene::describe(std::ostream &stream) const {
     stream << "Title          " << parameters_.title << "\n";
   if (parameters_.target_error > 0.)
     stream << "Target error   " << 100. * parameters_.target_error << " % of the "
-           << (parameters_.is_dynamic() ? "energies"
+           << (parameters_.scheme().has_inertia ? "energies"
                : std::any_of(tools_.begin(), tools_.end(), [](const Tool &tool) { return tool.is_driven(); })
                    ? "forces, or of the travel of driven tools"
                    : "forces")
@@ -690,13 +679,13 @@ void Scene::describe(std::ostream &stream) const {
            << " columns of the history\n";
   const auto &stepping = parameters_.time_stepping;
   stream << "Time           0 to " << stepping.end_time;
-  if (parameters_.is_explicit())
+  if (!parameters_.scheme().has_matrix)
     stream << ", " << parameters_.explicit_dynamics.safety_factor << " of the stable step\n";
   else
     stream << (stepping.control == parameters::TimeStepping::Control::automatic ? ", automatic steps from "
                                                                                 : ", fixed steps of ")
            << stepping.initial_step << "\n";
-  stream << "Elements       " << n_elements << " in all, " << describe_scheme(stepping.scheme) << "\n";
+  stream << "Elements       " << n_elements << " in all, " << parameters_.scheme().description << "\n";
   std::string unused;
   for (const CapabilityUse &use : capability_uses())
     if (use.is_used)

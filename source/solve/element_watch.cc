@@ -163,7 +163,8 @@ DiagnosticList ElementWatch::judge_bending() const {
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", share);
     message.advice(is_hourglass ? "Use four or more bricks through the thickness, and shorter ones where the "
                                   "bend is sharpest"
-                   : scene_.parameters().is_explicit() || !scene_.bodies()[b].formulation.element.has_layers()
+                   : !scene_.parameters().scheme().has_matrix ||
+                           !scene_.bodies()[b].formulation.element.has_layers()
                        ? "Use two or more bricks through the thickness"
                        : "Use two or more bricks through the thickness, or 'Points through thickness = 5'");
     diagnostics.push_back(message);
@@ -175,7 +176,7 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   constexpr double still_loaded = 0.5;
   const EnergyLedger &ledger = state.energies;
   const double energy = ledger.of_elements();
-  const bool is_static = !scene_.parameters().is_dynamic(), is_first = compared_energy_ == 0.;
+  const bool is_static = !scene_.parameters().scheme().has_inertia, is_first = compared_energy_ == 0.;
   // In springback the largest load counts; dynamic steps are many and short.
   const double growth = is_static ? 1.1 : 2.;
   if (std::isfinite(energy) && energy > 0. &&

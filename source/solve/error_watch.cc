@@ -137,7 +137,7 @@ unsigned int ErrorWatch::before_step(StepControl &control, const double previous
   const unsigned int n_iterations = measures_steps_ && !is_second ? probe(control, previous_step) : 0;
   // Not in the first of the steps that are compared: they need the same penetration.
   if (measures_penetration_ && wants_penetration() && (is_second || probe_length_ == 0.))
-    problem_.measure_penetration(minimum(&ErrorControl::allowed_at_first));
+    problem_.measurement().ask(minimum(&ErrorControl::allowed_at_first));
   return n_iterations;
 }
 
@@ -167,7 +167,7 @@ unsigned int ErrorWatch::probe(StepControl &control, const double previous_step)
 }
 
 void ErrorWatch::take_measurement() {
-  const auto measured = problem_.take_measurement();
+  const auto measured = problem_.measurement().take();
   if (!measured)
     return;
   n_iterations_ += measured->n_iterations;

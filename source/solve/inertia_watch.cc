@@ -25,8 +25,8 @@ double square(const ElementMass &mass, const ElementVectors &v) {
 
 InertiaWatch::InertiaWatch(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization),
-      is_lumped_(scene.parameters().is_explicit() ||
-                 (scene.parameters().is_dynamic() &&
+      is_lumped_(scene.parameters().scheme().lumps_mass ||
+                 (scene.parameters().scheme().has_inertia &&
                   scene.parameters().implicit_dynamics.mass == parameters::ImplicitDynamics::Mass::lumped)),
       lumped_(scene.bodies().size()), consistent_(lumped_) {}
 

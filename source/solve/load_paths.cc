@@ -41,7 +41,7 @@ std::vector<LoadPath> find_load_paths(const Scene &scene) {
     path.bears_given_loads =
         std::any_of(path.bodies.begin(), path.bodies.end(),
                     [&](const std::size_t body) { return !scene.bodies()[body].loads.empty(); }) ||
-        (!scene.parameters().is_dynamic() && // in dynamics the tool's inertia drives
+        (!scene.parameters().scheme().has_inertia && // in dynamics the tool's inertia drives
          std::any_of(path.pairs.begin(), path.pairs.end(), [&](const std::size_t pair) {
            return pair < scene.pairs().size() && scene.tools()[scene.pairs()[pair].tool].is_driven();
          }));

@@ -32,7 +32,7 @@ struct Limits {
 constexpr double percent = 100.;
 
 template <class ContactPair> bool raises_tangential(const ContactPair &pair) {
-  return pair.is_raised && pair.has_friction() && !pair.input->has_own_tangential_penalty;
+  return pair.is_raised && pair.has_friction() && !pair.input->penalty.is_tangential_given;
 }
 
 std::vector<PenaltyControl::Pair> pairs_of(const Scene &scene) {

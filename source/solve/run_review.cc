@@ -32,7 +32,7 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
   max_internal_ = std::max(max_internal_, energies.of_elements());
   max_energy_ = std::max(max_energy_, energies.total());
   numerical_ = energies.numerical;
-  if (scene_.parameters().is_explicit()) // elsewhere it is the work of stabilisation
+  if (!scene_.parameters().scheme().has_matrix) // elsewhere it is the work of stabilisation
     viscous_ = energies.viscous;
   append(diagnostics, elements_.watch(solution.state(), is_last));
   append(diagnostics, missing_pairs_.check(solution.state()));
@@ -45,7 +45,7 @@ DiagnosticList RunReview::after_step(const Solution &solution, const bool is_las
                                                solution.state().time));
   constexpr double far = 3.; // sizes of the scene
   const double moved = solution.state().displacements.linfty_norm() / (2. * discretization_.radius());
-  if (!scene_.parameters().is_dynamic() && moved > far) {
+  if (!scene_.parameters().scheme().has_inertia && moved > far) {
     std::ostringstream text;
     text.precision(3);
     text << "A node has moved by " << moved << " times the size of all bodies";

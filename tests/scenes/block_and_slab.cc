@@ -35,7 +35,7 @@ void test_margin() {
   std::vector<Vector> displacements;
   for (const double margin : {0.01, 0.1, 0.5, 2.}) {
     parameters::Scene scene = make_scene(0.0117, 5e-4, "0", "-50", 1e-4);
-    scene.pairs[0].search_margin = margin;
+    scene.pairs[0].facets.search_margin = margin;
     testing::ExplicitRun run(scene);
     run.finish(1e-4, [] {});
     displacements.push_back(run.state().displacements);

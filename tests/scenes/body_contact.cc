@@ -32,7 +32,7 @@ using Facets = FacetMethod;
 parameters::Scene read(const Facets facets) {
   parameters::Scene parameters = parameters::Scene::read(std::string(SOURCE_DIR) + "/restart_blocks.prm");
   parameters.bodies[lower].mesh.arguments = "9, 3, 2 : -0.5, -0.5, -1.5 : 8.5, 2.5, 0 : true";
-  parameters.pairs[0].facets.value = facets;
+  parameters.pairs[0].facets.method.value = facets;
   parameters.pairs[0].penetration_tolerance = tolerance;
   return parameters;
 }
@@ -51,12 +51,12 @@ struct Blocks {
         displacements[std::size_t{nodal_stride} * node + 2] = z;
       }
     nodes.copy(displacements, u);
-    contact.update(u);
+    contact.with_matrix().update(u);
   }
   /// Returns the force on a body from the residual.
   Tensor<1, 3> force_on(const std::size_t body) const {
     Vector additive = discretization.make_additive_vector(), residual = discretization.make_owned_vector();
-    contact.add_forces(additive);
+    contact.with_matrix().add_forces(additive);
     additive.compress(dealii::VectorOperation::add);
     residual = additive;
     std::set<DofIndex> counted;
@@ -70,12 +70,12 @@ struct Blocks {
   /// Returns the pattern that elements and contact write, as TangentMatrix does.
   void make_matrix(const Constraints &constraints, Matrix &matrix) const {
     dealii::IndexSet written = discretization.relevant_dofs();
-    contact.couplings().add_foreign_dofs(written);
+    contact.with_matrix().couplings().add_foreign_dofs(written);
     SparsityPattern pattern(discretization.owned_dofs(), discretization.owned_dofs(), written,
                             MPI_COMM_WORLD);
     dealii::DoFTools::make_sparsity_pattern(discretization.dof_handler(), pattern, constraints, false,
                                             dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
-    contact.couplings().add_entries(pattern);
+    contact.with_matrix().couplings().add_entries(pattern);
     pattern.compress();
     matrix.reinit(pattern);
   }
@@ -168,7 +168,7 @@ void check_penalties(const std::string &name, Blocks &blocks) {
 }
 
 void check_couplings(const std::string &name, Blocks &blocks) {
-  ContactCouplings &couplings = blocks.contact.couplings();
+  ContactCouplings &couplings = blocks.contact.with_matrix().couplings();
   check(name + "couplings are new at first", any(couplings.has_new()));
   couplings.find();
   check(name + "  and known when found", !couplings.has_new());
@@ -184,7 +184,7 @@ void check_couplings(const std::string &name, Blocks &blocks) {
     }
     blocks.make_matrix(constraints, matrix);
     const double before = static_cast<double>(matrix.n_nonzero_elements());
-    blocks.contact.add_tangent({constraints, matrix});
+    blocks.contact.with_matrix().add_tangent({constraints, matrix});
     matrix.compress(dealii::VectorOperation::add);
     check(name + "they are all entries of the tangent",
           matrix.frobenius_norm() > 0. && before == static_cast<double>(matrix.n_nonzero_elements()));

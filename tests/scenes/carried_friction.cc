@@ -29,7 +29,7 @@ void carry(parameters::Scene parameters, const std::string &name, const Tensor<1
     const Placement placement = scene.problem.state().placements[0];
     const auto back = dealii::transpose(placement.rotation);
     std::vector<Tensor<1, 3>> now;
-    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].measures().report()) {
+    for (const auto &node : scene.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
       now.push_back(back * node.traction);
       all_stick = all_stick && node.status == ContactStatus::stick;
     }
@@ -71,7 +71,7 @@ void cycle(parameters::Scene parameters, const double poisson_ratio) {
   scene.finish([&](const NewtonReport &) {
     if (scene.control.time() < 0.25)
       return;
-    const auto report = scene.problem.equation().contacts().of_tools()[0].measures().report();
+    const auto report = scene.problem.equation().parts().contacts().of_tools()[0].measures().report();
     const bool is_first = pressed.empty();
     for (std::size_t i = 0; i < report.size(); ++i) {
       all_stick = all_stick && report[i].status == ContactStatus::stick;

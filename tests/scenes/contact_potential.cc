@@ -28,8 +28,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
   const Scene scene(parameters);
   const Discretization discretization(scene, MPI_COMM_WORLD);
   const LocalNodes nodes(discretization);
-  RigidContact contact(scene, 0, discretization, parameters::ContactTangent::consistent);
-  contact.bind(nodes);
+  RigidContact contact(scene, 0, nodes);
 
   testing::Random random;
   NodalVectors u = nodes.make_vectors(), forces = u, bounds = u;
@@ -46,8 +45,8 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
         forces[std::size_t{nodal_stride} * node + i] = 0.;
       }
     }
-    contact.update(u);
-    return contact.add_forces(forces, bounds);
+    contact.without_matrix().update(u);
+    return contact.without_matrix().add_forces(forces, bounds);
   };
   press(); // they go deep where they are not later on
   const ContactLoad load = press();
@@ -80,7 +79,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
           NodalVectors moved = u;
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
-          contact.update(moved);
+          contact.without_matrix().update(moved);
           return contact.measures().compute_load().stored_energy;
         },
         1e-4);
@@ -93,7 +92,7 @@ void test_potential(const std::string &name, const testing::SurfacePart &part, c
 void test_impacts() {
   for (const double penalty : {10., 1.}) {
     parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
-    scene.pairs[0].normal_penalty = penalty;
+    scene.pairs[0].penalty.normal = penalty;
     scene.pairs[0].penetration_tolerance = 0.; // it stays
     scene.explicit_dynamics.safety_factor = 0.3;
     ExplicitRun run(scene);
@@ -108,7 +107,7 @@ void test_impacts() {
 void test_bar() {
   for (const double penalty : {10., 1.}) {
     parameters::Scene scene = testing::read_test_scene("hard_blow.prm");
-    scene.pairs[0].normal_penalty = penalty;
+    scene.pairs[0].penalty.normal = penalty;
     scene.pairs[0].penetration_tolerance = 0.; // it stays
     scene.bodies[0].mesh.arguments = "1, 1, 8 : 0, 0, 0 : 0.125, 0.125, 1 : true";
     testing::set_poisson_ratio(scene.bodies[0].material, 0.);
@@ -138,7 +137,7 @@ void test_chatter() {
     scene.bodies[0].initial_velocity.value = {"10", "0", "0"};
     scene.bodies[0].loads = {testing::make_load("acceleration", "set Acceleration = 0 ; 0 ; -2000")};
     scene.pairs[0].friction = friction;
-    scene.pairs[0].normal_penalty = scene.pairs[0].tangential_penalty = penalty;
+    scene.pairs[0].penalty.normal = scene.pairs[0].penalty.tangential = penalty;
     scene.time_stepping.end_time = 0.04;
     scene.explicit_dynamics.safety_factor = safety;
     ExplicitRun run(scene);
@@ -156,7 +155,7 @@ void test_deep_friction() {
   scene.bodies[0].mesh.arguments = "2, 2, 2 : -0.5, -0.5, 0.02 : 0.5, 0.5, 1.02 : true";
   scene.bodies[0].initial_velocity.value = {"500", "300", "-2000"};
   scene.pairs[0].friction = make_coulomb(2.);
-  scene.pairs[0].tangential_penalty = 0.5;
+  scene.pairs[0].penalty.tangential = 0.5;
   scene.time_stepping.end_time = 3e-3;
   ExplicitRun run(scene);
   run.finish(1e-5, [] {});

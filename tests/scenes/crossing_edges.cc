@@ -20,7 +20,8 @@ struct Outcome {
 /// Cubes of n x n x n elements, the upper one of which is so far aside.
 Outcome run(const bool edges, const unsigned int n_elements = 3, const double aside = 0.) {
   parameters::Scene scene = testing::read_test_scene("crossing_edges.prm");
-  scene.pairs[0].edges = edges ? parameters::ContactPair::Edges::held : parameters::ContactPair::Edges::free;
+  scene.pairs[0].facets.edges =
+      edges ? parameters::ContactPair::Edges::held : parameters::ContactPair::Edges::free;
   const std::string n = std::to_string(n_elements);
   for (auto &body : scene.bodies)
     body.mesh.arguments = n + ", " + n + ", " + n + " : -1, -1, -1 : 1, 1, 1 : false";

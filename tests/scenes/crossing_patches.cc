@@ -79,7 +79,7 @@ Course run(parameters::Scene parameters, const std::vector<SurfacePart> &parts) 
   scene.finish([&](const NewtonReport &) {
     course.forces.push_back(scene.load().force);
     course.tractions.emplace_back();
-    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].measures().report()) {
+    for (const auto &node : scene.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
       course.tractions.back().push_back(node.traction);
       course.n_slip += node.status == ContactStatus::slip;
       course.n_stick += node.status == ContactStatus::stick;

@@ -52,22 +52,19 @@ void test_parts() {
 struct Pressed {
   explicit Pressed(const SurfacePart &part, const bool hardens = true)
       : scene(read(part, hardens)), discretization(scene, MPI_COMM_WORLD), nodes(discretization),
-        contact(scene, 0, discretization, parameters::ContactTangent::consistent), u(nodes.make_vectors()),
-        forces(u), bounds(u) {
-    contact.bind(nodes);
-  }
+        contact(scene, 0, nodes), u(nodes.make_vectors()), forces(u), bounds(u) {}
   static parameters::Scene read(const SurfacePart &part, const bool hardens) {
     parameters::Scene parameters = testing::read_test_scene("hard_blow.prm");
     parameters.bodies[0].mesh.arguments = "2, 2, 1 : -0.5, -0.5, 0 : 0.5, 0.5, 0.5 : true";
     parameters.tools[0].surface = testing::make_surface(part.shape, part.lines);
-    parameters.pairs[0].has_own_penalty = !hardens;
+    parameters.pairs[0].penalty.is_given = !hardens;
     return parameters;
   }
   ContactLoad press() {
     for (auto &value : forces)
       value = 0.;
-    contact.update(u);
-    return contact.add_forces(forces, bounds);
+    contact.without_matrix().update(u);
+    return contact.without_matrix().add_forces(forces, bounds);
   }
 
   Scene scene;
@@ -114,7 +111,7 @@ void test_potential(const std::string &name, const SurfacePart &part) {
           NodalVectors moved = block.u;
           for (std::size_t i = 0; i < moved.size(); ++i)
             moved[i] += h * direction[i];
-          block.contact.update(moved);
+          block.contact.without_matrix().update(moved);
           return block.contact.measures().compute_load().stored_energy;
         },
         1e-6);

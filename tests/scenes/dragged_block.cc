@@ -33,7 +33,7 @@ Sliding slide(const parameters::Scene &parameters, const double rate, const doub
   testing::WorstError cone, direction;
   Tensor<1, 3> normal_force;
   unsigned int n_slide = 0, n_touch = 0;
-  for (const auto &node : run.problem.equation().contacts().of_tools()[0].measures().report()) {
+  for (const auto &node : run.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
     if (node.status == ContactStatus::open)
       continue;
     ++n_touch;
@@ -113,8 +113,8 @@ int main(int argc, char *argv[]) {
     on_plane.advance();
     on_tiles.advance();
     seams.add((on_plane.load().force - on_tiles.load().force).norm() / on_plane.load().force.norm());
-    const auto one = on_plane.problem.equation().contacts().of_tools()[0].measures().report(),
-               other = on_tiles.problem.equation().contacts().of_tools()[0].measures().report();
+    const auto one = on_plane.problem.equation().parts().contacts().of_tools()[0].measures().report(),
+               other = on_tiles.problem.equation().parts().contacts().of_tools()[0].measures().report();
     for (std::size_t i = 0; i < one.size(); ++i)
       seams.add((one[i].traction - other[i].traction).norm() / on_plane.load().force.norm());
   }

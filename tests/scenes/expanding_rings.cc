@@ -14,9 +14,9 @@ int main(int argc, char *argv[]) {
   for (const bool two_passes : {true, false})
     for (const Facets facets : {Facets::planed, Facets::bilinear}) {
       parameters::Scene scene = testing::read_test_scene("expanding_rings.prm");
-      scene.pairs[0].passes =
+      scene.pairs[0].facets.passes =
           two_passes ? parameters::ContactPair::Passes::two : parameters::ContactPair::Passes::one;
-      scene.pairs[0].facets.value = facets;
+      scene.pairs[0].facets.method.value = facets;
       testing::ExplicitRun rings(scene);
       double made = 0., lost = 0., force = 0.;
       rings.finish(2e-6, [&] {

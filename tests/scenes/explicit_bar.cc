@@ -18,7 +18,7 @@ struct Impact {
 Impact run(const unsigned int n, const double penalty) {
   parameters::Scene scene = testing::read_test_scene("elastic_bar.prm");
   scene.bodies[0].mesh.arguments = std::to_string(n) + ", 2, 2 : 0.002, 0, 0 : 0.202, 0.02, 0.02 : true";
-  scene.pairs[0].normal_penalty = penalty;
+  scene.pairs[0].penalty.normal = penalty;
   testing::ExplicitRun bar(scene);
   Impact impact;
   unsigned int n_on_plateau = 0;

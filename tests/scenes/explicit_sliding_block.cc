@@ -14,9 +14,9 @@ constexpr double friction = 0.25, gravity = 4000., full_weight = 2.5e-3;
 
 void test(const std::string &name, const bool two_passes, const FacetMethod facets) {
   parameters::Scene scene = testing::read_test_scene("sliding_block.prm");
-  scene.pairs[0].passes =
+  scene.pairs[0].facets.passes =
       two_passes ? parameters::ContactPair::Passes::two : parameters::ContactPair::Passes::one;
-  scene.pairs[0].facets.value = facets;
+  scene.pairs[0].facets.method.value = facets;
   testing::ExplicitRun run(scene);
   double start = 0., speed = 0., side = 0., initial = 0.;
   run.finish(0.5e-3, [&] {

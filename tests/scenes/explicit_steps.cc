@@ -20,8 +20,8 @@ parameters::Scene two_cubes(const double penalty) {
   for (unsigned int i = 0; i < 3; ++i)
     scene.bodies[1].mesh.translation[i] = i < 2 ? 0. : 0.0302;
   scene.bodies[1].initial_velocity.value = {"0", "0", "-50"};
-  scene.pairs[0].normal_penalty = penalty;
-  scene.pairs[0].edges = parameters::ContactPair::Edges::free; // of nodes against facets
+  scene.pairs[0].penalty.normal = penalty;
+  scene.pairs[0].facets.edges = parameters::ContactPair::Edges::free; // of nodes against facets
   scene.time_stepping.end_time = 0.00011;
   return scene;
 }

@@ -25,11 +25,11 @@ void test(const double penalty, const unsigned int across, const bool two_passes
   const std::string n = std::to_string(across);
   scene.bodies[1].mesh.arguments = "160, " + n + ", " + n + " : 0, 0, 0 : 0.2, 0.02, 0.02 : true";
   scene.bodies[0].mesh.arguments = "160, 2, 2 : -0.201, 0, 0 : -0.001, 0.02, 0.02 : true";
-  scene.pairs[0].normal_penalty = penalty;
-  scene.pairs[0].edges = parameters::ContactPair::Edges::free; // of nodes against facets
-  scene.pairs[0].passes =
+  scene.pairs[0].penalty.normal = penalty;
+  scene.pairs[0].facets.edges = parameters::ContactPair::Edges::free; // of nodes against facets
+  scene.pairs[0].facets.passes =
       two_passes ? parameters::ContactPair::Passes::two : parameters::ContactPair::Passes::one;
-  scene.pairs[0].facets.value = facets;
+  scene.pairs[0].facets.method.value = facets;
   testing::ExplicitRun bars(scene);
   testing::WorstError momentum;
   double first_touch = 0.;
@@ -66,7 +66,7 @@ void test_unequal(const std::string &name, const parameters::ContactPair::Penalt
   parameters::Scene scene = testing::read_test_scene("two_bars.prm");
   const double young_modulus = testing::young_modulus(scene.bodies[0].material);
   testing::set_young_modulus(scene.bodies[1].material, 4. * young_modulus);
-  scene.pairs[0].penalty_of = penalty_of;
+  scene.pairs[0].penalty.of = penalty_of;
   scene.time_stepping.end_time = 40e-6; // the right front comes back 50 µs after the blow
   testing::ExplicitRun bars(scene);
   double force = 0., penetration = 0., n = 0.;

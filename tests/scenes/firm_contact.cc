@@ -76,7 +76,7 @@ void check_motion() {
   check("a slab that is dragged by friction bears what it does in statics, implicitly",
         is_near(drag(implicit)));
   check("and explicitly", is_near(drag_explicitly(explicit_scene)));
-  implicit.pairs[0].has_own_tangential_penalty = true;
+  implicit.pairs[0].penalty.is_tangential_given = true;
   check("a tangential penalty that the scene sets stays, and takes a part of that",
         drag(implicit)[0] < 0.97 * reference[0]);
 }

@@ -32,7 +32,7 @@ bool is_on_grid(const double time, const unsigned int n) {
 /// `n` steps on each way, or more. The third pair is that of the inside.
 void test(const std::string &name, const std::string &scene, const unsigned int n, const FacetMethod facets) {
   parameters::Scene parameters = testing::read_shipped_scene(scene);
-  parameters.pairs[2].facets.value = facets;
+  parameters.pairs[2].facets.method.value = facets;
   for (auto &pair : parameters.pairs)
     pair.penetration_tolerance = 0.; // springs alone know no history
   set_grid(parameters, n);

@@ -108,7 +108,7 @@ int main(int argc, char *argv[]) {
   block.tools[0].motion.translation.value = {"0", "0", "0"};
   block.tools[0].motion.rotation_angle.value = "0.002*t";
   block.time_stepping.initial_step = 0.1;
-  block.pairs[0].allowed_penetration.value = 1.;
+  block.pairs[0].initial.allowed_penetration.value = 1.;
   SceneRun turned(block);
   const Curve twist = record(turned);
   parameters::Scene twisted = block;
@@ -180,6 +180,7 @@ int main(int argc, char *argv[]) {
     const EnergyLedger &energies = back.problem.state().energies;
     back.finish([&](const NewtonReport &) {
       strain_after = back.problem.equation()
+                         .parts()
                          .internal()
                          .summarize(0, back.problem.state().displacements)
                          .front()

@@ -34,7 +34,7 @@ struct Variant {
 std::array<double, 3> run(const Variant &variant) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
   parameters.pairs[0].friction = nullptr;
-  parameters.pairs[0].normal_penalty = variant.penalty;
+  parameters.pairs[0].penalty.normal = variant.penalty;
   parameters.bodies[0].mesh.refinements = variant.refinements;
   parameters.bodies[0].mesh.n_layers = variant.layers;
   testing::set_fixed_steps(parameters, variant.steps);
@@ -51,7 +51,7 @@ std::array<double, 3> run(const Variant &variant) {
   });
   double minimum = 1e9, maximum = 0.;
   for (const auto &element :
-       scene.problem.equation().internal().summarize(0, scene.problem.state().displacements)) {
+       scene.problem.equation().parts().internal().summarize(0, scene.problem.state().displacements)) {
     minimum = std::min(minimum, element.equivalent_plastic_strain);
     maximum = std::max(maximum, element.equivalent_plastic_strain);
   }

@@ -49,7 +49,7 @@ void add_probes(parameters::Scene &parameters, const dealii::Point<3> &point) {
   Probe fixed{ProbedPoints{{point, point + dealii::Point<3>(0., 0., 0.3)}, ProbedPoints::Place::space}};
   Probe carried{ProbedPoints{{point}, ProbedPoints::Place::nearest_node}}, nodes{ProbedFaces{}};
   for (const ProbeQuantity &quantity : probe_quantities()) {
-    if (quantity.kind == ProbeQuantity::Kind::velocity && !parameters.is_dynamic())
+    if (quantity.kind == ProbeQuantity::Kind::velocity && !parameters.scheme().has_inertia)
       continue;
     carried.quantities.push_back(quantity);
     if (quantity.is_nodal())

@@ -13,7 +13,7 @@ namespace {
 /// Drift after the blow and its change until the end, relative to the largest energy.
 std::array<double, 2> run(const FacetMethod facets) {
   parameters::Scene scene = testing::read_test_scene("held_ring.prm");
-  scene.pairs[0].facets.value = facets;
+  scene.pairs[0].facets.method.value = facets;
   testing::ExplicitRun rings(scene);
   double after_impact = 0.;
   rings.finish(50e-6, [&] {

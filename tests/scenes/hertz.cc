@@ -93,7 +93,7 @@ int main(int argc, char *argv[]) {
     for (const unsigned int v : element.cell->vertex_indices())
       positions[element.cell->vertex_dof_index(v, 0)] = element.cell->vertex(v);
   unsigned int n = 0;
-  for (const auto &node : run.problem.equation().contacts().of_tools()[0].measures().report()) {
+  for (const auto &node : run.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
     const auto x = positions.at(node.dofs[0]);
     const double r2 = x[0] * x[0] + x[1] * x[1];
     if (r2 > 0.7 * a * a || node.pressure == 0.)

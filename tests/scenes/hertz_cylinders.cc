@@ -39,7 +39,7 @@ int main(int argc, char *argv[]) {
       positions[element.cell->vertex_dof_index(v, 0)] = element.cell->vertex(v)[0];
   // Least squares of p² = A − B x² over the nodes well inside: b² = A/B, p_0² = A.
   double s0 = 0., s1 = 0., s2 = 0., t0 = 0., t1 = 0., last = 0.;
-  for (const auto &node : run.problem.equation().contacts().of_bodies()[0].measures().report()) {
+  for (const auto &node : run.problem.equation().parts().contacts().of_bodies()[0].measures().report()) {
     if (!(node.pressure > 0.))
       continue;
     const double x = positions.at(node.dofs[0]), x2 = x * x, p2 = node.pressure * node.pressure;

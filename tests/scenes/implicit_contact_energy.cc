@@ -33,7 +33,7 @@ Run run(parameters::Scene scene, const double penalty, const double friction = 0
   scene.implicit_dynamics.error_tolerance = 1e-3;
   scene.output.interval = 0.; // steps do not end at the states that an explicit scene writes
   for (auto &pair : scene.pairs) {
-    pair.normal_penalty = pair.tangential_penalty = penalty;
+    pair.penalty.normal = pair.penalty.tangential = penalty;
     pair.friction = make_coulomb(friction);
   }
   SceneRun run(scene);
@@ -71,7 +71,7 @@ int main(int argc, char *argv[]) {
     check(name.str() + ": none that moves or strains the bar", result.rise, 0.01);
     check(name.str() + ": damped where it has to be", result.is_damped == (penalty > 10.));
   }
-  bar.pairs[0].normal_penalty = 1.;
+  bar.pairs[0].penalty.normal = 1.;
   const Run rough = run(bar, 1e4, 0.3);
   check("with friction: no energy is made", rough.made, 0.01);
   // A single brick holds all of its energy by the nodes that hit the wall.

@@ -93,7 +93,7 @@ int main(int argc, char *argv[]) {
   check_impact("HHT", run(scene));
   // The nodes of the end swing on stiff penalties: the integrator damps that, or not.
   scene = make_scene();
-  scene.pairs[0].normal_penalty = 30.;
+  scene.pairs[0].penalty.normal = 30.;
   const Impact damped = run(scene);
   testing::set_newmark(scene);
   const Impact undamped = run(scene);

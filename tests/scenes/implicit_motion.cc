@@ -40,7 +40,7 @@ parameters::Scene bar_with_tool() {
   pair.tool.value = "tool";
   pair.boundary_ids.value = {1};
   pair.friction = nullptr;
-  pair.normal_penalty = 1.;
+  pair.penalty.normal = 1.;
   scene.pairs.push_back(pair);
   return scene;
 }

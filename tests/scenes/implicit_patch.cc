@@ -94,17 +94,17 @@ int main(int argc, char *argv[]) {
     const std::string name = passes == Passes::one ? "one pass" : "two passes";
     for (const double factor : {0.2, 1., 100., 1e4}) { // with 0.1 nodes go so deep that it is raised
       auto scene = turned;
-      scene.pairs[0].passes = passes;
-      scene.pairs[0].normal_penalty = factor * E / edge;
+      scene.pairs[0].facets.passes = passes;
+      scene.pairs[0].penalty.normal = factor * E / edge;
       SceneRun run(scene);
       run.finish();
       check(name + ", penalty " + print(factor) + " E/h",
-            stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].normal_penalty)), 1e-8);
+            stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].penalty.normal)), 1e-8);
     }
     for (const double factor : {1., 100.}) {
       auto scene = turned;
-      scene.pairs[0].passes = passes;
-      scene.pairs[0].normal_penalty = factor * E / edge;
+      scene.pairs[0].facets.passes = passes;
+      scene.pairs[0].penalty.normal = factor * E / edge;
       scene.pairs[0].penetration_tolerance = 1e-9;
       scene.solver.max_augmentations = 100;
       SceneRun run(scene);
@@ -117,16 +117,16 @@ int main(int argc, char *argv[]) {
   // Where the upper part begins as deep in the lower one as it likes, that depth counts as none.
   for (const auto facets : {Facets::overlap, Facets::planed}) {
     auto scene = turned;
-    scene.pairs[0].facets.value = facets;
-    scene.pairs[0].passes = Passes::one;
-    scene.pairs[0].may_overlap = true;
-    scene.pairs[0].ramp_time = 0.;
+    scene.pairs[0].facets.method.value = facets;
+    scene.pairs[0].facets.passes = Passes::one;
+    scene.pairs[0].initial.may_overlap = true;
+    scene.pairs[0].initial.ramp_time = 0.;
     scene.bodies[1].mesh.translation -= 0.01 * n;
     const std::string name = facets == Facets::overlap ? "overlap" : "planed";
     if (facets == Facets::overlap) {
       SceneRun run(scene);
       run.finish();
-      check(name + ", shifted", stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].normal_penalty)),
+      check(name + ", shifted", stress_error(run, exact_stress(n, 0.3, 0.2, scene.pairs[0].penalty.normal)),
             1e-8);
     }
     for (auto &displacement : scene.bodies[1].supports[0].displacement.value)
@@ -140,12 +140,12 @@ int main(int argc, char *argv[]) {
   const auto cut = testing::read_shipped_scene("patch_test_cut.prm");
   for (const double factor : {1., 10., 100., 1e3, 1e4}) {
     auto scene = cut;
-    scene.pairs[0].normal_penalty = scene.pairs[0].tangential_penalty = factor * E / edge;
+    scene.pairs[0].penalty.normal = scene.pairs[0].penalty.tangential = factor * E / edge;
     SceneRun run(scene);
     run.finish();
     // Vertical tractions on an inclined area, so that the vertical spring is stiffer.
     const auto exact = exact_stress(dealii::Tensor<1, 3>({0., 0., 1.}), 0., 0.004,
-                                    scene.pairs[0].normal_penalty * std::hypot(1., 0.3));
+                                    scene.pairs[0].penalty.normal * std::hypot(1., 0.3));
     check("inclined cut, penalty " + print(factor) + " E/h", stress_error(run, exact),
           run.problem.state().body_pair_loads[0].deepest / edge);
     check("inclined cut sticks, penalty " + print(factor) + " E/h",
@@ -156,7 +156,7 @@ int main(int argc, char *argv[]) {
   constexpr double slave_edge = 2. / 3.;
   for (const double factor : {1., 100.}) {
     auto scene = cut;
-    scene.pairs[0].normal_penalty = scene.pairs[0].tangential_penalty = factor * E / edge;
+    scene.pairs[0].penalty.normal = scene.pairs[0].penalty.tangential = factor * E / edge;
     scene.pairs[0].penetration_tolerance = 1e-6;
     scene.solver.max_augmentations = 100;
     SceneRun run(scene);
@@ -169,10 +169,10 @@ int main(int argc, char *argv[]) {
   for (const auto facets : {Facets::overlap, Facets::planed}) {
     const std::string name = facets == Facets::overlap ? "overlap" : "planed";
     auto scene = turned;
-    scene.pairs[0].facets.value = facets;
+    scene.pairs[0].facets.method.value = facets;
     test_unloading("turned block, " + name, scene, 0.2, -n);
     scene = cut;
-    scene.pairs[0].facets.value = facets;
+    scene.pairs[0].facets.method.value = facets;
     test_unloading("inclined cut, " + name, scene, 0.004, dealii::Tensor<1, 3>({0., 0., -1.}));
   }
   auto augmented = turned;

@@ -45,7 +45,7 @@ void check_scene(const std::string &name, const parameters::Scene &scene) {
   SceneRun run(scene);
   check(name, testing::tangent_error(run, 0.75, 3), 1e-6);
   bool touches = false;
-  for (const auto &node : run.problem.equation().contacts().of_tools()[0].measures().report())
+  for (const auto &node : run.problem.equation().parts().contacts().of_tools()[0].measures().report())
     touches = touches || node.status != ContactStatus::open;
   check("  touches", touches);
 }

@@ -50,7 +50,7 @@ int main(int argc, char *argv[]) {
     loose.finish([&](const NewtonReport &) {
       const EnergyLedger &energies = loose.problem.state().energies;
       drift.add(std::abs(energies.drift()));
-      const double factor = loose.problem.equation().stabilisation().get()->factor(0);
+      const double factor = loose.problem.equation().parts().stabilisation().get()->factor(0);
       comes_back = comes_back || factor > last_factor;
       last_factor = factor;
     });
@@ -60,7 +60,7 @@ int main(int argc, char *argv[]) {
                (loose.load(0).force - touching.load(0).force).norm(), 0.01 * force);
     check_here("that of the table, too", (loose.load(1).force - touching.load(1).force).norm(), 0.01 * force);
     check_here("energies balance", drift.value(), 0.01 * energies.external);
-    const ContactStabilisation &stabilisation = *loose.problem.equation().stabilisation().get();
+    const ContactStabilisation &stabilisation = *loose.problem.equation().parts().stabilisation().get();
     check_here("viscous forces have done work", energies.viscous > 0.);
     check_here("which is in the account",
                std::abs(energies.viscous - stabilisation.work(0) - stabilisation.work(1)),
@@ -77,7 +77,7 @@ int main(int argc, char *argv[]) {
     const DiagnosticList messages = run.problem.finish();
     const Diagnostic *found = find(messages, diagnostic::stabilisation_too_strong);
     const double part =
-        run.problem.equation().stabilisation().get()->work(0) / run.problem.state().energies.external;
+        run.problem.equation().parts().stabilisation().get()->work(0) / run.problem.state().energies.external;
     check_here("bodies that are hardly pressed: a warning", found != nullptr && part > 1e-3);
     check_here("with the factor", found != nullptr && std::abs(*found->measure() / (1e3 * part) - 1.) < 0.2);
   }
@@ -88,7 +88,7 @@ int main(int argc, char *argv[]) {
     run.finish();
     check_here("bodies that nothing stops: a warning",
                find(run.problem.finish(), diagnostic::stabilised_loads) != nullptr &&
-                   run.problem.equation().stabilisation().get()->factor(0) == 1.);
+                   run.problem.equation().parts().stabilisation().get()->factor(0) == 1.);
   }
   {
     parameters::Scene scene = read();
@@ -107,7 +107,7 @@ int main(int argc, char *argv[]) {
     SceneRun run(scene);
     run.finish();
     check_here("a block in the middle could slide, but no force moves it: no message",
-               run.problem.finish().empty() && run.problem.equation().stabilisation().acts());
+               run.problem.finish().empty() && run.problem.equation().parts().stabilisation().acts());
   }
   {
     // A force presses in place of a given motion.
@@ -120,7 +120,7 @@ int main(int argc, char *argv[]) {
     run.finish();
     check_here("a force pushes them together, too", std::abs(run.load(1).force[2] - 10.), 0.01 * 10.);
     check_here("its work over the gaps is no reason to warn",
-               run.problem.finish().empty() && !run.problem.equation().stabilisation().get()->acts());
+               run.problem.finish().empty() && !run.problem.equation().parts().stabilisation().get()->acts());
   }
   {
     // Pressed, then die and table go apart.
@@ -139,7 +139,7 @@ int main(int argc, char *argv[]) {
     }
     check_here("bodies that lose their contacts afterwards: as without viscous forces",
                is_reported && !was_reported_before && run.control.time() > 0.6 &&
-                   !run.problem.equation().stabilisation().get()->acts());
+                   !run.problem.equation().parts().stabilisation().get()->acts());
   }
   {
     parameters::Scene scene = read();
@@ -152,7 +152,7 @@ int main(int argc, char *argv[]) {
       SceneRun run(scene);
       while (!run.control.is_finished()) {
         run.advance();
-        const double factor = run.problem.equation().stabilisation().get()->factor(0);
+        const double factor = run.problem.equation().parts().stabilisation().get()->factor(0);
         if (middle == 0. && factor > 0. && factor < 0.05)
           middle = run.control.time();
       }

@@ -64,7 +64,7 @@ int main(int argc, char *argv[]) {
     if (order > 0.)
       orders.push_back(order);
     unsigned int n_slipping = 0, n_sticking = 0;
-    for (const auto &node : scene.problem.equation().contacts().of_tools()[0].measures().report()) {
+    for (const auto &node : scene.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
       n_slipping += node.status == ContactStatus::slip ? 1 : 0;
       n_sticking += node.status == ContactStatus::stick ? 1 : 0;
     }

@@ -44,7 +44,7 @@ int main(int argc, char *argv[]) {
     check(name + "elastic energy at the end", state.energies.elastic / max_energy, 1e-10);
     check(name + "force at the end", forces.back().norm() / max_force, 1e-12);
     bool is_open = true;
-    for (const auto &node : run.problem.equation().contacts().of_bodies()[0].measures().report())
+    for (const auto &node : run.problem.equation().parts().contacts().of_bodies()[0].measures().report())
       is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
     check(name + "open at the end", is_open);
   }

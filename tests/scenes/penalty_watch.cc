@@ -22,8 +22,8 @@ namespace {
 std::array<unsigned int, 3> count(const std::string &scene, const double factor,
                                   const double modulus_ratio = 1., const double force_tolerance = 1e-6) {
   auto parameters = testing::read_shipped_scene(scene);
-  parameters.pairs[0].penalty_unit = parameters::ContactPair::PenaltyUnit::factor;
-  parameters.pairs[0].normal_penalty = parameters.pairs[0].tangential_penalty = factor;
+  parameters.pairs[0].penalty.unit = parameters::ContactPair::PenaltyUnit::factor;
+  parameters.pairs[0].penalty.normal = parameters.pairs[0].penalty.tangential = factor;
   testing::set_young_modulus(parameters.bodies[0].material,
                              modulus_ratio * testing::young_modulus(parameters.bodies[0].material));
   parameters.time_stepping.end_time = scene == "billet_upsetting.prm" ? 0.2 : 1.;

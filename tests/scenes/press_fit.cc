@@ -38,7 +38,7 @@ parameters::Scene read_scene(const unsigned int n, const double tolerance) {
 /// With this pressure between the rings, and stresses that make up the hoop stress A ± B/r² of each.
 Errors find_errors(const SceneRun &fit, const double p, const std::array<std::array<double, 2>, 2> &hoops) {
   Errors errors{0., 0.};
-  for (const auto &node : fit.problem.equation().contacts().of_bodies()[0].measures().report())
+  for (const auto &node : fit.problem.equation().parts().contacts().of_bodies()[0].measures().report())
     if (node.area > 0.)
       errors.pressure = std::max(errors.pressure, std::abs(node.pressure / p - 1.));
   double square = 0., exact_square = 0.;
@@ -172,7 +172,7 @@ int main(int argc, char *argv[]) {
   // Chords of different lengths reach into each other in the middle of facets: shifted, nothing presses.
   auto shifted = testing::read_shipped_scene("press_fit.prm");
   shifted.bodies[1].mesh.arguments = "6, 18, 1 : 20, 0, 0 : 30, 90, 1 : true";
-  shifted.pairs[0].ramp_time = 0.;
+  shifted.pairs[0].initial.ramp_time = 0.;
   SceneRun rings(shifted);
   rings.finish();
   check("shifted rings whose meshes do not fit: no force",

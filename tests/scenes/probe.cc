@@ -43,11 +43,11 @@ void check_scene(const std::string &name, parameters::Scene parameters, const un
             difference(probe.results, coarse.problem.results().accepted()), 1e-8);
     }
     if (n < 3)
-      tried.problem.measure_penetration();
+      tried.problem.measurement().ask();
     n_from_probe += static_cast<unsigned int>(tried.advance().iterations.size());
-    const auto measured = tried.problem.take_measurement();
+    const auto measured = tried.problem.measurement().take();
     check(name + ": the effect of penetrations is measured on request, and returned once",
-          measured.has_value() == (n < 3) && !tried.problem.take_measurement());
+          measured.has_value() == (n < 3) && !tried.problem.measurement().take());
     if (measured) {
       n_from_probe -= measured->n_iterations;
       check(name + ": that with penetrations is what the step gives",
@@ -93,16 +93,16 @@ void check_stop() {
   parameters.tools[0].motion.direction = dealii::Tensor<1, 3>({0., 0., -1.});
   testing::set_fixed_steps(parameters, 40);
   SceneRun run(parameters);
-  run.problem.measure_penetration();
+  run.problem.measurement().ask();
   check("stop: all of it in one step fails", !run.problem.step(1., 0.).converged);
   run.advance();
-  check("stop: the step after that measures nothing", !run.problem.take_measurement());
+  check("stop: the step after that measures nothing", !run.problem.measurement().take());
   testing::WorstError change;
   unsigned int n_missed = 0;
   for (unsigned int n = 0; n < 8; ++n) {
-    run.problem.measure_penetration();
+    run.problem.measurement().ask();
     run.advance();
-    const auto measured = run.problem.take_measurement();
+    const auto measured = run.problem.measurement().take();
     if (!measured || measured->without.empty())
       ++n_missed;
     else
@@ -132,9 +132,9 @@ void check_force() {
   check("force: a probe gives what the step gives",
         difference(probe.results, coarse.problem.results().accepted()), 1e-8);
   for (unsigned int n = 0; n < 2; ++n) {
-    tried.problem.measure_penetration();
+    tried.problem.measurement().ask();
     tried.advance();
-    const auto measured = tried.problem.take_measurement();
+    const auto measured = tried.problem.measurement().take();
     if (!measured || measured->without.empty()) {
       check("force: what penetrations make is measured", false);
       continue;

@@ -38,7 +38,7 @@ int main(int argc, char *argv[]) {
   parameters::Scene blocks = testing::read_test_scene("restart_blocks.prm");
   blocks.solver.force_tolerance = 1e-11;
   test_blocks("Blocks", blocks);
-  blocks.pairs[0].facets.value = FacetMethod::overlap;
+  blocks.pairs[0].facets.method.value = FacetMethod::overlap;
   blocks.pairs[0].penetration_tolerance = 1e-4;
   test_blocks("Augmented overlaps", blocks);
 

@@ -61,7 +61,7 @@ int main(int argc, char *argv[]) {
                                                          until_then);
   test("Overlap", read_scene());
   parameters::Scene nodes = read_scene();
-  nodes.pairs[0].facets.value = FacetMethod::planed;
+  nodes.pairs[0].facets.method.value = FacetMethod::planed;
   // In the first step of lifting, friction turns round, and round-off chooses between two solutions whose
   // forces differ by 1e-4.
   nodes.time_stepping.end_time = 1.5;

@@ -19,8 +19,8 @@ struct Outcome {
 parameters::Scene read(const std::string &scene, const double factor, const double tolerance) {
   auto parameters = testing::read_shipped_scene(scene);
   for (auto &pair : parameters.pairs) {
-    pair.penalty_unit = parameters::ContactPair::PenaltyUnit::factor;
-    pair.normal_penalty = pair.tangential_penalty = factor;
+    pair.penalty.unit = parameters::ContactPair::PenaltyUnit::factor;
+    pair.penalty.normal = pair.penalty.tangential = factor;
     pair.penetration_tolerance = tolerance;
   }
   if (scene == "billet_upsetting.prm")

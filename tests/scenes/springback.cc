@@ -66,7 +66,7 @@ double max_force(testing::ImplicitSolutionRun &run) {
   InternalForces internal(run.scene, run.discretization);
   for (std::size_t e = 0; e < internal.block(0).size(); ++e) {
     std::vector<double> state(internal.block(0).state_size());
-    run.problem.equation().internal().block(0).get_state(e, state.data());
+    run.problem.equation().parts().internal().block(0).get_state(e, state.data());
     internal.block(0).set_state(e, state.data());
   }
   internal.assemble_forces(run.problem.state().displacements, forces);

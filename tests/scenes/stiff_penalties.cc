@@ -23,8 +23,8 @@ struct Drawn {
 parameters::Scene make_scene(const double penalty, const double tangential) {
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/drawn_block.prm");
   scene.pairs[0].friction = make_coulomb(0.25);
-  scene.pairs[0].normal_penalty = penalty;
-  scene.pairs[0].tangential_penalty = tangential;
+  scene.pairs[0].penalty.normal = penalty;
+  scene.pairs[0].penalty.tangential = tangential;
   return scene;
 }
 
@@ -78,12 +78,12 @@ int main(int argc, char *argv[]) {
     has_failed = true;
   }
   check("a symmetrised tangent fails", has_failed);
-  check("the exact one takes over", rescued.problem.take_exact_tangent());
+  check("the exact one takes over", rescued.problem.equation().parts().tangent().take_exact());
   rescued.finish();
   check("and ends the run with its solution",
         difference(rescued.problem.state().body_pair_loads[0].force,
                    as_given.problem.state().body_pair_loads[0].force),
         0.01);
-  check("it can be taken once", !rescued.problem.take_exact_tangent());
+  check("it can be taken once", !rescued.problem.equation().parts().tangent().take_exact());
   return billet::testing::exit_code();
 }

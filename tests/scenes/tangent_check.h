@@ -31,7 +31,7 @@ inline double tangent_error(SceneRun &run, const double t, const unsigned int n_
     for (const auto i : owned)
       direction(i) = random(-1., 1.);
     direction.compress(dealii::VectorOperation::insert);
-    problem.supports().homogeneous().distribute(direction);
+    problem.parts().supports().homogeneous().distribute(direction);
     double *const offsets = std::copy(direction.begin(), direction.end(), v.begin());
     std::generate(offsets, v.end(), [&random] { return random(-1., 1.); });
     const double h = 1e-7;
@@ -63,7 +63,7 @@ inline parameters::Scene make_curved(const SurfacePart &part, const double frict
   scene.tools[0].motion.rotation_angle.value = "0.05*t";
   scene.tools[0].motion.translation.value = {"0.01*t", "0", "0.01*t"};
   scene.pairs[0].friction = make_coulomb(friction_coefficient);
-  scene.pairs[0].allowed_penetration.value = 1.;
+  scene.pairs[0].initial.allowed_penetration.value = 1.;
   scene.time_stepping.initial_step = 0.1;
   return scene;
 }
@@ -79,7 +79,7 @@ inline void check_curved(const std::string &name, const SurfacePart &part) {
     SceneRun exact(scene);
     check(name + state + ": exact tangent", tangent_error(exact, 0.75, 3), 1e-6);
     unsigned int n_touch = 0, n_stick = 0;
-    for (const auto &node : exact.problem.equation().contacts().of_tools()[0].measures().report()) {
+    for (const auto &node : exact.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
       n_touch += node.status != ContactStatus::open;
       n_stick += node.status == ContactStatus::stick;
     }

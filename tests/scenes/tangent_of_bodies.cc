@@ -19,7 +19,7 @@ int main(int argc, char *argv[]) {
                                      {Facets::overlap, "overlap"}})
     for (const double friction : {0., 0.3}) {
       parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/dragged_blocks.prm");
-      scene.pairs[0].facets.value = facets;
+      scene.pairs[0].facets.method.value = facets;
       scene.pairs[0].friction = make_coulomb(friction);
       scene.solver.contact_tangent = parameters::ContactTangent::exact;
       SceneRun run(scene);

@@ -106,7 +106,8 @@ void check_curved() {
     const std::string name = friction > 0.5 ? "torus, sticking" : "torus, slipping";
     check(name + ": numerical tangent", tangent_error(numerical, 0.75, 3), 1e-6);
     unsigned int n_stick = 0, n_slip = 0;
-    for (const auto &node : numerical.problem.equation().contacts().of_tools()[0].measures().report()) {
+    for (const auto &node :
+         numerical.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
       n_stick += node.status == ContactStatus::stick;
       n_slip += node.status == ContactStatus::slip;
     }

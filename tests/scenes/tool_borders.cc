@@ -17,7 +17,7 @@ unsigned int count_fading(const SceneRun &run) {
   unsigned int n_fading = 0;
   const Tool &tool = run.scene.tools()[0];
   const auto &state = run.problem.state();
-  for (const auto &node : run.problem.equation().contacts().of_tools()[0].measures().report()) {
+  for (const auto &node : run.problem.equation().parts().contacts().of_tools()[0].measures().report()) {
     if (node.status == ContactStatus::open)
       continue;
     for (const auto &element : run.discretization.elements(0))

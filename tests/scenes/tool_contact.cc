@@ -130,14 +130,14 @@ void check_drive(const std::string &name, const ToolRate &rate) {
   RigidContact contact(block.scene, 0, block.discretization, ContactTangent::exact);
   testing::Random random;
   contact.set_placement(place(rate, 0.));
-  contact.update(block.put(Tensor<1, 3>({0., 0., -0.03}), 0.004));
+  contact.with_matrix().update(block.put(Tensor<1, 3>({0., 0., -0.03}), 0.004));
   contact.commit();
   const Vector u = block.put(Tensor<1, 3>({0.001, 0., -0.03}), 0.004);
   const auto residual_at = [&](const double s) {
     contact.set_placement(place(rate, s));
-    contact.update(u);
+    contact.with_matrix().update(u);
     Vector residual = block.discretization.make_additive_vector();
-    contact.add_forces(residual);
+    contact.with_matrix().add_forces(residual);
     residual.compress(dealii::VectorOperation::add);
     return residual;
   };
@@ -147,7 +147,7 @@ void check_drive(const std::string &name, const ToolRate &rate) {
   };
   residual_at(0.);
   Vector column = block.discretization.make_additive_vector(), row = column;
-  const double slope = contact.drive().add_derivatives(contact.tangents(), rate, column, row);
+  const double slope = contact.drive().add_derivatives(contact.with_matrix().tangents(), rate, column, row);
   column.compress(dealii::VectorOperation::add);
   row.compress(dealii::VectorOperation::add);
 
@@ -177,7 +177,7 @@ void check_drive(const std::string &name, const ToolRate &rate) {
         [&](const double s) {
           Vector moved = u;
           moved.add(s, direction);
-          contact.update(moved);
+          contact.with_matrix().update(moved);
           return power();
         },
         h);
@@ -192,14 +192,14 @@ void check_sliding() {
     Block block(read(plane, make_coulomb(coefficient)));
     RigidContact contact(block.scene, 0, block.discretization, ContactTangent::exact);
     const Tensor<1, 3> x({1., 0., 0.}), z({0., 0., 1.});
-    contact.update(block.put(Tensor<1, 3>({0., 0., 0.02}), 0.));
+    contact.with_matrix().update(block.put(Tensor<1, 3>({0., 0., 0.02}), 0.));
     check(name + "way to the nodes", std::abs(contact.drive().distance_to_touch(z) - 0.02), 1e-12);
     check(name + "  there is none aside or away from them",
           std::isinf(contact.drive().distance_to_touch(x)) &&
               std::isinf(contact.drive().distance_to_touch(-z)) && !contact.measures().has_touching_nodes());
-    contact.update(block.put(Tensor<1, 3>({0., 0., -0.01}), 0.));
+    contact.with_matrix().update(block.put(Tensor<1, 3>({0., 0., -0.01}), 0.));
     contact.commit();
-    contact.update(block.put(Tensor<1, 3>({0.05, 0., -0.01}), 0.));
+    contact.with_matrix().update(block.put(Tensor<1, 3>({0.05, 0., -0.01}), 0.));
     const double pressure_force = contact.measures().compute_load().force[2];
     const ToolDrive::Sliding along = contact.drive().measure_sliding({x, {}}),
                              across = contact.drive().measure_sliding({z, {}}),
@@ -209,13 +209,13 @@ void check_sliding() {
     check(name + "  its pressure has the power of a motion along the normal",
           across.touching == 0. && testing::near(across.power_of_pressure, pressure_force, 1e-12));
     check(name + "  and turning slides", turning.slipping > 0.1 * pressure_force);
-    contact.update(block.put(Tensor<1, 3>({1e-6, 0., -0.01}), 0.));
+    contact.with_matrix().update(block.put(Tensor<1, 3>({1e-6, 0., -0.01}), 0.));
     check(name + "a node sticks or slips",
           (contact.drive().measure_sliding({x, {}}).slipping == 0.) == (coefficient > 0.));
 
     const auto residual = [&] {
       Vector result = block.discretization.make_additive_vector();
-      contact.add_forces(result);
+      contact.with_matrix().add_forces(result);
       result.compress(dealii::VectorOperation::add);
       return result;
     };
@@ -225,12 +225,12 @@ void check_sliding() {
     contact.drive().add_push(after, push);
     push.compress(dealii::VectorOperation::add);
     contact.set_placement(after);
-    contact.update(block.u);
+    contact.with_matrix().update(block.u);
     change -= residual();
     change -= push;
     check(name + "push of a tool that moves", change.linfty_norm() / push.linfty_norm(), 1e-10);
     contact.remove_tool();
-    contact.update(block.u);
+    contact.with_matrix().update(block.u);
     check(name + "a removed tool touches nothing",
           contact.measures().compute_load().area == 0. && std::isinf(contact.drive().distance_to_touch(z)));
   }
@@ -241,12 +241,12 @@ void check_penalties() {
   parameters.pairs[0].penetration_tolerance = 0.01;
   Block block(parameters);
   const auto force_of = [&](RigidContact &contact) {
-    contact.update(block.u);
+    contact.with_matrix().update(block.u);
     return contact.measures().compute_load().force;
   };
   RigidContact contact(block.scene, 0, block.discretization, ContactTangent::exact);
   ToolPenalties &penalties = contact.penalties();
-  contact.update(block.put(Tensor<1, 3>({0., 0., -0.01}), 0.));
+  contact.with_matrix().update(block.put(Tensor<1, 3>({0., 0., -0.01}), 0.));
   contact.commit();
   block.put(Tensor<1, 3>({1e-4, 0., -0.01}), 0.);
   const Tensor<1, 3> force = force_of(contact);
@@ -287,7 +287,7 @@ void check_penalties() {
 void check_edge() {
   Block block(read(half_plane, nullptr));
   RigidContact contact(block.scene, 0, block.discretization, ContactTangent::exact);
-  contact.update(block.put(Tensor<1, 3>(), 0.));
+  contact.with_matrix().update(block.put(Tensor<1, 3>(), 0.));
   const ToolChecks &checks = contact.checks();
   check("a node near the edge", checks.has_node_on_edge(Tensor<1, 3>({0.5, 0., 0.})));
   check("  others are not, and others are no nodes",

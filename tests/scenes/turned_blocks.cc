@@ -41,8 +41,8 @@ Tensor<1, 3> turn_back(const Tensor<1, 3> &v, const double angle) {
 
 void test(const std::string &name, const Facets facets, const Passes passes) {
   parameters::Scene parameters = testing::read_shipped_scene("turned_blocks.prm");
-  parameters.pairs[0].facets.value = facets;
-  parameters.pairs[0].passes = passes;
+  parameters.pairs[0].facets.method.value = facets;
+  parameters.pairs[0].facets.passes = passes;
   parameters.time_stepping.initial_step = 1.; // twice the scene's: 10 degrees
   SceneRun blocks(parameters);
   blocks.advance();

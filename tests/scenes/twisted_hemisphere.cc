@@ -37,7 +37,7 @@ int main(int argc, char *argv[]) {
   run.finish([&](const NewtonReport &) {
     const double now = state.time, middle = 0.5 * (now + time);
     double stuck = 0.;
-    for (const auto &node : run.problem.equation().contacts().of_bodies()[0].measures().report())
+    for (const auto &node : run.problem.equation().parts().contacts().of_bodies()[0].measures().report())
       if (node.status == ContactStatus::stick && node.pressure > 0.)
         stuck = std::max(stuck, radii.at(node.dofs[0]));
     // Work over angle is the mean moment of the step, but where nodes begin to slip within it; the pair's
@@ -81,7 +81,7 @@ int main(int argc, char *argv[]) {
   check("turned back, friction takes next to nothing", taken / back, 0.04);
   check("force at the end", state.body_pair_loads[0].force.norm() == 0.);
   bool is_open = true;
-  for (const auto &node : run.problem.equation().contacts().of_bodies()[0].measures().report())
+  for (const auto &node : run.problem.equation().parts().contacts().of_bodies()[0].measures().report())
     is_open = is_open && node.status == ContactStatus::open && node.traction.norm() == 0.;
   check("open at the end", is_open);
   check("elastic energy at the end", state.energies.elastic / state.energies.external, 1e-12);

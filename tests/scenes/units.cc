@@ -33,8 +33,8 @@ int main(int argc, char *argv[]) {
   for (const bool absolute : {true, false}) {
     parameters::Scene in_mm = testing::read_shipped_scene("billet_upsetting.prm");
     if (!absolute) {
-      in_mm.pairs[0].penalty_unit = parameters::ContactPair::PenaltyUnit::factor;
-      in_mm.pairs[0].normal_penalty = in_mm.pairs[0].tangential_penalty = 5.;
+      in_mm.pairs[0].penalty.unit = parameters::ContactPair::PenaltyUnit::factor;
+      in_mm.pairs[0].penalty.normal = in_mm.pairs[0].penalty.tangential = 5.;
     }
     parameters::Scene in_m = in_mm;
     auto &body = in_m.bodies[0];
@@ -48,8 +48,8 @@ int main(int argc, char *argv[]) {
         testing::make_plane(dealii::Tensor<1, 3>({0., 0., 15e-3}), dealii::Tensor<1, 3>({0., 0., -1.}));
     in_m.tools[0].motion.translation.value[2] = "-9.6e-3*t";
     if (absolute) {
-      in_m.pairs[0].normal_penalty *= 1e9; // N/mm³ to N/m³
-      in_m.pairs[0].tangential_penalty *= 1e9;
+      in_m.pairs[0].penalty.normal *= 1e9; // N/mm³ to N/m³
+      in_m.pairs[0].penalty.tangential *= 1e9;
     }
     const Result mm = run(in_mm), m = run(in_m);
     const std::string name = absolute ? "absolute penalties" : "penalty factors";

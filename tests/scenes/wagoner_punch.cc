@@ -18,7 +18,8 @@ struct StrainProfile {
 };
 
 StrainProfile strain_profile(const SceneRun &run) {
-  const auto summaries = run.problem.equation().internal().summarize(0, run.problem.state().displacements);
+  const auto summaries =
+      run.problem.equation().parts().internal().summarize(0, run.problem.state().displacements);
   const auto &elements = run.discretization.elements(0);
   StrainProfile result;
   double nearest = 1e9;

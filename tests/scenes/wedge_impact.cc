@@ -25,8 +25,8 @@ double height(const Element &element, const unsigned int a, const Vector &displa
 
 Outcome run(const FacetMethod facets, const parameters::ContactPair::Passes passes) {
   parameters::Scene scene = testing::read_test_scene("wedge_impact.prm");
-  scene.pairs[0].facets.value = facets;
-  scene.pairs[0].passes = passes;
+  scene.pairs[0].facets.method.value = facets;
+  scene.pairs[0].facets.passes = passes;
   testing::ExplicitRun wedge(scene);
   Outcome outcome;
   double first = 0.;

@@ -41,8 +41,8 @@ parameters::Scene read(const Spring &spring) {
   testing::set_poisson_ratio(parameters.bodies[0].material, poisson_ratio(spring.stiffness()));
   parameters.bodies[0].supports[0].displacement.value[2] = "-1e-5*t";
   auto &pair = parameters.pairs[0];
-  pair.has_own_penalty = true;
-  pair.normal_penalty = spring.penalty;
+  pair.penalty.is_given = true;
+  pair.penalty.normal = spring.penalty;
   pair.penetration_tolerance = spring.tolerance;
   parameters.solver.max_augmentations = spring.max_augmentations;
   testing::set_fixed_steps(parameters, 1);
@@ -58,7 +58,7 @@ struct Pressed {
   explicit Pressed(const Spring &spring) : Pressed(read(spring)) {}
   /// The factor by which the penalty has risen.
   double stiffening(const std::size_t contact = 0) const {
-    return run->problem.equation().contacts()[contact].penalties().stiffening();
+    return run->problem.equation().parts().contacts()[contact].penalties().stiffening();
   }
 };
 double stiffening(const parameters::Scene &parameters) { return Pressed(parameters).stiffening(); }
@@ -109,7 +109,7 @@ double stiffening_beside_another(const Spring &spring, const double missing) {
   auto &pair = parameters.pairs.back();
   pair.name = "foot of other";
   pair.body.value = "other";
-  pair.normal_penalty = spring.penalty;
+  pair.penalty.normal = spring.penalty;
   return Pressed(parameters).stiffening(1);
 }
 
@@ -137,9 +137,9 @@ double stiffening_between_bodies(const Spring &spring) {
   pair.tool.value.clear();
   pair.second_body.value = held.name;
   pair.second_boundary_ids.value = {5};
-  pair.facets.value = FacetMethod::planed;
-  pair.passes = parameters::ContactPair::Passes::one;
-  pair.penalty_of = parameters::ContactPair::PenaltyOf::stiffer;
+  pair.facets.method.value = FacetMethod::planed;
+  pair.facets.passes = parameters::ContactPair::Passes::one;
+  pair.penalty.of = parameters::ContactPair::PenaltyOf::stiffer;
   return stiffening(parameters);
 }
 

@@ -36,8 +36,7 @@ void check_turns() {
   run.advance();
   const PathGuard paths(run.problem.equation());
   const auto turns_too_far = [&](const double degrees) {
-    NewtonReport report;
-    return paths.turns_too_far(1. + degrees / 360., report);
+    return paths.judge_turns(1. + degrees / 360.).has_value();
   };
   check("a tool with friction turns by 15 degrees at most", !turns_too_far(14.9) && turns_too_far(15.1));
 }
@@ -49,8 +48,7 @@ void check_motions() {
     parameters.time_stepping.end_time = 2.;
     parameters.bodies[0].supports[0].displacement.value[2] = "1e-3*(" + motion + ")";
     SceneRun run(parameters);
-    NewtonReport report;
-    return PathGuard(run.problem.equation()).skips_motion(1., report);
+    return PathGuard(run.problem.equation()).judge_prescribed_motion(1.).has_value();
   };
   // Up by 1 + back, and back after a rest: the path is 1 + 2 back times the chord.
   const auto skips_return = [&](const double back) {
@@ -92,10 +90,9 @@ void check_lost_steps(const SceneRun &run) {
   lost.converged = lost.is_lost_in_round_off = true;
   const auto n_accepted = [&] {
     for (unsigned int n = 0; n < 10; ++n) {
-      NewtonReport report = lost;
-      if (guard.rejects(0.5, report))
+      if (guard.judge(0.5, lost))
         return n;
-      guard.commit(0.5, report);
+      guard.commit(0.5, lost);
     }
     return 10U;
   };
@@ -103,8 +100,8 @@ void check_lost_steps(const SceneRun &run) {
   guard.commit(0.5, NewtonReport());
   check("and again after one that is not", n_accepted() == 3);
   guard.commit(0.5, NewtonReport());
-  NewtonReport last = lost;
-  check("the last one may not", guard.rejects(1., last) && !last.converged);
+  const std::optional<StepFailure> last = guard.judge(1., lost);
+  check("the last one may not", last && last->kind == StepFailure::Kind::round_off);
 }
 
 void check_round_off(SceneRun &run) {

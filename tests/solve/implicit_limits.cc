@@ -30,8 +30,8 @@ parameters::Scene read_bar(const std::string &motion, const double penalty = 10.
   parameters.bodies[0].supports[0].displacement.value[2] = motion;
   auto &pair = parameters.pairs[0];
   pair.penetration_tolerance = 0.;
-  pair.has_own_penalty = true;
-  pair.normal_penalty = penalty;
+  pair.penalty.is_given = true;
+  pair.penalty.normal = penalty;
   return parameters;
 }
 
@@ -60,7 +60,7 @@ void check_round_off() {
   const double radius = run.discretization.radius();
   check("round-off of displacements is a hundred last bits",
         near(problem.scales().round_off, 100. * epsilon * 1000. * radius * radius, 1e-9));
-  const ContactSet &contacts = problem.contacts();
+  const ContactSet &contacts = problem.parts().contacts();
   const double reach = run.discretization.centre().norm() + radius + contacts[0].measures().surface_reach();
   check("that of springs is three of the reach",
         near(contacts.find_spring_round_off(), 3. * epsilon * contacts[0].penalties().max_spring() * reach,
@@ -88,9 +88,9 @@ void check_probe() {
 void check_measurement() {
   const auto measured = [](const double left) {
     SceneRun run(read_bar("-1e-5*t", (1. - left) / left));
-    run.problem.measure_penetration();
+    run.problem.measurement().ask();
     run.problem.step(1., 0.);
-    const auto measurement = run.problem.take_measurement();
+    const auto measurement = run.problem.measurement().take();
     return measurement ? measurement->without[0][0].norm() : 0.;
   };
   constexpr double rigid = 1e-2; // force
@@ -108,11 +108,12 @@ void check_continuation() {
     EquilibriumSolver solver(problem);
     PenaltyContinuation continuation(problem, solver);
     problem.step().time = 1.;
-    problem.scheme().start_step(0., 1., problem.step().start.displacements, problem.tools().start_offsets());
+    problem.parts().scheme().start_step(0., 1., problem.step().start.displacements,
+                                        problem.parts().tools().start_offsets());
     problem.start_step(1.);
     Vector x = problem.step().start.displacements;
-    problem.supports().at_time(1.).distribute(x);
-    std::vector<double> offsets = problem.tools().offsets();
+    problem.parts().supports().at_time(1.).distribute(x);
+    std::vector<double> offsets = problem.parts().tools().offsets();
     const NewtonReport report = continuation.iterate(start, offsets, x);
     return report.converged ? report.iterations.size() : 0;
   };
@@ -150,14 +151,13 @@ void check_far_motion() {
     const double diameter = 2. * run.discretization.radius();
     StepState &step = problem.step();
     for (const DofIndex dof : run.discretization.owned_dofs())
-      if (!problem.supports().homogeneous().is_constrained(dof)) {
+      if (!problem.parts().supports().homogeneous().is_constrained(dof)) {
         step.start.displacements(dof) = before * diameter;
         step.trial.displacements(dof) = (before + in_step) * diameter;
       }
     step.start.displacements.compress(dealii::VectorOperation::insert);
     step.trial.displacements.compress(dealii::VectorOperation::insert);
-    NewtonReport report;
-    return moves_too_far(problem, 1., report);
+    return judge_travel(problem, 1.).has_value();
   };
   check("nodes move by one diameter in a step", !is_too_far(0., 0.98) && is_too_far(0., 1.02));
   check("and by ten in all", !is_too_far(9.3, 0.5) && is_too_far(9.7, 0.5));
@@ -179,7 +179,7 @@ Loss lose(const double force, const double length) {
   RigidBodySupport::Result held;
   held.is_free = {false};
   for (unsigned int step = 0; step < 4; ++step) // until stabilising forces have faded
-    problem.stabilisation().commit(problem.step(), held, 0.);
+    problem.parts().stabilisation().commit(problem.step(), held, 0.);
   testing::MemoryState state;
   testing::MemoryWriter writer(state);
   writer.write("forces on bodies", {force});
@@ -187,13 +187,13 @@ Loss lose(const double force, const double length) {
   writer.write("free modes", {0.});
   testing::MemoryReader reader(state);
   modes.load(reader, true);
-  NewtonReport report;
+  DiagnosticList messages;
   try {
-    modes.rejects(length, report);
+    modes.judge(length, messages);
   } catch (const SolutionFailure &) {
     return Loss::final;
   }
-  return problem.stabilisation().acts_on(0) ? Loss::held : Loss::shorter;
+  return problem.parts().stabilisation().acts_on(0) ? Loss::held : Loss::shorter;
 }
 
 void check_losses() {
@@ -219,7 +219,7 @@ Judged judge(const Energies &energies) {
   SceneRun run(parameters);
   ImplicitProblem &problem = run.problem.equation();
   const PathGuard paths(problem);
-  DynamicBalance balance(problem, paths, *problem.motion());
+  DynamicBalance balance(problem, paths, *problem.parts().motion());
   testing::MemoryState state;
   testing::MemoryWriter writer(state);
   writer.write("largest energy", {1.});
@@ -229,14 +229,15 @@ Judged judge(const Energies &energies) {
   balance.load(testing::MemoryReader(state));
   problem.state().energies.elastic = -energies.of_last_step;
   problem.step().time = step;
-  problem.scheme().start_step(0., step, problem.step().start.displacements, problem.tools().start_offsets());
+  problem.parts().scheme().start_step(0., step, problem.step().start.displacements,
+                                      problem.parts().tools().start_offsets());
   problem.start_step(step);
-  NewtonReport report;
-  balance.is_inaccurate(step, report);
+  balance.judge_accuracy(step);
   const double error = balance.time_error();
-  report = NewtonReport();
-  balance.rejects(step, report);
-  return {report.makes_energy, report.is_explained, error};
+  DiagnosticList messages;
+  const std::optional<StepFailure> failure = balance.judge_contact(step, messages);
+  const auto is_of = [&failure](const StepFailure::Kind kind) { return failure && failure->kind == kind; };
+  return {is_of(StepFailure::Kind::makes_energy), is_of(StepFailure::Kind::explained), error};
 }
 
 void check_dynamic_balance() {
@@ -255,7 +256,7 @@ void check_motion() {
     auto parameters = read_block("-1");
     parameters.implicit_dynamics.error_tolerance = tolerance;
     SceneRun run(parameters);
-    return run.problem.equation().motion()->wanted_accuracy();
+    return run.problem.equation().parts().motion()->wanted_accuracy();
   };
   check("errors below 1e-3 of the displacement ask for more accuracy",
         near(accuracy(0.5e-3), 0.5, 1e-12) && near(accuracy(0.98e-3), 0.98, 1e-12) &&
@@ -280,7 +281,7 @@ void check_motion() {
   run.problem.step(step, 0.);
   const double mass = 1e-3, factor = parameters.implicit_dynamics.integrator.mass_factor(step);
   check("round-off of inertia is ten last bits of the motion in a step",
-        near(run.problem.equation().motion()->round_off_force(),
+        near(run.problem.equation().parts().motion()->round_off_force(),
              10. * epsilon * factor * mass / std::sqrt(8.) * step, 1e-9));
 }
 

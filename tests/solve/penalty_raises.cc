@@ -32,9 +32,9 @@ Raises push(const Push &by) {
   testing::set_poisson_ratio(parameters.bodies[0].material, 0.49999999); // 1.7e7 times as stiff as E
   auto &pair = parameters.pairs[0];
   pair.penetration_tolerance = 0.;
-  pair.has_own_penalty = by.penalty > 0.;
-  if (pair.has_own_penalty)
-    pair.normal_penalty = by.penalty;
+  pair.penalty.is_given = by.penalty > 0.;
+  if (pair.penalty.is_given)
+    pair.penalty.normal = by.penalty;
   parameters.time_stepping.initial_step = 1.;
   SceneRun run(parameters);
   const NewtonReport report = run.problem.step(by.step, 0.);

@@ -29,7 +29,7 @@ public:
 
   /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there are none.
   virtual Explanation describe_restless() const { return {}; }
-  /// Returns a clause about the obstacle that ContactInterface::find_free_part() found.
+  /// Returns a clause about the obstacle that MatrixContact::find_free_part() found.
   virtual std::string describe_obstacle() const = 0;
 
 protected:

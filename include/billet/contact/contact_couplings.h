@@ -18,7 +18,7 @@ public:
   ContactCouplings(const ContactCouplings &) = delete;
   ContactCouplings &operator=(const ContactCouplings &) = delete;
 
-  /// Whether ContactInterface::add_tangent() has entries of this rank that the last find() did not include.
+  /// Whether MatrixContact::add_tangent() has entries of this rank that the last find() did not include.
   virtual bool has_new() const { return false; }
   /// Finds the nodes that add_tangent() may couple, after update(). Collective.
   virtual void find() {}

@@ -4,17 +4,15 @@
 
 #include "billet/contact/contact_interface.h"
 #include "billet/contact/rigid_contact_parts.h"
-#include "billet/contact/tool_bounds.h"
 #include "billet/contact/tool_checks.h"
 #include "billet/contact/tool_drive.h"
-#include "billet/contact/tool_evaluation.h"
-#include "billet/contact/tool_forces.h"
+#include "billet/contact/tool_explicit_contact.h"
+#include "billet/contact/tool_matrix_contact.h"
 #include "billet/contact/tool_measures.h"
 #include "billet/contact/tool_penalties.h"
-#include "billet/contact/tool_tangents.h"
 
 #include <deque>
-#include <memory>
+#include <optional>
 
 namespace billet {
 
@@ -40,22 +38,28 @@ namespace billet {
 /// Every rank that owns a facet at a node stores and computes the same state of the node. Points inside
 /// facets belong to one facet each, also those on its sides.
 ///
-/// This class advances the state, which RigidContactParts contain. Its other parts evaluate the state of the
-/// last update().
+/// This class advances the state, which RigidContactParts contain. Its roles evaluate it, and read the state
+/// of the last update().
 class RigidContact final : public ContactInterface {
 public:
+  /// Makes a pair for schemes with a matrix.
   RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization,
                ContactTangent tangent);
+  /// Makes a pair for schemes without a matrix. `nodes` must outlive this object.
+  RigidContact(const Scene &scene, std::size_t pair, const LocalNodes &nodes);
 
   std::size_t tool() const { return parts_.pair.tool; }
   std::size_t body() const { return parts_.pair.body; }
 
+  ToolMatrixContact &with_matrix() override { return with_matrix_.value(); }
+  const ToolMatrixContact &with_matrix() const override { return with_matrix_.value(); }
+  ToolExplicitContact &without_matrix() override { return without_matrix_.value(); }
+  const ToolExplicitContact &without_matrix() const override { return without_matrix_.value(); }
   ToolPenalties &penalties() override { return penalties_; }
   const ToolPenalties &penalties() const override { return penalties_; }
   const ToolMeasures &measures() const override { return measures_; }
   const ToolChecks &checks() const override { return checks_; }
   const ToolDrive &drive() const { return drive_; }
-  const ToolTangents &tangents() const { return *tangents_; }
 
   void start_step(const ContactStep &step) override;
   void set_friction_account(double start_weight, bool is_static) override;
@@ -71,48 +75,19 @@ public:
   /// Links each tool contact of a scene to the others of its body. The addresses must stay valid.
   static void link_neighbours(std::deque<RigidContact> &contacts);
 
-  void update(const Vector &displacements) override {
-    evaluation_->run(displacements);
-    parts_.count_changes();
-  }
-  void add_forces(Vector &residual) const override;
-  void set_tangent(ContactTangent tangent) override;
-  void add_tangent(const TangentSystem &system) const override { tangents_->add(system); }
-  double find_free_part(const ContactPath &path) const override;
-
-  // Schemes without a matrix, after bind():
-
-  /// Finds the nodes of the pair among those of the rank.
-  void bind(const LocalNodes &nodes);
-  void update(const NodalVectors &displacements) override { evaluation_->run(displacements); }
-  /// Without friction F_c = −∂Π/∂u, Π the stored energy, including the forces due to changes of area.
-  ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) override {
-    return forces_.add(forces, bounds);
-  }
-  void add_crossings(Crossings &crossings) const override { bounds_.add_crossings(crossings); }
-  void add_start_crossings(Crossings &crossings, const NodalVectors &velocities, double step) const override {
-    bounds_.add_start_crossings(crossings, velocities, step);
-  }
-  double stiffness_against_tool() const override { return bounds_.stiffness_against_tool(); }
-
   void save(StateWriter &writer, const NodeKeys &keys) const override;
   void load(const StateReader &reader, const NodeKeys &keys) override;
-  void begin(const ContactStep &step, const Vector &displacements) override;
-  void begin(const ContactStep &step, const NodalVectors &displacements) override;
 
 private:
-  template <class DisplacementOf>
-  void begin_at(const ContactStep &step, const DisplacementOf &displacement_of);
+  RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization);
 
   RigidContactParts parts_;
-  std::unique_ptr<ToolEvaluation> evaluation_;
-  std::unique_ptr<ToolTangents> tangents_;
   ToolPenalties penalties_;
   ToolMeasures measures_;
   ToolChecks checks_;
   ToolDrive drive_;
-  ToolBounds bounds_;
-  ToolForces forces_;
+  std::optional<ToolMatrixContact> with_matrix_;
+  std::optional<ToolExplicitContact> without_matrix_;
 };
 
 } // namespace billet

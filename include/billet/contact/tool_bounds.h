@@ -18,11 +18,11 @@ public:
   double stiffness_ahead(std::size_t i) const;
   /// Adds the stiffness of owned nodes that do not touch, but may soon do so [force/length].
   void add_near(NodalVectors &bounds) const;
-  /// Adds nodes that cross the surface as ContactInterface::add_crossings() does.
+  /// Adds nodes that cross the surface as ExplicitContact::add_crossings() does.
   void add_crossings(Crossings &crossings) const;
   /// Adds the crossings of the first step.
   void add_start_crossings(Crossings &crossings, const NodalVectors &velocities, double step) const;
-  /// Returns Σ a·k a as ContactInterface::stiffness_against_tool() does.
+  /// Returns Σ a·k a as ExplicitContact::stiffness_against_tool() does.
   double stiffness_against_tool() const;
 
 private:

@@ -17,7 +17,7 @@ public:
   explicit ToolForces(RigidContactParts &parts)
       : parts_(parts), springs_(parts), works_(parts), bounds_(parts) {}
 
-  /// Adds forces and bounds as ContactInterface::add_forces() does, and records the areas of nodes that go
+  /// Adds forces and bounds as ExplicitContact::add_forces() does, and records the areas of nodes that go
   /// deep. Returns the load of this rank's facets.
   ContactLoad add(NodalVectors &forces, NodalVectors &bounds);
 

@@ -7,7 +7,7 @@
 namespace billet {
 
 /// Returns the part of a motion of body and tool during which no node goes through the tool's surface, as
-/// ContactInterface::find_free_part() does.
+/// MatrixContact::find_free_part() does.
 double find_free_part_of_nodes(const RigidContactParts &parts, const ContactPath &path);
 
 } // namespace billet

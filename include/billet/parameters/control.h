@@ -42,6 +42,19 @@ struct TimeStepping {
   void parse(Reader &reader);
 };
 
+/// What a scheme is made of. Code that depends on the scheme reads this, not its name. A new scheme is a row
+/// of scheme_types() and a run in make_run().
+struct SchemeType {
+  TimeStepping::Scheme scheme;
+  std::string name;        ///< in scene files, checkpoints and messages
+  std::string description; ///< in the summary of a scene
+  bool has_inertia;        ///< bodies have densities, velocities and kinetic energy
+  bool has_matrix; ///< solves for the end of each step by iterations; else steps have a stability limit
+  bool lumps_mass; ///< always; else with inertia as the scene says
+};
+const std::vector<SchemeType> &scheme_types();
+const SchemeType &type_of(TimeStepping::Scheme scheme);
+
 /// Names of schemes in scene files, checkpoints and messages.
 const NamedValues<TimeStepping::Scheme> &schemes();
 const std::string &name_of(TimeStepping::Scheme scheme);

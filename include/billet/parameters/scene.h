@@ -49,9 +49,7 @@ struct Scene {
   static Scene read(const std::string &file_name, const std::string &restart_file = "",
                     const std::vector<SceneFile::Setting> &settings = {});
 
-  bool is_explicit() const { return time_stepping.scheme == TimeStepping::Scheme::explicit_dynamics; }
-  /// Whether bodies have inertia, in either scheme.
-  bool is_dynamic() const { return time_stepping.scheme != TimeStepping::Scheme::quasi_static; }
+  const SchemeType &scheme() const { return type_of(time_stepping.scheme); }
   std::size_t body_index(const ContactPair &pair) const;
   std::size_t second_body_index(const ContactPair &pair) const;
   std::size_t tool_index(const ContactPair &pair) const;

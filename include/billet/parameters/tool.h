@@ -60,6 +60,32 @@ const NamedValues<std::optional<FacetMethod>> &facet_methods();
 /// One named subsection of Contact pairs.
 struct ContactPair {
   enum class PenaltyUnit { factor, absolute };
+  enum class PenaltyOf { automatic, stiffer, series };
+  enum class Passes { automatic, one, two };
+  enum class Edges { automatic, held, free };
+
+  struct Penalty {
+    PenaltyUnit unit;
+    PenaltyOf of; ///< the bodies' stiffnesses that `unit` refers to
+    double normal, tangential;
+    bool is_given = false;            ///< set in the scene, and therefore kept
+    bool is_tangential_given = false; ///< same for the tangential penalty
+  };
+  /// Facets of pairs of bodies.
+  struct Facets {
+    Located<std::optional<FacetMethod>> method; ///< none: automatic
+    Passes passes;
+    Edges edges;
+    double smoothing;
+    double search_margin; ///< [facet sizes]
+  };
+  /// Treatment of initial penetrations and gaps.
+  struct Initial {
+    Located<double> allowed_penetration; ///< [facet sizes]
+    bool may_overlap;
+    double ramp_time;  ///< over which the allowed overlap fades; 0: never
+    double closed_gap; ///< maximum gap that counts as closed; 0: none
+  };
 
   std::string name;
   std::string origin;
@@ -69,26 +95,11 @@ struct ContactPair {
   Located<std::string> tool;        ///< empty for a pair of two bodies
   Located<std::string> second_body; ///< empty for a pair of a body and a tool
   BoundaryIds second_boundary_ids;
-  enum class PenaltyOf { automatic, stiffer, series };
-  enum class Passes { automatic, one, two };
-  Located<std::optional<FacetMethod>> facets; ///< none: automatic
-  Passes passes;
-  enum class Edges { automatic, held, free };
-  Edges edges;
-  PenaltyOf penalty_of;
-  double smoothing;
-  double search_margin;
   FrictionPointer friction; ///< null: none
-  PenaltyUnit penalty_unit;
-  double normal_penalty;
-  bool has_own_penalty = false;            ///< set in the scene, and therefore kept
-  bool has_own_tangential_penalty = false; ///< same for the tangential penalty
-  double tangential_penalty;
+  Penalty penalty;
   std::optional<double> penetration_tolerance; ///< 0: pure penalty; none: limits softness, (L7)
-  Located<double> allowed_penetration;
-  bool may_overlap;  ///< initially
-  double ramp_time;  ///< over which the allowed overlap fades; 0: never
-  double closed_gap; ///< maximum initial gap that counts as closed; 0: none
+  Facets facets;
+  Initial initial;
   /// Exact surface that the facets of both bodies approximate, if it is known.
   struct Correction {
     enum class Kind { none, cylinder, sphere };

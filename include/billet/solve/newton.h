@@ -6,8 +6,10 @@
 #include "billet/contact/status_changes.h"
 #include "billet/diagnostics.h"
 #include "billet/parameters/control.h"
+#include "billet/solve/step_failure.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,36 +61,35 @@ struct NewtonReport {
   std::string criteria;         ///< measures in words, if the last iteration did not converge
   /// The residual no longer falls, but is small enough for the step to be accepted with a warning.
   bool is_stalled = false;
-  bool makes_energy = false; ///< of the step: it converged, but contact generates energy in it
-  bool penetrates = false;   ///< of the step: it converged, but penetration is too large
   /// Round-off of contact exceeds its permitted part of the forces: residuals come no nearer to their
   /// tolerance.
   bool is_lost_in_round_off = false;
-  bool is_cycling = false;   ///< it did not converge: is_cycling()
-  bool is_explained = false; ///< the iterations are not the cause of `failure`, so others do not help
+  bool is_cycling = false; ///< it did not converge: is_cycling()
+  /// Why the step is rejected; none: it is accepted, or the iterations are the cause of `failure`.
+  std::optional<StepFailure::Kind> rejection;
   unsigned int linear_iterations = 0;
   DiagnosticList diagnostics; ///< messages for the user
   /// Maximum number of iterations of the solutions that were appended. It controls the step length: each of
   /// many augmentations may be easy.
   std::size_t hardest = 0;
 
-  /// Makes this the report of a failure that the iterations do not cause.
-  void fail(const Explanation &why) {
+  /// Whether the iterations are not the cause of `failure`, so that others do not help.
+  bool is_explained() const { return rejection == StepFailure::Kind::explained; }
+  /// Makes this the report of a step that is rejected.
+  void reject(const StepFailure &because) {
     converged = false;
-    is_explained = true;
-    failure = why.what;
-    advice = why.advice;
+    rejection = because.kind;
+    failure = because.why.what;
+    advice = because.why.advice;
   }
   /// Appends the report of a later solution, whose results count; its iterations are added.
   void append(const NewtonReport &next) {
     converged = next.converged;
     failure = next.failure;
     advice = next.advice;
-    makes_energy = next.makes_energy;
-    penetrates = next.penetrates;
     is_lost_in_round_off = next.is_lost_in_round_off;
     is_cycling = next.is_cycling;
-    is_explained = next.is_explained;
+    rejection = next.rejection;
     is_stalled = next.is_stalled;
     criteria = next.criteria;
     measures = next.measures;

@@ -10,8 +10,8 @@ std::vector<HistoryQuantity> energy_quantities();
 namespace {
 
 bool is_any(const Scene &) { return true; }
-bool is_explicit(const Scene &scene) { return scene.parameters().is_explicit(); }
-bool is_dynamic(const Scene &scene) { return scene.parameters().is_dynamic(); }
+bool is_explicit(const Scene &scene) { return !scene.parameters().scheme().has_matrix; }
+bool is_dynamic(const Scene &scene) { return scene.parameters().scheme().has_inertia; }
 bool is_implicit_dynamics(const Scene &scene) { return is_dynamic(scene) && !is_explicit(scene); }
 bool has_hourglass_modes(const Scene &scene) {
   return is_explicit(scene) || scene.capabilities().stabilisation;

@@ -10,7 +10,7 @@ HistoryQuantity energy_ratio_quantity() {
           {{"kinetic_to_internal",
             "Dynamic scenes: kinetic energy over the energy in elements, stored or dissipated by yielding."}},
           [](const Scene &scene) -> std::vector<std::string> {
-            if (!scene.parameters().is_dynamic())
+            if (!scene.parameters().scheme().has_inertia)
               return {};
             return {"kinetic_to_internal"};
           },

@@ -12,7 +12,7 @@ HistoryQuantity momenta_quantity() {
            {"angular_momentum_x, angular_momentum_y, angular_momentum_z",
             "Their angular momentum about the origin. [mass velocity length]"}},
           [](const Scene &scene) -> std::vector<std::string> {
-            if (!scene.parameters().is_dynamic())
+            if (!scene.parameters().scheme().has_inertia)
               return {};
             return {"momentum_x",         "momentum_y",         "momentum_z",
                     "angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};

@@ -27,7 +27,7 @@ HistoryQuantity solver_quantity() {
            {"total_cuts", "Steps that were cut since the start."},
            {"linear_iterations", "Iterations of the linear solver in the step; 0 of a direct one."}},
           [](const Scene &scene) -> std::vector<std::string> {
-            if (scene.parameters().is_explicit())
+            if (!scene.parameters().scheme().has_matrix)
               return {};
             return {"iterations", "residual", "total_iterations", "total_cuts", "linear_iterations"};
           },

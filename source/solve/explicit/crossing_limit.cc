@@ -24,7 +24,7 @@ CrossingLimit::Coming CrossingLimit::at_start(const double stable_step) const {
   Coming coming{parts_.forces.crossings(), stable_step, false};
   const NodalVectors &v = parts_.motion.velocities();
   for (const auto &contact : parts_.contacts)
-    contact.add_start_crossings(coming.crossings, v, coming.step);
+    contact.without_matrix().add_start_crossings(coming.crossings, v, coming.step);
   const bool tools_move = parts_.tools.move_within(coming.step);
   const bool moves = tools_move || std::any_of(v.begin(), v.end(), [](const double c) { return c != 0.; });
   const double near = parts_.forces.max_stiffness(); // bounds on what facets would do

@@ -168,7 +168,7 @@ void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) 
   const std::vector<Placement> placements = parts_.tools.placements_before();
   for (auto &contact : parts_.contacts)
     if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }))
-      contact.begin({0., 0., 0., placements, placements}, u_before);
+      contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
 }
 
 } // namespace billet

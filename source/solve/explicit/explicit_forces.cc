@@ -78,14 +78,14 @@ Explanation ExplicitForces::add_contact_forces(const ExplicitClock &clock, const
   const ContactStep step{0., 0., clock.since_forces(), before, now};
   for (auto &contact : contacts) {
     contact.start_step(step);
-    contact.update(motion.displacements());
+    contact.without_matrix().update(motion.displacements());
     if (passage.empty() && contact.checks().lets_nodes_through())
       passage = contact.checks().describe_passage();
-    const ContactLoad load = contact.add_forces(forces_, bounds_);
+    const ContactLoad load = contact.without_matrix().add_forces(forces_, bounds_);
     if (const auto &tool = contact.rigid_tool())
       tools.add_load(contact, *tool, load);
     works.friction += load.dissipation;
-    contact.add_crossings(crossings_);
+    contact.without_matrix().add_crossings(crossings_);
     contact.commit();
   }
   return passage;
@@ -143,8 +143,8 @@ double ExplicitForces::frequency_square_at(const NodalVectors &displacements,
   const ContactStep step{0., 0., 0., placements, placements};
   for (auto &contact : contacts) {
     contact.start_step(step);
-    contact.update(displacements);
-    contact.add_forces(ignored, bounds);
+    contact.without_matrix().update(displacements);
+    contact.without_matrix().add_forces(ignored, bounds);
   }
   nodes_.sum_shared(bounds);
   double maximum = 0.;

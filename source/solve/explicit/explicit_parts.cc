@@ -14,7 +14,7 @@ ExplicitParts::ExplicitParts(const Scene &scene_in, const Discretization &discre
   if (!scene.parameters().restart.is_wanted()) // a restart begins with deformed bodies
     for (auto &contact : contacts.of_bodies())
       if (contact.settings().overlap.closed_gap > 0.) {
-        contact.update(motion.displacements());
+        contact.without_matrix().update(motion.displacements());
         contact.allow_overlap();
       }
 }

@@ -42,7 +42,7 @@ void ExplicitTools::add_load(const ContactInterface &contact, const std::size_t 
   loads_[tool] += load;
   pair_loads_[contact.group_index()] = load;
   if (tools_[tool].inverse_inertia() > 0.)
-    stiffness_[tool] += contact.stiffness_against_tool();
+    stiffness_[tool] += contact.without_matrix().stiffness_against_tool();
 }
 
 double ExplicitTools::max_frequency_square() const {
@@ -64,7 +64,7 @@ void ExplicitTools::remove(const std::size_t tool, Contacts &contacts, double &e
   NodalVectors ignored = nodes_.make_vectors();
   for (auto &contact : contacts.of_tools())
     if (contact.tool() == tool) {
-      contact.add_forces(*fading_forces_[tool], ignored);
+      contact.without_matrix().add_forces(*fading_forces_[tool], ignored);
       contact.remove_tool();
     }
   // The energy of its penalty springs is removed with it, and its kinetic energy, which all ranks know.

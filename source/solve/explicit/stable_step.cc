@@ -94,7 +94,7 @@ DiagnosticList StableStep::check(const double t, const Contacts &contacts,
     dealii::Utilities::MPI::min(room, communicator, room);
     const auto stiffest = std::min_element(room.begin(), room.end());
     const auto i = static_cast<std::size_t>(stiffest - room.begin());
-    if (stiffest != room.end() && *stiffest < 1. && contacts[i].settings().input->has_own_penalty) {
+    if (stiffest != room.end() && *stiffest < 1. && contacts[i].settings().input->penalty.is_given) {
       std::ostringstream text;
       text.precision(3);
       text << "The penalty, " << enough_penalty / *stiffest << " E/h, makes steps "

@@ -84,9 +84,11 @@ namespace {
 bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size_t> &tool) {
   if (!tool)
     return false;
-  const std::vector<std::size_t> &driven = problem.tools().unknown();
+  const ImplicitParts &parts = problem.parts();
+  const std::vector<std::size_t> &driven = parts.tools().unknown();
   return std::find(driven.begin(), driven.end(), *tool) != driven.end() &&
-         problem.scene().tools()[*tool].load(problem.step().time) == 0. && !problem.scheme().has_mass(*tool);
+         parts.scene().tools()[*tool].load(problem.step().time) == 0. &&
+         !parts.scheme().tools().has_mass(*tool);
 }
 
 } // namespace
@@ -94,13 +96,13 @@ bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size
 Augmentation::Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver,
                            PenetrationMeasurement &measurement)
     : problem_(problem), solver_(solver), measurement_(measurement),
-      softness_(problem.contacts().collect(
+      softness_(parts_.contacts().collect(
           [](const auto &contact) { return contact.settings().limits_softness(); })) {}
 
 std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double> &before,
                                                         const std::vector<double> &errors,
                                                         const std::vector<double> &added) {
-  ContactSet &contacts = problem_.contacts();
+  ContactSet &contacts = parts_.contacts();
   std::vector<double> room = contacts.stiffening_left(), factors(errors.size(), 1.);
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -122,7 +124,7 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
 }
 
 bool Augmentation::soften_contacts(DiagnosticList &messages) {
-  ContactSet &contacts = problem_.contacts();
+  ContactSet &contacts = parts_.contacts();
   const std::vector<double> room = contacts.stiffening_left();
   bool has_softened = false;
   for (std::size_t i = 0; i < room.size(); ++i) {
@@ -147,9 +149,9 @@ bool Augmentation::soften_contacts(DiagnosticList &messages) {
 Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs,
                                                  const unsigned int n) const {
   Demands demands;
-  demands.of_contacts = problem_.contacts().augmentation_errors();
+  demands.of_contacts = parts_.contacts().augmentation_errors();
   const auto is_idle = [this](const std::size_t i) {
-    return bears_nothing(problem_, problem_.contacts()[i].rigid_tool());
+    return bears_nothing(problem_, parts_.contacts()[i].rigid_tool());
   };
   for (std::size_t i = 0; i < demands.of_contacts.size(); ++i) {
     double &demand = demands.of_contacts[i];
@@ -161,7 +163,7 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
     return demands;
   // Equilibrium within its tolerance leaves friction this uncertain: further augmentations would only follow
   // the iterations, and raise penalties for that.
-  const double resolved = n > 0 ? problem_.parameters().solver.force_tolerance * solver_.accuracy() : 0.;
+  const double resolved = n > 0 ? parts_.parameters().solver.force_tolerance * solver_.accuracy() : 0.;
   const std::vector<double> excess = softness_.excess(springs, resolved);
   for (std::size_t i = 0; i < excess.size(); ++i) {
     if (is_idle(i))
@@ -176,11 +178,11 @@ std::vector<ContactSprings> Augmentation::contact_springs() const {
   if (!softness_.is_used())
     return {};
   auto springs =
-      problem_.contacts().collect([](const auto &contact) { return contact.penalties().compute_springs(); });
+      parts_.contacts().collect([](const auto &contact) { return contact.penalties().compute_springs(); });
   std::vector<double> sums;
   for (const auto &[normal, tangential] : springs)
     sums.insert(sums.end(), {normal.force, normal.held, tangential.force, tangential.held});
-  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     springs[i].normal.force = sums[4 * i];
     springs[i].normal.held = sums[4 * i + 1];
@@ -207,7 +209,7 @@ Augmentation::changes_of(const std::vector<ContactSprings> &before,
       }
       sums.insert(sums.end(), {of_nodes, in_all[0], in_all[1], in_all[2]});
     }
-  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
   for (std::size_t i = 0; i < after.size(); ++i)
     for (std::size_t d = 0; d < 2; ++d) {
       const double *sum = sums.data() + n_sums * (2 * i + d);
@@ -223,7 +225,7 @@ void Augmentation::give_up(const Series &series, const unsigned int n, const dou
   std::ostringstream message;
   message << "after " << n << " augmentations the penetration or elastic slip is still " << error
           << " times the 'Penetration tolerance' from its target";
-  const unsigned int maximum = problem_.parameters().solver.max_augmentations;
+  const unsigned int maximum = parts_.parameters().solver.max_augmentations;
   if (n < maximum && series.pace.ratio() < 1.)
     message << ". At the present rate of " << series.pace.ratio() << " for each augmentation, it would take "
             << series.pace.to_go() << " more";
@@ -232,16 +234,16 @@ void Augmentation::give_up(const Series &series, const unsigned int n, const dou
   report.converged = false;
   report.failure = message.str();
   report.advice = std::string("Try a larger penalty or 'Penetration tolerance', ") +
-                  (problem_.scheme().has_inertia()
+                  (parts_.scheme().has_inertia()
                        ? "or no tolerance: in dynamics it requires penetrating nodes to stop within a step"
                        : "or a larger 'Maximum augmentations'");
 }
 
 void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
-  const unsigned int maximum = problem_.parameters().solver.max_augmentations;
+  const unsigned int maximum = parts_.parameters().solver.max_augmentations;
   const double accuracy = solver_.accuracy();
   double last_error = std::numeric_limits<double>::infinity();
-  Series series(problem_.contacts().size());
+  Series series(parts_.contacts().size());
   series.hardest = report.hardest;
   softness_.begin();
   series.springs = contact_springs();
@@ -277,7 +279,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
 
 bool Augmentation::augment_once(Series &series, const Demands &demands, const bool is_of_softness,
                                 NewtonReport &report, std::vector<double> &offsets, Vector &displacements) {
-  ContactSet &contacts = problem_.contacts();
+  ContactSet &contacts = parts_.contacts();
   for (auto &contact : contacts)
     if (contact.settings().is_augmented())
       contact.penalties().augment();
@@ -334,7 +336,7 @@ DiagnosticList Augmentation::finish() const {
     text << "Augmentation stops while it still changes the force by " << percent * unsettled[i]
          << " % of the maximum. Facets of the two sides do not match, or a sharp edge carries the force";
     messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
-                           .pair(problem_.contacts()[i].name())
+                           .pair(parts_.contacts()[i].name())
                            .measure("change / force", unsettled[i]));
   }
   return messages;

@@ -37,10 +37,11 @@ bool is_held(const Constraints &constraints, const DofIndex dof) {
 void add_springs(const ImplicitProblem &problem, const std::size_t body,
                  std::vector<Resistance> &resistances) {
   const SolutionState &state = problem.state();
-  for (const AppliedLoad &load : problem.scene().bodies()[body].loads) {
+  for (const AppliedLoad &load : problem.parts().scene().bodies()[body].loads) {
     if (!load.load.is_spring() || !load.times.acts_after(state.time))
       continue;
-    for (const auto &facet : collect_boundary_facets(problem.discretization(), body, load.boundary_ids)) {
+    for (const auto &facet :
+         collect_boundary_facets(problem.parts().discretization(), body, load.boundary_ids)) {
       const dealii::Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
       for (const auto &direction : load.load.supports(normal))
         for (unsigned int a = 0; a < 4; ++a) {
@@ -57,18 +58,19 @@ void add_springs(const ImplicitProblem &problem, const std::size_t body,
 
 std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
   std::vector<Resistance> resistances;
-  const auto acts = [&problem](const Hold &hold) { return problem.supports().acting()(hold); };
-  for (const auto &entry : collect_held_nodes(problem.scene(), problem.discretization(), acts)) {
+  const auto acts = [&problem](const Hold &hold) { return problem.parts().supports().acting()(hold); };
+  for (const auto &entry :
+       collect_held_nodes(problem.parts().scene(), problem.parts().discretization(), acts)) {
     dealii::Tensor<1, 3> position = entry.second.position;
     for (unsigned int i = 0; i < 3; ++i)
       position[i] += problem.state().displacements(entry.second.dofs[i]);
-    for (const auto &hold : problem.scene().bodies()[body].holds)
+    for (const auto &hold : problem.parts().scene().bodies()[body].holds)
       if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
         resistances.push_back(
             {position, hold.direction(entry.second.position), Resistance::Sense::both_ways});
   }
   add_springs(problem, body, resistances);
-  for (const auto &contact : problem.contacts())
+  for (const auto &contact : problem.parts().contacts())
     contact.measures().add_resistances(body, resistances);
 
   // Gather the resistances of all ranks in the same order on each, so that all find the same mode.
@@ -80,7 +82,7 @@ std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std
   }
   resistances.clear();
   BoundingBox box = BoundingBox::empty();
-  for (const auto &part : all_gather(problem.communicator(), numbers))
+  for (const auto &part : all_gather(problem.parts().communicator(), numbers))
     for (auto x = part.begin(); x != part.end(); x += 7) {
       resistances.push_back({dealii::Tensor<1, 3>({x[0], x[1], x[2]}),
                              dealii::Tensor<1, 3>({x[3], x[4], x[5]}),
@@ -88,9 +90,10 @@ std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std
       box.add(resistances.back().position);
     }
   // Size of the set of resisting points: if there is only one point, rotations about it are free.
-  const double size = resistances.empty() ? 1.
-                                          : std::max((box.high - box.low).norm(),
-                                                     Limits::min_size * problem.discretization().radius());
+  const double size = resistances.empty()
+                          ? 1.
+                          : std::max((box.high - box.low).norm(),
+                                     Limits::min_size * problem.parts().discretization().radius());
   const auto motion = find_free_motion(resistances, 0.5 * (box.low + box.high), size);
   if (!motion)
     return {};
@@ -101,11 +104,11 @@ std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std
 }
 
 void check_free_modes(const ImplicitProblem &problem) {
-  for (std::size_t body = 0; body < problem.scene().bodies().size(); ++body)
+  for (std::size_t body = 0; body < problem.parts().scene().bodies().size(); ++body)
     if (const auto mode =
-            problem.stabilisation().acts_on(body) ? std::nullopt : find_free_mode(problem, body))
+            problem.parts().stabilisation().acts_on(body) ? std::nullopt : find_free_mode(problem, body))
       throw InputError(
-          problem.scene().parameters().bodies[body].origin +
+          problem.parts().scene().parameters().bodies[body].origin +
           ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
           "bodies in contact constrain its rigid-body mode with " +
           print(mode->motion) + ". A static scene allows no free mode. " +
@@ -122,11 +125,11 @@ std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t
   if (!mode)
     return "";
   std::ostringstream message;
-  message << problem.scene().parameters().file_name << ": without ";
+  message << problem.parts().scene().parameters().file_name << ": without ";
   for (const auto &name : removed)
     message << name << ", ";
   message << "which " << (removed.size() == 1 ? "is " : "are ") << what_happens << " at this time, body '"
-          << problem.scene().bodies()[body].name
+          << problem.parts().scene().bodies()[body].name
           << "' has no support: neither supports, nor symmetry planes, nor tools in contact constrain its "
              "rigid-body mode with "
           << print(mode->motion);
@@ -135,34 +138,34 @@ std::string describe_free_mode(const ImplicitProblem &problem, const std::size_t
 
 double prescribed_motion(const ImplicitProblem &problem, const double t) {
   const StepState &step = problem.step();
-  const double radius = problem.discretization().radius();
+  const double radius = problem.parts().discretization().radius();
   double of_tools = 0., of_supports = 0.;
-  for (const auto &tool : problem.scene().tools())
+  for (const auto &tool : problem.parts().scene().tools())
     of_tools =
         std::max(of_tools, max_motion(tool.placement(problem.state().time), tool.placement(t), radius));
-  const Constraints &held = problem.supports().homogeneous();
-  for (const DofIndex dof : problem.discretization().owned_dofs())
+  const Constraints &held = problem.parts().supports().homogeneous();
+  for (const DofIndex dof : problem.parts().discretization().owned_dofs())
     if (is_held(held, dof))
       of_supports =
           std::max(of_supports, std::abs(step.trial.displacements(dof) - step.start.displacements(dof)));
-  return of_tools + dealii::Utilities::MPI::max(of_supports, problem.communicator());
+  return of_tools + dealii::Utilities::MPI::max(of_supports, problem.parts().communicator());
 }
 
-bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport &report) {
+std::optional<StepFailure> judge_travel(const ImplicitProblem &problem, const double t) {
   const StepState &step = problem.step();
-  const double radius = problem.discretization().radius(), diameter = 2. * radius;
+  const double radius = problem.parts().discretization().radius(), diameter = 2. * radius;
   // Motion that the scene prescribes, in the step and since the start.
   const double driven = prescribed_motion(problem, t);
   double driven_so_far = 0.;
-  for (const auto &tool : problem.scene().tools()) {
+  for (const auto &tool : problem.parts().scene().tools()) {
     const Placement start = tool.placement(0.), before = tool.placement(problem.state().time),
                     after = tool.placement(t);
     driven_so_far =
         std::max({driven_so_far, max_motion(start, before, radius), max_motion(start, after, radius)});
   }
   std::array<double, 3> maximum{0., 0., 0.}; // held so far; all in the step, so far
-  const Constraints &held = problem.supports().homogeneous();
-  for (const DofIndex dof : problem.discretization().owned_dofs()) {
+  const Constraints &held = problem.parts().supports().homogeneous();
+  for (const DofIndex dof : problem.parts().discretization().owned_dofs()) {
     const double now = step.trial.displacements(dof), change = now - step.start.displacements(dof);
     if (is_held(held, dof))
       maximum[0] = std::max({maximum[0], std::abs(now), std::abs(step.start.displacements(dof))});
@@ -170,14 +173,14 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
     maximum[2] = std::max(maximum[2], std::abs(now));
   }
   dealii::Utilities::MPI::max(dealii::ArrayView<const double>(maximum.data(), maximum.size()),
-                              problem.communicator(),
+                              problem.parts().communicator(),
                               dealii::ArrayView<double>(maximum.data(), maximum.size()));
   driven_so_far += maximum[0];
   const auto fail = [&](const std::string &what) {
-    report.fail({what + ". Quasi-static solutions do not move this far",
-                 "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free motion, or "
-                 "smaller steps"});
-    return true;
+    return StepFailure{StepFailure::Kind::explained,
+                       {what + ". Quasi-static solutions do not move this far",
+                        "Check supports, units and penalties; use 'Scheme = implicit dynamics' for free "
+                        "motion, or smaller steps"}};
   };
   std::ostringstream text;
   text.precision(3);
@@ -193,7 +196,7 @@ bool moves_too_far(const ImplicitProblem &problem, const double t, NewtonReport 
          << " diameters more than twice the path of tools and supports";
     return fail(text.str());
   }
-  return false;
+  return {};
 }
 
 } // namespace billet

@@ -26,8 +26,8 @@ ContactSet::ContactSet(const Scene &scene, const Discretization &discretization)
 
 void ContactSet::update(const Vector &displacements, Vector &residual) {
   for (auto &contact : *this) {
-    contact.update(displacements);
-    contact.add_forces(residual);
+    contact.with_matrix().update(displacements);
+    contact.with_matrix().add_forces(residual);
   }
 }
 
@@ -118,7 +118,7 @@ double ContactSet::find_free_part(const ContactPath &path, std::string &obstacle
   if (empty())
     return 1.;
   const std::vector<double> parts =
-      collect_min([&](const auto &contact) { return contact.find_free_part(path); });
+      collect_min([&](const auto &contact) { return contact.with_matrix().find_free_part(path); });
   const auto minimum = std::min_element(parts.begin(), parts.end());
   if (*minimum < 1.)
     obstacle = (*this)[static_cast<std::size_t>(minimum - parts.begin())].checks().describe_obstacle();

@@ -121,10 +121,10 @@ double DrivenTools::excess_load(const std::size_t tool, const double t) const {
 }
 
 double DrivenTools::imbalance(const std::size_t tool, const double t) const {
-  if (!scheme_.has_mass(tool))
+  if (!scheme_.tools().has_mass(tool))
     return excess_load(tool, t);
-  return scheme_.contact_weight() * exerted_load(tool) - scene_.tools()[tool].load(t) +
-         scheme_.tool_inertia(tool, offsets_[tool]);
+  return scheme_.contact().at_end() * exerted_load(tool) - scene_.tools()[tool].load(t) +
+         scheme_.tools().residual(tool, offsets_[tool]);
 }
 
 double DrivenTools::distance_to_touch(const std::size_t tool) const {
@@ -149,19 +149,21 @@ void DrivenTools::assemble_tangent() {
     double slope = 0.;
     for (const auto &contact : contacts_.of_tools())
       if (contact.tool() == unknown_[k])
-        slope += contact.drive().add_derivatives(contact.tangents(), rate_of(unknown_[k]), column, row);
+        slope += contact.drive().add_derivatives(contact.with_matrix().tangents(), rate_of(unknown_[k]),
+                                                 column, row);
     column.compress(dealii::VectorOperation::add);
     row.compress(dealii::VectorOperation::add);
-    const bool has_mass = scheme_.has_mass(unknown_[k]);
-    const double weight = has_mass ? scheme_.contact_weight() : 1.;
+    const bool has_mass = scheme_.tools().has_mass(unknown_[k]);
+    const double weight = has_mass ? scheme_.contact().at_end() : 1.;
     border_.columns[k] = column;
-    border_.columns[k] *= scheme_.contact_weight();
+    border_.columns[k] *= scheme_.contact().at_end();
     border_.rows[k] = row;
     border_.rows[k] *= weight;
     supports_.condense(border_.columns[k]);
     border_.block(k, k) = weight * dealii::Utilities::MPI::sum(slope, discretization_.communicator());
     if (has_mass)
-      border_.block(k, k) += scheme_.tool_slope(unknown_[k]) / (unit_of(unknown_[k]) * unit_of(unknown_[k]));
+      border_.block(k, k) +=
+          scheme_.tools().slope(unknown_[k]) / (unit_of(unknown_[k]) * unit_of(unknown_[k]));
   }
 }
 

@@ -10,9 +10,9 @@
 
 namespace billet {
 
-bool EnergyBalance::is_inaccurate(double /*t*/, NewtonReport & /*report*/) {
-  trial_energies_ = problem_.internal().compute_energies(problem_.step().ghosted, Beat::evaluated);
-  return false;
+std::optional<StepFailure> EnergyBalance::judge_accuracy(double /*t*/) {
+  trial_energies_ = parts_.internal().compute_energies(problem_.step().ghosted, Beat::evaluated);
+  return {};
 }
 
 EnergyBalance::ElementImbalance EnergyBalance::element_imbalance() const {
@@ -30,21 +30,21 @@ EnergyBalance::ElementImbalance EnergyBalance::element_imbalance() const {
 EnergyBalance::ContactLoss EnergyBalance::contact_loss(const double t, const double works) const {
   const StepState &step = problem_.step();
   const SolutionState &state = problem_.state();
-  const ContactSet &contacts = problem_.contacts();
-  const double before = problem_.scheme().contact_before();
+  const ContactSet &contacts = parts_.contacts();
+  const double before = parts_.scheme().contact().at_start();
   Vector mean = step.trial.contact, increment = step.trial.displacements;
   mean *= 1. - before;
   mean.add(before, step.start.contact);
   increment -= step.start.displacements;
   ContactLoss loss;
   loss.total = mean * increment + state.energies.contact;
-  const auto &tools = problem_.scene().tools();
+  const auto &tools = parts_.scene().tools();
   const Contacts::Loads loads = contacts.compute_loads();
   for (std::size_t i = 0; i < loads.of_tools.size(); ++i) {
-    if (problem_.removal().is_removed(i))
+    if (parts_.removal().is_removed(i))
       continue;
     const ContactLoad &load = loads.of_tools[i], &load_n = state.tool_loads[i];
-    const Placement to = problem_.tools().place(i, t, problem_.tools().offsets()[i]);
+    const Placement to = parts_.tools().place(i, t, parts_.tools().offsets()[i]);
     loss.total += ((1. - before) * load.force + before * load_n.force) *
                       (to.translation - state.placements[i].translation) +
                   ((1. - before) * load.moment + before * load_n.moment) * tools[i].rotation_axis() *
@@ -61,7 +61,7 @@ EnergyBalance::ContactLoss EnergyBalance::contact_loss(const double t, const dou
 }
 
 bool EnergyBalance::contact_makes_energy() const {
-  return !problem_.contacts().of_bodies().empty() &&
+  return !parts_.contacts().of_bodies().empty() &&
          -contact_balance_ > 0.5 * std::abs(problem_.state().energies.drift());
 }
 
@@ -82,10 +82,10 @@ void EnergyBalance::load(const StateReader &reader) {
   contact_balance_ = reader.number("contact balance");
 }
 
-bool StaticBalance::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> StaticBalance::judge_contact(const double t, DiagnosticList &messages) {
   trial_contact_loss_ = 0.;
-  if (problem_.contacts().empty())
-    return false;
+  if (parts_.contacts().empty())
+    return {};
   const StepState &step = problem_.step();
   Vector increment = step.trial.displacements, mean = step.trial.internal;
   increment -= step.start.displacements;
@@ -94,15 +94,15 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
   mean = step.trial.contact;
   mean += step.start.contact;
   const double contact_work = 0.5 * (mean * increment);
-  const StepWorks springs = problem_.contacts().compute_step_works(1. - problem_.scheme().contact_before());
+  const StepWorks springs = parts_.contacts().compute_step_works(1. - parts_.scheme().contact().at_start());
   trial_contact_loss_ = contact_loss(t, springs.ramp + springs.touching).total;
   const StepEnergy::Works works{trial_contact_loss_,
                                 std::max(std::abs(internal_work), std::abs(contact_work)), max_energy_};
-  const double floor = problem_.scales().round_off * problem_.discretization().radius();
+  const double floor = problem_.scales().round_off * parts_.discretization().radius();
   const double t_n = problem_.state().time;
   const StepEnergy::Verdict verdict = step_energy_.judge(t_n, t - t_n, works, floor);
   if (verdict == StepEnergy::Verdict::balanced)
-    return false;
+    return {};
   const double percent = 100. * StepEnergy::part_of_all(works);
   std::ostringstream text;
   text.precision(3);
@@ -110,19 +110,20 @@ bool StaticBalance::rejects(const double t, NewtonReport &report) {
        << ": " << percent << " % of all work so far";
   if (verdict == StepEnergy::Verdict::jump) {
     trial_contact_loss_ = 0.;
-    report.diagnostics.push_back(
+    messages.push_back(
         Diagnostic(diagnostic::energy_imbalance, text.str())
             .time(t)
             .measure("part of all work [%]", percent)
             .advice("Smaller steps do not change this. The solution jumps to another branch, as when one "
                     "body slips off another, or bodies pass through each other. Check the field output at "
                     "this time; 'Scheme = implicit dynamics' resolves jumps"));
-    return false;
+    return {};
   }
   text << ", more than the allowed " << 100. * StepEnergy::max_part
        << " %. The solution jumps to another branch, or bodies pass through each other";
-  report.fail({text.str(), "Reduce 'Maximum step' or the penalty, or use a finer mesh where they touch"});
-  return true;
+  return StepFailure{
+      StepFailure::Kind::explained,
+      {text.str(), "Reduce 'Maximum step' or the penalty, or use a finer mesh where they touch"}};
 }
 
 void StaticBalance::commit(double /*t*/) {
@@ -131,7 +132,7 @@ void StaticBalance::commit(double /*t*/) {
 }
 
 DiagnosticList StaticBalance::finish() const {
-  const double floor = problem_.scales().round_off * problem_.discretization().radius();
+  const double floor = problem_.scales().round_off * parts_.discretization().radius();
   if (!(std::abs(contact_balance_) > std::max(Limits::doubtful * max_energy_, floor)))
     return {};
   const double percent = 100. * contact_balance_ / max_energy_;
@@ -167,9 +168,9 @@ double DynamicBalance::energy_error(const double imbalance) const {
   return allowed > 0. ? std::abs(imbalance) / allowed : 0.;
 }
 
-bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
-  EnergyBalance::is_inaccurate(t, report);
-  motion_.finish_contact(problem_.step().trial.contact);
+std::optional<StepFailure> DynamicBalance::judge_accuracy(const double t) {
+  EnergyBalance::judge_accuracy(t);
+  motion_.contact().finish(problem_.step().trial.contact);
   time_error_ = motion_.step_error(problem_.step().trial.displacements);
   std::ostringstream message;
   message.precision(3);
@@ -187,44 +188,37 @@ bool DynamicBalance::is_inaccurate(const double t, NewtonReport &report) {
     time_error_ = std::max(time_error_, error);
   }
   if (time_error_ <= 1.)
-    return false;
-  report.fail({message.str(), advice});
-  return true;
+    return {};
+  return StepFailure{StepFailure::Kind::explained, {message.str(), advice}};
 }
 
 EnergyBalance::ContactLoss DynamicBalance::dynamic_loss(const double t) const {
-  return contact_loss(t, problem_.contacts().compute_step_works(1. - motion_.contact_before()).ramp);
+  return contact_loss(t, parts_.contacts().compute_step_works(1. - motion_.contact().at_start()).ramp);
 }
 
 double DynamicBalance::taken_by_contact(const ContactLoss &loss) const {
-  return std::max(0., motion_.damps_contact()
+  return std::max(0., motion_.contact().is_on()
                           ? loss.total
                           : contact_balance_ + loss.total - Limits::may_make * max_energy_of_trial());
 }
 
-bool DynamicBalance::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> DynamicBalance::judge_contact(const double t, DiagnosticList & /*messages*/) {
   update_largest_energy();
   const double maximum = max_energy_of_trial(); // in the first step there has been none before
   const ContactLoss loss = dynamic_loss(t);
-  report.makes_energy =
-      !motion_.damps_contact() && contact_balance_ + loss.total < -Limits::may_make * maximum;
+  if (!motion_.contact().is_on() && contact_balance_ + loss.total < -Limits::may_make * maximum)
+    return StepFailure{StepFailure::Kind::makes_energy, {"contact creates energy in the step", ""}};
   // The step is so long that bodies meet within it rather than at its end.
-  const bool takes_too_much =
-      taken_by_contact(loss) - loss.friction > Limits::may_take * maximum && paths_.may_be_cut(t);
-  if (!report.makes_energy && !takes_too_much)
-    return false;
-  report.converged = false;
-  report.is_explained = takes_too_much;
-  report.failure =
-      std::string("contact ") + (report.makes_energy ? "creates" : "removes") + " energy in the step";
-  return true;
+  if (taken_by_contact(loss) - loss.friction > Limits::may_take * maximum && paths_.may_be_cut(t))
+    return StepFailure{StepFailure::Kind::explained, {"contact removes energy in the step", ""}};
+  return {};
 }
 
 void DynamicBalance::commit(const double t) {
   const ContactLoss loss = dynamic_loss(t);
   EnergyLedger &energies = problem_.state().energies;
   const double taken = taken_by_contact(loss);
-  if (motion_.damps_contact()) {
+  if (motion_.contact().is_on()) {
     const double by_friction = std::min(taken, loss.friction);
     contact_losses_.add(ContactLosses::friction, by_friction);
     contact_losses_.add(ContactLosses::impacts, taken - by_friction);

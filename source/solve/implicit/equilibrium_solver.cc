@@ -7,19 +7,19 @@ namespace billet {
 
 NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &displacements) {
   const Vector x_n = problem_.unknowns();
-  Vector x = problem_.tools().pack(displacements, offsets);
-  parameters::Solver settings = problem_.parameters().solver;
+  Vector x = parts_.tools().pack(displacements, offsets);
+  parameters::Solver settings = parts_.parameters().solver;
   if (is_probing_)
     settings.max_iterations = std::min(settings.max_iterations, max_iterations_of_probe);
   NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_,
-                                     accuracy_ * problem_.scheme().wanted_accuracy());
-  if (!problem_.tools().failure().empty() && !report.converged)
-    report.failure = problem_.tools().failure();
+                                     accuracy_ * parts_.scheme().wanted_accuracy());
+  if (!parts_.tools().failure().empty() && !report.converged)
+    report.failure = parts_.tools().failure();
   else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())
     report.failure = "the correction is not admissible: " + problem_.obstacle();
   problem_.set_trial(x);
   displacements = problem_.step().trial.displacements;
-  offsets = problem_.tools().offsets();
+  offsets = parts_.tools().offsets();
   return report;
 }
 

@@ -6,7 +6,8 @@
 
 namespace billet {
 
-HeavyTools::HeavyTools(const Scene &scene) : scene_(scene) {
+HeavyTools::HeavyTools(const Scene &scene, const TimeIntegrator &integrator, const ContactDamping &contact)
+    : scene_(scene), integrator_(integrator), contact_(contact) {
   for (std::size_t i = 0; i < scene.tools().size(); ++i) {
     const auto &motion = scene.parameters().tools[i].motion;
     tools_.emplace_back();
@@ -24,62 +25,62 @@ void HeavyTools::start(const std::size_t tool, const double exerted, const doubl
   heavy.acceleration = (load - exerted) / heavy.inertia;
 }
 
-void HeavyTools::start_step(const std::vector<double> &offsets) {
+void HeavyTools::start_step(const double length, const std::vector<double> &offsets) {
+  length_ = length;
   for (std::size_t i = 0; i < tools_.size(); ++i)
     tools_[i].offset = offsets[i];
 }
 
-void HeavyTools::extrapolate(const double step, std::vector<double> &offsets) const {
+void HeavyTools::extrapolate(std::vector<double> &offsets) const {
   for (std::size_t i = 0; i < tools_.size(); ++i)
-    offsets[i] += step * (tools_[i].rate + 0.5 * step * tools_[i].acceleration);
+    offsets[i] += length_ * (tools_[i].rate + 0.5 * length_ * tools_[i].acceleration);
 }
 
-double HeavyTools::round_off_force(const double last_bit, const double step, const double radius) const {
+double HeavyTools::round_off_force(const double last_bit, const double radius) const {
   double force = 0.;
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const double length = scene_.tools()[i].control() == Tool::Control::moment ? 1. / radius : 1.;
     force += last_bit * tools_[i].inertia * length *
-             std::max(std::abs(tools_[i].offset), step * std::abs(tools_[i].rate));
+             std::max(std::abs(tools_[i].offset), length_ * std::abs(tools_[i].rate));
   }
   return force;
 }
 
-double HeavyTools::accelerate(const HeavyTool &tool, const double offset, const Step &step) {
-  const TimeIntegrator::Rate weights = step.integrator.acceleration(step.length);
+double HeavyTools::accelerate(const HeavyTool &tool, const double offset) const {
+  const TimeIntegrator::Rate weights = integrator_.acceleration(length_);
   return weights.increment * (offset - tool.offset) + weights.velocity * tool.rate +
-         weights.acceleration * start_acceleration(tool, step);
+         weights.acceleration * start_acceleration(tool);
 }
 
-double HeavyTools::residual(const std::size_t tool, const double offset, const Step &step) const {
+double HeavyTools::residual(const std::size_t tool, const double offset) const {
   const HeavyTool &heavy = tools_[tool];
   if (heavy.inertia == 0.)
     return 0.;
-  return step.integrator.forces_before() * ((step.damps_contact ? 0. : heavy.exerted) - heavy.load) +
-         heavy.inertia * (step.integrator.inertia_now() * accelerate(heavy, offset, step) +
-                          step.integrator.inertia_before() * start_acceleration(heavy, step));
+  return integrator_.forces_before() * ((contact_.is_on() ? 0. : heavy.exerted) - heavy.load) +
+         heavy.inertia * (integrator_.inertia_now() * accelerate(heavy, offset) +
+                          integrator_.inertia_before() * start_acceleration(heavy));
 }
 
-double HeavyTools::slope(const std::size_t tool, const Step &step) const {
-  return tools_[tool].inertia * step.integrator.mass_factor(step.length);
+double HeavyTools::slope(const std::size_t tool) const {
+  return tools_[tool].inertia * integrator_.mass_factor(length_);
 }
 
 void HeavyTools::commit(const std::size_t tool, const double offset, const double exerted, const double load,
-                        const Step &step, EnergyLedger &energies) {
+                        EnergyLedger &energies) {
   HeavyTool &heavy = tools_[tool];
   const double way = offset - heavy.offset, rate_n = heavy.rate;
-  const TimeIntegrator::Rate weights = step.integrator.velocity(step.length);
-  const double acceleration = accelerate(heavy, offset, step);
-  heavy.rate = weights.increment * way + weights.velocity * rate_n +
-               weights.acceleration * start_acceleration(heavy, step);
+  const TimeIntegrator::Rate weights = integrator_.velocity(length_);
+  const double acceleration = accelerate(heavy, offset);
+  heavy.rate =
+      weights.increment * way + weights.velocity * rate_n + weights.acceleration * start_acceleration(heavy);
   // The works of tools contain the exerted force, which the kinetic energy accounts for; the load is
   // external.
-  const double mean_exerted = step.damps_contact ? exerted : 0.5 * (heavy.exerted + exerted);
+  const double mean_exerted = contact_.is_on() ? exerted : 0.5 * (heavy.exerted + exerted);
   const double work = (0.5 * (heavy.load + load) - mean_exerted) * way;
   energies.external += work;
   energies.numerical -= 0.5 * heavy.inertia * (heavy.rate * heavy.rate - rate_n * rate_n) - work;
   heavy.acceleration =
-      acceleration -
-      (step.damps_contact ? (1. - 1. / step.integrator.gamma()) * exerted / heavy.inertia : 0.);
+      acceleration - (contact_.is_on() ? (1. - 1. / integrator_.gamma()) * exerted / heavy.inertia : 0.);
   heavy.offset = offset;
   heavy.exerted = exerted;
   heavy.load = load;

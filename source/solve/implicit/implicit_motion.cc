@@ -30,13 +30,14 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
                                const Supports &supports)
     : scene_(scene), discretization_(discretization), supports_(supports),
       integrator_(scene.parameters().implicit_dynamics.integrator), nodes_(discretization),
-      mass_(scene, discretization, supports, is_lumped(scene)),
+      mass_(scene, discretization, supports, is_lumped(scene)), start_{discretization.make_owned_vector(),
+                                                                       discretization.make_owned_vector()},
+      damping_(mass_, integrator_, start_.acceleration), tools_(scene, integrator_, damping_),
       loads_(scene, discretization, nodes_,
              [this](const LocalNodes &nodes) { return mass_.inertia().nodal_masses(nodes); }),
-      tools_(scene), held_(scene, discretization, supports),
+      held_(scene, discretization, supports),
       error_(scene, discretization, nodes_, mass_.inertia(), mass_.row_sums()) {
-  step_.u_n = start_.velocity = start_.acceleration = damping_.end = damping_.start = damping_.forces_n =
-      discretization.make_owned_vector();
+  step_.u_n = discretization.make_owned_vector();
   set_initial_velocities();
   check_before_start([&] { held_.start(0., scene.parameters().time_stepping.initial_step); });
   supports_.homogeneous().distribute(start_.velocity);
@@ -66,31 +67,9 @@ void ImplicitMotion::set_initial_velocities() {
   start_.velocity.compress(dealii::VectorOperation::insert);
 }
 
-void ImplicitMotion::choose_contact_damping(const ForceState &start) {
-  damping_.forces_n = start.supports;
-  if (damping_.is_on && start.contact.l2_norm() == 0.)
-    damping_.is_on = false;
-  else if (damping_.is_on)
-    damp_contact(start);
-}
-
-void ImplicitMotion::damp_contact(const ForceState &start) {
-  damping_.forces_n = start.supports;
-  damping_.forces_n -= start.contact;
-  damping_.is_on = true;
-  damping_.start = start_.acceleration;
-  damping_.start -= mass_.accelerations_by(start.contact);
-}
-
-void ImplicitMotion::finish_contact(const Vector &contact_forces) {
-  if (damping_.is_on)
-    damping_.end = mass_.accelerations_by(contact_forces);
-}
-
 Vector ImplicitMotion::end_accelerations() const {
   Vector result = trial_.acceleration;
-  if (damping_.is_on)
-    result.add(1. - 1. / integrator_.gamma(), damping_.end);
+  damping_.complete(result);
   return result;
 }
 
@@ -115,19 +94,19 @@ void ImplicitMotion::start_step(const double t_n, const double t, const Vector &
   step_.t_n = t_n;
   step_.length = t - t_n;
   step_.u_n = displacements;
-  tools_.start_step(offsets);
+  tools_.start_step(step_.length, offsets);
   held_.start_step(t_n, t);
   const double last_bit =
       Limits::last_bits * std::numeric_limits<double>::epsilon() * integrator_.mass_factor(step_.length);
   const double n_nodes = static_cast<double>(discretization_.dof_handler().n_dofs()) / 3.;
   step_.round_off_force = last_bit * mass_.inertia().total() / std::sqrt(n_nodes) *
                           std::max(displacements.linfty_norm(), step_.length * start_.velocity.linfty_norm());
-  step_.round_off_force += tools_.round_off_force(last_bit, step_.length, discretization_.radius());
+  step_.round_off_force += tools_.round_off_force(last_bit, discretization_.radius());
 }
 
 void ImplicitMotion::extrapolate(Vector &displacements, std::vector<double> &offsets) const {
   displacements.add(step_.length, start_.velocity, 0.5 * step_.length * step_.length, start_.acceleration);
-  tools_.extrapolate(step_.length, offsets);
+  tools_.extrapolate(offsets);
 }
 
 void ImplicitMotion::set_rates(const Vector &displacements) {
@@ -136,7 +115,7 @@ void ImplicitMotion::set_rates(const Vector &displacements) {
   const auto set = [&](const TimeIntegrator::Rate &weights, const Vector &held, Vector &rate) {
     rate = increment;
     rate *= weights.increment;
-    rate.add(weights.velocity, start_.velocity, weights.acceleration, start_accelerations());
+    rate.add(weights.velocity, start_.velocity, weights.acceleration, damping_.start_accelerations());
     held_.prescribe(held, rate);
   };
   set(integrator_.velocity(step_.length), held_.at_end().velocity, trial_.velocity);
@@ -150,16 +129,16 @@ double ImplicitMotion::add_loads(const double t, const Vector &displacements, Ve
 }
 
 double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
-  residual.add(contact_weight() - 1., contact);
+  residual.add(damping_.at_end() - 1., contact);
   if (step_.length == 0.)
     return 0.;
   Vector weighted = trial_.acceleration;
   weighted *= integrator_.inertia_now();
-  weighted.add(integrator_.inertia_before(), start_accelerations());
+  weighted.add(integrator_.inertia_before(), damping_.start_accelerations());
   const Vector inertia = mass_.times(weighted);
   residual += inertia;
   if (integrator_.forces_before() != 0.)
-    residual.add(integrator_.forces_before(), damping_.forces_n);
+    residual.add(integrator_.forces_before(), damping_.start_forces());
   return inertia.l2_norm();
 }
 

@@ -28,14 +28,14 @@ std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretiza
     supports.at_time(0.);
     supports.at_time(scene.parameters().time_stepping.end_time);
   });
-  if (scene.parameters().is_dynamic())
+  if (scene.parameters().scheme().has_inertia)
     return std::make_unique<ImplicitMotion>(scene, discretization, supports);
   return nullptr;
 }
 
 /// Makes what time adds to a static scene; null for a dynamic one.
 std::unique_ptr<ImplicitScheme> make_statics(const Scene &scene, const Discretization &discretization) {
-  if (scene.parameters().is_dynamic())
+  if (scene.parameters().scheme().has_inertia)
     return nullptr;
   const auto &bodies = scene.bodies();
   if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))
@@ -88,17 +88,17 @@ ImplicitParts::ImplicitParts(const Scene &scene, const Discretization &discretiz
 ImplicitParts::~ImplicitParts() = default;
 
 ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discretization)
-    : ImplicitParts(scene, discretization), step_(discretization),
+    : parts_(scene, discretization), step_(discretization),
       raw_internal_(discretization.make_additive_vector()),
       raw_contact_(discretization.make_additive_vector()) {
   scales_.round_off = find_round_off_force(scene, discretization);
-  scales_.spring_round_off = contacts_.find_spring_round_off();
-  state_.body_pair_loads.resize(contacts_.of_bodies().size());
+  scales_.spring_round_off = parts_.contacts().find_spring_round_off();
+  state_.body_pair_loads.resize(parts_.contacts().of_bodies().size());
   state_.tool_loads.resize(scene.tools().size());
   for (const auto &tool : scene.tools())
     state_.placements.push_back(tool.placement(0.));
   // Prescribed displacements hold at time 0, too.
-  supports().at_time(0.).distribute(step_.start.displacements);
+  parts_.supports().at_time(0.).distribute(step_.start.displacements);
   state_.displacements = discretization.make_ghosted_vector();
   state_.displacements = step_.start.displacements;
 }
@@ -106,24 +106,24 @@ ImplicitProblem::ImplicitProblem(const Scene &scene, const Discretization &discr
 ImplicitProblem::~ImplicitProblem() = default;
 
 bool ImplicitProblem::on_all_ranks(const bool success) const {
-  return dealii::Utilities::MPI::min(success ? 1 : 0, communicator()) == 1;
+  return dealii::Utilities::MPI::min(success ? 1 : 0, parts_.communicator()) == 1;
 }
 
 void ImplicitProblem::set_trial(const Vector &x) {
-  tools_.unpack(x, step_.trial.displacements);
+  parts_.tools().unpack(x, step_.trial.displacements);
   step_.ghosted = step_.trial.displacements;
-  if (!tools_.unknown().empty())
-    tools_.place_contacts(step_.time);
+  if (!parts_.tools().unknown().empty())
+    parts_.tools().place_contacts(step_.time);
 }
 
 bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
   set_trial(x);
   raw_internal_ = 0.;
   raw_contact_ = 0.;
-  if (!on_all_ranks(internal_.assemble_forces(step_.ghosted, raw_internal_)))
+  if (!on_all_ranks(parts_.internal().assemble_forces(step_.ghosted, raw_internal_)))
     return false;
   raw_internal_.compress(dealii::VectorOperation::add);
-  contacts_.update(step_.ghosted, raw_contact_);
+  parts_.contacts().update(step_.ghosted, raw_contact_);
   raw_contact_.compress(dealii::VectorOperation::add);
   if (judge_)
     if (const std::string why = judge_(); !why.empty()) {
@@ -141,16 +141,16 @@ bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
   measure(contact_size);
   Vector total = trial.internal;
   total += trial.contact;
-  measure(stabilisation_.add_forces(step_, total));
-  removal_.add_forces(step_.time, total);
-  measure(scheme().add_loads(step_.time, trial.displacements, total));
-  released_.add_forces(step_.time, total);
-  supports_.add_forces(step_.time, total);
+  measure(parts_.stabilisation().add_forces(step_, total));
+  parts_.removal().add_forces(step_.time, total);
+  measure(parts_.scheme().add_loads(step_.time, trial.displacements, total));
+  parts_.released().add_forces(step_.time, total);
+  parts_.switched_supports().add_forces(step_.time, total);
   trial.supports = total;
-  measure(scheme().complete(trial.contact, total));
-  supports().condense(total);
+  measure(parts_.scheme().complete(trial.contact, total));
+  parts_.supports().condense(total);
   std::copy(total.begin(), total.end(), residual.begin());
-  tools_.add_residual(step_.time, total.locally_owned_size(), residual);
+  parts_.tools().add_residual(step_.time, total.locally_owned_size(), residual);
   status_changes_ = find_status_changes();
   const bool is_finite = std::isfinite(scales_.force);
   measure(scales_.lasting);
@@ -159,8 +159,8 @@ bool ImplicitProblem::compute_residual(const Vector &x, Vector &residual) {
 
 bool ImplicitProblem::compute_tangent(const Vector &x) {
   set_trial(x);
-  const bool success = assemble_tangent({supports().homogeneous(), tangent_.matrix()});
-  linearised_ = contacts_.slave_forces();
+  const bool success = assemble_tangent({parts_.supports().homogeneous(), parts_.tangent().matrix()});
+  linearised_ = parts_.contacts().slave_forces();
   return success;
 }
 
@@ -168,53 +168,53 @@ StatusChanges ImplicitProblem::find_status_changes() const {
   StatusChanges changes;
   if (linearised_.empty()) // no contact is possible, or there has been no tangent
     return changes;
-  const std::vector<std::vector<SlaveForce>> now = contacts_.slave_forces();
+  const std::vector<std::vector<SlaveForce>> now = parts_.contacts().slave_forces();
   for (std::size_t i = 0; i < now.size(); ++i)
     changes.add(linearised_[i], now[i]);
   std::vector<double> sums{changes.n, changes.force, changes.contact_force};
-  dealii::Utilities::MPI::sum(sums, communicator(), sums);
+  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
   return {sums[0], sums[1], sums[2]};
 }
 
 bool ImplicitProblem::assemble_tangent(const TangentSystem &system, const double yield_slack) {
-  for (auto &contact : contacts_)
-    contact.update(step_.ghosted);
-  tangent_.follow_couplings();
+  for (auto &contact : parts_.contacts())
+    contact.with_matrix().update(step_.ghosted);
+  parts_.tangent().follow_couplings();
   system.matrix = 0.;
-  if (!on_all_ranks(internal_.assemble_tangent(step_.ghosted, system, yield_slack)))
+  if (!on_all_ranks(parts_.internal().assemble_tangent(step_.ghosted, system, yield_slack)))
     return false;
-  stabilisation_.add_tangent(system);
+  parts_.stabilisation().add_tangent(system);
   const TangentSystem contact_system{system.constraints, system.matrix, system.lift,
-                                     scheme().contact_weight()};
-  for (const auto &contact : contacts_.of_tools())
-    contact.add_tangent(contact_system);
-  tangent_.start_contact();
-  for (const auto &contact : contacts_.of_bodies())
-    contact.add_tangent(contact_system);
-  scheme().add_tangent(step_.time, {supports().homogeneous(), system.matrix});
+                                     parts_.scheme().contact().at_end()};
+  for (const auto &contact : parts_.contacts().of_tools())
+    contact.with_matrix().add_tangent(contact_system);
+  parts_.tangent().start_contact();
+  for (const auto &contact : parts_.contacts().of_bodies())
+    contact.with_matrix().add_tangent(contact_system);
+  parts_.scheme().add_tangent(step_.time, {parts_.supports().homogeneous(), system.matrix});
   system.matrix.compress(dealii::VectorOperation::add);
-  tools_.assemble_tangent();
-  tangent_.set_geometry(step_.trial.displacements);
-  tangent_.solver().expect_nearly_singular(stabilisation_.acts());
-  return tangent_.solver().factorize();
+  parts_.tools().assemble_tangent();
+  parts_.tangent().set_geometry(step_.trial.displacements);
+  parts_.tangent().solver().expect_nearly_singular(parts_.stabilisation().acts());
+  return parts_.tangent().solver().factorize();
 }
 
 bool ImplicitProblem::solve_bordered(const Vector &r_u, const std::vector<double> &r_s, const double sense,
                                      const double relative_tolerance, Vector &du, std::vector<double> &ds) {
-  return tools_.solve(
-      [this](const Vector &b, const double tolerance, Vector &x) { return tangent_.solve(b, tolerance, x); },
-      r_u, r_s, sense, relative_tolerance, du, ds);
+  return parts_.tools().solve([this](const Vector &b, const double tolerance,
+                                     Vector &x) { return parts_.tangent().solve(b, tolerance, x); },
+                              r_u, r_s, sense, relative_tolerance, du, ds);
 }
 
 bool ImplicitProblem::solve_tangent(const Vector &residual, Vector &dx, const double relative_tolerance) {
-  Vector r_u = discretization_.make_owned_vector(), du = r_u;
+  Vector r_u = parts_.discretization().make_owned_vector(), du = r_u;
   const std::size_t n_displacements = r_u.locally_owned_size();
   std::copy(residual.begin(), residual.begin() + n_displacements, r_u.begin());
-  std::vector<double> r_s(tools_.unknown().size()), ds(r_s);
+  std::vector<double> r_s(parts_.tools().unknown().size()), ds(r_s);
   if (residual.locally_owned_size() > n_displacements)
     std::copy(residual.begin() + n_displacements, residual.end(), r_s.begin());
   if (!r_s.empty())
-    r_s = dealii::Utilities::MPI::broadcast(communicator(), r_s, 0);
+    r_s = dealii::Utilities::MPI::broadcast(parts_.communicator(), r_s, 0);
   if (!solve_bordered(r_u, r_s, -1., relative_tolerance, du, ds)) // Newton's method subtracts it
     return false;
   std::copy(du.begin(), du.end(), dx.begin());
@@ -224,53 +224,53 @@ bool ImplicitProblem::solve_tangent(const Vector &residual, Vector &dx, const do
 }
 
 double ImplicitProblem::max_step_length(const Vector &x, const Vector &direction) {
-  if (contacts_.empty())
+  if (parts_.contacts().empty())
     return 1.;
   set_trial(x);
   const Vector from = step_.ghosted;
-  const std::vector<Placement> tools_from = tools_.placements(step_.time);
+  const std::vector<Placement> tools_from = parts_.tools().placements(step_.time);
   Vector end = x;
   end += direction;
   set_trial(end);
-  const double part = contacts_.find_free_part(
-      {from, step_.ghosted, tools_from, tools_.placements(step_.time), false}, obstacle_);
+  const double part = parts_.contacts().find_free_part(
+      {from, step_.ghosted, tools_from, parts_.tools().placements(step_.time), false}, obstacle_);
   return part < Limits::min_part ? 0. : part;
 }
 
 double ImplicitProblem::find_free_part(const bool is_thorough) {
   step_.ghosted = step_.trial.displacements;
-  return contacts_.find_free_part(
-      {state_.displacements, step_.ghosted, state_.placements, tools_.placements(step_.time), is_thorough},
-      obstacle_);
+  return parts_.contacts().find_free_part({state_.displacements, step_.ghosted, state_.placements,
+                                           parts_.tools().placements(step_.time), is_thorough},
+                                          obstacle_);
 }
 
 void ImplicitProblem::start_step(const double t) {
   step_.time = t;
   step_.duration = t - state_.time;
-  internal_.start_step(t, step_.duration);
-  stabilisation_.start_step(step_.duration);
-  scheme().start_step(state_.time, t, step_.start.displacements, tools_.start_offsets());
-  const std::vector<Placement> placements = tools_.placements(t);
-  for (auto &contact : contacts_) {
+  parts_.internal().start_step(t, step_.duration);
+  parts_.stabilisation().start_step(step_.duration);
+  parts_.scheme().start_step(state_.time, t, step_.start.displacements, parts_.tools().start_offsets());
+  const std::vector<Placement> placements = parts_.tools().placements(t);
+  for (auto &contact : parts_.contacts()) {
     contact.start_step({state_.time, t, step_.duration, state_.placements, placements});
-    contact.set_friction_account(scheme().contact_before(), !scheme().has_inertia());
+    contact.set_friction_account(parts_.scheme().contact().at_start(), !parts_.scheme().has_inertia());
   }
 }
 
 void ImplicitProblem::start_at_rest() {
-  for (auto &contact : contacts_)
+  for (auto &contact : parts_.contacts())
     contact.start_step({state_.time, state_.time, 0., state_.placements, state_.placements});
   step_.duration = 0.;
-  internal_.start_step(state_.time, 0.);
+  parts_.internal().start_step(state_.time, 0.);
 }
 
 void ImplicitProblem::evaluate_start() {
   start_at_rest();
-  contacts_.restart();
-  stabilisation_.start_step(0.);
+  parts_.contacts().restart();
+  parts_.stabilisation().start_step(0.);
   step_.time = state_.time;
-  tools_.restart();
-  tools_.choose_unknown({});
+  parts_.tools().restart();
+  parts_.tools().choose_unknown({});
   Vector x = unknowns(), ignored(x);
   compute_residual(x, ignored);
 }

@@ -43,25 +43,25 @@ std::vector<std::size_t> find_bodies(const Discretization &discretization) {
 } // namespace
 
 ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
-    : problem_(problem), supports_(problem.scene(), problem.discretization(), problem.supports().acting()),
-      bodies_of_nodes_(find_bodies(problem.discretization())) {
-  for (const NamedSupport &support : named_supports(problem.scene()))
+    : problem_(problem), supports_(parts_.scene(), parts_.discretization(), parts_.supports().acting()),
+      bodies_of_nodes_(find_bodies(parts_.discretization())) {
+  for (const NamedSupport &support : named_supports(parts_.scene()))
     bodies_of_supports_.push_back(support.body);
-  values_.of_supports.resize(named_supports(problem.scene()).size());
-  values_.of_tool_pairs.resize(problem.scene().pairs().size());
-  values_.between_nodes.resize(problem.scene().pairs().size());
-  values_.of_loads.resize(named_loads(problem.scene()).size());
+  values_.of_supports.resize(named_supports(parts_.scene()).size());
+  values_.of_tool_pairs.resize(parts_.scene().pairs().size());
+  values_.between_nodes.resize(parts_.scene().pairs().size());
+  values_.of_loads.resize(named_loads(parts_.scene()).size());
 }
 
 void ImplicitReactions::start() {
-  supports_.follow(problem_.supports().acting());
+  supports_.follow(parts_.supports().acting());
   const ForceState &trial = problem_.step().trial;
   Vector residual = trial.supports;
-  problem_.scheme().complete(trial.contact, residual);
-  residual *= problem_.scheme().residual_weight();
+  parts_.scheme().complete(trial.contact, residual);
+  residual *= parts_.scheme().residual_weight();
   const SupportReactions::Forces forces = supports_.compute(residual, trial.displacements);
   const std::vector<Tensor<1, 3>> sums =
-      sum_nodes({&trial.supports, &trial.internal, &trial.contact, &residual}, problem_.communicator());
+      sum_nodes({&trial.supports, &trial.internal, &trial.contact, &residual}, parts_.communicator());
   values_.of_supports = forces.of_supports;
   std::fill(values_.of_tool_pairs.begin(), values_.of_tool_pairs.end(), ContactLoad());
   ForceBalance &balance = values_.balance;
@@ -81,7 +81,7 @@ void ImplicitReactions::start() {
 
 void ImplicitReactions::balance_bodies(const Vector &residual) {
   constexpr std::size_t n_sums = 4; // of the residual by axes, and of the forces' magnitudes
-  std::vector<double> sums(n_sums * problem_.scene().bodies().size(), 0.);
+  std::vector<double> sums(n_sums * parts_.scene().bodies().size(), 0.);
   const auto rest = owned_values(residual), internal = owned_values(problem_.step().trial.internal);
   for (std::size_t n = 0; n < bodies_of_nodes_.size(); ++n) {
     double *of_body = &sums[n_sums * bodies_of_nodes_[n]];
@@ -89,8 +89,8 @@ void ImplicitReactions::balance_bodies(const Vector &residual) {
       of_body[i] += rest[3 * n + i];
     of_body[3] += std::hypot(internal[3 * n], internal[3 * n + 1], internal[3 * n + 2]);
   }
-  dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
-  values_.of_bodies.assign(problem_.scene().bodies().size(), {});
+  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
+  values_.of_bodies.assign(parts_.scene().bodies().size(), {});
   for (std::size_t b = 0; b < values_.of_bodies.size(); ++b) {
     for (unsigned int i = 0; i < 3; ++i)
       values_.of_bodies[b].free[i] = -sums[n_sums * b + i];

@@ -10,11 +10,11 @@
 namespace billet {
 
 void ImplicitSolution::save(StateWriter &writer) const {
-  const Discretization &discretization = problem_.discretization();
+  const Discretization &discretization = parts_.discretization();
   const NodeKeys keys(discretization);
   const OwnedNodes nodes(discretization, keys);
   const StepState &step = problem_.step();
-  writer.write_text("scheme", parameters::name_of(problem_.scheme().kind()));
+  writer.write_text("scheme", parameters::name_of(parts_.scheme().kind()));
   writer.write("time", {state().time});
   writer.write("energies", to_numbers(state().energies));
   save_nodal(writer, "displacements", nodes, step.start.displacements);
@@ -27,20 +27,20 @@ void ImplicitSolution::save(StateWriter &writer) const {
   books_.save(writer);
   augmentation_.save(writer);
   round_off_.save(writer);
-  if (!problem_.tangent().is_kind_of_scene())
+  if (!parts_.tangent().is_kind_of_scene())
     writer.write("exact tangent", {1.});
   rules.predictor().save(writer, nodes);
   rules.save(writer);
   checkpoint_.save_bodies(writer);
   checkpoint_.save_tools(writer, nodes);
   checkpoint_.save_contacts(writer, keys);
-  problem_.released().save(writer, nodes);
-  problem_.switched_supports().save(writer, nodes);
+  parts_.released().save(writer, nodes);
+  parts_.switched_supports().save(writer, nodes);
 }
 
 RestartReport ImplicitSolution::load(StateReader &reader, const double release_time) {
-  const NodeKeys keys(problem_.discretization());
-  const OwnedNodes nodes(problem_.discretization(), keys);
+  const NodeKeys keys(parts_.discretization());
+  const OwnedNodes nodes(parts_.discretization(), keys);
   StepState &step = problem_.step();
   SolutionState &state = problem_.state();
   RestartReport report;
@@ -50,32 +50,32 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
   if (!scheme)
     throw InputError("its scheme '" + name_of_scheme + "' is unknown; known are " +
                      parameters::selection(parameters::schemes()));
-  const bool is_implicit = scheme != Scheme::explicit_dynamics, is_own = scheme == problem_.scheme().kind();
+  const bool is_implicit = parameters::type_of(*scheme).has_matrix, is_own = scheme == parts_.scheme().kind();
   report.is_exact = is_own;
-  compare_parts(reader, problem_.scene(), report);
+  compare_parts(reader, parts_.scene(), report);
   state.energies = to_energies(reader.read("energies"));
   load_nodal(reader, is_implicit ? "displacements" : "displacements before", nodes, step.start.displacements);
   state.displacements = step.start.displacements;
   step.trial.displacements = step.start.displacements;
   step.ghosted = step.start.displacements;
   state.time = step.time = report.time = reader.number(is_implicit ? "time" : "time before");
-  problem_.switched_supports().load(reader, nodes, state.time, state.displacements);
-  if (problem_.supports().acting().may_change())
-    problem_.tangent().follow_supports();
-  if (!problem_.scheme().has_inertia() && reader.has("kinetic energy"))
+  parts_.switched_supports().load(reader, nodes, state.time, state.displacements);
+  if (parts_.supports().acting().may_change())
+    parts_.tangent().follow_supports();
+  if (!parts_.scheme().has_inertia() && reader.has("kinetic energy"))
     report.kinetic_energy = reader.number("kinetic energy");
   checkpoint_.load_bodies(reader, report);
   checkpoint_.load_tools(reader, nodes);
   checkpoint_.load_contacts(reader, keys);
   checkpoint_.update_contacts(reader, report.is_exact);
   problem_.scales().spring_round_off =
-      problem_.contacts().find_spring_round_off(); // with the present penalties
+      parts_.contacts().find_spring_round_off(); // with the present penalties
   if (is_own)
     load_own(reader, nodes, report.is_exact);
   if (!report.is_exact)
     compute_forces(report);
   rules_->finish_load(reader, release_time, report);
-  report.release_end = problem_.released().are_there() ? problem_.released().end() : state.time;
+  report.release_end = parts_.released().are_there() ? parts_.released().end() : state.time;
   return report;
 }
 
@@ -92,18 +92,18 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
     augmentation_.load(reader);
   rules_->predictor().load(reader, nodes, is_exact);
   if (reader.has("exact tangent"))
-    problem_.tangent().take_exact();
+    parts_.tangent().take_exact();
   problem_.scales().lasting = reader.read("scales", 2).at(0);
-  problem_.released().load(reader, nodes, problem_.discretization());
+  parts_.released().load(reader, nodes, parts_.discretization());
 }
 
 void ImplicitSolution::compute_forces(RestartReport &report) {
   problem_.start_at_rest();
-  problem_.released().clear();
-  problem_.tools().choose_unknown({});
+  parts_.released().clear();
+  parts_.tools().choose_unknown({});
   StepState &step = problem_.step();
   SolutionState &state = problem_.state();
-  Vector residual = problem_.discretization().make_owned_vector();
+  Vector residual = parts_.discretization().make_owned_vector();
   if (!problem_.compute_residual(step.start.displacements, residual))
     throw InputError("its state is not admissible here: elements are inverted, or forces are not finite");
   report.imbalance = residual.l2_norm();
@@ -113,7 +113,7 @@ void ImplicitSolution::compute_forces(RestartReport &report) {
   step.start.supports = step.trial.supports;
   step.start.contact = step.trial.contact;
   step.start.internal = step.trial.internal;
-  const Contacts::Loads loads = problem_.contacts().compute_loads();
+  const Contacts::Loads loads = parts_.contacts().compute_loads();
   state.tool_loads = loads.of_tools;
   state.body_pair_loads = loads.of_body_pairs;
   state.energies.contact = 0.;
@@ -123,8 +123,8 @@ void ImplicitSolution::compute_forces(RestartReport &report) {
   // Energy lost by the interruption is not drift.
   EnergyLedger &energies = state.energies;
   const double drift = energies.drift();
-  const auto now = problem_.internal().compute_energies(state.displacements);
-  if (!problem_.scheme().has_inertia())
+  const auto now = parts_.internal().compute_energies(state.displacements);
+  if (!parts_.scheme().has_inertia())
     energies.kinetic = 0.;
   energies.hourglass = now.hourglass;
   energies.elastic = now.elastic;

@@ -13,7 +13,7 @@ void InitialMotion::start() {
   check_before_start([&] {
     Vector x = problem_.unknowns(), ignored(x);
     if (!problem_.compute_residual(x, ignored))
-      throw SolutionFailure(problem_.parameters().file_name +
+      throw SolutionFailure(parts_.parameters().file_name +
                             ": the displacements that supports prescribe at time 0 invert an element; "
                             "allowed are small ones, since the rest of the body starts undeformed");
   });
@@ -22,12 +22,12 @@ void InitialMotion::start() {
   step.start.supports = step.trial.supports;
   step.start.contact = step.trial.contact;
   step.start.internal = step.trial.internal;
-  const Contacts::Loads loads = problem_.contacts().compute_loads();
+  const Contacts::Loads loads = parts_.contacts().compute_loads();
   state.tool_loads = loads.of_tools;
   state.body_pair_loads = loads.of_body_pairs;
   check_before_start([&] { accelerate(); });
 
-  const auto energies = problem_.internal().compute_energies(state.displacements);
+  const auto energies = parts_.internal().compute_energies(state.displacements);
   state.energies.elastic = energies.elastic;
   state.energies.hourglass = energies.hourglass;
   for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
@@ -38,35 +38,34 @@ void InitialMotion::start() {
 }
 
 void InitialMotion::accelerate() {
-  TangentMatrix &tangent = problem_.tangent();
+  TangentMatrix &tangent = parts_.tangent();
   tangent.matrix() = 0.;
-  motion_.add_mass({problem_.supports().homogeneous(), tangent.matrix()});
+  motion_.add_mass({parts_.supports().homogeneous(), tangent.matrix()});
   tangent.matrix().compress(dealii::VectorOperation::add);
   Vector rhs = motion_.driving_forces(problem_.step().start.supports),
-         accelerations = problem_.discretization().make_owned_vector();
-  problem_.supports().condense(rhs);
+         accelerations = parts_.discretization().make_owned_vector();
+  parts_.supports().condense(rhs);
   if (tangent.solver().is_iterative()) {
     tangent.solver().start_contact({}); // the mass matrix has no contact
     tangent.set_geometry(problem_.step().trial.displacements);
   }
   if (!tangent.solver().factorize() || !tangent.solve(rhs, tolerance, accelerations)) {
     std::ostringstream message;
-    message << problem_.parameters().file_name
+    message << parts_.parameters().file_name
             << ": the mass matrix cannot be solved for the accelerations: " << tangent.solver().failure();
     throw SolutionFailure(Diagnostic(diagnostic::solution_failed, message.str())
                               .time(problem_.state().time)
                               .advice("Check the units of the densities"));
   }
   motion_.set_accelerations(accelerations);
-  const auto &tools = problem_.scene().tools();
+  const auto &tools = parts_.scene().tools();
   for (std::size_t tool = 0; tool < tools.size(); ++tool)
-    if (motion_.has_mass(tool))
-      motion_.tools().start(tool, problem_.tools().exerted_load(tool),
-                            tools[tool].load(problem_.state().time));
+    if (motion_.tools().has_mass(tool))
+      motion_.tools().start(tool, parts_.tools().exerted_load(tool), tools[tool].load(problem_.state().time));
 }
 
 void InitialMotion::load(StateReader &reader, RestartReport &report) {
-  const OwnedNodes nodes(problem_.discretization(), NodeKeys(problem_.discretization()));
+  const OwnedNodes nodes(parts_.discretization(), NodeKeys(parts_.discretization()));
   SolutionState &state = problem_.state();
   if (report.is_exact) {
     motion_.load(reader, nodes);
@@ -74,7 +73,7 @@ void InitialMotion::load(StateReader &reader, RestartReport &report) {
     report.imbalance = 0.; // it accelerates the bodies
     motion_.begin(reader, nodes, state.time);
   }
-  const auto &tools = problem_.scene().tools();
+  const auto &tools = parts_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i)
     if (const auto found = find_group(reader, "tool", tools[i].name()))
       reader.in(group("tool", *found), [&] { motion_.tools().load(i, reader, report.is_exact); });

@@ -9,7 +9,7 @@
 namespace billet {
 
 std::vector<PenaltyContinuation::Octaves> PenaltyContinuation::octaves_above(const Start start) const {
-  const ContactSet &contacts = problem_.contacts();
+  const ContactSet &contacts = parts_.contacts();
   const std::vector<double> normal = contacts.stiffening_left(),
                             tangential = contacts.collect_min([](const auto &contact) {
                               return contact.penalties().tangential_stiffening_left();
@@ -37,7 +37,7 @@ void PenaltyContinuation::soften(const std::vector<Octaves> &above, const int so
   const auto change = [&](const int at_most) {
     return std::ldexp(1., std::min(softer, at_most) - std::min(octaves, at_most));
   };
-  ContactSet &contacts = problem_.contacts();
+  ContactSet &contacts = parts_.contacts();
   for (std::size_t i = 0; i < above.size(); ++i)
     contacts[i].penalties().scale(change(above[i].normal), change(above[i].tangential));
   contacts.restart();
@@ -86,7 +86,7 @@ NewtonReport PenaltyContinuation::iterate(const Start start, std::vector<double>
 Diagnostic PenaltyContinuation::describe() const {
   return Diagnostic(diagnostic::penalty_too_high, "Newton's method needs lower penalties first, and many "
                                                   "iterations, because of the penalty of contact pair " +
-                                                      problem_.contacts().stiffest_pairs())
+                                                      parts_.contacts().stiffest_pairs())
       .time(problem_.step().time)
       .advice("Reduce 'Normal penalty', with a 'Penetration tolerance' if penetration is then too large");
 }

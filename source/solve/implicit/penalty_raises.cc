@@ -9,8 +9,8 @@
 namespace billet {
 
 SpringBooks::SpringBooks(ImplicitProblem &problem)
-    : problem_(problem), of_tools_(problem.contacts().of_tools().size()),
-      watch_(problem.scheme().has_inertia() ? PenaltyWatch::Motion::sudden : PenaltyWatch::Motion::slow) {}
+    : problem_(problem), of_tools_(parts_.contacts().of_tools().size()),
+      watch_(parts_.scheme().has_inertia() ? PenaltyWatch::Motion::sudden : PenaltyWatch::Motion::slow) {}
 
 double &SpringBooks::energy(const std::size_t contact) {
   return contact < of_tools_.size()
@@ -25,8 +25,8 @@ void SpringBooks::add(const std::size_t contact, const double change) {
 
 void SpringBooks::check_pair(const std::string &name, Penetration deepest, const double moved,
                              const double stored_energy, DiagnosticList &messages) {
-  deepest = {dealii::Utilities::MPI::max(deepest.of_facet, problem_.communicator()),
-             dealii::Utilities::MPI::max(deepest.length, problem_.communicator())};
+  deepest = {dealii::Utilities::MPI::max(deepest.of_facet, parts_.communicator()),
+             dealii::Utilities::MPI::max(deepest.length, parts_.communicator())};
   const double work = problem_.state().energies.total();
   append(messages,
          watch_.check(name, problem_.state().time, deepest, moved, work > 0. ? stored_energy / work : 0.));
@@ -36,12 +36,12 @@ DiagnosticList SpringBooks::check() {
   DiagnosticList messages;
   const SolutionState &state = problem_.state();
   const double displacement = problem_.step().start.displacements.linfty_norm();
-  for (std::size_t i = 0; i < problem_.contacts().size(); ++i) {
-    const ContactInterface &contact = problem_.contacts()[i];
+  for (std::size_t i = 0; i < parts_.contacts().size(); ++i) {
+    const ContactInterface &contact = parts_.contacts()[i];
     double moved = displacement;
     if (const auto &tool = contact.rigid_tool())
-      moved = std::max(moved, max_motion(problem_.scene().tools()[*tool].placement(0.),
-                                         state.placements[*tool], problem_.discretization().radius()));
+      moved = std::max(moved, max_motion(parts_.scene().tools()[*tool].placement(0.), state.placements[*tool],
+                                         parts_.discretization().radius()));
     check_pair(contact.name(), contact.measures().penetration(), moved, energy(i), messages);
     append(messages, contact.checks().check_step());
   }
@@ -49,11 +49,11 @@ DiagnosticList SpringBooks::check() {
 }
 
 std::vector<double> PenaltyRaises::find_factors() const {
-  const ContactSet &contacts = problem_.contacts();
+  const ContactSet &contacts = parts_.contacts();
   std::vector<double> factors =
       contacts.collect_max([](const auto &contact) { return contact.measures().excessive_penetration(); });
   const std::vector<double> room = contacts.stiffening_left();
-  const auto &stepping = problem_.parameters().time_stepping;
+  const auto &stepping = parts_.parameters().time_stepping;
   const bool is_short =
       stepping.control == parameters::TimeStepping::Control::automatic &&
       problem_.step().time - problem_.state().time < Limits::short_step * stepping.initial_step;
@@ -62,7 +62,7 @@ std::vector<double> PenaltyRaises::find_factors() const {
     // are about to go deeper than contact follows them.
     const PairSettings &pair = contacts[i].settings();
     const bool is_too_much =
-        !pair.has_tolerance() && factors[i] > (pair.input->has_own_penalty && !is_short ? Limits::deep : 1.);
+        !pair.has_tolerance() && factors[i] > (pair.input->penalty.is_given && !is_short ? Limits::deep : 1.);
     const double raise =
         std::min(std::clamp(2. * factors[i], Limits::min_raise, Limits::max_raise), max_raise * room[i]);
     factors[i] = is_too_much && raise >= Limits::min_raise ? whole_octaves(raise) : 1.;
@@ -70,18 +70,15 @@ std::vector<double> PenaltyRaises::find_factors() const {
   return factors;
 }
 
-bool PenaltyRaises::is_needed(NewtonReport &report) {
+std::optional<StepFailure> PenaltyRaises::judge() {
   factors_ = find_factors();
   if (std::none_of(factors_.begin(), factors_.end(), [](const double factor) { return factor > 1.; }))
-    return false;
-  report.converged = false;
-  report.penetrates = true;
-  report.failure = "the penetration of nodes is too large";
-  return true;
+    return {};
+  return StepFailure{StepFailure::Kind::penetrates, {"the penetration of nodes is too large", ""}};
 }
 
 DiagnosticList PenaltyRaises::raise() {
-  ContactSet &contacts = problem_.contacts();
+  ContactSet &contacts = parts_.contacts();
   problem_.evaluate_start();
   const std::vector<double> before = contacts.stored_energies();
   for (std::size_t i = 0; i < factors_.size(); ++i)
@@ -109,10 +106,10 @@ DiagnosticList PenaltyRaises::describe() const {
   for (std::size_t i = 0; i < factors_.size(); ++i) {
     if (!(factors_[i] > 1.))
       continue;
-    const ContactInterface &contact = problem_.contacts()[i];
+    const ContactInterface &contact = parts_.contacts()[i];
     const parameters::ContactPair &input = *contact.settings().input;
-    const double penalty = input.normal_penalty * contact.penalties().stiffening();
-    const bool is_factor = input.penalty_unit == parameters::ContactPair::PenaltyUnit::factor;
+    const double penalty = input.penalty.normal * contact.penalties().stiffening();
+    const bool is_factor = input.penalty.unit == parameters::ContactPair::PenaltyUnit::factor;
     std::ostringstream text;
     text.precision(3);
     text << "The penalty of the pair rises by a factor of " << factors_[i] << ", to " << penalty
@@ -129,10 +126,10 @@ DiagnosticList PenaltyRaises::describe() const {
 DiagnosticList DynamicPenalties::control(const Solution &solution) {
   if (!control_.is_used())
     return {};
-  ContactSet &contacts = problem_.contacts();
-  const MPI_Comm communicator = problem_.communicator();
+  ContactSet &contacts = parts_.contacts();
+  const MPI_Comm communicator = parts_.communicator();
   const PenaltyControl::Energies energies =
-      control_.measure(solution, problem_.scene().bodies().size(), problem_.state().time, communicator);
+      control_.measure(solution, parts_.scene().bodies().size(), problem_.state().time, communicator);
   const auto room = contacts.collect(
       [&](const auto &contact) { return control_.room_of(contact.penalties(), communicator); });
   const std::vector<PenaltyControl::Factors> factors = control_.raises(energies, room);

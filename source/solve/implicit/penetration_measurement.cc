@@ -23,8 +23,8 @@ double difference(const StepResults::Groups &a, const StepResults::Groups &b,
 } // namespace
 
 bool StepResults::has_forces_of_contacts() const {
-  const auto &pairs = problem_.scene().body_pairs();
-  return !problem_.contacts().of_tools().empty() ||
+  const auto &pairs = parts_.scene().body_pairs();
+  return !parts_.contacts().of_tools().empty() ||
          std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) { return !pair.is_self_contact; });
 }
 
@@ -36,24 +36,24 @@ StepResults::Groups StepResults::accepted() const {
     results[0].push_back(load.force);
   if (!has_forces_of_contacts())
     results[0].push_back(dealii::Tensor<1, 3>({problem_.step().start.supports.l2_norm(), 0., 0.}));
-  add_travels(problem_.tools().start_offsets(), results);
+  add_travels(parts_.tools().start_offsets(), results);
   return results;
 }
 
 StepResults::Groups StepResults::of_trial() const {
   Groups results(1);
-  const Contacts::Loads loads = problem_.contacts().compute_loads();
+  const Contacts::Loads loads = parts_.contacts().compute_loads();
   for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
     for (const ContactLoad &load : *of)
       results[0].push_back(load.force);
   if (!has_forces_of_contacts())
     results[0].push_back(dealii::Tensor<1, 3>({problem_.step().trial.supports.l2_norm(), 0., 0.}));
-  add_travels(problem_.tools().offsets(), results);
+  add_travels(parts_.tools().offsets(), results);
   return results;
 }
 
 void StepResults::add_travels(const std::vector<double> &offsets, Groups &results) const {
-  const auto &tools = problem_.scene().tools();
+  const auto &tools = parts_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i)
     if (tools[i].is_driven())
       results.push_back({dealii::Tensor<1, 3>({offsets[i], 0., 0.})});
@@ -62,10 +62,10 @@ void StepResults::add_travels(const std::vector<double> &offsets, Groups &result
 std::vector<double> StepResults::least_sizes() const {
   std::vector<double> sizes(1, 0.);
   const double work = std::abs(problem_.state().energies.external), time = problem_.state().time;
-  const auto &tools = problem_.scene().tools();
+  const auto &tools = parts_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i)
     if (tools[i].is_driven()) {
-      const double reach = problem_.discretization().radius() / problem_.tools().unit_of(i);
+      const double reach = parts_.discretization().radius() / parts_.tools().unit_of(i);
       // Without work there may have been no step, and no load yet.
       const double load = work > 0. ? std::abs(tools[i].load(time)) : 0.;
       sizes.push_back(work < load * reach ? work / load : work > 0. ? reach : 0.);
@@ -75,7 +75,7 @@ std::vector<double> StepResults::least_sizes() const {
 
 std::vector<std::string> StepResults::names() const {
   std::vector<std::string> names = {"forces"};
-  for (const auto &tool : problem_.scene().tools())
+  for (const auto &tool : parts_.scene().tools())
     if (tool.is_driven())
       names.push_back("travel of '" + tool.name() + "'");
   return names;
@@ -83,13 +83,13 @@ std::vector<std::string> StepResults::names() const {
 
 void PenetrationMeasurement::begin_with_augmentation() {
   if (is_wanted_ && !measured_)
-    measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
+    measured_ = OfPenetration{parts_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
 }
 
 void PenetrationMeasurement::measure(const Vector &accepted, const double accuracy, NewtonReport &report) {
   if (measured_ && measured_->with.empty()) // discarded
     return;
-  if (!measured_ && (!(problem_.force_scale() > 0.) || !(problem_.contacts().find_penetration() > 0.))) {
+  if (!measured_ && (!(problem_.force_scale() > 0.) || !(parts_.contacts().find_penetration() > 0.))) {
     measured_ = OfPenetration(); // no contact
     return;
   }
@@ -97,8 +97,8 @@ void PenetrationMeasurement::measure(const Vector &accepted, const double accura
   if (measured_) { // tractions have been augmented in this step
     measured_->without = results_.of_trial();
     measured_->residual = report.force;
-    left = problem_.contacts().find_penetration() / measured_->penetration;
-  } else if (!problem_.contacts().empty())
+    left = parts_.contacts().find_penetration() / measured_->penetration;
+  } else if (!parts_.contacts().empty())
     left = augment_once(accepted, accuracy, report);
   if (!measured_ || measured_->without.empty())
     return;
@@ -114,10 +114,10 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
   Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
   const std::vector<double> least_sizes = results_.least_sizes();
-  measured_ = OfPenetration{problem_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
-  for (auto &contact : problem_.contacts())
+  measured_ = OfPenetration{parts_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
+  for (auto &contact : parts_.contacts())
     contact.penalties().augment();
-  const parameters::Solver &solver = problem_.parameters().solver;
+  const parameters::Solver &solver = parts_.parameters().solver;
   bool is_admissible = problem_.compute_residual(x, residual), is_accurate = false;
   while (is_admissible && !is_accurate && measured_->n_iterations < Limits::max_iterations) {
     dx = 0.;
@@ -138,9 +138,9 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
   }
   if (is_admissible && is_accurate) {
     measured_->without = results_.of_trial();
-    left = problem_.contacts().find_penetration() / measured_->penetration;
+    left = parts_.contacts().find_penetration() / measured_->penetration;
   }
-  problem_.contacts().take_back_augmentation();
+  parts_.contacts().take_back_augmentation();
   return left;
 }
 

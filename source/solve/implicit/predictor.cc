@@ -10,7 +10,7 @@
 namespace billet {
 
 bool Predictor::extrapolates() const {
-  return problem_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
+  return parts_.parameters().solver.predictor == parameters::Solver::Predictor::extrapolation;
 }
 
 bool Predictor::guess(const double t, const double previous_step) {
@@ -20,15 +20,15 @@ bool Predictor::guess(const double t, const double previous_step) {
 
 bool Predictor::stay_at_rest(const double t) {
   const double t_n = problem_.state().time;
-  const auto &bodies = problem_.scene().bodies();
+  const auto &bodies = parts_.scene().bodies();
   if (std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); }))
     return false; // loads may change with time
-  if (has_lost_pace_ || problem_.switched_supports().changes(t_n, t) ||
-      problem_.released().left(t) != problem_.released().left(t_n) || problem_.removal().changes(t_n, t))
+  if (has_lost_pace_ || parts_.switched_supports().changes(t_n, t) ||
+      parts_.released().left(t) != parts_.released().left(t_n) || parts_.removal().changes(t_n, t))
     return false;
-  const auto &tools = problem_.scene().tools();
+  const auto &tools = parts_.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    if (problem_.removal().is_removed(i) || problem_.tools().is_stopped(i))
+    if (parts_.removal().is_removed(i) || parts_.tools().is_stopped(i))
       continue;
     const Tool &tool = tools[i];
     const Placement before = tool.placement(t_n), after = tool.placement(t);
@@ -37,11 +37,11 @@ bool Predictor::stay_at_rest(const double t) {
       return false;
   }
   bool supports_move = false;
-  problem_.supports().change(t_n, t, supports_move);
+  parts_.supports().change(t_n, t, supports_move);
   if (supports_move)
     return false;
   problem_.step().trial.displacements = problem_.step().start.displacements;
-  problem_.tools().restart();
+  parts_.tools().restart();
   return true;
 }
 
@@ -52,8 +52,8 @@ bool Predictor::tool_jumps(const Tool &tool, const double t, const double previo
   // Six points of the tool about the scene.
   double jump = 0., motion = 0.;
   for (unsigned int i = 0; i < 6; ++i) {
-    dealii::Tensor<1, 3> here = problem_.discretization().centre();
-    here[i / 2] += (i % 2 == 0 ? 1. : -1.) * problem_.discretization().radius();
+    dealii::Tensor<1, 3> here = parts_.discretization().centre();
+    here[i / 2] += (i % 2 == 0 ? 1. : -1.) * parts_.discretization().radius();
     const auto point = now.to_tool(here);
     const auto step = after.to_space(point) - here;
     jump += (step - ratio * (here - before.to_space(point))).norm();
@@ -65,7 +65,7 @@ bool Predictor::tool_jumps(const Tool &tool, const double t, const double previo
 bool Predictor::fit_to_supports(const double t) {
   StepState &step = problem_.step();
   Vector jump = step.trial.displacements, motion = step.trial.displacements;
-  problem_.supports().at_time(t).distribute(step.trial.displacements);
+  parts_.supports().at_time(t).distribute(step.trial.displacements);
   jump -= step.trial.displacements;
   motion -= step.start.displacements;
   return jump.l2_norm() <= Limits::max_jump * motion.l2_norm();
@@ -75,14 +75,14 @@ bool Predictor::continue_increment(const double t, const double previous_step) {
   if (has_lost_pace_)
     return false;
   const double ratio = (t - problem_.state().time) / previous_step;
-  const auto &scene_tools = problem_.scene().tools();
+  const auto &scene_tools = parts_.scene().tools();
   for (std::size_t i = 0; i < scene_tools.size(); ++i)
-    if (!problem_.tools().is_stopped(i) && tool_jumps(scene_tools[i], t, previous_step))
+    if (!parts_.tools().is_stopped(i) && tool_jumps(scene_tools[i], t, previous_step))
       return false;
   StepState &step = problem_.step();
   step.trial.displacements = step.start.displacements;
   step.trial.displacements.add(ratio, step.last_increment);
-  DrivenTools &tools = problem_.tools();
+  DrivenTools &tools = parts_.tools();
   std::vector<double> offsets = tools.offsets();
   for (const std::size_t tool : tools.unknown())
     offsets[tool] = tools.start_offsets()[tool] + ratio * tools.last_increments()[tool];
@@ -100,7 +100,7 @@ bool Predictor::follow_probe(const double t) {
   step.trial.displacements -= step.start.displacements;
   step.trial.displacements *= ratio;
   step.trial.displacements += step.start.displacements;
-  DrivenTools &tools = problem_.tools();
+  DrivenTools &tools = parts_.tools();
   std::vector<double> offsets = tools.offsets();
   for (const std::size_t tool : tools.unknown())
     offsets[tool] =
@@ -114,12 +114,12 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   // right-hand side, so that it spreads through the bodies. On the boundary nodes alone it would crush the
   // elements beside them.
   StepState &step = problem_.step();
-  DrivenTools &tools = problem_.tools();
+  DrivenTools &tools = parts_.tools();
   bool supports_move = false;
-  const Constraints change = problem_.supports().change(problem_.state().time, t, supports_move);
+  const Constraints change = parts_.supports().change(problem_.state().time, t, supports_move);
   problem_.start_at_rest();
   tools.restart();
-  Vector correction = problem_.discretization().make_owned_vector(), rhs = correction;
+  Vector correction = parts_.discretization().make_owned_vector(), rhs = correction;
   const std::vector<std::size_t> unknown = tools.unknown();
   tools.leave_in_place();
   const bool is_admissible = problem_.compute_residual(step.start.displacements, rhs);
@@ -128,30 +128,30 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
     return false;
   rhs *= -1.;
   Vector loads = correction;
-  if (problem_.scheme().add_load_change(t, step.start.displacements, loads)) {
-    problem_.supports().condense(loads);
+  if (parts_.scheme().add_load_change(t, step.start.displacements, loads)) {
+    parts_.supports().condense(loads);
     rhs += loads;
   }
   std::vector<double> load_rhs, offset_changes(unknown.size());
   for (const std::size_t tool : unknown)
     load_rhs.push_back(-tools.imbalance(tool, t) / tools.unit_of(tool));
-  Vector pushes = problem_.discretization().make_additive_vector(), lift = pushes;
-  for (const auto &contact : problem_.contacts().of_tools())
+  Vector pushes = parts_.discretization().make_additive_vector(), lift = pushes;
+  for (const auto &contact : parts_.contacts().of_tools())
     contact.drive().add_push(tools.place(contact.tool(), t, tools.start_offsets()[contact.tool()]), pushes);
   pushes.compress(dealii::VectorOperation::add);
   Vector push = correction;
   push = pushes;
-  push *= problem_.scheme().contact_weight();
-  problem_.supports().condense(push);
+  push *= parts_.scheme().contact().at_end();
+  parts_.supports().condense(push);
   rhs += push;
   // Whether points on the yield surface will load or unload is not known yet. The elastic guess is the safe
   // one, and takes the fewer iterations: the soft plastic one overshoots wherever they unload.
-  if (!problem_.assemble_tangent({change, problem_.tangent().matrix(), &lift}, Limits::yield_slack))
+  if (!problem_.assemble_tangent({change, parts_.tangent().matrix(), &lift}, Limits::yield_slack))
     return false;
   lift.compress(dealii::VectorOperation::add);
   push = lift;
   rhs += push;
-  const parameters::Solver &solver = problem_.parameters().solver;
+  const parameters::Solver &solver = parts_.parameters().solver;
   const double relative_tolerance = solver.forcing == parameters::Solver::Forcing::fixed
                                         ? solver.linear_tolerance
                                         : std::max(solver.linear_tolerance, Limits::linear_tolerance);
@@ -161,7 +161,7 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   change.distribute(correction);
   step.trial.displacements = step.start.displacements;
   step.trial.displacements += correction;
-  problem_.supports().at_time(t).distribute(step.trial.displacements);
+  parts_.supports().at_time(t).distribute(step.trial.displacements);
   std::vector<double> offsets = tools.offsets();
   for (std::size_t k = 0; k < unknown.size(); ++k)
     offsets[unknown[k]] += offset_changes[k] / tools.unit_of(unknown[k]);
@@ -171,7 +171,7 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
 
 void Predictor::keep_probe(const double t) {
   probe_ = std::make_unique<ProbedState>(
-      ProbedState{t, problem_.step().trial.displacements, problem_.tools().offsets()});
+      ProbedState{t, problem_.step().trial.displacements, parts_.tools().offsets()});
 }
 
 void Predictor::save(StateWriter &writer, const OwnedNodes &nodes) const {
@@ -191,7 +191,7 @@ void Predictor::load(StateReader &reader, const OwnedNodes &nodes, const bool is
   reader.in("probe", [&] {
     probe_ =
         std::make_unique<ProbedState>(ProbedState{reader.number("time"), problem_.step().start.displacements,
-                                                  reader.read("offsets", problem_.tools().offsets().size())});
+                                                  reader.read("offsets", parts_.tools().offsets().size())});
     load_nodal(reader, "displacements", nodes, probe_->displacements);
   });
 }
@@ -200,12 +200,12 @@ bool MotionPredictor::guess(const double t, double /*previous_step*/) {
   if (!extrapolates())
     return false;
   StepState &step = problem_.step();
-  DrivenTools &tools = problem_.tools();
+  DrivenTools &tools = parts_.tools();
   Vector guess = step.start.displacements;
   std::vector<double> offsets = tools.start_offsets();
-  problem_.scheme().start_step(problem_.state().time, t, step.start.displacements, offsets);
+  parts_.scheme().start_step(problem_.state().time, t, step.start.displacements, offsets);
   motion_.extrapolate(guess, offsets);
-  problem_.supports().at_time(t).distribute(guess);
+  parts_.supports().at_time(t).distribute(guess);
   tools.set_offsets(offsets);
   problem_.start_step(t);
 

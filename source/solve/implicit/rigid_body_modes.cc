@@ -13,9 +13,9 @@ namespace billet {
 namespace {
 
 /// Returns the bodies with the supports that act now and the springs that act after t.
-RigidBodies find_rigid_bodies(const ImplicitProblem &problem, const double t) {
-  return {problem.scene(), problem.discretization(),
-          [&problem](const Hold &hold) { return problem.supports().acting()(hold); },
+RigidBodies find_rigid_bodies(const ImplicitParts &parts, const double t) {
+  return {parts.scene(), parts.discretization(),
+          [&parts](const Hold &hold) { return parts.supports().acting()(hold); },
           [t](const LoadTimes &times) { return times.acts_after(t); }};
 }
 
@@ -32,19 +32,19 @@ bool has_switched_springs(const Scene &scene) {
 
 RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
     : problem_(problem),
-      may_change_(problem.supports().acting().may_change() || has_switched_springs(problem.scene())),
-      bodies_(find_rigid_bodies(problem, 0.)), forces_n_(problem.scene().bodies().size(), 0.),
+      may_change_(parts_.supports().acting().may_change() || has_switched_springs(parts_.scene())),
+      bodies_(find_rigid_bodies(parts_, 0.)), forces_n_(parts_.scene().bodies().size(), 0.),
       max_forces_(forces_n_) {
   // Bodies that lose their supports within the run may need it.
   if (may_change_)
-    problem.stabilisation().prepare(RigidBodies(
-        problem.scene(), problem.discretization(), [](const Hold &hold) { return hold.times.always(); },
+    parts_.stabilisation().prepare(RigidBodies(
+        parts_.scene(), parts_.discretization(), [](const Hold &hold) { return hold.times.always(); },
         [](const LoadTimes &times) { return times.always(); }));
   else
-    problem.stabilisation().prepare(bodies_);
+    parts_.stabilisation().prepare(bodies_);
 }
 
-void RigidBodyModes::find_bodies(const double t) { bodies_ = find_rigid_bodies(problem_, t); }
+void RigidBodyModes::find_bodies(const double t) { bodies_ = find_rigid_bodies(parts_, t); }
 
 void RigidBodyModes::follow_supports(const double t) {
   support_ = RigidBodySupport::Result();
@@ -63,8 +63,8 @@ void RigidBodyModes::add_supports(RigidBodySupport &support) const {
 }
 
 template <class AddContact> void RigidBodyModes::add_supporting_points(const AddContact &add) const {
-  const DrivenTools &tools = problem_.tools();
-  for (const auto &contact : problem_.contacts()) {
+  const DrivenTools &tools = parts_.tools();
+  for (const auto &contact : parts_.contacts()) {
     // A tool whose travel is unknown does not resist.
     std::optional<std::size_t> unknown;
     ToolRate rate;
@@ -93,10 +93,10 @@ template <class AddContact> void RigidBodyModes::add_supporting_points(const Add
 }
 
 RigidBodySupport RigidBodyModes::hold_bodies() const {
-  RigidBodySupport support(problem_.communicator(), bodies_.frames, problem_.tools().unknown().size());
+  RigidBodySupport support(parts_.communicator(), bodies_.frames, parts_.tools().unknown().size());
   add_supports(support);
   for (std::size_t body = 0; body < bodies_.frames.size(); ++body)
-    if (problem_.stabilisation().acts_on(body))
+    if (parts_.stabilisation().acts_on(body))
       support.hold(body);
   return support;
 }
@@ -124,26 +124,25 @@ std::optional<RigidBodySupport::Mode> RigidBodyModes::find_sliding_soon() const 
     else
       support.add_contact(point, of, on);
   });
-  if (dealii::Utilities::MPI::max(any ? 1 : 0, problem_.communicator()) == 0)
+  if (dealii::Utilities::MPI::max(any ? 1 : 0, parts_.communicator()) == 0)
     return {};
   return support.find().sliding;
 }
 
 RigidBodySupport::Result RigidBodyModes::find_support_by_contact() const {
-  RigidBodySupport support(problem_.communicator(), bodies_.frames, problem_.tools().unknown().size());
+  RigidBodySupport support(parts_.communicator(), bodies_.frames, parts_.tools().unknown().size());
   support.weigh_pushes();
-  if (problem_.stabilisation().acts())
-    support.weigh_translations(problem_.stabilisation().translations(problem_.step()));
+  if (parts_.stabilisation().acts())
+    support.weigh_translations(parts_.stabilisation().translations(problem_.step()));
   add_supports(support);
-  if (dealii::Utilities::MPI::this_mpi_process(problem_.communicator()) == 0)
-    for (std::size_t k = 0; k < problem_.tools().unknown().size(); ++k)
-      if (const double load =
-              problem_.scene().tools()[problem_.tools().unknown()[k]].load(problem_.step().time);
+  if (dealii::Utilities::MPI::this_mpi_process(parts_.communicator()) == 0)
+    for (std::size_t k = 0; k < parts_.tools().unknown().size(); ++k)
+      if (const double load = parts_.scene().tools()[parts_.tools().unknown()[k]].load(problem_.step().time);
           load != 0.)
         support.add_load(k, load);
   add_supporting_points([&](const std::size_t body, const std::size_t other, const SupportingPoint &point,
                             const RigidBodySupport::Side &of, const RigidBodySupport::Side &on) {
-    if (problem_.stabilisation().acts_on(body) || problem_.stabilisation().acts_on(other))
+    if (parts_.stabilisation().acts_on(body) || parts_.stabilisation().acts_on(other))
       support.add_pushing_contact(point, of, on);
     else
       support.add_contact(point, of, on);
@@ -152,24 +151,24 @@ RigidBodySupport::Result RigidBodyModes::find_support_by_contact() const {
 }
 
 std::vector<double> RigidBodyModes::contact_forces_on_bodies() const {
-  std::vector<double> forces(problem_.scene().bodies().size(), 0.);
+  std::vector<double> forces(parts_.scene().bodies().size(), 0.);
   const auto sum = [](const auto &contact) {
     double total = 0.;
     for (const auto &node : contact.measures().slave_forces())
       total += node.force.norm();
     return total;
   };
-  for (const auto &contact : problem_.contacts())
+  for (const auto &contact : parts_.contacts())
     for (const std::size_t body : contact.bodies())
       forces[body] += sum(contact);
-  dealii::Utilities::MPI::sum(forces, problem_.communicator(), forces);
+  dealii::Utilities::MPI::sum(forces, parts_.communicator(), forces);
   return forces;
 }
 
 bool RigidBodyModes::hold_if_let_go(const RigidBodySupport::Mode &mode) {
   if (!(max_forces_[mode.body] > 0.) || forces_n_[mode.body] > Limits::little * max_forces_[mode.body])
     return false;
-  problem_.stabilisation().hold(mode.body);
+  parts_.stabilisation().hold(mode.body);
   let_go_.push_back(mode);
   return true;
 }
@@ -178,7 +177,7 @@ void RigidBodyModes::hold_unloaded_bodies() {
   std::vector<bool> is_unloaded;
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
     is_unloaded.push_back(forces_n_[body] < Limits::unloaded * max_forces_[body] &&
-                          !problem_.stabilisation().acts_on(body));
+                          !parts_.stabilisation().acts_on(body));
   // One after the other: connected bodies are free together.
   for (std::size_t n = std::count(is_unloaded.begin(), is_unloaded.end(), true); n > 0; --n) {
     const RigidBodySupport::Result lifted = find_support(is_unloaded);
@@ -193,7 +192,7 @@ std::string RigidBodyModes::describe_friction(const std::size_t body,
   std::ostringstream text;
   text.precision(4);
   for (std::size_t i = 0; i < uses.size(); ++i) {
-    const auto &contact = problem_.contacts()[i];
+    const auto &contact = parts_.contacts()[i];
     const std::vector<std::size_t> &bodies = contact.bodies();
     if (uses[i].limit > 0. && std::find(bodies.begin(), bodies.end(), body) != bodies.end())
       text << (text.tellp() > 0 ? ", " : "") << "contact pair '" << contact.name()
@@ -208,7 +207,7 @@ Explanation RigidBodyModes::describe_sliding() const {
   const std::size_t body = support_.sliding->body;
   const std::string friction = describe_friction(body, friction_n_);
   std::ostringstream text;
-  text << "body '" << problem_.scene().bodies()[body].name << "' slides, or is about to: at time "
+  text << "body '" << parts_.scene().bodies()[body].name << "' slides, or is about to: at time "
        << problem_.state().time << " " << (friction.empty() ? "friction is at its limit" : friction)
        << ", and nothing else resists its rigid-body mode with " << print(support_.sliding->motion);
   return {text.str(), "Add a support, more pressure or more friction, reduce the load, or move the body by a "
@@ -220,54 +219,53 @@ Explanation RigidBodyModes::explain_sliding() const {
   return why.empty() || !find_sliding_soon() ? Explanation() : why; // else the failed state resists
 }
 
-bool RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t, NewtonReport &report) {
+StepFailure RigidBodyModes::lose(const RigidBodySupport::Mode &mode, const double t) {
   const bool is_held = hold_if_let_go(mode);
   std::ostringstream text;
-  text << "body '" << problem_.scene().bodies()[mode.body].name << "' has no support at time " << t
+  text << "body '" << parts_.scene().bodies()[mode.body].name << "' has no support at time " << t
        << ": the last contact that resisted its rigid-body mode with " << print(mode.motion)
        << " opens, or slides at the limit of friction";
-  if (const std::string friction = describe_friction(mode.body, problem_.contacts().friction_uses());
+  if (const std::string friction = describe_friction(mode.body, parts_.contacts().friction_uses());
       !friction.empty())
     text << ": " << friction;
   const Explanation why{text.str(), "Add a support or a symmetry plane, keep a contact longer, or increase "
                                     "friction; use 'Scheme = implicit dynamics' for free motion"};
-  const parameters::Scene &parameters = problem_.parameters();
+  const parameters::Scene &parameters = parts_.parameters();
   if (!is_held && t - problem_.state().time < Limits::short_step * parameters.time_stepping.max_step)
     throw SolutionFailure(
         Diagnostic(diagnostic::solution_failed, parameters.file_name + ": " + why.what)
             .time(t)
             .advice(why.advice + ". Results until then are in '" + parameters.output.folder.value + "'"));
   loss_ = {t, why};
-  report.fail(why);
-  return true;
+  return {StepFailure::Kind::explained, why};
 }
 
-bool RigidBodyModes::rejects(const double t, NewtonReport &report) {
+std::optional<StepFailure> RigidBodyModes::judge(const double t, DiagnosticList &messages) {
   if (bodies_.are_held())
-    return moves_too_far(problem_, t, report);
+    return judge_travel(problem_, t);
   const RigidBodySupport::Result found = find_support();
   if (found.n_free > support_.n_free)
-    return lose(*found.free, t, report);
-  if (moves_too_far(problem_, t, report))
-    return true;
+    return lose(*found.free, t);
+  if (const auto failure = judge_travel(problem_, t))
+    return failure;
   forces_n_ = contact_forces_on_bodies();
   for (std::size_t body = 0; body < forces_n_.size(); ++body)
     max_forces_[body] = std::max(max_forces_[body], forces_n_[body]);
   support_ = found;
-  friction_n_ = problem_.contacts().friction_uses();
+  friction_n_ = parts_.contacts().friction_uses();
   hold_unloaded_bodies();
-  report_let_go(t, report);
+  report_let_go(t, messages);
   if (!support_.sliding)
     support_.sliding = find_sliding_soon();
-  if (problem_.stabilisation().acts())
+  if (parts_.stabilisation().acts())
     support_by_contact_ = find_support_by_contact();
-  return false;
+  return {};
 }
 
-void RigidBodyModes::report_let_go(const double t, NewtonReport &report) {
+void RigidBodyModes::report_let_go(const double t, DiagnosticList &messages) {
   for (const RigidBodySupport::Mode &mode : let_go_) {
-    const std::string &name = problem_.scene().bodies()[mode.body].name;
-    report.diagnostics.push_back(
+    const std::string &name = parts_.scene().bodies()[mode.body].name;
+    messages.push_back(
         Diagnostic(
             diagnostic::unsupported_body,
             "No contact presses on body '" + name +
@@ -281,11 +279,11 @@ void RigidBodyModes::report_let_go(const double t, NewtonReport &report) {
 
 void RigidBodyModes::commit() {
   double driven_work = 0.;
-  for (const std::size_t tool : problem_.tools().unknown())
+  for (const std::size_t tool : parts_.tools().unknown())
     driven_work +=
-        problem_.scene().tools()[tool].load(problem_.step().time) * problem_.tools().last_increments()[tool];
+        parts_.scene().tools()[tool].load(problem_.step().time) * parts_.tools().last_increments()[tool];
   problem_.state().energies.viscous +=
-      problem_.stabilisation().commit(problem_.step(), support_by_contact_, driven_work);
+      parts_.stabilisation().commit(problem_.step(), support_by_contact_, driven_work);
 }
 
 void RigidBodyModes::begin() {
@@ -302,12 +300,12 @@ Explanation RigidBodyModes::describe_loss(const std::string &failure) const {
 }
 
 DiagnosticList RigidBodyModes::finish(const double max_energy) const {
-  const BodyStabilisation &stabilisation = problem_.stabilisation();
+  const BodyStabilisation &stabilisation = parts_.stabilisation();
   if (stabilisation.get() == nullptr)
     return {};
   const ForceState &state = problem_.step().start;
   std::vector<double> on_bodies;
-  for (std::size_t body = 0; body < problem_.scene().bodies().size(); ++body)
+  for (std::size_t body = 0; body < parts_.scene().bodies().size(); ++body)
     on_bodies.push_back(std::max(stabilisation.get()->norm(body, owned_values(state.internal)),
                                  stabilisation.get()->norm(body, owned_values(state.contact))));
   return stabilisation.finish({problem_.state().time, max_energy,
@@ -320,11 +318,11 @@ void RigidBodyModes::save(StateWriter &writer) const {
   writer.write("largest forces on bodies", max_forces_);
   if (!bodies_.are_held())
     writer.write("free modes", {static_cast<double>(support_.n_free)});
-  problem_.stabilisation().save(writer);
+  parts_.stabilisation().save(writer);
 }
 
 void RigidBodyModes::load(StateReader &reader, const bool is_exact) {
-  problem_.stabilisation().load(reader);
+  parts_.stabilisation().load(reader);
   if (may_change_)
     find_bodies(problem_.state().time);
   if (!is_exact)

@@ -8,12 +8,11 @@
 
 namespace billet {
 
-bool RoundOffGuard::rejects(const double t, NewtonReport &report) const {
-  const bool is_last = t >= problem_.parameters().time_stepping.end_time;
+std::optional<StepFailure> RoundOffGuard::judge(const double t, const NewtonReport &report) const {
+  const bool is_last = t >= parts_.parameters().time_stepping.end_time;
   if (!report.is_lost_in_round_off || (n_lost_ < Limits::max_lost_steps && !is_last))
-    return false;
-  report.converged = false;
-  return true;
+    return {};
+  return StepFailure{StepFailure::Kind::round_off, {report.failure, report.advice}};
 }
 
 void RoundOffGuard::commit(const double t, const NewtonReport &report) {
@@ -26,7 +25,7 @@ Explanation RoundOffGuard::describe(const double part) const {
   text.precision(2);
   text << "round-off limits the residual to " << part << " of the forces; allowed is "
        << NewtonLimits::max_stalled_residual << ". The penalty of contact pair "
-       << problem_.contacts().stiffest_pairs()
+       << parts_.contacts().stiffest_pairs()
        << " is too high for such small displacements and sixteen digits";
   return {text.str(), "Try a lower penalty, with a 'Penetration tolerance' if penetration is then too large, "
                       "or bodies nearer to the origin"};
@@ -42,7 +41,7 @@ bool RoundOffGuard::may_explain(const NewtonReport &report) const {
 }
 
 DiagnosticList RoundOffGuard::check(const double part, const double accuracy) const {
-  const double tolerance = problem_.parameters().solver.force_tolerance * std::max(1., accuracy);
+  const double tolerance = parts_.parameters().solver.force_tolerance * std::max(1., accuracy);
   // Bodies without loads, or in free flight, have no forces except round-off.
   const bool is_loaded =
       !is_balanced_by_inertia_ && problem_.force_scale() > Limits::unloaded * problem_.scales().round_off;
@@ -62,7 +61,7 @@ DiagnosticList RoundOffGuard::check(const double part, const double accuracy) co
 }
 
 DiagnosticList RoundOffGuard::finish() const {
-  return watch_.finish(problem_.parameters().solver.force_tolerance, is_balanced_by_inertia_);
+  return watch_.finish(parts_.parameters().solver.force_tolerance, is_balanced_by_inertia_);
 }
 
 } // namespace billet

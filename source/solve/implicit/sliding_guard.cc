@@ -11,7 +11,7 @@
 namespace billet {
 
 SlidingGuard::SlidingGuard(ImplicitProblem &problem) : problem_(problem) {
-  if (has_fixed_steps() || problem.contacts().empty())
+  if (has_fixed_steps() || parts_.contacts().empty())
     return;
   problem.judge_trials([this]() -> std::string {
     if (n_attempts_ % 2 == 1 || !has_forces())
@@ -27,30 +27,30 @@ std::string SlidingGuard::refuse(const Sliding &sliding) {
   ++n_refused_;
   slides_too_far_ = true;
   refused_ = sliding.contact;
-  return "nodes of contact pair '" + problem_.contacts()[sliding.contact].name() + "' slide too far";
+  return "nodes of contact pair '" + parts_.contacts()[sliding.contact].name() + "' slide too far";
 }
 
 bool SlidingGuard::has_fixed_steps() const {
-  return problem_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed;
+  return parts_.parameters().time_stepping.control == parameters::TimeStepping::Control::fixed;
 }
 
 bool SlidingGuard::has_forces() const {
-  const auto &driven = problem_.tools().unknown();
+  const auto &driven = parts_.tools().unknown();
   return has_loads() || std::any_of(driven.begin(), driven.end(), [this](const std::size_t tool) {
-           return problem_.scene().tools()[tool].load(problem_.step().time) != 0.;
+           return parts_.scene().tools()[tool].load(problem_.step().time) != 0.;
          });
 }
 
 SlidingGuard::Sliding SlidingGuard::measure() const {
   const double expected = 2. * prescribed_motion(problem_, problem_.step().time);
-  const std::vector<double> of_contacts = problem_.contacts().collect_max(
+  const std::vector<double> of_contacts = parts_.contacts().collect_max(
       [expected](const auto &contact) { return contact.measures().max_sliding(expected); });
   const auto maximum = std::max_element(of_contacts.begin(), of_contacts.end());
   return {*maximum, static_cast<std::size_t>(maximum - of_contacts.begin())};
 }
 
 bool SlidingGuard::has_loads() const {
-  const auto &bodies = problem_.scene().bodies();
+  const auto &bodies = parts_.scene().bodies();
   return std::any_of(bodies.begin(), bodies.end(), [](const Body &body) { return !body.loads.empty(); });
 }
 
@@ -59,17 +59,17 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
   std::ostringstream text;
   text.precision(4);
   std::string advice;
-  for (const std::size_t tool : problem_.tools().unknown()) {
-    const Tool &which = problem_.scene().tools()[tool];
+  for (const std::size_t tool : parts_.tools().unknown()) {
+    const Tool &which = parts_.scene().tools()[tool];
     if (which.load(t) == 0. || (has_loads() && !cause.empty())) // the loads slide the body
       continue;
     const bool turns = which.control() == Tool::Control::moment;
     text << (advice.empty() ? "" : ", and ") << "tool '" << which.name() << "' finds no resistance to its "
          << (turns ? "moment" : "force") << " of " << which.load(t) << " at time " << t << " and a "
-         << (turns ? "turn" : "travel") << " of " << problem_.tools().start_offsets()[tool] << ": it jumps";
+         << (turns ? "turn" : "travel") << " of " << parts_.tools().start_offsets()[tool] << ": it jumps";
     for (std::size_t i = 0; i < friction_.size(); ++i)
-      if (problem_.contacts()[i].rigid_tool() == tool && friction_[i].limit > 0.)
-        text << ", while contact pair '" << problem_.contacts()[i].name() << "' bears a friction force of "
+      if (parts_.contacts()[i].rigid_tool() == tool && friction_[i].limit > 0.)
+        text << ", while contact pair '" << parts_.contacts()[i].name() << "' bears a friction force of "
              << friction_[i].tangential << " of at most " << friction_[i].limit;
     advice = std::string("Move the tool by its ") + (turns ? "'Rotation angle'" : "'Translation'") +
              " instead of its load";
@@ -77,36 +77,32 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
   if (advice.empty() && cause.empty())
     text << "loads find no resistance at time " << t << ": bodies jump";
   text << (advice.empty() || cause.empty() ? "" : "; ") << cause.what << ". Nodes of contact pair '"
-       << problem_.contacts()[contact].name() << "' slide by more than " << Limits::max_sliding
+       << parts_.contacts()[contact].name() << "' slide by more than " << Limits::max_sliding
        << " facet sizes in a step of " << t - problem_.state().time << ", which contact cannot follow";
   append_sentences(advice, cause.advice);
   append_sentences(advice, "'Scheme = implicit dynamics' and 'explicit' resolve jumps");
   return {text.str(), advice};
 }
 
-bool SlidingGuard::rejects(const double t, NewtonReport &report) {
-  const bool is_idle = problem_.contacts().empty() || !has_forces();
+std::optional<StepFailure> SlidingGuard::judge(const double t, DiagnosticList &messages) {
+  const bool is_idle = parts_.contacts().empty() || !has_forces();
   const Sliding sliding = is_idle ? Sliding() : measure();
-  if (sliding.facets > Limits::max_sliding && !has_fixed_steps()) {
-    report.converged = false;
-    report.failure = refuse(sliding);
-    return true;
-  }
+  if (sliding.facets > Limits::max_sliding && !has_fixed_steps())
+    return StepFailure{StepFailure::Kind::slides, {refuse(sliding), ""}};
   n_attempts_ = 0;
   slides_too_far_ = false;
   cause_ = {};
   if (is_idle)
-    return false;
-  friction_ = problem_.contacts().friction_uses();
+    return {};
+  friction_ = parts_.contacts().friction_uses();
   if (sliding.facets <= Limits::max_sliding)
-    return false;
+    return {};
   const Explanation why = describe(sliding.contact, t, {});
-  report.diagnostics.push_back(
-      Diagnostic(diagnostic::untracked_sliding, why.what)
-          .time(t)
-          .measure("sliding [facet sizes]", sliding.facets)
-          .advice("Use 'Step control = automatic', which cuts such steps. " + why.advice));
-  return false;
+  messages.push_back(Diagnostic(diagnostic::untracked_sliding, why.what)
+                         .time(t)
+                         .measure("sliding [facet sizes]", sliding.facets)
+                         .advice("Use 'Step control = automatic', which cuts such steps. " + why.advice));
+  return {};
 }
 
 Explanation SlidingGuard::explain(const double t, const Explanation &cause) {

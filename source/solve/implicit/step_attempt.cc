@@ -5,18 +5,19 @@ namespace billet {
 
 void StepAttempt::begin(const double t) {
   ImplicitProblem &problem = p_.problem;
+  ImplicitParts &parts = problem.parts();
   problem.step().time = t;
   p_.measurement.begin();
-  problem.tools().clear_failure();
+  parts.tools().clear_failure();
   problem.clear_obstacle();
-  problem.tools().restart();
+  parts.tools().restart();
   std::vector<std::size_t> pressing;
-  const auto &tools = problem.scene().tools();
+  const auto &tools = parts.scene().tools();
   for (std::size_t i = 0; i < tools.size(); ++i)
-    if (tools[i].is_driven() && !problem.removal().is_removed(i))
+    if (tools[i].is_driven() && !parts.removal().is_removed(i))
       pressing.push_back(i);
-  problem.tools().choose_unknown(pressing);
-  problem.stabilisation().start_step(t - problem.state().time);
+  parts.tools().choose_unknown(pressing);
+  parts.stabilisation().start_step(t - problem.state().time);
   stopping_.clear();
   p_.rules.begin_attempt();
 }
@@ -24,46 +25,56 @@ void StepAttempt::begin(const double t) {
 bool StepAttempt::find_guess(const double t, const double previous_step, NewtonIteration &linear_step,
                              NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
+  ImplicitParts &parts = problem.parts();
   Predictor &predictor = p_.rules.predictor();
   bool has_guess = predictor.guess(t, previous_step), takes_solution = !has_guess;
-  problem.scheme().start_step(problem.state().time, t, problem.step().start.displacements,
-                              problem.tools().start_offsets());
+  parts.scheme().start_step(problem.state().time, t, problem.step().start.displacements,
+                            parts.tools().start_offsets());
   if (takes_solution)
     has_guess = predictor.follow_tangent(t, linear_step);
   problem.start_step(t);
-  if (has_guess && !takes_solution && predictor.has_alternative() && p_.paths.goes_through(false, report)) {
-    report = NewtonReport();
+  if (has_guess && !takes_solution && predictor.has_alternative() && p_.paths.judge_path(false)) {
     has_guess = predictor.follow_tangent(t, linear_step);
     problem.start_step(t);
   }
-  if (has_guess && p_.paths.goes_through(false, report))
-    return false;
+  if (has_guess)
+    if (const auto failure = p_.paths.judge_path(false)) {
+      report.reject(*failure);
+      return false;
+    }
   problem.clear_obstacle();
   if (has_guess)
     return true;
-  report.failure = !problem.tools().failure().empty()              ? problem.tools().failure()
-                   : !problem.tangent().solver().failure().empty() ? problem.tangent().solver().failure()
-                                                                   : "the initial guess is not admissible";
+  report.failure = !parts.tools().failure().empty()              ? parts.tools().failure()
+                   : !parts.tangent().solver().failure().empty() ? parts.tangent().solver().failure()
+                                                                 : "the initial guess is not admissible";
   return false;
 }
 
 NewtonReport StepAttempt::make(const double t, const double previous_step, const Way way) {
   NewtonReport report = solve(t, previous_step, way);
-  if (!report.converged && !report.is_explained && !p_.solver.is_probing())
-    p_.rules.explain(t, report);
+  if (!report.converged && !report.is_explained() && !p_.solver.is_probing())
+    if (auto failure = p_.rules.explain(t)) {
+      if (report.rejection == StepFailure::Kind::penetrates) // higher penalties come first
+        failure->kind = StepFailure::Kind::penetrates;
+      report.reject(*failure);
+    }
   return report;
 }
 
 NewtonReport StepAttempt::solve(const double t, const double previous_step, const Way way) {
   NewtonReport report;
   begin(t);
-  if (p_.paths.turns_too_far(t, report) || p_.paths.skips_motion(t, report))
+  if (const auto failure = find_first_failure([&] { return p_.paths.judge_turns(t); },
+                                              [&] { return p_.paths.judge_prescribed_motion(t); })) {
+    report.reject(*failure);
     return report;
+  }
   NewtonIteration linear_step{};
   if (!find_guess(t, previous_step, linear_step, report))
     return report;
-  Unknowns x{p_.problem.step().trial.displacements, p_.problem.tools().offsets()};
-  p_.problem.contacts().restart();
+  Unknowns x{p_.problem.step().trial.displacements, p_.problem.parts().tools().offsets()};
+  p_.problem.parts().contacts().restart();
   const bool is_direct = way == Way::direct;
   report = is_direct
                ? p_.solver.iterate(x.offsets, x.displacements)
@@ -79,21 +90,23 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
     stop_tools(t, x, report);
   if (report.converged)
     evaluate(x, report);
-  if (report.converged)
-    judge(t, report);
+  if (report.converged && !p_.solver.is_probing())
+    if (const auto failure = judge(t, report))
+      report.reject(*failure);
   return report;
 }
 
 void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
-  stopping_ = problem.tools().find_stopping(
-      t, [&](const std::size_t tool) { return problem.removal().is_removed(tool); });
+  ImplicitParts &parts = problem.parts();
+  stopping_ = parts.tools().find_stopping(
+      t, [&](const std::size_t tool) { return parts.removal().is_removed(tool); });
   if (stopping_.empty())
     return;
   const bool has_measured = p_.measurement.has_begun();
-  std::vector<std::size_t> pressing = problem.tools().unknown();
+  std::vector<std::size_t> pressing = parts.tools().unknown();
   pressing.insert(pressing.end(), stopping_.begin(), stopping_.end());
-  problem.tools().choose_unknown(pressing);
+  parts.tools().choose_unknown(pressing);
   report.append(p_.solver.iterate(x.offsets, x.displacements));
   p_.augmentation.augment(report, x.offsets, x.displacements);
   if (has_measured) // it holds for the former position of the tool
@@ -102,9 +115,10 @@ void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) 
 
 void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
+  ImplicitParts &parts = problem.parts();
   // The line search may have evaluated other states since: the histories have to be those of the accepted
   // state.
-  Vector accepted = problem.tools().pack(x.displacements, x.offsets);
+  Vector accepted = parts.tools().pack(x.displacements, x.offsets);
   Vector residual(accepted);
   problem.compute_residual(accepted, residual);
   if (!p_.measurement.is_wanted() || p_.solver.is_probing())
@@ -116,17 +130,15 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
     return;
   p_.augmentation.allow_penetration(allowed);
   p_.augmentation.augment(report, x.offsets, x.displacements);
-  accepted = problem.tools().pack(x.displacements, x.offsets);
+  accepted = parts.tools().pack(x.displacements, x.offsets);
   problem.compute_residual(accepted, residual);
 }
 
-void StepAttempt::judge(const double t, NewtonReport &report) {
-  if (p_.solver.is_probing())
-    return;
-  // Each sets report.converged to false if it is true.
-  static_cast<void>(p_.round_off.rejects(t, report) || p_.rules.balance().is_inaccurate(t, report) ||
-                    p_.paths.goes_through_thin_tool(report) || p_.paths.goes_through(true, report) ||
-                    p_.paths.turns_too_far(t, report) || p_.rules.rejects(t, report));
+std::optional<StepFailure> StepAttempt::judge(const double t, NewtonReport &report) {
+  return find_first_failure(
+      [&] { return p_.round_off.judge(t, report); }, [&] { return p_.rules.balance().judge_accuracy(t); },
+      [&] { return p_.paths.judge_thin_tools(); }, [&] { return p_.paths.judge_path(true); },
+      [&] { return p_.paths.judge_turns(t); }, [&] { return p_.rules.judge(t, report.diagnostics); });
 }
 
 } // namespace billet

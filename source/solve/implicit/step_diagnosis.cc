@@ -12,10 +12,10 @@ namespace billet {
 
 void StepDiagnosis::commit() {
   slipping_tools_.clear();
-  for (const std::size_t tool : problem_.tools().unknown()) {
-    const Tool &which = problem_.scene().tools()[tool];
+  for (const std::size_t tool : parts_.tools().unknown()) {
+    const Tool &which = parts_.scene().tools()[tool];
     std::vector<double> sums(3);
-    for (const auto &contact : problem_.contacts().of_tools())
+    for (const auto &contact : parts_.contacts().of_tools())
       if (contact.tool() == tool && contact.settings().has_friction()) {
         const ToolDrive::Sliding sliding = contact.drive().measure_sliding(
             which.control() == Tool::Control::moment ? ToolRate{{}, which.rotation_axis()}
@@ -24,7 +24,7 @@ void StepDiagnosis::commit() {
         sums[1] += sliding.slipping;
         sums[2] += sliding.power_of_pressure;
       }
-    dealii::Utilities::MPI::sum(sums, problem_.communicator(), sums);
+    dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
     if (sums[0] > 0. && sums[1] >= Limits::nearly_all * sums[0] &&
         std::abs(sums[2]) <= Limits::by_pressure * std::abs(which.load(problem_.step().time)))
       slipping_tools_.push_back(tool);
@@ -34,7 +34,7 @@ void StepDiagnosis::commit() {
 Explanation StepDiagnosis::describe_slipping_tools() const {
   Explanation all;
   for (const std::size_t tool : slipping_tools_) {
-    const Tool &which = problem_.scene().tools()[tool];
+    const Tool &which = parts_.scene().tools()[tool];
     const bool turns = which.control() == Tool::Control::moment;
     std::ostringstream text;
     text << "; at the end of the last step tool '" << which.name()
@@ -49,7 +49,7 @@ Explanation StepDiagnosis::describe_slipping_tools() const {
 
 Explanation StepDiagnosis::describe_contacts() const {
   Explanation all;
-  for (const auto &contact : problem_.contacts())
+  for (const auto &contact : parts_.contacts())
     all += contact.checks().describe_restless();
   all += describe_slipping_tools();
   return all;
@@ -60,12 +60,12 @@ Explanation StepDiagnosis::describe_residual() {
   Vector residual(x);
   if (!problem_.compute_residual(x, residual))
     return {};
-  const MPI_Comm communicator = problem_.communicator();
-  const dealii::IndexSet &owned = problem_.discretization().owned_dofs();
+  const MPI_Comm communicator = parts_.communicator();
+  const dealii::IndexSet &owned = parts_.discretization().owned_dofs();
   // The largest nodal residual, its position, and its body.
   std::array<double, 5> mine{};
-  for (std::size_t body = 0; body < problem_.discretization().n_bodies(); ++body)
-    for (const auto &element : problem_.discretization().elements(body))
+  for (std::size_t body = 0; body < parts_.discretization().n_bodies(); ++body)
+    for (const auto &element : parts_.discretization().elements(body))
       for (const unsigned int v : element.cell->vertex_indices()) {
         double square = 0.;
         std::array<double, 3> position{};
@@ -85,13 +85,13 @@ Explanation StepDiagnosis::describe_residual() {
     return {};
   std::ostringstream text;
   text << "; the largest residual is in body '"
-       << problem_.scene().bodies()[static_cast<std::size_t>(worst[4])].name << "' at (" << worst[1] << ", "
+       << parts_.scene().bodies()[static_cast<std::size_t>(worst[4])].name << "' at (" << worst[1] << ", "
        << worst[2] << ", " << worst[3] << ")";
   std::string advice;
   const dealii::Tensor<1, 3> position({worst[1], worst[2], worst[3]});
-  for (const auto &contact : problem_.contacts().of_tools())
+  for (const auto &contact : parts_.contacts().of_tools())
     if (!problem_.on_all_ranks(!contact.checks().has_node_on_edge(position))) {
-      text << ", which lies on the edge of tool '" << problem_.scene().tools()[contact.tool()].name()
+      text << ", which lies on the edge of tool '" << parts_.scene().tools()[contact.tool()].name()
            << "', where contact chatters (open/closed)";
       advice = "Try a tool that is larger or smaller by a part of a facet, or a fillet at its edge";
       break;
@@ -102,7 +102,7 @@ Explanation StepDiagnosis::describe_residual() {
 Diagnostic StepDiagnosis::describe_stall(const NewtonReport &report) const {
   Diagnostic diagnostic(diagnostic::stalled_step,
                         "The step is accepted although the residual no longer falls: " + report.criteria);
-  if (problem_.contacts().empty())
+  if (parts_.contacts().empty())
     diagnostic.advice(
         "Compare the forces with those of a run with a smaller 'Maximum step'. Near a limit load "
         "of the body, no step is small enough");

@@ -43,20 +43,20 @@ SwitchedSprings find_switched_springs(const Scene &scene, const double t) {
 
 std::unique_ptr<StepRules> make_step_rules(ImplicitProblem &problem, const PathGuard &paths,
                                            SpringBooks &books) {
-  if (problem.motion() != nullptr)
-    return std::make_unique<DynamicRules>(problem, paths, books, *problem.motion());
+  if (problem.parts().motion() != nullptr)
+    return std::make_unique<DynamicRules>(problem, paths, books, *problem.parts().motion());
   return std::make_unique<StaticRules>(problem, paths, books);
 }
 
 ToolRemoval::Removal StepRules::remove_tools(const double t) {
-  ToolRemoval::Removal removal = problem_.removal().remove_due(t);
+  ToolRemoval::Removal removal = parts_.removal().remove_due(t);
   SolutionState &state = problem_.state();
   for (const std::size_t tool : removal.tools) {
     // The energy of its penalty springs is removed with it.
     state.energies.external -= state.tool_loads[tool].stored_energy;
     state.energies.contact -= state.tool_loads[tool].stored_energy;
     predictor().lose_pace();
-    problem_.step().start.contact -= problem_.removal().forces(tool); // it is no longer contact
+    problem_.step().start.contact -= parts_.removal().forces(tool); // it is no longer contact
   }
   return removal;
 }
@@ -64,17 +64,16 @@ ToolRemoval::Removal StepRules::remove_tools(const double t) {
 std::map<std::size_t, std::set<std::string>> StepRules::switch_supports(const double t,
                                                                         const Vector &inertia) {
   std::map<std::size_t, std::set<std::string>> ended;
-  const auto &bodies = problem_.scene().bodies();
+  const auto &bodies = parts_.scene().bodies();
   for (std::size_t body = 0; body < bodies.size(); ++body)
     for (const Hold &hold : bodies[body].holds)
-      if (problem_.supports().acting()(hold) && !hold.times.holds_after(t))
+      if (parts_.supports().acting()(hold) && !hold.times.holds_after(t))
         ended[body].insert(hold.name.substr(std::string("support ").size())); // planes hold always
   ForceState &start = problem_.step().start;
   Vector reactions = start.supports;
   reactions += inertia;
-  start.supports -=
-      problem_.switched_supports().switch_supports(t, reactions, problem_.state().displacements);
-  problem_.tangent().follow_supports();
+  start.supports -= parts_.switched_supports().switch_supports(t, reactions, problem_.state().displacements);
+  parts_.tangent().follow_supports();
   predictor().lose_pace();
   predictor().drop_probe();
   return ended;
@@ -88,12 +87,13 @@ void StaticRules::check_next_step() const {
                               .time(problem_.state().time)
                               .advice("Add a support or a symmetry plane, or keep a tool. Results until then "
                                       "are in '" +
-                                      problem_.parameters().output.folder.value + "'"));
+                                      parts_.parameters().output.folder.value + "'"));
 }
 
-bool StaticRules::rejects(const double t, NewtonReport &report) {
-  return sliding_.rejects(t, report) || raises_.is_needed(report) || balance_.rejects(t, report) ||
-         modes_.rejects(t, report);
+std::optional<StepFailure> StaticRules::judge(const double t, DiagnosticList &messages) {
+  return find_first_failure([&] { return sliding_.judge(t, messages); }, [&] { return raises_.judge(); },
+                            [&] { return balance_.judge_contact(t, messages); },
+                            [&] { return modes_.judge(t, messages); });
 }
 
 DiagnosticList StaticRules::raise_penalties() {
@@ -111,35 +111,35 @@ void StaticRules::close_step(const double t) {
   balance_.update_largest_energy();
   const ToolRemoval::Removal removal = remove_tools(t);
   for (const auto &[body, removed] : removal.let_go)
-    if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
+    if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
       free_body_ = describe_free_mode(problem_, body, name_all("tool", removed), "removed");
-  const bool is_due = problem_.switched_supports().is_due(t);
+  const bool is_due = parts_.switched_supports().is_due(t);
   if (is_due)
-    for (const auto &[body, ended] : switch_supports(t, problem_.discretization().make_owned_vector()))
-      if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
+    for (const auto &[body, ended] : switch_supports(t, parts_.discretization().make_owned_vector()))
+      if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
         free_body_ = describe_free_mode(problem_, body, name_all("support", ended), "switched off");
-  const SwitchedSprings springs = find_switched_springs(problem_.scene(), t);
+  const SwitchedSprings springs = find_switched_springs(parts_.scene(), t);
   for (const auto &[body, ended] : springs.ended)
-    if (free_body_.empty() && !problem_.stabilisation().acts_on(body))
+    if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
       free_body_ = describe_free_mode(problem_, body, name_all("spring", ended), "switched off");
   if (is_due || springs.any)
     modes_.follow_supports(t);
 }
 
-void StaticRules::explain(const double t, NewtonReport &report) {
+std::optional<StepFailure> StaticRules::explain(const double t) {
   const Explanation cause = modes_.explain_sliding();
   const Explanation jump = sliding_.explain(t, cause);
   const Explanation &why = jump.empty() ? cause : jump;
   if (why.empty())
-    return;
+    return {};
   const double t_n = problem_.state().time;
   if (lost_.add(t_n, t - t_n))
     throw SolutionFailure(
-        Diagnostic(diagnostic::solution_failed, problem_.parameters().file_name + ": " + why.what)
+        Diagnostic(diagnostic::solution_failed, parts_.parameters().file_name + ": " + why.what)
             .time(t_n)
-            .advice(why.advice + ". Results until then are in '" + problem_.parameters().output.folder.value +
+            .advice(why.advice + ". Results until then are in '" + parts_.parameters().output.folder.value +
                     "'"));
-  report.fail(why);
+  return StepFailure{StepFailure::Kind::explained, why};
 }
 
 void StaticRules::save(StateWriter &writer) const {
@@ -147,13 +147,13 @@ void StaticRules::save(StateWriter &writer) const {
   writer.write("lost equilibrium", lost_.save());
   modes_.save(writer);
   balance_.save(writer);
-  problem_.scheme().save(writer, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
+  parts_.scheme().save(writer, OwnedNodes(parts_.discretization(), NodeKeys(parts_.discretization())));
 }
 
 void StaticRules::load(StateReader &reader, const bool is_exact) {
   balance_.load(reader);
   modes_.load(reader, is_exact);
-  problem_.scheme().load(reader, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
+  parts_.scheme().load(reader, OwnedNodes(parts_.discretization(), NodeKeys(parts_.discretization())));
   if (!is_exact)
     return;
   free_body_ = reader.read_text("free body");
@@ -162,16 +162,16 @@ void StaticRules::load(StateReader &reader, const bool is_exact) {
 }
 
 void StaticRules::hold_imbalance(const Vector &residual) {
-  problem_.scheme().start_loads();
-  problem_.released().hold(residual, problem_.state().time);
+  parts_.scheme().start_loads();
+  parts_.released().hold(residual, problem_.state().time);
 }
 
 void StaticRules::finish_load(StateReader & /*reader*/, const double release_time, RestartReport &report) {
   if (report.is_exact)
     return;
   modes_.begin();
-  ReleasedForces &released = problem_.released();
-  const double end = problem_.parameters().time_stepping.end_time;
+  ReleasedForces &released = parts_.released();
+  const double end = parts_.parameters().time_stepping.end_time;
   released.fade_until(release_time > 0. ? std::min(end, released.begin() + release_time) : end);
 }
 
@@ -180,20 +180,21 @@ void DynamicRules::start(const Solution &solution) {
   penalties_.control(solution); // records the motion at the start, and raises nothing yet
 }
 
-bool DynamicRules::rejects(const double t, NewtonReport &report) {
-  return paths_.meets_too_early(t, report) || balance_.rejects(t, report);
+std::optional<StepFailure> DynamicRules::judge(const double t, DiagnosticList &messages) {
+  return find_first_failure([&] { return paths_.judge_first_contact(t); },
+                            [&] { return balance_.judge_contact(t, messages); });
 }
 
 void DynamicRules::close_step(const double t) {
   const ToolRemoval::Removal removal = remove_tools(t);
   bool forces_jump = false;
   for (const std::size_t tool : removal.tools) {
-    problem_.state().energies.external -= motion_.remove_tool(tool);
-    const double jump = 1. - problem_.removal().fading(t, tool);
-    problem_.step().start.supports.add(-jump, problem_.removal().forces(tool));
+    problem_.state().energies.external -= motion_.tools().remove(tool);
+    const double jump = 1. - parts_.removal().fading(t, tool);
+    problem_.step().start.supports.add(-jump, parts_.removal().forces(tool));
     forces_jump = forces_jump || jump > 0.;
   }
-  const bool supports_change = problem_.switched_supports().is_due(t);
+  const bool supports_change = parts_.switched_supports().is_due(t);
   if (supports_change) {
     switch_supports(t, motion_.inertia());
     problem_.state().energies.external += motion_.follow_supports(t);
@@ -208,14 +209,14 @@ void DynamicRules::save(StateWriter &writer) const {
   balance_.save(writer);
   penalties_.save(writer);
   writer.write("kinetic energy", {problem_.state().energies.kinetic});
-  writer.write("damps contact", {motion_.damps_contact() ? 1. : 0.});
-  motion_.save(writer, OwnedNodes(problem_.discretization(), NodeKeys(problem_.discretization())));
+  writer.write("damps contact", {motion_.contact().is_on() ? 1. : 0.});
+  motion_.save(writer, OwnedNodes(parts_.discretization(), NodeKeys(parts_.discretization())));
 }
 
 void DynamicRules::load(StateReader &reader, bool /*is_exact*/) {
   balance_.load(reader);
   if (reader.number("damps contact") != 0.)
-    motion_.damp_contact(problem_.step().start); // the next step begins with it
+    motion_.contact().damp(problem_.step().start); // the next step begins with it
   penalties_.load(reader);
 }
 

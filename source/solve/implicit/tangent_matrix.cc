@@ -36,15 +36,15 @@ void TangentMatrix::build(const bool couplings_are_known) {
   dealii::IndexSet written = discretization_.relevant_dofs();
   for (auto &contact : contacts_) {
     if (!couplings_are_known)
-      contact.couplings().find();
-    contact.couplings().add_foreign_dofs(written);
+      contact.with_matrix().couplings().find();
+    contact.with_matrix().couplings().add_foreign_dofs(written);
   }
   SparsityPattern pattern(owned, owned, written, discretization_.communicator());
   dealii::DoFTools::make_sparsity_pattern(
       discretization_.dof_handler(), pattern, supports_.homogeneous(), false,
       dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()));
   for (const auto &contact : contacts_)
-    contact.couplings().add_entries(pattern);
+    contact.with_matrix().couplings().add_entries(pattern);
   add_surface_couplings(scene_, discretization_, supports_.homogeneous(), pattern);
   pattern.compress();
   if (linear_) {
@@ -69,7 +69,7 @@ void TangentMatrix::build(const bool couplings_are_known) {
 void TangentMatrix::follow_couplings() {
   bool is_known = linear_ != nullptr;
   for (const auto &contact : contacts_)
-    is_known = is_known && !contact.couplings().has_new();
+    is_known = is_known && !contact.with_matrix().couplings().has_new();
   if (!contacts_.of_bodies().empty() &&
       dealii::Utilities::MPI::min(is_known ? 1 : 0, discretization_.communicator()) == 0)
     build();
@@ -88,7 +88,7 @@ bool TangentMatrix::take_exact() {
     return false;
   kind_ = ContactTangent::exact;
   for (auto &contact : contacts_)
-    contact.set_tangent(kind_);
+    contact.with_matrix().set_tangent(kind_);
   if (linear_) { // else it is built once the contacts are known
     linear_->release();
     linear_.reset();
@@ -124,7 +124,7 @@ void TangentMatrix::start_contact() {
 std::vector<int> TangentMatrix::touching_dofs() const {
   Vector additive = discretization_.make_additive_vector(), forces = discretization_.make_owned_vector();
   for (const auto &contact : contacts_.of_bodies())
-    contact.add_forces(additive);
+    contact.with_matrix().add_forces(additive);
   additive.compress(dealii::VectorOperation::add);
   forces = additive;
   Vector condensed(forces); // of nodes on which hanging nodes that touch depend, too

@@ -42,7 +42,7 @@ ToolRemoval::Removal ToolRemoval::remove_due(const double t) {
       if (contact.tool() == i) {
         if (contact.measures().compute_load().area > 0.)
           removal.let_go[contact.body()].insert(scene_.tools()[i].name());
-        contact.add_forces(forces);
+        contact.with_matrix().add_forces(forces);
         contact.remove_tool();
       }
     forces.compress(dealii::VectorOperation::add);

@@ -237,9 +237,9 @@ BILLET_INLINE Damping compute_viscosity(const Material &material, const VolumeCh
   const Real root = square_root(last_omega);
   const Real inverse_root = 1._r / root; // √ρ L / 2
   const Real linear =
-      (2._r * material.linear_viscosity * material.wave_speed * square_root(material.density)) * inverse_root;
+      (2._r * material.viscosity.linear * material.wave_speed * square_root(material.density)) * inverse_root;
   const Real compression = max(-d, Real{});
-  const Real quadratic = (4._r * material.quadratic_viscosity * material.quadratic_viscosity) * inverse_root *
+  const Real quadratic = (4._r * material.viscosity.quadratic * material.viscosity.quadratic) * inverse_root *
                          inverse_root * compression;
   Damping damping;
   damping.pressure = (linear + quadratic) * d;

@@ -36,23 +36,38 @@ struct LaneFunctions {
   bool (*logarithm)(const double *b, double *deviator, double &mean);
 };
 
-/// Constants of the body and of the step, in the kernel's units. `Number` is the number type of the kernel.
-template <class Number> struct BasicMaterial {
-  Number bulk, shear;
-  HardeningKind hardening_kind;
-  Number yield_stress, hardening_modulus;    ///< linear; Voce
+// The constants of the body and of the step are in the kernel's units. `Number` is the number type of the
+// kernel.
+
+/// Parameters of hardening laws. Those of other laws are not set.
+template <class Number> struct BasicHardening {
+  HardeningKind kind;
+  Number yield_stress, modulus;              ///< linear; Voce
   Number saturation_stress, saturation_rate; ///< Voce
   Number prestrain, exponent, strength;      ///< power law
-  RateKind rate_kind;                        ///< other: the flow stress as a whole is computed lane by lane
-  Number rate_exponent;                      ///< p of the rate factor
-  Number reference_increment;                ///< D Δt of the step: the Δα at which the rate factor is 2
-  double dt;                                 ///< of the step, in the user's units
-  const void *hardening;                     ///< the flow stress, for LaneFunctions
-  unsigned int n_flow_state;                 ///< count of numbers of its state
-  double stress_unit;                        ///< unit of the kernel's stresses
+  const void *flow_stress;                   ///< for LaneFunctions
+  unsigned int n_state;                      ///< count of numbers of its state
+};
+
+/// Parameters of the rate factor in a step.
+template <class Number> struct BasicRate {
+  RateKind kind;              ///< other: the flow stress as a whole is computed lane by lane
+  Number exponent;            ///< p
+  Number reference_increment; ///< D Δt of the step: the Δα at which the rate factor is 2
+  double dt;                  ///< of the step, in the user's units
+};
+
+/// Factors of the bulk viscosity.
+template <class Number> struct BasicViscosity { Number linear, quadratic; };
+
+template <class Number> struct BasicMaterial {
+  Number bulk, shear;
+  BasicHardening<Number> hardening;
+  BasicRate<Number> rate;
+  double stress_unit; ///< unit of the kernel's stresses
   Number density;
   Number wave_speed;
-  Number linear_viscosity, quadratic_viscosity;
+  BasicViscosity<Number> viscosity;
 };
 
 /// Count of numbers per element, stored in batches of as many elements as there are lanes: number k of batch

@@ -22,6 +22,7 @@ using Number = float;
 #else
 using Number = double;
 #endif
+using Hardening = BasicHardening<Number>;
 using Material = BasicMaterial<Number>;
 using Elements = BasicElements<Number>;
 

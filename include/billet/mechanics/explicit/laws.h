@@ -144,24 +144,24 @@ struct Watch {
 
 /// Returns the slope of a hardening law that the kernels support. The yield stress at α is given, which saves
 /// an exponential.
-BILLET_INLINE Real compute_slope(const Material &material, const Real alpha, const Real yield_stress) {
-  if (material.hardening_kind == HardeningKind::voce)
-    return material.saturation_rate *
-               (material.saturation_stress + material.hardening_modulus * alpha - yield_stress) +
-           material.hardening_modulus;
-  if (material.hardening_kind == HardeningKind::linear)
-    return broadcast(material.hardening_modulus);
-  return material.exponent * yield_stress / (material.prestrain + alpha);
+BILLET_INLINE Real compute_slope(const Hardening &hardening, const Real alpha, const Real yield_stress) {
+  if (hardening.kind == HardeningKind::voce)
+    return hardening.saturation_rate *
+               (hardening.saturation_stress + hardening.modulus * alpha - yield_stress) +
+           hardening.modulus;
+  if (hardening.kind == HardeningKind::linear)
+    return broadcast(hardening.modulus);
+  return hardening.exponent * yield_stress / (hardening.prestrain + alpha);
 }
 
-BILLET_INLINE Real compute_yield_stress(const Material &material, const Real alpha) {
-  if (material.hardening_kind == HardeningKind::voce)
-    return material.saturation_stress + material.hardening_modulus * alpha -
-           (material.saturation_stress - material.yield_stress) *
-               exponential(-material.saturation_rate * alpha);
-  if (material.hardening_kind == HardeningKind::linear)
-    return material.yield_stress + material.hardening_modulus * alpha;
-  return material.strength * exponential(material.exponent * logarithm(material.prestrain + alpha));
+BILLET_INLINE Real compute_yield_stress(const Hardening &hardening, const Real alpha) {
+  if (hardening.kind == HardeningKind::voce)
+    return hardening.saturation_stress + hardening.modulus * alpha -
+           (hardening.saturation_stress - hardening.yield_stress) *
+               exponential(-hardening.saturation_rate * alpha);
+  if (hardening.kind == HardeningKind::linear)
+    return hardening.yield_stress + hardening.modulus * alpha;
+  return hardening.strength * exponential(hardening.exponent * logarithm(hardening.prestrain + alpha));
 }
 
 constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r; ///< relative to the yield stress
@@ -172,22 +172,22 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
                                      const Mask yields, const Real q, const Real m, const Real alpha,
                                      Real &yield_stress) {
   Real delta{};
-  if (material.hardening_kind == HardeningKind::other) {
+  if (material.hardening.kind == HardeningKind::other) {
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
       if (get_mask(yields, lane)) {
         double value = 0.;
         const double unit = material.stress_unit;
         set(delta, lane,
-            static_cast<Number>(functions.harden(material.hardening, unit * get(q, lane), unit * get(m, lane),
-                                                 get(alpha, lane), value)));
+            static_cast<Number>(functions.harden(material.hardening.flow_stress, unit * get(q, lane),
+                                                 unit * get(m, lane), get(alpha, lane), value)));
         set(yield_stress, lane, static_cast<Number>(value / unit));
       }
     return delta;
   }
   Real excess = select(yields, q - yield_stress, Real{});
   for (unsigned int iteration = 0; iteration < 50 && any(excess > consistency_tolerance * q); ++iteration) {
-    delta += excess / (m + compute_slope(material, alpha + delta, yield_stress));
-    yield_stress = select(yields, compute_yield_stress(material, alpha + delta), yield_stress);
+    delta += excess / (m + compute_slope(material.hardening, alpha + delta, yield_stress));
+    yield_stress = select(yields, compute_yield_stress(material.hardening, alpha + delta), yield_stress);
     excess = select(yields, q - m * delta - yield_stress, Real{});
   }
   return delta;
@@ -198,7 +198,7 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
 constexpr unsigned int n_parts = is_single ? 2 : 1, place_of_yield_stress = n_parts;
 
 BILLET_INLINE std::size_t place_of_state(const Material &material) {
-  return place_of_yield_stress + (material.hardening_kind == HardeningKind::linear ? 0 : 1);
+  return place_of_yield_stress + (material.hardening.kind == HardeningKind::linear ? 0 : 1);
 }
 
 /// Adds an increment to a number that is stored in parts.
@@ -231,17 +231,17 @@ BILLET_INLINE Flow flow_by_lane(const Material &material, const LaneFunctions &f
   for (std::size_t lane = 0; lane < n_lanes; ++lane)
     if (get_mask(yields, lane)) {
       double numbers[max_flow_state] = {};
-      for (std::size_t k = 0; k < material.n_flow_state; ++k)
+      for (std::size_t k = 0; k < material.hardening.n_state; ++k)
         for (std::size_t part = 0; part < n_parts; ++part)
           numbers[k] += state[(k * n_parts + part) * n_lanes + lane];
       const double unit = material.stress_unit;
-      const LaneFlow own = functions.flow(material.hardening, unit * get(q, lane), unit * get(m, lane),
-                                          history[lane], material.dt, numbers);
+      const LaneFlow own = functions.flow(material.hardening.flow_stress, unit * get(q, lane),
+                                          unit * get(m, lane), history[lane], material.rate.dt, numbers);
       set(flow.strain, lane, static_cast<Number>(own.strain));
       set(flow.yield_stress, lane, static_cast<Number>(own.yield_stress / unit));
       set(flow.flow_stress, lane, static_cast<Number>(own.flow_stress / unit));
       set(flow.plastic_work, lane, static_cast<Number>(own.plastic_work / unit));
-      for (std::size_t k = 0; k < material.n_flow_state; ++k)
+      for (std::size_t k = 0; k < material.hardening.n_state; ++k)
         for (std::size_t part = 0; part < n_parts; ++part) {
           Number &stored = state[(k * n_parts + part) * n_lanes + lane];
           stored = static_cast<Number>(numbers[k]);
@@ -255,15 +255,15 @@ BILLET_INLINE Flow flow_by_lane(const Material &material, const LaneFunctions &f
 /// Computes σ_y(α) and its slope in the lanes that yield.
 BILLET_INLINE void evaluate_hardening(const Material &material, const LaneFunctions &functions,
                                       const Mask yields, const Real alpha, Real &yield, Real &slope) {
-  if (material.hardening_kind != HardeningKind::other) {
-    yield = compute_yield_stress(material, alpha);
-    slope = compute_slope(material, alpha, yield);
+  if (material.hardening.kind != HardeningKind::other) {
+    yield = compute_yield_stress(material.hardening, alpha);
+    slope = compute_slope(material.hardening, alpha, yield);
     return;
   }
   for (std::size_t lane = 0; lane < n_lanes; ++lane)
     if (get_mask(yields, lane)) {
       double own_slope = 0.;
-      const double own = functions.yield_stress(material.hardening, get(alpha, lane), own_slope);
+      const double own = functions.yield_stress(material.hardening.flow_stress, get(alpha, lane), own_slope);
       set(yield, lane, static_cast<Number>(own / material.stress_unit));
       set(slope, lane, static_cast<Number>(own_slope / material.stress_unit));
     }
@@ -281,7 +281,7 @@ constexpr Number root_tolerance = is_single ? 1e-3_r : 6e-8_r;
 /// lane yields.
 BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &functions, const Real all_q,
                                 const Real m, const Real alpha, const Real before, Mask &yields) {
-  const Number p = material.rate_exponent, unit = material.reference_increment;
+  const Number p = material.rate.exponent, unit = material.rate.reference_increment;
   if (!(unit > 0._r)) {
     yields = Mask{};
     return {Real{}, before, all_q, Real{}};
@@ -321,14 +321,14 @@ __attribute__((noinline)) Flow flow_with_state(const Material &material, const L
                                                const Real q, const Real m, const Real before, Number *history,
                                                Mask &yields) {
   Flow flow;
-  if (material.rate_kind != RateKind::power_law)
+  if (material.rate.kind != RateKind::power_law)
     flow = flow_by_lane(material, functions, q, m, before, history, yields);
   else {
     flow = flow_at_rate(material, functions, q, m, load(history), before, yields);
     accumulate(static_cast<Number>(material.stress_unit) * flow.plastic_work,
                history + place_of_state(material) * n_lanes);
   }
-  if (material.hardening_kind != HardeningKind::linear)
+  if (material.hardening.kind != HardeningKind::linear)
     store(history + place_of_yield_stress * n_lanes, flow.yield_stress);
   return flow;
 }
@@ -342,23 +342,23 @@ BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &fun
   if constexpr (!is_plastic)
     return broadcast(1._r);
   const Real alpha = load(history);
-  const bool is_linear = material.hardening_kind == HardeningKind::linear;
-  Real yield = is_linear ? material.yield_stress + material.hardening_modulus * alpha
+  const bool is_linear = material.hardening.kind == HardeningKind::linear;
+  Real yield = is_linear ? material.hardening.yield_stress + material.hardening.modulus * alpha
                          : load(history + place_of_yield_stress * n_lanes);
   yields = q > yield;
   if (!any(yields))
     return broadcast(1._r);
   Real delta{};
-  if (material.rate_kind != RateKind::none) {
+  if (material.rate.kind != RateKind::none) {
     const Flow flow = flow_with_state(material, functions, q, m, yield, history, yields);
     delta = flow.strain;
     watch.plastic_work = flow.plastic_work;
     yield = flow.flow_stress;
   } else if (is_linear) {
-    delta = select(yields, (q - yield) / (m + material.hardening_modulus), delta);
-    watch.plastic_work = delta * (yield + (0.5_r * material.hardening_modulus) * delta);
+    delta = select(yields, (q - yield) / (m + material.hardening.modulus), delta);
+    watch.plastic_work = delta * (yield + (0.5_r * material.hardening.modulus) * delta);
     if constexpr (is_single)
-      yield += material.hardening_modulus * delta;
+      yield += material.hardening.modulus * delta;
   } else {
     const Real before = yield;
     delta = solve_consistency(material, functions, yields, q, m, alpha, yield);

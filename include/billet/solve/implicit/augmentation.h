@@ -32,7 +32,7 @@ public:
   const SoftnessLimit &softness() const { return softness_; }
   void set_softness(const SoftnessLimit &softness) { softness_ = softness; }
   /// Accepts the step. Collective.
-  void commit() { softness_.commit(contact_springs(), problem_.parameters().solver.force_tolerance); }
+  void commit() { softness_.commit(contact_springs(), parts_.parameters().solver.force_tolerance); }
   /// Returns messages at the end about pairs whose augmentation ended while it still changed forces.
   DiagnosticList finish() const;
 
@@ -72,6 +72,7 @@ private:
   void learn(Series &series);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   EquilibriumSolver &solver_;
   PenetrationMeasurement &measurement_;
   SoftnessLimit softness_;

@@ -31,9 +31,9 @@ std::string describe_free_mode(const ImplicitProblem &problem, std::size_t body,
 /// Collective.
 double prescribed_motion(const ImplicitProblem &problem, double t);
 
-/// Whether the trial state moves farther, in the step or in the run, than tools and supports explain; then
-/// the step fails. For static scenes. Collective.
-bool moves_too_far(const ImplicitProblem &problem, double t, NewtonReport &report);
+/// Returns a failure if the trial state moves farther, in the step or in the run, than tools and supports
+/// explain. For static scenes. Collective.
+std::optional<StepFailure> judge_travel(const ImplicitProblem &problem, double t);
 
 } // namespace billet
 

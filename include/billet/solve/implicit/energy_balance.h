@@ -19,11 +19,11 @@ public:
   EnergyBalance(const EnergyBalance &) = delete;
   EnergyBalance &operator=(const EnergyBalance &) = delete;
 
-  /// Computes the energies of the trial state. Returns whether the error of the step's time integration is
-  /// too large; then the step fails. Collective.
-  virtual bool is_inaccurate(double t, NewtonReport &report);
-  /// Whether contact generates or loses so much energy that the step fails. Collective.
-  virtual bool rejects(double t, NewtonReport &report) = 0;
+  /// Computes the energies of the trial state. Returns a failure if the error of the step's time integration
+  /// is too large. Collective.
+  virtual std::optional<StepFailure> judge_accuracy(double t);
+  /// Returns a failure if contact generates or loses too much energy. Collective.
+  virtual std::optional<StepFailure> judge_contact(double t, DiagnosticList &messages) = 0;
   /// Records the energy that contact and elements have generated or lost in the step, before its other works.
   /// Collective.
   virtual void commit(double t) = 0;
@@ -61,6 +61,7 @@ protected:
   ElementImbalance element_imbalance() const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   /// Energy that contact has taken and not yet returned; in static scenes, of all steps except jumps.
   double contact_balance_ = 0.;
   InternalForces::Energies trial_energies_;
@@ -71,7 +72,7 @@ protected:
 class StaticBalance final : public EnergyBalance {
 public:
   using EnergyBalance::EnergyBalance;
-  bool rejects(double t, NewtonReport &report) override;
+  std::optional<StepFailure> judge_contact(double t, DiagnosticList &messages) override;
   void commit(double t) override;
   DiagnosticList finish() const override;
   void save(StateWriter &writer) const override;
@@ -93,8 +94,8 @@ class DynamicBalance final : public EnergyBalance {
 public:
   DynamicBalance(ImplicitProblem &problem, const PathGuard &paths, ImplicitMotion &motion)
       : EnergyBalance(problem), paths_(paths), motion_(motion) {}
-  bool is_inaccurate(double t, NewtonReport &report) override;
-  bool rejects(double t, NewtonReport &report) override;
+  std::optional<StepFailure> judge_accuracy(double t) override;
+  std::optional<StepFailure> judge_contact(double t, DiagnosticList &messages) override;
   void commit(double t) override;
   DiagnosticList check() override;
   double time_error() const override { return time_error_; }

@@ -32,6 +32,7 @@ private:
   static constexpr unsigned int max_iterations_of_probe = 8;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   double accuracy_ = 1.;
   bool accepts_stalled_ = false, is_probing_ = false;
 };

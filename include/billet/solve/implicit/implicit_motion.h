@@ -42,15 +42,11 @@ public:
   /// Sets the solution of these equations. On constrained dofs it satisfies the homogeneous constraints.
   void set_accelerations(const Vector &accelerations);
 
-  /// Continues damping by (I4), once it is on, until contacts have opened.
-  void choose_contact_damping(const ForceState &start) override;
-  /// Makes the next steps those of (I4), in which contact cannot generate energy.
-  void damp_contact(const ForceState &start) override;
-  bool damps_contact() const { return damping_.is_on; }
-  double contact_weight() const override { return damping_.is_on ? integrator_.contact() : 1.; }
-  double contact_before() const override { return damping_.is_on ? 0. : 0.5; }
-  /// Sets −F_c at the end of the step, with (I4), before step_error() and commit(). Collective.
-  void finish_contact(const Vector &contact_forces);
+  /// Returns the weights of contact. Before step_error() and commit() they have to be finished.
+  ContactDamping &contact() override { return damping_; }
+  const ContactDamping &contact() const override { return damping_; }
+  HeavyTools &tools() override { return tools_; }
+  const HeavyTools &tools() const override { return tools_; }
 
   void start_step(double t_n, double t, const Vector &displacements,
                   const std::vector<double> &offsets) override;
@@ -73,18 +69,6 @@ public:
   /// the work that this does. The accelerations have to be computed anew. Collective.
   double follow_supports(double t);
 
-  HeavyTools &tools() { return tools_; }
-  bool has_mass(const std::size_t tool) const override { return tools_.has_mass(tool); }
-  double tool_inertia(const std::size_t tool, const double offset) const override {
-    return tools_.residual(tool, offset, tool_step());
-  }
-  double tool_slope(const std::size_t tool) const override { return tools_.slope(tool, tool_step()); }
-  void commit_tool(const std::size_t tool, const double offset, const double exerted, const double load,
-                   EnergyLedger &energies) override {
-    tools_.commit(tool, offset, exerted, load, tool_step(), energies);
-  }
-  double remove_tool(const std::size_t tool) override { return tools_.remove(tool); }
-
   /// Makes the state of the last add_loads() the start of the next step.
   std::vector<LoadResult> commit(const Vector &displacements, const Vector &increment,
                                  const Vector &mean_forces, double touching, EnergyLedger &energies) override;
@@ -92,7 +76,6 @@ public:
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const override;
   void load(const StateReader &reader, const OwnedNodes &nodes) override;
-  void save_tool(const std::size_t tool, StateWriter &writer) const override { tools_.save(tool, writer); }
   /// Replaces load() at time t of another method's state. Takes its velocities if it has some, else the
   /// initial ones.
   void begin(const StateReader &reader, const OwnedNodes &nodes, double t);
@@ -100,13 +83,6 @@ public:
 private:
   struct Rates {
     Vector velocity, acceleration;
-  };
-  /// State of steps by (I4), in which the accelerations at their end are a*.
-  struct ContactDamping {
-    bool is_on = false;
-    Vector end;      ///< c at the end of the step
-    Vector start;    ///< a_n without contact
-    Vector forces_n; ///< F_n of the residual: all forces; with (I4), without contact
   };
   /// The step that is tried.
   struct TrialStep {
@@ -116,9 +92,6 @@ private:
   };
   void set_initial_velocities();
   void set_rates(const Vector &displacements);
-  HeavyTools::Step tool_step() const { return {integrator_, step_.length, damping_.is_on}; }
-  /// Returns a_n; with (I4), that of the other forces.
-  const Vector &start_accelerations() const { return damping_.is_on ? damping_.start : start_.acceleration; }
   /// Returns the accelerations at the end of the step, including contact.
   Vector end_accelerations() const;
 
@@ -128,13 +101,13 @@ private:
   TimeIntegrator integrator_;
   LocalNodes nodes_;
   FreeMass mass_;
-  LoadForces loads_;
+  Rates start_, trial_;
+  ContactDamping damping_;
   HeavyTools tools_;
+  LoadForces loads_;
   SupportRates held_;
   MotionError error_;
   TrialStep step_;
-  Rates start_, trial_;
-  ContactDamping damping_;
   HeldMemory memory_{Capability::inertia};
 };
 

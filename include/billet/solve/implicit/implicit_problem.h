@@ -53,7 +53,7 @@ public:
   TangentMatrix &tangent() { return tangent_; }
   const TangentMatrix &tangent() const { return tangent_; }
 
-protected:
+private:
   const Scene &scene_;
   const Discretization &discretization_;
   SwitchedSupports supports_;
@@ -68,13 +68,15 @@ protected:
   TangentMatrix tangent_;
 };
 
-/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem.
-/// Evaluations never change the state at the start of the step.
-class ImplicitProblem final : public ImplicitParts, public NonlinearProblem {
+/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem: sums up
+/// its parts(). Evaluations never change the state at the start of the step.
+class ImplicitProblem final : public NonlinearProblem {
 public:
   ImplicitProblem(const Scene &scene, const Discretization &discretization);
   ~ImplicitProblem() override;
 
+  ImplicitParts &parts() { return parts_; }
+  const ImplicitParts &parts() const { return parts_; }
   StepState &step() { return step_; }
   const StepState &step() const { return step_; }
   ForceScales &scales() { return scales_; }
@@ -91,8 +93,12 @@ public:
   void evaluate_start();
   /// Return the unknowns, displacements and offsets of driven tools, at the start of the step and in the
   /// trial state.
-  Vector unknowns() const { return tools_.pack(step_.start.displacements, tools_.start_offsets()); }
-  Vector trial_unknowns() const { return tools_.pack(step_.trial.displacements, tools_.offsets()); }
+  Vector unknowns() const {
+    return parts_.tools().pack(step_.start.displacements, parts_.tools().start_offsets());
+  }
+  Vector trial_unknowns() const {
+    return parts_.tools().pack(step_.trial.displacements, parts_.tools().offsets());
+  }
   void set_trial(const Vector &x);
 
   bool compute_residual(const Vector &x, Vector &residual) override;
@@ -100,7 +106,7 @@ public:
   bool solve_tangent(const Vector &residual, Vector &dx, double relative_tolerance) override;
   double max_step_length(const Vector &x, const Vector &direction) override;
   double force_scale() const override { return scales_.force; }
-  double round_off_force() const override { return scales_.round_off + scheme().round_off_force(); }
+  double round_off_force() const override { return scales_.round_off + parts_.scheme().round_off_force(); }
   double contact_round_off_force() const override {
     return scales_.contact_bears ? scales_.spring_round_off : 0.;
   }
@@ -125,6 +131,7 @@ private:
   /// Compares the contacts with those at the last tangent. Collective.
   StatusChanges find_status_changes() const;
 
+  ImplicitParts parts_;
   StepState step_;
   ForceScales scales_;
   SolutionState state_;

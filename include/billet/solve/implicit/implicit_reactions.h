@@ -31,6 +31,7 @@ private:
   void balance_bodies(const Vector &residual);
 
   const ImplicitProblem &problem_;
+  const ImplicitParts &parts_ = problem_.parts();
   SupportReactions supports_;
   std::vector<std::size_t> bodies_of_nodes_;    ///< owned
   std::vector<std::size_t> bodies_of_supports_; ///< in the order of named_supports()

@@ -2,15 +2,14 @@
 #ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 #define BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 
+#include "billet/solve/implicit/accepted_steps.h"
 #include "billet/solve/implicit/implicit_reactions.h"
 #include "billet/solve/implicit/problem_checkpoint.h"
 #include "billet/solve/implicit/step_attempt.h"
 #include "billet/solve/implicit/step_diagnosis.h"
 #include "billet/solve/solution.h"
 
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,13 +41,9 @@ public:
   /// from its solution.
   Probe probe(double t, double previous_step);
 
-  /// Makes the next step, if it is accepted, measure the error of the results by penetration; see
-  /// PenetrationMeasurement::ask().
-  void measure_penetration(const double allowed = std::numeric_limits<double>::infinity()) {
-    measurement_.ask(allowed);
-  }
-  /// Returns the measurement of the last accepted step; once.
-  std::optional<OfPenetration> take_measurement() { return measurement_.take(); }
+  /// Returns the measurement of the error of the results by penetration, which the next accepted step makes
+  /// if it is asked to.
+  PenetrationMeasurement &measurement() { return measurement_; }
   /// Returns the deepest penetration of the last accepted step, over the 'Penetration tolerance', or over
   /// 1e-5 facets in pairs without one.
   double penetration() const { return penetration_; }
@@ -60,8 +55,6 @@ public:
   }
   /// Sets the factor of the tolerances of residuals and their work; in (0, 1].
   void set_accuracy(const double factor) { solver_.set_accuracy(factor); }
-  /// Switches to the exact contact tangent after failed steps; see TangentMatrix::take_exact(). Collective.
-  bool take_exact_tangent() { return problem_.tangent().take_exact(); }
   /// Lets the step that failed, and shorter ones, begin with low penalties until one is accepted. Returns
   /// false if they already could, or the scheme does without.
   bool take_low_penalties() { return rules_->may_continue_penalties() && continuation_.permit_low(); }
@@ -70,23 +63,23 @@ public:
   const EnergyBalance &balance() const { return rules_->balance(); }
 
   const SolutionState &state() const override { return problem_.state(); }
-  const Discretization &discretization() const override { return problem_.discretization(); }
+  const Discretization &discretization() const override { return parts_.discretization(); }
   std::vector<ElementSummary> summarize(const std::size_t body) const override {
-    return problem_.internal().summarize(body, state().displacements);
+    return parts_.internal().summarize(body, state().displacements);
   }
   std::vector<LayerSummaries> summarize_layers(const std::size_t body) const override {
-    return problem_.internal().summarize_layers(body, state().displacements);
+    return parts_.internal().summarize_layers(body, state().displacements);
   }
   std::vector<StateAverages> average_states(const std::size_t body) const override {
-    return problem_.internal().average_states(body);
+    return parts_.internal().average_states(body);
   }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {
-    return problem_.contacts().report();
+    return parts_.contacts().report();
   }
   std::array<std::size_t, 2> history_sizes() const override;
-  std::string method() const override { return problem_.tangent().solver().name(); }
+  std::string method() const override { return parts_.tangent().solver().name(); }
   DiagnosticList initial_diagnostics() const override;
-  bool solves_iteratively() const override { return problem_.tangent().solver().is_iterative(); }
+  bool solves_iteratively() const override { return parts_.tangent().solver().is_iterative(); }
   const Reactions &reactions() const override { return reactions_.values(); }
 
   /// Returns messages at the end of the run. They concern stabilised bodies, contact that has lost or
@@ -120,8 +113,6 @@ private:
   /// Adds the messages after an accepted step.
   void review(NewtonReport &report);
   void commit(double t, NewtonReport &report);
-  void commit_works(double t);
-  void commit_loads(double t);
 
   // Parts of save() and load(), in implicit_solution_state.cc:
   void load_own(StateReader &reader, const OwnedNodes &nodes, bool is_exact);
@@ -129,6 +120,7 @@ private:
   void compute_forces(RestartReport &report);
 
   ImplicitProblem problem_;
+  ImplicitParts &parts_ = problem_.parts();
   EquilibriumSolver solver_;
   PenetrationMeasurement measurement_;
   Augmentation augmentation_;
@@ -141,6 +133,7 @@ private:
   StepAttempt attempt_;
   ProblemCheckpoint checkpoint_;
   ImplicitReactions reactions_;
+  AcceptedSteps accepted_;
   double penetration_ = 0.;
 };
 

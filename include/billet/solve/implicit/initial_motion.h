@@ -24,6 +24,7 @@ private:
   static constexpr double tolerance = 1e-10;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   ImplicitMotion &motion_;
 };
 

@@ -12,23 +12,23 @@ namespace billet {
 class PathGuard {
 public:
   explicit PathGuard(ImplicitProblem &problem)
-      : problem_(problem), motions_(problem.scene(), problem.supports(), problem.discretization()) {}
+      : problem_(problem), motions_(parts_.scene(), parts_.supports(), parts_.discretization()) {}
 
   /// Whether steps to t may be cut.
   bool may_be_cut(double t) const;
 
-  // Each fails the step if it is true:
-  /// Nodes have passed through a tool that is thinner than their facets.
-  bool goes_through_thin_tool(NewtonReport &report) const;
-  /// Nodes pass through anything between the start of the step and the trial state.
-  bool goes_through(bool is_thorough, NewtonReport &report);
-  /// A tool in contact with friction rotates so far in the step that slip has no direction.
-  bool turns_too_far(double t, NewtonReport &report) const;
-  /// A prescribed motion oscillates or turns within the step unseen, and the step can be cut.
-  bool skips_motion(double t, NewtonReport &report) const;
-  /// In dynamics: nodes approach so far in the step of first contact that the motion after the contact is
-  /// unknown.
-  bool meets_too_early(double t, NewtonReport &report) const;
+  // Each returns a failure of the step if ...
+  /// ... nodes have passed through a tool that is thinner than their facets;
+  std::optional<StepFailure> judge_thin_tools() const;
+  /// ... nodes pass through anything between the start of the step and the trial state;
+  std::optional<StepFailure> judge_path(bool is_thorough);
+  /// ... a tool in contact with friction rotates so far in the step that slip has no direction;
+  std::optional<StepFailure> judge_turns(double t) const;
+  /// ... a prescribed motion oscillates or turns within the step unseen, and the step can be cut;
+  std::optional<StepFailure> judge_prescribed_motion(double t) const;
+  /// ... in dynamics, nodes approach so far in the step of first contact that the motion after the contact
+  /// is unknown.
+  std::optional<StepFailure> judge_first_contact(double t) const;
 
   /// Returns messages about such prescribed motions if steps cannot be cut.
   DiagnosticList check_motion(double t) const;
@@ -44,6 +44,7 @@ private:
   };
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   MotionWatch motions_;
 };
 

@@ -54,6 +54,7 @@ private:
   void soften(const std::vector<Octaves> &above, int softer, int octaves);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   EquilibriumSolver &solver_;
   bool permits_low_ = false;
 };

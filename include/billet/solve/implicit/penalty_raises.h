@@ -34,6 +34,7 @@ private:
                   DiagnosticList &messages);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   std::vector<double> of_tools_; ///< energy in the springs of each contact with a tool
   PenaltyWatch watch_;
 };
@@ -43,8 +44,9 @@ class PenaltyRaises {
 public:
   PenaltyRaises(ImplicitProblem &problem, SpringBooks &books) : problem_(problem), books_(books) {}
 
-  /// Whether penetration is too large at the end of the step, so that it has to be repeated. Collective.
-  bool is_needed(NewtonReport &report);
+  /// Returns a failure if penetration is too large at the end of the step, which has to be repeated then.
+  /// Collective.
+  std::optional<StepFailure> judge();
   /// Raises the penalties at the start of the step. Compressed springs receive the energy that stiffer ones
   /// store, and start the step with their forces. Collective.
   DiagnosticList raise();
@@ -63,8 +65,9 @@ private:
   DiagnosticList describe() const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   SpringBooks &books_;
-  std::vector<double> factors_; ///< result of the last is_needed()
+  std::vector<double> factors_; ///< result of the last judge()
 };
 
 /// Raises penalties of dynamic scenes after a step. The contacts are then in their accepted state, so that a
@@ -73,7 +76,7 @@ class DynamicPenalties {
 public:
   DynamicPenalties(ImplicitProblem &problem, SpringBooks &books)
       : problem_(problem), books_(books),
-        control_(problem.scene(), problem.discretization(), PenaltyControl::in_implicit_scenes) {}
+        control_(parts_.scene(), parts_.discretization(), PenaltyControl::in_implicit_scenes) {}
 
   /// `solution` is that of the step. Collective.
   DiagnosticList control(const Solution &solution);
@@ -83,6 +86,7 @@ public:
 
 private:
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   SpringBooks &books_;
   PenaltyControl control_;
 };

@@ -38,6 +38,7 @@ private:
   void add_travels(const std::vector<double> &offsets, Groups &results) const;
 
   const ImplicitProblem &problem_;
+  const ImplicitParts &parts_ = problem_.parts();
 };
 
 /// Effect of penetration on the results at the end of a step.
@@ -92,6 +93,7 @@ private:
   double augment_once(const Vector &accepted, double accuracy, NewtonReport &report);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   StepResults results_;
   bool is_wanted_ = false;
   double allowed_ = 0.; ///< part of the forces

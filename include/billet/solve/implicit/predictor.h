@@ -46,6 +46,7 @@ public:
 protected:
   bool extrapolates() const;
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
 
 private:
   /// Limits of continued motion.

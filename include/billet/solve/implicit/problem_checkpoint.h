@@ -29,6 +29,7 @@ private:
   bool load_body(std::size_t body, StateReader &reader);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
 };
 
 } // namespace billet

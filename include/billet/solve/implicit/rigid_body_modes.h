@@ -17,9 +17,9 @@ public:
   /// Prepares the problem's stabilisation as well. Collective.
   explicit RigidBodyModes(ImplicitProblem &problem);
 
-  /// Whether a body loses its support, or bodies move too far. Throws SolutionFailure, on all ranks, if the
-  /// time of the loss is known accurately enough. Collective.
-  bool rejects(double t, NewtonReport &report);
+  /// Returns a failure if a body loses its support, or bodies move too far. Throws SolutionFailure, on all
+  /// ranks, if the time of the loss is known accurately enough. Collective.
+  std::optional<StepFailure> judge(double t, DiagnosticList &messages);
   /// Accepts the step: records the work of the stabilisation. Collective.
   void commit();
   /// Finds the support after a restart with other contacts. Collective.
@@ -54,8 +54,8 @@ private:
     double time = -1.;
     Explanation why;
   };
-  /// Fails the step that loses this mode.
-  bool lose(const RigidBodySupport::Mode &mode, double t, NewtonReport &report);
+  /// Returns the failure of a step that loses this mode. Throws SolutionFailure as judge() does.
+  StepFailure lose(const RigidBodySupport::Mode &mode, double t);
   /// Returns the supports of the bodies except contact, at the trial state.
   RigidBodySupport hold_bodies() const;
   /// Finds the modes with contact. Collective.
@@ -77,9 +77,10 @@ private:
   bool hold_if_let_go(const RigidBodySupport::Mode &mode);
   /// Does the same for bodies that others touch without a force, at the end of this step. Collective.
   void hold_unloaded_bodies();
-  void report_let_go(double t, NewtonReport &report);
+  void report_let_go(double t, DiagnosticList &messages);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   bool may_change_; ///< whether supports or springs begin or end
   RigidBodies bodies_;
   std::vector<double> forces_n_, max_forces_; ///< on bodies at the end of the last step; maxima so far

@@ -11,11 +11,11 @@ namespace billet {
 class RoundOffGuard {
 public:
   explicit RoundOffGuard(const ImplicitProblem &problem)
-      : problem_(problem), is_balanced_by_inertia_(problem.scheme().has_inertia()) {}
+      : problem_(problem), is_balanced_by_inertia_(parts_.scheme().has_inertia()) {}
 
-  /// Whether a converged step has to fail because round-off of contact is too large a part of the forces. It
-  /// fails after several such steps in succession, or at the end of the run.
-  bool rejects(double t, NewtonReport &report) const;
+  /// Returns a failure of a converged step if round-off of contact is too large a part of the forces, in
+  /// several such steps in succession or at the end of the run.
+  std::optional<StepFailure> judge(double t, const NewtonReport &report) const;
   /// Whether round-off of contacts may explain the residual of a failed step. Collective.
   bool may_explain(const NewtonReport &report) const;
   /// Explains the failure of a step in which round-off is this part of the forces. Collective.
@@ -43,6 +43,7 @@ private:
   };
 
   const ImplicitProblem &problem_;
+  const ImplicitParts &parts_ = problem_.parts();
   const bool is_balanced_by_inertia_; ///< inertia balances a residual of round-off
   RoundOffWatch watch_;
   unsigned int n_lost_ = 0; ///< number of the last accepted steps that round-off limited

@@ -4,7 +4,9 @@
 
 #include "billet/discretization/supports.h"
 #include "billet/parameters/control.h"
+#include "billet/solve/implicit/contact_weights.h"
 #include "billet/solve/implicit/step_state.h"
+#include "billet/solve/implicit/tool_inertia.h"
 #include "billet/solve/restart.h"
 #include "billet/solve/solution.h"
 
@@ -14,7 +16,8 @@ namespace billet {
 
 /// Contributions of time to the sum of all forces in a step: inertia, loads and the weights of a time
 /// integrator. Here weights are one, and inertia and loads are zero. Statics adds loads; ImplicitMotion is
-/// implicit dynamics.
+/// implicit dynamics. This class adds to the sum and advances; contact() weighs the forces of contact in it,
+/// and tools() have the inertia of driven tools.
 class ImplicitScheme {
 public:
   ImplicitScheme() = default;
@@ -35,14 +38,14 @@ public:
   /// Returns the residual by round-off in inertia [force].
   virtual double round_off_force() const { return 0.; }
 
-  /// Returns the weight of contact forces, and of their tangent, in the residual.
-  virtual double contact_weight() const { return 1.; }
-  /// Returns the weight of contact forces at the start of the step in their mean.
-  virtual double contact_before() const { return 0.5; }
-  /// Begins a step from these forces: chooses whether contact is damped in it. Collective.
-  virtual void choose_contact_damping(const ForceState &) {}
-  /// Damps contact in the step that begins from these forces, so that it generates no energy. Collective.
-  virtual void damp_contact(const ForceState &) {}
+  // Roles.
+
+  virtual ContactWeights &contact() { return equal_weights_; }
+  virtual const ContactWeights &contact() const { return equal_weights_; }
+  virtual ToolInertia &tools() { return no_inertia_; }
+  virtual const ToolInertia &tools() const { return no_inertia_; }
+
+  // Steps.
 
   /// Begins the step from t_n to t, from these displacements and offsets of the tools.
   virtual void start_step(double /*t_n*/, double /*t*/, const Vector & /*displacements*/,
@@ -67,15 +70,6 @@ public:
   /// Adds the derivatives of loads and inertia.
   virtual void add_tangent(double /*t*/, const TangentSystem &) const {}
 
-  // Tools with a mass:
-  virtual bool has_mass(std::size_t /*tool*/) const { return false; }
-  virtual double tool_inertia(std::size_t /*tool*/, double /*offset*/) const { return 0.; }
-  virtual double tool_slope(std::size_t /*tool*/) const { return 0.; }
-  virtual void commit_tool(std::size_t /*tool*/, double /*offset*/, double /*exerted*/, double /*load*/,
-                           EnergyLedger &) {}
-  /// Removes a tool. Returns its kinetic energy.
-  virtual double remove_tool(std::size_t /*tool*/) { return 0.; }
-
   /// Accepts the step, with its increment and mean forces, and records their works. `touching` is the work of
   /// springs in contact, see StepWorks. Returns force and work of each load. Collective.
   virtual std::vector<LoadResult> commit(const Vector & /*displacements*/, const Vector &increment,
@@ -87,10 +81,13 @@ public:
   /// Sets velocities, kinetic energy and momenta.
   virtual void update_state(SolutionState &) const {}
 
-  /// Saves the state at the start of the step, and that of a tool to the tool's group.
+  /// Saves the state at the start of the step, except that of tools.
   virtual void save(StateWriter &, const OwnedNodes &) const {}
   virtual void load(const StateReader &, const OwnedNodes &) {}
-  virtual void save_tool(std::size_t /*tool*/, StateWriter &) const {}
+
+private:
+  ContactWeights equal_weights_;
+  ToolInertia no_inertia_;
 };
 
 } // namespace billet

@@ -24,9 +24,9 @@ public:
     ++n_attempts_;
     n_refused_ = 0;
   }
-  /// Records the friction of a converged step. If nodes slide too far, rejects it, or adds a warning if its
-  /// length is fixed. Returns whether it is rejected. Collective.
-  bool rejects(double t, NewtonReport &report);
+  /// Records the friction of a converged step. If nodes slide too far, returns a failure, or adds a warning
+  /// if the step's length is fixed. Collective.
+  std::optional<StepFailure> judge(double t, DiagnosticList &messages);
   /// Explains a step that failed after states slid too far; empty if none did. `cause`: why bodies slide, if
   /// it is known; from one attempt it holds for those after it.
   Explanation explain(double t, const Explanation &cause);
@@ -53,6 +53,7 @@ private:
   Explanation describe(std::size_t contact, double t, const Explanation &cause) const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   std::vector<FrictionUse> friction_; ///< of the contacts in the last converged step
   unsigned int n_refused_ = 0;        ///< states of this attempt that slid too far
   std::size_t refused_ = 0;           ///< contact pair of the last one

@@ -52,8 +52,8 @@ private:
   void stop_tools(double t, Unknowns &x, NewtonReport &report);
   /// Evaluates the accepted state, and measures its penetration on request.
   void evaluate(Unknowns &x, NewtonReport &report);
-  /// Fails the step if its state is not acceptable.
-  void judge(double t, NewtonReport &report);
+  /// Returns a failure if the converged state is not acceptable.
+  std::optional<StepFailure> judge(double t, NewtonReport &report);
 
   Parts p_;
   std::vector<std::size_t> stopping_;

@@ -32,6 +32,7 @@ private:
   Explanation describe_slipping_tools() const;
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   std::vector<std::size_t> slipping_tools_; ///< at the end of the last accepted step
 };
 

@@ -40,11 +40,11 @@ public:
 
   /// Begins an attempt of a step.
   virtual void begin_attempt() {}
-  /// Whether a converged step fails. Collective.
-  virtual bool rejects(double t, NewtonReport &report) = 0;
+  /// Returns why a converged step fails, if it does. Collective.
+  virtual std::optional<StepFailure> judge(double t, DiagnosticList &messages) = 0;
   /// Explains a step for whose failure the iterations give no reason, if the bodies do. Throws
   /// SolutionFailure, on all ranks, if shorter steps will not help. Collective.
-  virtual void explain(double /*t*/, NewtonReport & /*report*/) {}
+  virtual std::optional<StepFailure> explain(double /*t*/) { return {}; }
   /// Whether lower penalties may help a step that failed for a known reason. In dynamics, converged steps
   /// that are too long need shorter ones.
   virtual bool may_mend_explained() const = 0;
@@ -84,6 +84,7 @@ protected:
   std::map<std::size_t, std::set<std::string>> switch_supports(double t, const Vector &inertia);
 
   ImplicitProblem &problem_;
+  ImplicitParts &parts_ = problem_.parts();
   const PathGuard &paths_;
   SpringBooks &books_;
 };
@@ -105,8 +106,8 @@ public:
   void check_next_step() const override;
   bool has_next_step() const override { return free_body_.empty(); }
   void begin_attempt() override { sliding_.begin(); }
-  bool rejects(double t, NewtonReport &report) override;
-  void explain(double t, NewtonReport &report) override;
+  std::optional<StepFailure> judge(double t, DiagnosticList &messages) override;
+  std::optional<StepFailure> explain(double t) override;
   bool may_mend_explained() const override { return true; }
   bool may_continue_penalties() const override { return true; }
   DiagnosticList raise_penalties() override;
@@ -145,7 +146,7 @@ public:
   const Predictor &predictor() const override { return predictor_; }
   EnergyBalance &balance() override { return balance_; }
   void start(const Solution &solution) override;
-  bool rejects(double t, NewtonReport &report) override;
+  std::optional<StepFailure> judge(double t, DiagnosticList &messages) override;
   bool may_mend_explained() const override { return false; }
   bool may_continue_penalties() const override { return false; }
   void close_step(double t) override;
