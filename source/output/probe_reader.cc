@@ -144,7 +144,7 @@ public:
     const auto &probes = scene.parameters().probes;
     if (std::any_of(probes.begin(), probes.end(),
                     [](const parameters::Probe &probe) { return probe.probe.reads(Kind::contact_pressure); }))
-      pressures_ = collect_contact_fields(discretization_, solution)[0];
+      contact_ = collect_contact_fields(discretization_, solution);
     std::set<std::size_t> bodies;
     for (const parameters::Probe &probe : probes)
       if (probe.probe.reads(Kind::stress) || probe.probe.reads(Kind::plastic_strain) ||
@@ -164,6 +164,9 @@ public:
       sum += summary.elastic_energy + summary.plastic_work + summary.hourglass_energy;
     return sum;
   }
+
+  /// Returns the area in contact of a node.
+  double contact_area(const std::array<DofIndex, 3> &dofs) const { return contact_[1](dofs[1]); }
 
   Tensor<1, 3> displacement(const std::array<DofIndex, 3> &dofs) const {
     return get(solution_.state().displacements, dofs);
@@ -193,7 +196,7 @@ public:
     case Kind::position:
       return position + displacement(dofs);
     case Kind::contact_pressure:
-      return Tensor<1, 3>({pressures_(dofs[0]), 0., 0.});
+      return Tensor<1, 3>({contact_[0](dofs[0]), 0., 0.});
     case Kind::displacement:
     case Kind::stress:
     case Kind::strain:
@@ -256,7 +259,7 @@ private:
   const Solution &solution_;
   const Discretization &discretization_;
   std::vector<std::vector<ElementSummary>> summaries_; ///< of bodies whose stresses are read
-  Vector pressures_;                                   ///< only if they are read
+  std::array<Vector, 3> contact_;                      ///< only if pressures are read
 };
 
 ProbeReader::ProbeReader(const Scene &scene, const Discretization &discretization)
@@ -381,12 +384,15 @@ ProbeRows ProbeReader::read_space(const Placed &placed, const State &state) cons
 }
 
 ProbeRows ProbeReader::read_nodes(const Placed &placed, const State &state) const {
-  ProbeRows rows(placed.probe().components().size());
+  const bool has_pressure = placed.probe().reads(Kind::contact_pressure);
+  ProbeRows rows(placed.probe().components().size() + (has_pressure ? 1 : 0));
   for (const ProbedNode &node : placed.nodes) {
     std::vector<double> values;
     for (const ProbeQuantity &quantity : placed.probe().quantities)
       append(quantity.kind, state.at_node(quantity.kind, node.dofs, node.position), placed.probe().axes,
              node.position, values);
+    if (has_pressure)
+      values.push_back(state.contact_area(node.dofs));
     rows.add(node.key, 0, node.weight, values);
   }
   return rows;
@@ -509,19 +515,23 @@ std::vector<double> ProbeReader::read(const Placed &placed, const State &state) 
   if (std::holds_alternative<ProbedMotion>(probe.where))
     return read_motion(placed, state);
   std::vector<std::vector<double>> values;
-  std::vector<double> weights;
+  SiteWeights weights;
   // A point in space at which there is nothing has no row.
   if (const auto *points = std::get_if<ProbedPoints>(&probe.where)) {
     values.assign(points->points.size(), std::vector<double>(probe.components().size(), nan));
-    weights.assign(points->points.size(), 1.);
+    weights.all.assign(points->points.size(), 1.);
   }
   for (auto &row : read_rows(placed, state).gather(discretization_.communicator())) {
     if (std::holds_alternative<ProbedPoints>(probe.where)) {
       values[row.site] = std::move(row.values);
       continue;
     }
+    if (row.values.size() > probe.components().size()) {
+      weights.contact_areas.push_back(row.values.back());
+      row.values.pop_back();
+    }
     values.push_back(std::move(row.values));
-    weights.push_back(row.weight);
+    weights.all.push_back(row.weight);
   }
   return evaluate_columns(probe, values, weights);
 }

@@ -155,9 +155,33 @@ std::vector<std::string> Probe::columns() const {
   return columns;
 }
 
+namespace {
+
+/// Returns for each component whether it is a contact pressure.
+std::vector<bool> find_contact_pressures(const Probe &probe) {
+  std::vector<bool> are_pressures;
+  for (const ProbeQuantity &quantity : probe.quantities)
+    are_pressures.insert(are_pressures.end(), quantity.components.size(),
+                         quantity.kind == ProbeQuantity::Kind::contact_pressure);
+  are_pressures.resize(probe.components().size(), false); // of probes without quantities
+  return are_pressures;
+}
+
+double mean_pressure(const std::vector<std::vector<double>> &values, const std::vector<double> &areas,
+                     const std::size_t component) {
+  double force = 0., area = 0.;
+  for (std::size_t site = 0; site < values.size(); ++site) {
+    force += areas[site] * values[site][component];
+    area += areas[site];
+  }
+  return area > 0. ? force / area : 0.;
+}
+
+} // namespace
+
 std::vector<double> evaluate_columns(const Probe &probe, const std::vector<std::vector<double>> &values,
-                                     const std::vector<double> &weights) {
-  const std::size_t n_components = probe.components().size();
+                                     const SiteWeights &weights) {
+  const std::vector<bool> are_pressures = find_contact_pressures(probe);
   std::vector<double> columns;
   for (const ProbeStatistic statistic : probe.statistics) {
     if (statistic == ProbeStatistic::each) {
@@ -165,8 +189,11 @@ std::vector<double> evaluate_columns(const Probe &probe, const std::vector<std::
         columns.insert(columns.end(), at_site.begin(), at_site.end());
       continue;
     }
-    for (std::size_t c = 0; c < n_components; ++c)
-      columns.push_back(evaluate_statistic(statistic, values, weights, c));
+    for (std::size_t c = 0; c < are_pressures.size(); ++c)
+      columns.push_back(statistic == ProbeStatistic::mean && are_pressures[c] &&
+                                !weights.contact_areas.empty()
+                            ? mean_pressure(values, weights.contact_areas, c)
+                            : evaluate_statistic(statistic, values, weights.all, c));
   }
   return columns;
 }

@@ -100,11 +100,17 @@ struct Probe {
   std::vector<std::string> columns() const;
 };
 
-/// Returns the columns' values from those at the sites, one for each component, with the sites' weights in
-/// means. Values that are not numbers, where there is nothing to read, count in no statistic; if there are no
-/// others, it is not a number itself.
+/// Weights of the sites in means.
+struct SiteWeights {
+  std::vector<double> all;           ///< of each site
+  std::vector<double> contact_areas; ///< of each site, for contact pressures [length²]; empty: `all`
+};
+
+/// Returns the columns' values from those at the sites, one for each component. The mean of a contact
+/// pressure is the force over the area in contact; 0 without contact. Values that are not numbers, where
+/// there is nothing to read, count in no statistic; if there are no others, it is not a number itself.
 std::vector<double> evaluate_columns(const Probe &probe, const std::vector<std::vector<double>> &values,
-                                     const std::vector<double> &weights);
+                                     const SiteWeights &weights);
 
 /// Probes that scene files can name. A new one is a file in source/probes/ with a function that returns its
 /// type, and its name in the table of probe_types.cc.
