@@ -8,7 +8,7 @@ import unittest
 from typing import Iterable, Sequence
 
 from hand_set import beside_hand_set
-from profile_words import no_better, without_errors
+from profile_words import no_better, with_looser, without_errors
 from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, Sections, force_curve
 from billet_tools.scene import scene_text
 
@@ -16,10 +16,9 @@ from billet_tools.scene import scene_text
 class Counting(unittest.TestCase):
     def test_what_cannot_be_compared_is_not_counted(self) -> None:
         said = beside_hand_set([1.0, 1.5, 1.6, math.nan], [0.9, 2.0, 1.7, math.nan])
-        self.assertIn(
-            "2 of 3 take at most 1.5 times the work, 1 of 3 at most 1.5 times the CPU seconds", said
-        )
-        self.assertIn("for 1 no run by hand that was tried is within the target", said)
+        self.assertIn("2 of 3 take at most 1.5 times the work", said)
+        self.assertIn("1 of 3 take at most 1.5 times the CPU seconds", said)
+        self.assertIn("For 1 no run by hand is within the target", said)
         self.assertNotIn("not counted", beside_hand_set([1.0], [2.0]))
 
 
@@ -31,13 +30,16 @@ class Profiles(unittest.TestCase):
             "c": {"fast": 0.01, "balanced": 0.01, "accurate": 0.009},
             "d": {"fast": math.nan, "balanced": 0.01, "accurate": 0.01},
         }
-        self.assertIn("in 2 of 3 scenes whose errors are known (a, c)", no_better(errors))
+        self.assertIn("In 2 of 3 scenes whose errors are known", no_better(errors))
+        self.assertIn("These are a, c.", no_better(errors))
         self.assertIn("In 1 of these accurate, which augments, has at most half", no_better(errors))
         self.assertEqual(no_better({"b": errors["b"]}), "")
 
     def test_reasons(self) -> None:
         self.assertEqual(without_errors({}), "")
-        self.assertIn("a (given up)", without_errors({"a": "given up"}))
+        self.assertIn("| a | given up |", without_errors({"a": "given up"}))
+        self.assertEqual(with_looser({}), "")
+        self.assertIn("| a | 0.0001 |", with_looser({"a": 1e-4}))
 
 
 class Told(Runner):
