@@ -260,7 +260,7 @@ class Cancellation(unittest.TestCase):
         said = " ".join(s.words())
         self.assertIn(
             (
-                "Not to be relied on, since errors of opposite sign take each other away: `mesh = 0.5`, off"
+                "Not to be relied on, since errors of opposite sign cancel: `mesh = 0.5`, off"
                 " by < 1 % where 2.5 % would be expected, that of `as written`"
             ),
             said,

@@ -85,6 +85,16 @@ def wrapped(page: str, columns: int = 100) -> str:
     return "\n".join(lines)
 
 
+def items(sentences: Iterable[str]) -> str:
+    """Returns a list in Markdown."""
+    return "\n".join(f"- {sentence}" for sentence in sentences)
+
+
+def written_by(command: str) -> str:
+    """Returns the part of a page that says which command writes it."""
+    return f"Written by:\n\n```sh\n{command}\n```"
+
+
 def first_sentence(text: str) -> str:
     """Returns it, or what stands before a list of details."""
     text = " ".join(text.split())
