@@ -314,8 +314,8 @@ class Explanation:
                     "Costs: core-seconds over those of the scene,"
                     f" {number(self.base.core_seconds)}. The cost of the run is the price to halve the error,"
                     " or to remove what a run removes.",
-                    "Ranges: with three levels the order is observed, and used from 1/2 to 2. The range ends at"
-                    " 1.25 times what the finer run leaves. With two levels the order is assumed.",
+                    "Ranges: with three levels the order is observed, and used from 1/2 to 2. The range ends"
+                    " at 1.25 times what the finer run leaves. With two levels the order is assumed.",
                 ]
             )
         )
