@@ -164,7 +164,7 @@ def patch() -> str:
         f" one. The closed form of Hencky's elastic stress is met to {number(against, 1)}. Fields are"
         " written with seven digits: 0 stands for less than that.\n\n"
         + table(
-            ["", "kinematics"]
+            ["", "elasticity"]
             + [f"{element}: {what}" for element in ELEMENTS for what in ("node", "stress")],
             rows,
         )
@@ -1116,8 +1116,8 @@ publish(
     options,
     (
         "This page shows the error of each `Element` in small scenes with a known answer. Nothing is"
-        " fitted: E, ν and the mesh determine all. Kinematics are Hencky's unless the table says otherwise."
-        " Forces come from the work that is done on the body. Each run is done once.\n\n"
+        " fitted: E, ν and the mesh determine all. The elasticity is Hencky's unless the table says"
+        " otherwise. Forces come from the work that is done on the body. Each run is done once.\n\n"
         "Errors of forces are positive where an element is too stiff, those of displacements where it is"
         " too soft. Shares are displacements over the right ones. A small brick beside the mesh holds a"
         " single line or point. It shares no more than that with the mesh and moves as a rigid body."

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Elements and plasticity kinematics of implicit scenes on the billet: force, iterations, and what they
+"""Elements and elasticities of implicit scenes on the billet: force, iterations, and what they
 cost."""
 
 from __future__ import annotations
@@ -273,7 +273,7 @@ cost_rows = [
 
 publish(
     "elements",
-    "Elements and kinematics in implicit scenes",
+    "Elements and elasticity in implicit scenes",
     options,
     (
         "This page shows what each element and each law costs, and how far its force is off. The billet is"
@@ -287,7 +287,7 @@ publish(
         [
             "bricks",
             "element",
-            "kinematics",
+            "elasticity",
             "steps",
             "iterations",
             "force",
@@ -303,7 +303,7 @@ publish(
         " Hardening is linear; tangents are exact. Columns are forces alone, forces with the matrix, and"
         " the latter over that of the usual element."
     ),
-    table(["element", "kinematics", "forces", "with matrix", "over the usual"], cost_rows),
+    table(["element", "elasticity", "forces", "with matrix", "over the usual"], cost_rows),
     "## Over mean dilatation",
     (
         "The table shows what an iteration and a step cost over those with mean dilatation, the default"
@@ -314,7 +314,7 @@ publish(
         " program watches a hundred times in a run."
     ),
     table(
-        ["what", "kinematics", "assumed strain", "one point", "wanted, at most"], beside_mean_dilatation(rows)
+        ["what", "elasticity", "assumed strain", "one point", "wanted, at most"], beside_mean_dilatation(rows)
     ),
     (
         "The evaluation, by callgrind, and the explicit step are above the limit. The strains of a point"
@@ -336,7 +336,7 @@ publish(
         " and symmetrised tangents are alike."
     ),
     table(
-        ["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"],
+        ["element", "elasticity", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"],
         tangent_rows,
     ),
 )
