@@ -172,7 +172,7 @@ def affordable_plan(plan: Plan, coarser: Plan | None, work: Work) -> Plan:
     if less >= seconds:
         return plan
     say(
-        f"The reference would take about {clock(seconds)} of {clock(work.budget.seconds_left())}: it is made"
+        f"The reference would take about {clock(seconds)} of {clock(work.budget.seconds_left())}. It is made"
         f" on meshes of 0.5, 1 and 2 times the elements along each edge, in about {clock(less)}"
     )
     return coarser
