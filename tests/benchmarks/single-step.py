@@ -116,10 +116,10 @@ publish(
     "The whole load in one step",
     options,
     (
-        "This page shows that the program reaches the end even if the whole load is the first step, and"
-        " what that costs. The billet is upset by 64 % with µ = 0.1 and the paper's penalty. It is upset"
-        " first in equal steps. Then the whole travel is the first and largest step, which is cut as"
-        " Newton's method asks for it and grows again.\n\n"
+        "This page shows what happens if the whole load is the first step, and what that costs. The billet"
+        " is upset by 64 % with µ = 0.1 and the paper's penalty. It is upset first in equal steps. Then the"
+        " whole travel is the first and largest step, which is cut as Newton's method asks for it and grows"
+        " again.\n\n"
         "- Force at the end: compared with that of 200 equal steps.\n"
         "- *Equal steps as large*: the difference that these would have, in proportion to twenty equal"
         " steps. The error is of first order in the step.\n"
