@@ -344,8 +344,8 @@ void new_scene(const std::vector<std::string> &names) {
 void print_diagnostic_kinds(std::ostream &stream) {
   stream
       << "# Messages\n\n"
-         "Each message of a run has a key. `billet --print-diagnostics` prints this page; the messages of a "
-         "run stand in\n`diagnostics.jsonl` in its output folder.\n\n"
+         "Each message of a run has a key. `billet --print-diagnostics` prints this page; the messages of\n"
+         "a run stand in `diagnostics.jsonl` in its output folder.\n\n"
          "| key | severity | meaning | remedy |\n|---|---|---|---|\n";
   for (const billet::DiagnosticKind *kind : billet::all_diagnostic_kinds())
     stream << "| `" << kind->key << "` | " << billet::to_string(kind->severity) << " | " << kind->meaning

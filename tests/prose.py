@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: prose.py [--list | --shrink] [--program BILLET] [FILE.md...]
+"""Usage: prose.py [--program BILLET] [FILE.md...]
        prose.py --self-check
 
 Checks the prose of README.md, CHANGELOG.md and doc/: no line has more than 100 columns, no sentence more
 than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
 
-Pages in tests/prose.txt are not mended yet; one without errors must leave that list, and none may join it.
---shrink removes those without errors, --list shows the errors of all pages, FILE.md those of some. --program
-checks what a program says of its parameters and messages, too.
+FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
 """
 
 from __future__ import annotations
@@ -21,7 +19,6 @@ from pathlib import Path
 from typing import Any, Iterator, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
-LIST = Path("tests/prose.txt")
 MAX_COLUMNS = 100
 MAX_WORDS = 25
 MAX_SENTENCES = 5
@@ -192,32 +189,13 @@ def pages() -> list[str]:
     return [name for name in names if not name.startswith(LEFT_OUT)]
 
 
-def check_pages(is_shrunk: bool) -> int:
+def check_pages(names: list[str]) -> int:
     """Prints what is wrong; returns the number of errors."""
-    listed = [
-        line for line in (ROOT / LIST).read_text(encoding="utf-8").split("\n") if line and line[0] != "#"
-    ]
     n_errors = 0
-    mended = []
-    for name in pages():
-        faults = faults_of((ROOT / name).read_text(encoding="utf-8"))
-        if name in listed and not faults:
-            mended.append(name)
-        elif name not in listed:
-            for fault in faults:
-                print(f"{name}:{fault.line}: {fault.what}")
-            n_errors += len(faults)
-    gone = [name for name in listed if not (ROOT / name).exists()]
-    if is_shrunk:
-        text = (ROOT / LIST).read_text(encoding="utf-8")
-        for name in mended + gone:
-            text = text.replace(f"{name}\n", "")
-        (ROOT / LIST).write_text(text, encoding="utf-8")
-    else:
-        for name in mended + gone:
-            print(f"{name}: no errors left, remove it from {LIST}: python3 tests/prose.py --shrink")
-        n_errors += len(mended + gone)
-    print(f"{len(pages())} pages, {len(listed)} of them not mended yet, {n_errors} errors")
+    for name in names:
+        for fault in faults_of((ROOT / name).read_text(encoding="utf-8")):
+            print(f"{name}:{fault.line}: {fault.what}")
+            n_errors += 1
     return n_errors
 
 
@@ -259,13 +237,9 @@ def main() -> int:
         n_errors += check_program(arguments[at + 1])
         del arguments[at : at + 2]
     files = [argument for argument in arguments if not argument.startswith("--")]
-    if files or "--list" in arguments:
-        for name in files or pages():
-            for fault in faults_of((ROOT / name).read_text(encoding="utf-8")):
-                print(f"{name}:{fault.line}: {fault.what}")
-                n_errors += 1
-    else:
-        n_errors += check_pages("--shrink" in arguments)
+    n_errors += check_pages(files or pages())
+    if not files:
+        print(f"{len(pages())} pages, {n_errors} errors")
     return 1 if n_errors else 0
 
 

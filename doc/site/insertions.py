@@ -123,7 +123,8 @@ class Insertions:
         """Shows what the pages of results/trade say of their scenes as they are written."""
         rows = []
         for name, text in sorted(self._pages.items()):
-            found = re.search(r"has an error of (.+?); it takes (.+?) core-seconds", text)
+            one_line = " ".join(text.split())
+            found = re.search(r"has an error of (.+?); it takes (.+?) core-seconds", one_line)
             title = TITLE.search(text)
             if name.startswith("results/trade/") and found and title:
                 rows.append((f"[{title[1].split(': ', 1)[-1]}]({name})", found[1], found[2]))

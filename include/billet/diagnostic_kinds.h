@@ -28,7 +28,7 @@ inline const DiagnosticKind keywords_unread(
 inline const DiagnosticKind
     nodes_not_joined("nodes-not-joined", Severity::warning,
                      "Nodes of a mesh file are closer to each other than a thousandth of an edge, but no "
-                     "element joins them: the body is in pieces there.",
+                     "element joins them. The body is in pieces there.",
                      "Set 'Merge nodes within' in Mesh to the distance that the message names, or to 0 if "
                      "the pieces only touch");
 
@@ -400,9 +400,9 @@ inline const DiagnosticKind mesh_target_missed(
 
 inline const DiagnosticKind unneeded_cost(
     "unneeded-cost", Severity::note,
-    "The run spent more than a tenth of its time on what the scene did not need: an unsymmetric matrix where "
-    "nothing slides, self-contact of surfaces that never touch, output of fields, or steps far finer than "
-    "the 'Target error' requires.",
+    "The run spent more than a tenth of its time on what the scene did not need. Examples are an unsymmetric "
+    "matrix where nothing slides, self-contact of surfaces that never touch, output of fields, or steps far "
+    "finer than the 'Target error' requires.",
     "Leave out or change what the message names");
 
 inline const DiagnosticKind target_error_expensive(
@@ -426,9 +426,9 @@ inline const DiagnosticKind stabilisation_too_strong(
 
 inline const DiagnosticKind stabilised_at_end(
     "stabilised-at-end", Severity::note,
-    "At the end of the run contact leaves a rigid-body mode of a body free, and the viscous forces of "
-    "'Contact stabilisation = until contact' bear more than 0.1 % of the forces on that body, though not of "
-    "all forces. The position along that mode is arbitrary.",
+    "At the end of the run contact leaves a rigid-body mode of a body free. The viscous forces of 'Contact "
+    "stabilisation = until contact' bear more than 0.1 % of the forces on that body, though not of all "
+    "forces. The position along that mode is arbitrary.",
     "Constrain the mode by a support or a symmetry plane, or use friction");
 
 inline const DiagnosticKind stabilised_drift(
@@ -537,9 +537,8 @@ inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
 
 inline const DiagnosticKind force_unresolved(
     "force-unresolved", Severity::warning,
-    "'Force tolerance' is a part of all nodal forces. A force that is small beside them, such as the "
-    "friction of "
-    "a press fit beside its pressure, is off by more than 5 %, though each step has converged.",
+    "'Force tolerance' is a part of all nodal forces. A force that is small beside them is off by more than "
+    "5 %, though each step has converged. An example is the friction of a press fit beside its pressure.",
     "Reduce 'Force tolerance'");
 
 inline const DiagnosticKind forces_do_not_balance(

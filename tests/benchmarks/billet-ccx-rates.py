@@ -60,12 +60,15 @@ publish(
     "The billet in billet and in CalculiX: seconds for each iteration",
     options,
     (
-        f"Upsetting of the same nodes and bricks with µ = 0.1 by the first {100 * PART:.0f} % of the travel,"
-        f" in steps of at most {100 * STEP:.0f} %, the same penalties; alternately on one core,"
-        f" {REPEAT[2]} times (480 bricks) and once (3840), on a busy machine. CalculiX ends after {LIMIT} CPU"
-        " seconds, however far it has come. CPU seconds (user and system) are medians, of whole programs,"
-        " and over their iterations, those of cut steps included; they are to be read as ratios. GMRES is"
-        " what `automatic` takes at 3840 bricks, MUMPS at 480. Force on the whole billet in kN."
+        "This page compares what one iteration of Newton's method costs in billet and in CalculiX. Both"
+        " programs upset the same nodes and bricks with µ = 0.1 and the same penalties. They do the first"
+        f" {100 * PART:.0f} % of the travel, in steps of at most {100 * STEP:.0f} %.\n\n"
+        f"Programs run alternately on one core of a busy machine: {REPEAT[2]} times (480 bricks) and once"
+        f" (3840). CalculiX ends after {LIMIT} CPU seconds, however far it has come. CPU seconds (user and"
+        " system) are medians over whole programs. Seconds for each iteration count the iterations of cut"
+        " steps, too. Read them as ratios.\n\n"
+        "GMRES is what `automatic` takes at 3840 bricks, MUMPS at 480. Force is that on the whole billet in"
+        " kN."
     ),
     table(
         [

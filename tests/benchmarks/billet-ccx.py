@@ -108,14 +108,19 @@ publish(
     "The billet in billet and in CalculiX",
     options,
     (
-        "Upsetting by 64 %, µ = 0.1, penalties 3.5e5 N/mm³, the same nodes and bricks; CalculiX"
-        f" {version} with its own direct solver (SPOOLES), increments of 2 % of the travel at most,"
-        " or of 10 % where it is said, as billet may take them by default; its default tolerances (0.5 % of"
-        " the force). Alternately on one core without other threads: CPU seconds (user and system) are the"
-        f" median of {REPEAT} runs{'' if options.quick else ' (one of C3D8I on 480 bricks)'}"
+        f"This page compares billet and CalculiX {version} on the same billet: their cost, and the forces"
+        " that they find. Both upset the same nodes and bricks by 64 %, with µ = 0.1 and penalties of 3.5e5"
+        " N/mm³.\n\n"
+        "CalculiX has its own direct solver (SPOOLES) and its default tolerances (0.5 % of the force). Its"
+        " increments are at most 2 % of the travel, or 10 % where the table says so. billet may take steps"
+        " of 10 % by default.\n\n"
+        "Programs run alternately on one core without other threads. CPU seconds (user and system) are the"
+        f" median of {REPEAT}"
+        f" runs{'' if options.quick else ' (one of C3D8I on 480 bricks)'}"
         f"{' (one each on 3840 bricks)' if options.large else ''}."
         f" {start:.2g} of billet's seconds are its start: MPI and the loading of libraries. Iterations count"
-        " those of cut steps. Forces on the whole billet in kN, at 80 % and at the end of the travel."
+        " those of cut steps. Forces are those on the whole billet in kN, at 80 % and at the end of the"
+        " travel."
     ),
     table(
         [
@@ -131,14 +136,14 @@ publish(
         rows,
     ),
     (
-        "C3D8R: one point and hourglass control; C3D8: full integration, which locks; C3D8I: incompatible"
-        " modes, which collapse. In both programs the force depends on the step with friction (see"
-        " [billet-work-precision](billet-work-precision.md)), in CalculiX also without:"
+        "C3D8R has one point and hourglass control. C3D8 has full integration, which locks. C3D8I has"
+        " incompatible modes, which collapse. In both programs the force depends on the step with friction"
+        " (see [billet-work-precision](billet-work-precision.md)), in CalculiX also without:"
     ),
     (
-        "## Without friction\n\nForces in kN at 60 / 64 % reduction with so many steps, 60 bricks, each run"
-        " once; the closed form is that of yield in Kirchhoff stress, the penalty's penetration taken into"
-        " account."
+        "## Without friction\n\n"
+        "Forces are in kN at 60 / 64 % reduction, on 60 bricks, for each number of steps. Each run is done"
+        " once. The closed form assumes yield in Kirchhoff stress and includes the penalty's penetration."
     ),
     table(["program"] + [f"{n} steps" for n in STEPS], frictionless),
 )

@@ -59,11 +59,13 @@ publish(
     "The billet without friction against the closed form",
     options,
     (
-        "Upsetting with µ = 0 is homogeneous. Force on the whole billet in closed form, for a law that"
-        f" yields in Kirchhoff stress (billet's): {frictionless_force(0.9375):.2f} kN at 60 %,"
-        f" {frictionless_force(1.0):.2f} kN at 64 % reduction. The die's penalty lets the billet in by"
-        " pressure / penalty, which the last column of each pair takes off (in closed form, too). Fixed"
-        " steps; each run once. A dash: no step ends at this time."
+        "This page compares the force on the billet with a closed form, which exists since upsetting with µ"
+        " = 0 is homogeneous. The closed form is for a law that yields in Kirchhoff stress, as billet's"
+        f" does. It gives {frictionless_force(0.9375):.2f} kN on the whole billet at 60 % reduction,"
+        f" {frictionless_force(1.0):.2f} kN at 64 %.\n\n"
+        "The die's penalty lets the billet in by pressure / penalty. The last column of each pair takes"
+        " this off, in closed form, too. Steps are fixed; each run is done once. A dash: no step ends at"
+        " this time."
     ),
     "## Meshes and steps: no influence",
     table(head, [row(m, n, 1) for m in meshes for n in ((5, 48, 480) if m < 3 else (5, 48))]),

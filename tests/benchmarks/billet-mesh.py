@@ -58,11 +58,14 @@ publish(
     "The billet on finer meshes",
     options,
     (
-        f"Upsetting by 64 %, µ = 0.1, the paper's penalty, {STEPS} steps, cut only where Newton asks for it;"
-        " the linear solver that `automatic` takes; each run once, on a busy machine. Force on the whole"
-        " billet in kN at parts of the travel, and the difference of the whole curve from the finest mesh's,"
-        " ∫|F − F*| / ∫|F*|. The order is Richardson's from the last three meshes; a dash: the differences"
-        " change sign, and there is none."
+        "This page shows how the force on the billet changes as its mesh becomes finer. The billet is upset"
+        f" by 64 % with µ = 0.1 and the paper's penalty. Runs take {STEPS} steps, cut only where Newton's"
+        " method asks for it. The linear solver is the one that `automatic` takes. Each run is done once,"
+        " on a busy machine.\n\n"
+        "Columns headed by a number have the force on the whole billet in kN at this part of the travel."
+        " The last column is the difference of the whole curve from the finest mesh's, ∫|F − F*| / ∫|F*|."
+        " The order is Richardson's from the last three meshes. A dash: the differences change sign, and"
+        " there is no order."
     ),
     table(
         [

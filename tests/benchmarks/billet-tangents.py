@@ -50,13 +50,16 @@ publish(
     "The billet with each contact tangent",
     options,
     (
-        "Upsetting by 64 %, 60 bricks, µ = 0.1, k_n = k_t = 3.5e5 N/mm³ (Bittencourt & Creus 1998, example"
-        " 9.1). Iterations count those of cut steps. Each run once: counts do not scatter. Forces are those"
-        " of the whole billet at the end, in kN."
+        "This page shows how many iterations Newton's method needs with each contact tangent. The billet of"
+        " 60 bricks is upset by 64 % with µ = 0.1 and k_n = k_t = 3.5e5 N/mm³. This is example 9.1 of"
+        " Bittencourt & Creus (1998).\n\n"
+        "Iterations count those of cut steps. Each run is done once: counts do not scatter. Forces are"
+        " those of the whole billet at the end, in kN."
     ),
     (
-        "## Automatic steps\n\nIterations / steps, cuts and end force with a tolerance of 1e-6 of the forces,"
-        " and with the default one, 5e-3, which is about what the paper's 1.4 iterations a step point to."
+        "## Automatic steps\n\n"
+        "The table has iterations / steps, cuts and end force for two tolerances, 1e-6 of the forces and"
+        " the default one, 5e-3. The default is about what the paper's 1.4 iterations a step point to."
         " Different steps give different forces: friction and plastic flow are of first order in the step."
     ),
     table(
@@ -73,11 +76,14 @@ publish(
         [[t] + automatic(t, TIGHT) + automatic(t) + [PAPER.get(t, "–")] for t in TANGENTS],
     ),
     (
-        "## Steps of 2 % of the reduction\n\nIterations for the 50 steps, or where (part of the travel) and"
-        " why the run stopped; *inside out*: a correction would turn elements inside out, however short."
-        " *Plain*: no line search, no increment continued, tolerance 1e-2. *Mean dilatation*: `Element = mean"
-        " dilatation`, the default of before. Plain steps of the default element alternate in the first"
-        " plastic step: it needs the line search. The paper: only the consistent tangent still converges."
+        "## Steps of 2 % of the reduction\n\n"
+        "The table has the iterations for the 50 steps. If the run stopped, it says where (part of the"
+        " travel) and why.\n\n"
+        "- *Inside out*: a correction would turn elements inside out, however short.\n"
+        "- *Plain*: no line search, no increment continued, tolerance 1e-2.\n"
+        "- *Mean dilatation*: `Element = mean dilatation`, the former default.\n\n"
+        "Plain steps of the default element alternate in the first plastic step: it needs the line search."
+        " In the paper only the consistent tangent still converges."
     ),
     table(
         [

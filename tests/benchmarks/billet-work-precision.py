@@ -68,22 +68,25 @@ publish(
     "billet-work-precision",
     "What accuracy of the billet's force curve costs",
     options,
-    "Upsetting by 64 %, µ = 0.1, the paper's penalty. Cost: Newton iterations, and CPU seconds (user and"
-    " system, start included; median of three where a run takes less than 5 s, else one run; failed runs"
-    " once). Error: ∫|F − F*| / ∫|F*| of the force curve at the ends of the steps, F* that of"
-    f" {n_elements(levels[-1])} bricks, {REFERENCE_STEPS} steps and the exact tangent; beside it the part"
-    f" that the steps alone make: the difference from {REFERENCE_STEPS} steps on the same mesh. Failed runs"
-    " stay, with the part of the travel that they reached."
+    "This page shows what accuracy of the billet's force curve costs, for several meshes, steps and"
+    " tangents. The billet is upset by 64 % with µ = 0.1 and the paper's penalty.\n\n"
+    "- Cost: Newton iterations, and CPU seconds (user and system, start included). Seconds are the median"
+    " of three runs where a run takes less than 5 s, else of one run. Failed runs are done once.\n"
+    "- Error: ∫|F − F*| / ∫|F*| of the force curve at the ends of the steps. F* is that of"
+    f" {n_elements(levels[-1])} bricks, {REFERENCE_STEPS} steps and the exact tangent.\n"
+    "- By the steps: the part of the error that the steps alone make. It is the difference from"
+    f" {REFERENCE_STEPS} steps on the same mesh.\n\n"
+    "Failed runs stay in the table, with the part of the travel that they reached."
     + (
         ""
         if options.quick
         else (
-            f" Left out on {n_elements(3)} bricks for their time: all tangents but the exact one, "
-            "except the consistent one with 40 steps."
+            f" To save time, all tangents but the exact one are left out on {n_elements(3)} bricks, except"
+            " the consistent one with 40 steps."
         )
     )
-    + " Left out: the upper symmetrised tangent, and with automatic steps the symmetrised mean, which take"
-    " thousands of iterations (see [billet-tangents](billet-tangents.md)). Four fixed steps of 16 % of the"
-    " height are too long for every tangent.",
+    + " The upper symmetrised tangent is left out, and with automatic steps the symmetrised mean. They"
+    " take thousands of iterations (see [billet-tangents](billet-tangents.md)). Four fixed steps of 16"
+    " % of the height are too long for every tangent.",
     table(["bricks", "steps", "tangent", "iterations", "CPU seconds", "error", "by the steps"], rows),
 )

@@ -20,7 +20,7 @@ from billet_tools.output import read_rows  # noqa: E402
 from billet_tools.program import Measured, command_of  # noqa: E402
 from billet_tools.records import read_records  # noqa: E402
 from billet_tools.scene import Changes, read_scene, variant  # noqa: E402
-from billet_tools.text import number, percent, table  # noqa: E402, F401  for the benchmarks
+from billet_tools.text import number, percent, table, wrapped  # noqa: E402, F401  for the benchmarks
 
 PROGRAM = os.environ.get("BILLET", str(ROOT / "build/release/bin/billet"))
 SCENE = ROOT / "prm/billet_upsetting.prm"
@@ -204,10 +204,8 @@ def publish(name: str, title: str, options: argparse.Namespace, *parts: str | No
     flags += [f"--ranks {options.ranks}"] if options.ranks > 1 else []
     command = " ".join(["scripts/benchmarks", name] + flags)
     ranks = "one rank" if options.ranks == 1 else f"{options.ranks} ranks"
-    page = (
-        "\n\n".join([f"# {title}", f"Written by `{command}`, on {ranks}."] + [part for part in parts if part])
-        + "\n"
-    )
+    head = [f"# {title}", f"Written by `{command}`, on {ranks}."]
+    page = wrapped("\n\n".join(head + [part for part in parts if part])) + "\n"
     print(page)
     if options.quick:
         print(f"A quick run: doc/results/{name}.md stays as it is.")

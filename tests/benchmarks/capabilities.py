@@ -246,17 +246,20 @@ publish(
     "What capabilities cost",
     options,
     (
-        f"A block of {EDGE} × {EDGE} × {EDGE} bricks that is pressed by 0.5 % (explicit: by a pressure), and"
-        f" what is added to it; the second body is a cap of {EDGE} × {EDGE} bricks, the tool a plane at the"
-        f" side. Instructions by callgrind: each scene runs twice, for {FEW_STEPS} of {STEPS} steps"
-        " (explicit: for a fifth of the time) and whole, and their difference is what iterations and steps"
-        " cost; the first of them, with all that setting up costs, stands beside it. Memory as counted by"
-        " capability in `capabilities.csv`, and the largest of the process, of which 100 MB and more are"
-        " libraries. Each line is a scene that pays for what stands in its second column and for nothing"
-        " else; `tests/cli/capabilities.py` holds each capability to that."
+        "This page shows what each capability costs a run that uses it. Each line is a scene that pays for"
+        " what stands in its second column and for nothing else. `tests/cli/capabilities.py` holds each"
+        " capability to that.\n\n"
+        f"The scene is a block of {EDGE} × {EDGE} × {EDGE} bricks that is pressed by 0.5 % (explicit: by a"
+        f" pressure), and what is added to it. The second body is a cap of {EDGE} × {EDGE} bricks. The tool"
+        " is a plane at the side.\n\n"
+        f"Instructions are counted by callgrind. Each scene runs twice: for {FEW_STEPS} of {STEPS} steps"
+        " (explicit: for a fifth of the time) and whole. The difference of the two is what iterations and"
+        " steps cost. The first of them, with all that setting up costs, stands beside it.\n\n"
+        "Memory is counted by capability in `capabilities.csv`. The last column is the largest memory of"
+        " the process, of which 100 MB and more are libraries."
     ),
     "## Static",
-    "The last column but three: instructions of an iteration over those of the first line.",
+    "The last column but three has the instructions of an iteration over those of the first line.",
     table(
         [
             "scene",
@@ -273,8 +276,8 @@ publish(
     ),
     "## Explicit",
     (
-        "AVX2. Instructions of a step and element, without set-up, and without what the program watches a"
-        " hundred times in a run. Steps are a twentieth of the stable one."
+        "Runs use AVX2. Instructions are those of a step and element. They leave out set-up, and what the"
+        " program watches a hundred times in a run. Steps are a twentieth of the stable one."
     ),
     table(
         [

@@ -117,11 +117,13 @@ publish(
     "Cartridge in the chamber of a revolver",
     options,
     (
-        "[`prm/cartridge.prm`](../../prm/cartridge.prm), after Bittencourt & Creus (1998), example 9.4: the"
-        " case comes to lie against the chamber at its thin mouth first, and from there the contact goes to"
-        f" the bottom. {r.steps} steps, {number(r.seconds)} s of CPU time; largest drift of energy"
-        f" {percent(r.max_drift())}; largest penetration"
-        f" {percent(max(p.penetration for p in pictures))} of the wall there, 0.9 − 0.62 (z − 3)/29 mm."
+        "This page shows how the case of a cartridge comes to lie against the chamber as the pressure"
+        " rises. The scene is [`prm/cartridge.prm`](../../prm/cartridge.prm), after Bittencourt & Creus"
+        " (1998), example 9.4. The case touches at its thin mouth first, and from there the contact goes to"
+        " the bottom.\n\n"
+        f"The run takes {r.steps} steps and {number(r.seconds)} s of CPU time. The largest drift of energy"
+        f" is {percent(r.max_drift())}. The largest penetration is"
+        f" {percent(max((p.penetration for p in pictures)))} of the wall there, 0.9 − 0.62 (z − 3)/29 mm."
     ),
     f"![Contact pressure along the axis, hoop strain over the pressure](../images/{NAME}.png)",
     table(

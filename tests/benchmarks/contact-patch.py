@@ -132,14 +132,16 @@ publish(
     "Contact patch test",
     options,
     (
-        "A cube of 2 mm stands on another, or on a slab whose free surface is loaded as much; ν = 0 and a"
-        " pressure of 10,000 MPa (E 2·10⁵ MPa), so that the exact stress is uniform. Explicit run, smooth"
-        " load, dashpots until all is at rest; normal penalty 10 E/h unless it is said. Errors of the axial"
-        " stress, mean of an element, over the elements at the interface (where the cube stands)."
+        "This page shows how exactly each kind of facets passes a uniform pressure on where meshes do not"
+        " match. A cube of 2 mm stands on another, or on a slab whose free surface is loaded as much. With"
+        " ν = 0 and a pressure of 10,000 MPa (E 2·10⁵ MPa), the exact stress is uniform.\n\n"
+        "Runs are explicit, with a smooth load, and dashpots until all is at rest. The normal penalty is 10"
+        " E/h unless the table says otherwise. Errors are those of the axial stress, mean of an element."
+        " They are taken over the elements at the interface (where the cube stands)."
     ),
     (
-        "CalculiX 2.20 on meshes that do not match (own measurements): node-to-surface 14 to 31 %,"
-        " surface-to-surface exact."
+        "For comparison, CalculiX 2.20 on meshes that do not match (own measurements): node-to-surface 14"
+        " to 31 %, surface-to-surface exact."
     ),
     *parts,
 )

@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-import textwrap
 from pathlib import Path
 from typing import Any, Iterable, Mapping
 
@@ -148,18 +147,6 @@ def notes(runs: Mapping[str, Solution]) -> str:
     )
 
 
-def wrapped(text: str) -> str:
-    """Prose in lines of 100 characters; tables, headings and pictures as they are."""
-    return "\n\n".join(
-        (
-            part
-            if part[:1] in "|#!"
-            else textwrap.fill(part, 100, break_long_words=False, break_on_hyphens=False)
-        )
-        for part in text.split("\n\n")
-    )
-
-
 # Meshes, and what a deformation of them looks like.
 
 
@@ -292,11 +279,12 @@ def plates() -> str:
                 ]
             rows.append([law, f"{n}³", *cells])
     return (
-        "A cube, an eighth of a block, is pressed by a rigid plane without friction to half and a quarter of"
-        " its height. Its nodes are moved at random by up to 1e-6, 0.05 and 0.2 of an edge (8³ bricks: 0.2)."
-        " The exact solution is affine on each of these meshes. For each element, the largest of all such"
-        " runs and both heights: error of the force, over the closed form of the law at that height, and the"
-        " distance of a node from its place in the best affine deformation, in edges. Pictures hold seven"
+        "A cube, an eighth of a block, is pressed by a rigid plane without friction to half and a quarter"
+        " of its height. Its nodes are moved at random by up to 1e-6, 0.05 and 0.2 of an edge (8³ bricks:"
+        " 0.2). The exact solution is affine on each of these meshes.\n\n"
+        "The table has the largest values of all such runs and both heights for each element. *Force* is"
+        " the error of the force, over the closed form of the law at that height. *Node* is the distance of"
+        " a node from its place in the best affine deformation, in edges. Field output holds seven"
         " digits.\n\n"
         + table(
             ["law", "bricks"] + [f"{element}: {what}" for element in ELEMENTS for what in ("force", "node")],
@@ -324,13 +312,15 @@ def uneven() -> str:
             0.2501,
         )
     return (
-        "The same block, 4³ bricks moved by 0.2, but with the penalty as a factor, 100 E/h of each facet:"
-        " facets of other sizes go deeper, by some 1e-3 of an edge. That disturbs the affine solution."
-        " Elastic blocks with free sides have true instabilities at such strains (Biot's wrinkles of a free"
-        " surface: a stretch of 0.44 where the neo-Hookean law does not compress), so that there a small"
-        " disturbance may grow in the exact solution, too. Whether the run ends, the largest deviation at"
-        " half and a quarter of the height, and the part of hourglass patterns that alternates from brick to"
-        " brick at the end, in edges.\n\n"
+        "This is the same block, 4³ bricks moved by 0.2, but with the penalty as a factor, 100 E/h of each"
+        " facet. Facets of other sizes go deeper, by some 1e-3 of an edge. That disturbs the affine"
+        " solution.\n\n"
+        "Elastic blocks with free sides have true instabilities at such strains. Biot's wrinkles of a free"
+        " surface appear at a stretch of 0.44 where the neo-Hookean law does not compress. A small"
+        " disturbance may grow there in the exact solution, too.\n\n"
+        "The table says whether the run ends. It has the largest deviation at half and a quarter of the"
+        " height. It also has the part of hourglass patterns that alternates from brick to brick at the"
+        " end, in edges.\n\n"
         + table(
             ["law"]
             + [
@@ -396,14 +386,15 @@ def walls() -> str:
         ]
         rows.append([law, *cells[:3], *(cells[3:] or ["–", "–"])])
     return (
-        "All six sides of the cube are held: they move as plane strain without change of volume wants, and"
-        " nodes slide along them, 4³ bricks moved by 0.2. One wall has a ripple of an amplitude of 0.02 edges"
-        " that alternates from node to node, which is the shortest wave that the mesh has. Root mean square"
-        " of the deviation of inner nodes from an affine deformation, over that amplitude, at heights of"
-        " 0.95, 0.5 and 0.25. In a stable solution it stays of the order of one or less. Beside it 8³ bricks"
-        " with the same ripple (two bricks a half wave), at the same places. There assumed strains answer"
-        " more than mean dilatation, most at a quarter of the height, since they resist such waves less.\n\n"
-        + table(["law", *ELEMENTS, f"8³, {AS}", f"8³, {MD}"], rows)
+        "All six sides of the cube are held. They move as plane strain without change of volume wants, and"
+        " nodes slide along them, 4³ bricks moved by 0.2. One wall has a ripple with an amplitude of 0.02"
+        " edges. It alternates from node to node, which is the shortest wave that the mesh has.\n\n"
+        "The table has the root mean square of the deviation of inner nodes from an affine deformation,"
+        " over that amplitude. Heights are 0.95, 0.5 and 0.25. In a stable solution it stays of the order"
+        " of one or less.\n\n"
+        "Beside it stand 8³ bricks with the same ripple (two bricks a half wave), at the same places. There"
+        " assumed strains answer more than mean dilatation, since they resist such waves less. They do so"
+        " most at a quarter of the height.\n\n" + table(["law", *ELEMENTS, f"8³, {AS}", f"8³, {MD}"], rows)
     )
 
 
@@ -464,8 +455,8 @@ class Curves:
 
 
 CURVES = (
-    "Mean error of the force along the curve in %, in brackets the mean errors, with their signs, of the"
-    " contact area and of the force per contact area"
+    "The table has the mean error of the force along the curve in %. Brackets have the mean errors, with"
+    " their signs, of the contact area and of the force per contact area"
 )
 
 
@@ -527,20 +518,23 @@ def rough_flat() -> str:
             along.append([law, f"{n}²", moved, *[part[element] for part in parts for element in ELEMENTS]])
     draw(pictures)
     return (
-        "Half of a block of 2 × 2 in plane strain, pressed by a plane with a friction coefficient of 0.5: the"
-        " side folds onto the plane. Error of the force in % at 1/2, 0.4, 0.3 and 1/4 of the height, over the"
-        " mean of assumed strains and mean dilatation on 32² regular bricks, with perfect plasticity 16²;"
-        " half of the difference of these two is in the column before the last. At a quarter of the height"
-        " the block is 16 times as long as high, and most of it sticks: forces follow from how thin it is. A"
-        " dash: the run ended before, and where the finest have one, mean dilatation stands alone.\n\n"
+        "Half of a block of 2 × 2 in plane strain is pressed by a plane with a friction coefficient of 0.5."
+        " Its side folds onto the plane. At a quarter of the height the block is 16 times as long as high,"
+        " and most of it sticks. Forces there follow from how thin it is.\n\n"
+        "The table has the error of the force in % at 1/2, 0.4, 0.3 and 1/4 of the height. The reference is"
+        " the mean of assumed strains and mean dilatation on 32² regular bricks, with perfect plasticity"
+        " 16². Half of the difference of these two is in the column before the last. A dash: the run ended"
+        " before. Where the finest have one, mean dilatation stands alone.\n\n"
         + table(["law", "bricks", "moved by", *ELEMENTS, "finest differ by", "warnings"], rows)
-        + "\n\nAs a row of bricks folds onto the plane the contact area jumps by its length, with any"
-        " element, and the force with it. So single heights tell when that happens on a mesh, and whole"
-        f" curves how good it is. {CURVES}: until half of the height, and from there to a quarter, as far"
-        " as a run comes. Mean dilatation opens voids under the plane where bricks would have to bend"
-        " round the fold (the white triangles below). They shrink as the mesh is refined: its area is too"
-        " small, its pressure too high, and the errors of the force cancel. Assumed strains have no such"
-        " voids: the area is right, and the pressure is too high on coarse meshes.\n\n"
+        + "\n\n"
+        "As a row of bricks folds onto the plane the contact area jumps by its length, with any"
+        " element, and the force with it. Single heights thus show when that happens on a mesh, and"
+        f" whole curves how good it is. {CURVES}. Curves go until half of the height, and from there to"
+        " a quarter, as far as a run comes.\n\n"
+        "Mean dilatation opens voids under the plane where bricks would have to bend round the fold"
+        " (the white triangles below). They shrink as the mesh is refined. Its area is too small, its"
+        " pressure too high, and the errors of the force cancel. Assumed strains have no such voids."
+        " Their area is right, and the pressure is too high on coarse meshes.\n\n"
         + table(
             [
                 "law",
@@ -550,8 +544,9 @@ def rough_flat() -> str:
             ],
             along,
         )
-        + f"\n\n![Deformed meshes](../images/{NAME}.png)\n\nHardening, 8² bricks moved by 0.2, at 1/2 and 0.3"
-        " of the height."
+        + "\n\n"
+        f"![Deformed meshes](../images/{NAME}.png)\n\n"
+        "The picture has hardening, 8² bricks moved by 0.2, at 1/2 and 0.3 of the height."
     )
 
 
@@ -637,17 +632,19 @@ def rough_solid() -> str:
                         ]
                     )
     text = (
-        f"An eighth of a cube under the same rough plane, {n}³ bricks. Error of the force in % over the mean"
-        f" of assumed strains and mean dilatation on {2 * n}³ regular bricks, and hourglass patterns of the"
-        " bricks in edges: what alternates from brick to brick, and what does not. Corners of the block,"
-        " where it folds, make such patterns with any element.\n\n"
+        f"An eighth of a cube is under the same rough plane, {n}³ bricks. The table has the error of the"
+        f" force in %. The reference is the mean of assumed strains and mean dilatation on {2 * n}³ regular"
+        " bricks.\n\n"
+        "The table also has hourglass patterns of the bricks in edges: what alternates from brick to brick,"
+        " and what does not. Corners of the block, where it folds, make such patterns with any element.\n\n"
         + table(
             ["law", "moved by", "height"]
             + [f"{element}: {what}" for element in ELEMENTS for what in ("force", "patterns")]
             + ["finest differ by"],
             rows,
         )
-        + f"\n\n{CURVES}: until half of the height, and from there on.\n\n"
+        + "\n\n"
+        f"{CURVES}. Curves go until half of the height, and from there on.\n\n"
         + table(
             [
                 "law",
@@ -660,11 +657,12 @@ def rough_solid() -> str:
     )
     if gaps:
         text += (
-            "\n\nWhen does the side fold? With hardening: how far the node (1, 0, 3/4), in the middle of a"
-            " side and a brick below the plane on the coarse mesh, is from the plane at three heights, and"
-            " how far from the axis at the second one. At half of the height the coarse mesh has folded all"
-            " of a ring whose outer part the fine meshes have just laid down. The ring is also too wide:"
-            " coarse meshes bulge too much.\n\n"
+            "\n\n"
+            "When does the side fold? The table follows the node (1, 0, 3/4), with hardening. On the coarse"
+            " mesh it is in the middle of a side and a brick below the plane. The table has the distance"
+            " from the plane at three heights, and from the axis at the second one.\n\n"
+            "At half of the height the coarse mesh has folded all of a ring whose outer part the fine"
+            " meshes have just laid down. The ring is also too wide: coarse meshes bulge too much.\n\n"
             + table(
                 [
                     "bricks",
@@ -701,14 +699,15 @@ def rough_free() -> str:
             ]
         )
     return (
-        "The block in plane strain again, plastic with hardening, but only its upper side touches the plane:"
-        " the sides pass it, nothing folds, and the force has no jumps. The edges of the block open to more"
-        " than 180°, as round the edge of a punch. Error of the force in %, mean size until half of the"
-        " height, and at half of it, over the mean of assumed strains and one point on 16² bricks"
-        f" ({spread} %). Mean dilatation cannot open its bricks so far: its edges lock. A force that kept"
-        " assumed strains from turning corners of bricks inside out was tried. It reduced the errors of the"
-        " folding cube below half of its height from 10 and 12 % to 4 and 8 %, but it locked here, by 24 %"
-        " on 8² bricks: the element has none.\n\n" + table(["bricks", *ELEMENTS], rows)
+        "This is the block in plane strain again, plastic with hardening, but only its upper side touches"
+        " the plane. The sides pass the plane, nothing folds, and the force has no jumps. The edges of the"
+        " block open to more than 180°, as round the edge of a punch.\n\n"
+        "The table has the error of the force in %: mean size until half of the height, and at half of it."
+        f" The reference is the mean of assumed strains and one point on 16² bricks ({spread} %). Mean"
+        " dilatation cannot open its bricks so far: its edges lock.\n\n"
+        "A force that kept assumed strains from turning corners of bricks inside out was tried. It reduced"
+        " the errors of the folding cube below half of its height from 10 and 12 % to 4 and 8 %. It locked"
+        " here, by 24 % on 8² bricks, so that the element has none.\n\n" + table(["bricks", *ELEMENTS], rows)
     )
 
 
@@ -744,9 +743,10 @@ def billet() -> str:
         for r in range(1, finest + 1)
     ]
     return (
-        "[`prm/billet_upsetting.prm`](../../prm/billet_upsetting.prm), upset by 64 % in 50 equal steps, µ ="
-        " 0.1: force on the whole billet at the end in kN, in brackets its error in % over the mean of both"
-        f" elements on {n_elements(finest)} bricks ({spread} %).\n\n" + table(["bricks", *ELEMENTS], rows)
+        "[`prm/billet_upsetting.prm`](../../prm/billet_upsetting.prm) is upset by 64 % in 50 equal steps"
+        " with µ = 0.1. The table has the force on the whole billet at the end in kN, in brackets its error"
+        f" in %. The reference is the mean of both elements on {n_elements(finest)} bricks ({spread} %).\n\n"
+        + table(["bricks", *ELEMENTS], rows)
     )
 
 
@@ -788,8 +788,9 @@ def taylor() -> str:
         0.0,
     )
     return (
-        "[`prm/taylor_bar.prm`](../../prm/taylor_bar.prm) after 80 µs; more meshes and laws are on [its"
-        " page](taylor-bar.md). Usual values: length 21.4 to 21.7 mm, radius 6.9 to 7.2 mm.\n\n"
+        "The table has [`prm/taylor_bar.prm`](../../prm/taylor_bar.prm) after 80 µs; more meshes and laws"
+        " are on [its page](taylor-bar.md). Usual values are a length of 21.4 to 21.7 mm and a radius of"
+        " 6.9 to 7.2 mm.\n\n"
         + table(
             ["bricks", "element", "length [mm]", "radius of the end [mm]", "largest plastic strain"], rows
         )
@@ -890,10 +891,11 @@ def neck() -> str:
         ]
     )
     return (
-        "Simo's round bar (radius 6.413, length 53.334 mm, E = 206.9, ν = 0.29, σ = 0.45 + 0.265 (1 −"
-        " exp(−16.93 ε)) + 0.12924 ε, in kN and mm), an eighth, 1.8 % thinner in the middle, ends held."
-        " Radius of the neck over the first one, and the force in kN, from the work of the last steps, at a"
-        " displacement of each end by 4 to 7 mm. The last row is the finest mesh.\n\n"
+        "An eighth of Simo's round bar (radius 6.413, length 53.334 mm) is stretched, 1.8 % thinner in the"
+        " middle, with its ends held. The material has E = 206.9, ν = 0.29 and σ = 0.45 + 0.265 (1 −"
+        " exp(−16.93 ε)) + 0.12924 ε, in kN and mm.\n\n"
+        "The table has the radius of the neck over the first one, and the force in kN, from the work of the"
+        " last steps. Each end is displaced by 4 to 7 mm. The last row is the finest mesh.\n\n"
         + table(["bricks", "element", "4 mm", "5 mm", "6 mm", "7 mm", "ends"], rows)
     )
 
@@ -988,11 +990,11 @@ def closed_die() -> str:
                 ]
             )
     return (
-        "A unit cube (an eighth; nodes moved by 0.1) in a rigid box of 1.25 × 1.25, friction coefficient 0.1:"
-        " a ram goes down until the box holds 1.001 times the volume of the cube. Force at 60, 90 and 100 %"
-        " of its way, in brackets the error in % over the mean of both elements on 8³ bricks; volumes of the"
-        " bricks at the end over those at the start. The last force depends on the penalty and on the"
-        " corners.\n\n"
+        "A unit cube (an eighth; nodes moved by 0.1) lies in a rigid box of 1.25 × 1.25, with a friction"
+        " coefficient of 0.1. A ram goes down until the box holds 1.001 times the volume of the cube.\n\n"
+        "The table has the force at 60, 90 and 100 % of its way, in brackets the error in %. The reference"
+        " is the mean of both elements on 8³ bricks. Volumes of the bricks at the end are divided by those"
+        " at the start. The last force depends on the penalty and on the corners.\n\n"
         + table(["law", "bricks", "element", "ends", "60 %", "90 %", "100 %", "volumes", "warnings"], rows)
     )
 
@@ -1055,10 +1057,11 @@ def locally() -> str:
                 ]
             )
     return (
-        "An eighth of a cube, 4³ bricks moved by 0.1, pressed at a node by a ball (by 0.3), at an edge by a"
-        " plane (0.5), and at a corner by a plane that is tilted twice (0.6). Error of the force in % at half"
-        " and all of the way, over the mean of both elements on 8³ bricks. A tool that first touches one node"
-        " meets facets one by one: such errors are of the mesh.\n\n"
+        "An eighth of a cube, 4³ bricks moved by 0.1, is pressed. A ball presses it at a node (by 0.3), a"
+        " plane at an edge (0.5). At a corner a plane that is tilted twice presses it (0.6).\n\n"
+        "The table has the error of the force in % at half and all of the way. The reference is the mean of"
+        " both elements on 8³ bricks. A tool that first touches one node meets facets one by one: such"
+        " errors are of the mesh.\n\n"
         + table(["tool", "law", *ELEMENTS, "finest differ by", "warnings"], rows)
     )
 
@@ -1080,7 +1083,7 @@ SECTIONS = (
 if __name__ == "__main__":
     only = os.environ.get("ONLY")
     parts = [
-        f"## {title}\n\n" + wrapped(build())
+        f"## {title}\n\n" + build()
         for title, build in SECTIONS
         if not only or build.__name__ in only.split(",")
     ]
@@ -1091,14 +1094,16 @@ if __name__ == "__main__":
             NAME,
             "Crushed bodies",
             options,
-            wrapped(
-                "Are the elements stable and accurate where a body is crushed? Each run is judged by a closed"
-                " form or by finer meshes of two elements, not by the same element on the same mesh. E = 1e5;"
-                " plastic laws yield at 100 and harden by 200 or not at all. Steps are automatic unless it is"
-                " said. Single bricks, and blocks beside the continuum's first instability, are tested for"
-                " negative eigenvalues in `tests/mechanics/element_stability.cc` and `block_stability.cc`."
-                " With `KEEP=FOLDER` in the environment the scenes of this page stay in that folder. Each run"
-                " once."
+            (
+                "This page shows whether the elements are stable and accurate where a body is crushed. Each"
+                " run is judged by a closed form or by finer meshes of two elements, not by the same"
+                " element on the same mesh.\n\n"
+                "The modulus is E = 1e5; plastic laws yield at 100 and harden by 200 or not at all. Steps"
+                " are automatic unless the section says otherwise. Each run is done once. With"
+                " `KEEP=FOLDER` in the environment the scenes of this page stay in that folder.\n\n"
+                "Other tests look for negative eigenvalues of single bricks, and of blocks beside the"
+                " continuum's first instability. They are `tests/mechanics/element_stability.cc` and"
+                " `block_stability.cc`."
             ),
             "## What is wanted\n\n" + what_is_wanted(),
             *parts,

@@ -113,14 +113,16 @@ publish(
     "What the default element and contact cost",
     options,
     (
-        "Shipped scenes as they are, with assumed strains and the automatic penetration tolerance, beside"
-        " mean dilatation and penalties alone, the defaults until 2026-11-22 (other values that a scene sets"
-        " stay). Megabytes: the largest resident size. Seconds of a shared machine. Explicit scenes end"
-        " early. Each run once."
+        "This page shows what the default element and contact cost beside the defaults until 2026-11-22."
+        " Those now are assumed strains and the automatic penetration tolerance; those before were mean"
+        " dilatation and penalties alone. Scenes are the shipped ones; other values that a scene sets"
+        " stay.\n\n"
+        "Megabytes are the largest resident size. Seconds are those of a shared machine. Explicit scenes"
+        " end early. Each run is done once."
     ),
     (
-        f"Newton iterations in the sum: {sums[0]} before, {sums[1]} with the element alone"
-        f" ({number(sums[1] / max(1, sums[0]))} times), {sums[2]} with the contact, too"
+        f"The scenes take {sums[0]} Newton iterations in total before, {sums[1]} with the element alone"
+        f" ({number(sums[1] / max(1, sums[0]))} times). With the contact, too, they take {sums[2]}"
         f" ({number(sums[2] / max(1, sums[0]))} times; wanted: at most {LIMIT})."
     ),
     table(

@@ -85,18 +85,20 @@ publish(
     "The billet between elastic dies",
     options,
     (
-        "`prm/billet_deformable_dies.prm`: the billet of `prm/billet_upsetting.prm` (60 bricks, µ = 0.1,"
-        " upset by 64 %, k_n = 3.5·10⁵ N/mm³) between elastic blocks (400 bricks, 10 mm thick) instead of"
-        " rigid planes. Forces are compared step by step with those of the rigid dies, in the same 50 equal"
-        f" steps; the rigid dies' final force is {number(rigid.forces[-1], 4)} kN, and they take"
-        f" {rigid.iterations} iterations. The automatic steps are those of the whole scene, in which the dies"
-        " leave the billet again."
+        "This page shows what elastic dies change, and that stiff ones give nearly the force of rigid ones."
+        " The scene is `prm/billet_deformable_dies.prm`. The billet is that of `prm/billet_upsetting.prm`"
+        " (60 bricks, µ = 0.1, upset by 64 %, k_n = 3.5·10⁵ N/mm³). Elastic blocks (400 bricks, 10 mm"
+        " thick) take the place of rigid planes.\n\n"
+        "Forces are compared step by step with those of the rigid dies, in the same 50 equal steps. The"
+        f" rigid dies' final force is {number(rigid.forces[-1], 4)} kN, and they take {rigid.iterations}"
+        " iterations. The automatic steps are those of the whole scene, in which the dies leave the billet"
+        " again."
     ),
     "## Young's modulus of the dies (overlap)",
     table(["die / billet"] + HEAD, [[ratio] + line(die(ratio)) + at_ease(die(ratio)) for ratio in RATIOS]),
     (
-        "What does not go away with stiff dies is not compliance: overlapping facets meet the billet's"
-        " outermost facets in the part that touches, a rigid die in their nodes."
+        "The difference that stays with stiff dies is not compliance. In the part that touches, overlapping"
+        " facets meet the billet's outermost facets; a rigid die meets their nodes."
     ),
     "## Facets, dies a thousand times as stiff",
     table(

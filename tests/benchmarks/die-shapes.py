@@ -141,14 +141,17 @@ publish(
     "A die drawn in many ways",
     options,
     (
-        "Wagoner's punch, 40 mm, µ = 0.3, default settings; the fillet of the die as a torus, as a profile,"
-        " as Coons patches and as triangles; the flat face is a disc."
-        f" {'192' if options.quick else '768'} bricks, each run once. Cost: nanoseconds of one projection"
-        " onto the whole die (fillet and face) of a point near the fillet, best of fifty passes over 10,000"
-        " points, to be compared with each other; the errors are those of gap (mm) and normal at these"
-        " points. Forces on the whole punch in kN at 10, 20, 30 and 40 mm; the last column is the difference"
-        " of the whole curve, ∫|F − F*| / ∫|F*|. Sheets that are drawn over facets take other steps, and"
-        " other paths in contact: differences of some hundredths of a percent are the steps'."
+        "This page shows what each way to describe the same die costs, and how exact it is. The scene is"
+        " Wagoner's punch, 40 mm, µ = 0.3, with default settings. The fillet of the die is a torus, a"
+        " profile, Coons patches or triangles; the flat face is a disc. The sheet has"
+        f" {'192' if options.quick else '768'} bricks. Each run is done once.\n\n"
+        "- Cost: nanoseconds of one projection onto the whole die (fillet and face) of a point near the"
+        " fillet. It is the best of fifty passes over 10,000 points. Compare the numbers with each other.\n"
+        "- Errors: those of gap (mm) and normal at these points.\n"
+        "- Forces: those on the whole punch in kN at 10, 20, 30 and 40 mm.\n"
+        "- Curve: the difference of the whole curve, ∫|F − F*| / ∫|F*|.\n\n"
+        "Sheets that are drawn over facets take other steps, and other paths in contact. Differences of"
+        " some hundredths of a percent come from the steps."
     ),
     table(
         [

@@ -116,12 +116,15 @@ publish(
     "Elastic bodies: two cylinders, and a twisted punch",
     options,
     (
-        "## Two cylinders\n\n`prm/hertz_cylinders.prm`, without friction, on coarser and finer meshes that do"
-        " not fit (elements along the lower face; 85 % of them along the upper). Half-width and largest"
-        " pressure by least squares of p² over x² within 0.8 b, relative to Hertz's for the load that is"
-        " transmitted (half-spaces, which the cylinders, b/R up to a tenth, are not quite); the last column"
-        " is the largest difference of a node's pressure there, in parts of p_0. Penalties of 10 E/h, alone"
-        " or augmented."
+        "## Two cylinders\n\n"
+        "This table compares the contact of two elastic cylinders with Hertz's solution. The scene is"
+        " `prm/hertz_cylinders.prm`, without friction, on coarser and finer meshes that do not fit. The"
+        " first column has the elements along the lower face; 85 % of them lie along the upper. Penalties"
+        " are 10 E/h, alone or augmented.\n\n"
+        "Half-width and largest pressure come from least squares of p² over x² within 0.8 b. They are"
+        " relative to Hertz's values for the load that is transmitted. Hertz assumes half-spaces, which the"
+        " cylinders, b/R up to a tenth, are not quite. The last column is the largest difference of a"
+        " node's pressure there, in parts of p_0."
     ),
     table(
         [
@@ -138,10 +141,12 @@ publish(
         lines,
     ),
     (
-        f"## A round punch, twisted\n\n`prm/twisted_hemisphere.prm`: {steps} steps, {iterations} iterations."
-        " Torque about the axis over that of full sliding under Hertz's pressure, 3π/16 µ P a with a³ = 3 P"
-        " R/(4 E*), and the largest radius at which a node of the punch sticks, over a; from 2 on it is"
-        " turned back."
+        "## A round punch, twisted\n\n"
+        "This table shows how sticking gives way to sliding under a round punch that is twisted. The scene"
+        f" is `prm/twisted_hemisphere.prm`. It takes {steps} steps and {iterations} iterations.\n\n"
+        "The torque about the axis is divided by that of full sliding under Hertz's pressure, 3π/16 µ P a"
+        " with a³ = 3 P R/(4 E*). The sticking radius is the largest at which a node of the punch sticks,"
+        " over a. From time 2 on the punch is turned back."
     ),
     table(["time", "angle", "load [N]", "torque / full sliding", "sticking radius / a"], rows),
 )

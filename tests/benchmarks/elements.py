@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Elements and plasticity kinematics of implicit scenes on the billet: force, iterations, and what they
+"""Elements and elasticities of implicit scenes on the billet: force, iterations, and what they
 cost."""
 
 from __future__ import annotations
@@ -273,19 +273,21 @@ cost_rows = [
 
 publish(
     "elements",
-    "Elements and kinematics in implicit scenes",
+    "Elements and elasticity in implicit scenes",
     options,
     (
-        f"The billet, upset by 64 %, µ = 0.1, the paper's penalty, {STEPS} fixed steps. Force on the whole"
-        " billet at the end in kN; difference of the force curve, ∫|F − F*| / ∫|F*|, from the usual element"
-        f" and law on the same mesh, and from the same on {n_elements(finest)} bricks; CPU seconds of an"
-        " iteration, all counted, over those of the usual ones. Each run once: the last column is rough."
+        "This page shows what each element and each law costs, and how far its force is off. The billet is"
+        f" upset by 64 % with µ = 0.1 and the paper's penalty, in {STEPS} fixed steps.\n\n"
+        "The table has the force on the whole billet at the end in kN. Differences are those of the force"
+        " curve, ∫|F − F*| / ∫|F*|. They are taken from the usual element and law on the same mesh, and"
+        f" from the same on {n_elements(finest)} bricks. Cost is CPU seconds of an iteration, all counted,"
+        " over those of the usual element and law. Each run is done once: the last column is rough."
     ),
     table(
         [
             "bricks",
             "element",
-            "kinematics",
+            "elasticity",
             "steps",
             "iterations",
             "force",
@@ -297,41 +299,44 @@ publish(
     ),
     "## One evaluation",
     (
-        "Thousands of instructions of one element in which all points yield, linear hardening, exact"
-        " tangents, by callgrind: forces alone, and with the matrix; the latter over that of the usual"
-        " element."
+        "The table has thousands of instructions by callgrind, of one element in which all points yield."
+        " Hardening is linear; tangents are exact. Columns are forces alone, forces with the matrix, and"
+        " the latter over that of the usual element."
     ),
-    table(["element", "kinematics", "forces", "with matrix", "over the usual"], cost_rows),
+    table(["element", "elasticity", "forces", "with matrix", "over the usual"], cost_rows),
     "## Over mean dilatation",
     (
-        "What an iteration and a step cost over those with mean dilatation, the default until 2026-11-22, in"
-        " instructions by callgrind, and what was wanted of assumed strains and of one point. An iteration is"
-        " that of the billet, its first ten steps, with factors of MUMPS and contact. A step is that of a"
-        " block of 6³ bricks that yields, AVX2, double. Set-up is not in them, nor what the program watches a"
-        " hundred times in a run."
+        "The table shows what an iteration and a step cost over those with mean dilatation, the default"
+        " until 2026-11-22. Costs are instructions by callgrind. The last column is what was wanted of"
+        " assumed strains and of one point.\n\n"
+        "An iteration is that of the billet, its first ten steps, with factors of MUMPS and contact. A step"
+        " is that of a block of 6³ bricks that yields, AVX2, double. Both leave out set-up, and what the"
+        " program watches a hundred times in a run."
     ),
     table(
-        ["what", "kinematics", "assumed strain", "one point", "wanted, at most"], beside_mean_dilatation(rows)
+        ["what", "elasticity", "assumed strain", "one point", "wanted, at most"], beside_mean_dilatation(rows)
     ),
     (
-        "Above its limit are the evaluation, by callgrind, and the explicit step: a point's strains have six"
-        " tensors that vary, where mean dilatation has gradients alone. Explicit steps of assumed strains are"
-        " 1.04 to 1.29 times as long, so that the shipped explicit scenes take 0.92 to 1.0 of the time"
-        " ([default-cost](default-cost.md))."
+        "The evaluation, by callgrind, and the explicit step are above the limit. The strains of a point"
+        " have six tensors that vary, where mean dilatation has gradients alone. Explicit steps of assumed"
+        " strains are 1.04 to 1.29 times as long. The shipped explicit scenes therefore take 0.92 to 1.0 of"
+        " the time ([default-cost](default-cost.md))."
     ),
     "## Steps",
     (
-        "Without friction, where the Hencky law integrates exactly: force at the end in kN on 60 bricks with"
-        " so many steps. The closed form is 877.02 for Hencky's law and a rigid die."
+        "The table has the force at the end in kN without friction, on 60 bricks, for each number of steps."
+        " Without friction the Hencky law integrates exactly. The closed form is 877.02 for Hencky's law"
+        " and a rigid die."
     ),
     table(["steps"] + list(LAWS), step_rows),
     "## Symmetric part of the tangent",
     (
-        "Iterations with friction in 25 steps on 60 bricks, exact contact tangent, to tolerances of 1e-6 and"
-        " 1e-11. Without friction, where the billet's deformation is uniform, the two are alike."
+        "The table has the iterations with friction in 25 steps on 60 bricks. The contact tangent is exact;"
+        " tolerances are 1e-6 and 1e-11. Without friction, where the billet's deformation is uniform, exact"
+        " and symmetrised tangents are alike."
     ),
     table(
-        ["element", "kinematics", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"],
+        ["element", "elasticity", "exact, 1e-6", "symmetrised, 1e-6", "exact, 1e-11", "symmetrised, 1e-11"],
         tangent_rows,
     ),
 )

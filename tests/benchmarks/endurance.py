@@ -142,10 +142,13 @@ publish(
     "Long runs",
     options,
     (
-        "## A stack at rest\n\nThree blocks of rubber on each other and on the ground"
-        f" (`tests/benchmarks/resting_stack.prm`), friction 0.3, {n_steps} explicit steps; gravity grows"
-        " within the first second. Means over a tenth of the time, in the middle and at the end, their"
-        " relative difference, and how far single values lie apart within each."
+        "This page shows that long runs neither drift nor grow in memory.\n\n"
+        "## A stack at rest\n\n"
+        "Three blocks of rubber lie on each other and on the ground (`tests/benchmarks/resting_stack.prm`)."
+        f" Friction is 0.3; the run takes {n_steps} explicit steps. Gravity grows within the first"
+        " second.\n\n"
+        "The table has means over a tenth of the time, in the middle and at the end, and their relative"
+        " difference. The last columns show how far single values lie apart within each."
     ),
     table(
         [
@@ -159,18 +162,21 @@ publish(
         rows,
     ),
     (
-        f"Kinetic energy: {number(kinetic[0], 2)} J in the middle, {number(kinetic[1], 2)} J at the end, of"
-        f" {number(rows and float(rows[0][1]), 3)} J elastic energy. Largest sideways force on the ground"
-        f" after 1.5 s: {number(largest_side / weight, 2)} of the weight. Displacements of all nodes between"
-        f" half of the time and the end: at most {number(moved, 2)} of the largest one (pictures hold single"
-        " precision)."
+        f"Kinetic energy is {number(kinetic[0], 2)} J in the middle and {number(kinetic[1], 2)} J at the"
+        f" end, of {number(rows and float(rows[0][1]), 3)} J elastic energy. The largest sideways force on"
+        f" the ground after 1.5 s is {number(largest_side / weight, 2)} of the weight. Between half of the"
+        f" time and the end, displacements of all nodes change by at most {number(moved, 2)} of the largest"
+        " one. Field output holds single precision."
     ),
     (
-        "## Cycles of friction\n\nA brick under a plate that presses it and goes to and fro with friction"
-        f" (`tests/benchmarks/friction_cycles.prm`), {n_cycles} cycles of four steps: what a cycle gives"
-        " early and at the end. Friction's work is a difference of sums that grow, whose last bits are lost."
+        "## Cycles of friction\n\n"
+        "A plate presses a brick and cycles with friction (`tests/benchmarks/friction_cycles.prm`). The run"
+        f" has {n_cycles} cycles of four steps. The table compares an early cycle with the last one."
+        " Friction's work is a difference of sums that grow, whose last bits are lost."
     ),
     table(["quantity", "cycle 100", f"cycle {n_cycles}", "difference"], cycles),
-    "## Memory\n\nResident memory in MB when 5, 50 and 100 % of the steps were done, sampled twice a second.",
+    "## Memory\n\n"
+    "The table has the resident memory in MB when 5, 50 and 100 % of the steps were done, sampled twice a"
+    " second.",
     table(["run", "steps", "5 %", "50 %", "100 %"], memory),
 )

@@ -225,28 +225,34 @@ publish(
     "Explicit dynamics, per element and step",
     options,
     (
-        "A block of 101,614 bricks (47 × 47 × 46, edges of 1 cm) of steel that yields at 100 MPa, pressed"
-        " along one axis by its initial velocities, so that nearly all of it yields from the second step on;"
-        " 40 to 50 steps, output off, one core. The stepping loop alone, as the program prints it at its"
-        " end: forces, contact, energies, velocities, displacements, the choice of the step. Nanoseconds per"
-        f" element and step: by the clock / of processor time, each the median of {REPEAT} (scalar and SSE2:"
-        " one run), and in brackets the least processor time. Scenes alternate, and before each round the"
-        f" machine was probed: triad {min(triads):.1f} to {max(triads):.1f} GB/s, median"
-        f" {statistics.median(triads):.1f}; load average {min(loads):.1f} to {max(loads):.1f} on"
-        f" {os.cpu_count()} cores, so that other work shared core and cache."
+        "This page shows what an explicit step costs per element, for each instruction set, element and"
+        " law. Use it to estimate the time of a run: cost times elements times steps.\n\n"
+        "A block of 101,614 bricks (47 × 47 × 46, edges of 1 cm) of steel yields at 100 MPa. Its initial"
+        " velocities press it along one axis, so that nearly all of it yields from the second step on. Runs"
+        " take 40 to 50 steps on one core, with output off.\n\n"
+        "The time is that of the stepping loop alone, as the program prints it at its end. The loop has"
+        " forces, contact, energies, velocities, displacements and the choice of the step.\n\n"
+        "The table has nanoseconds per element and step: by the clock / of processor time. Each is the"
+        f" median of {REPEAT} (scalar and SSE2: one run). The least processor time stands in brackets.\n\n"
+        f"Scenes alternate, and the machine was probed before each round. The triad had {min(triads):.1f} to"
+        f" {max(triads):.1f} GB/s, median {statistics.median(triads):.1f}. The load average was"
+        f" {min(loads):.1f} to {max(loads):.1f} on {os.cpu_count()} cores, so that other work shared core"
+        " and cache."
     ),
     table(["instructions", "peak GF/s"] + list(KERNELS), rows),
     (
-        "Kernels in float (`Number type = float`) have the history in float, too. Those in double as ratios"
-        " to what the machine gave (medians): floating-point operations at peak / bytes at triad in that"
-        " time."
+        "Kernels in float (`Number type = float`) have the history in float, too. The next table has"
+        " kernels in double as ratios to what the machine gave (medians). Ratios are floating-point"
+        " operations at peak / bytes at triad in that time."
     ),
     table(["instructions"] + list(KERNELS), flops),
     (
-        "## Contact\n\nTwo blocks of 50 × 50 × 20 bricks on each other, 5 % of the nodes on the faces that"
-        " touch: without and with contact (planed facets, two passes), best instruction set. Either the"
-        " meshes do not fit (the upper block is 3 and 4 mm aside), or all nodes lie on nodes and are shared"
-        " by four facets each, which is the dearest there is. Wanted: at most 1.5 times."
+        "## Contact\n\n"
+        "Two blocks of 50 × 50 × 20 bricks lie on each other, with 5 % of the nodes on the faces that"
+        " touch. The table compares runs without and with contact (planed facets, two passes), with the"
+        " best instruction set. Wanted: at most 1.5 times.\n\n"
+        "The meshes do not fit if the upper block is 3 and 4 mm aside. Otherwise all nodes lie on nodes and"
+        " are shared by four facets each, which is the dearest case."
     ),
     table(["kernel", "meshes", "without", "with", "ratio of medians", "of the least"], contact),
 )

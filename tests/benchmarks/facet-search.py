@@ -29,10 +29,13 @@ publish(
     "Search of facets near nodes",
     options,
     (
-        "Two curved sheets of facets, one sliding on the other with all nodes near; all nodes are slaves. Per"
-        " facet, in ns: making the lists of candidates; a step, in which nodes choose among their lists"
-        " (planed, bilinear facets). Lists last for the number of steps in the last column, at a hundredth of"
-        " a facet's size a step. One run, one core."
+        "This page shows that the search for facets costs little more per facet on large surfaces than on"
+        " small ones. One of two curved sheets of facets slides on the other, with all nodes near; all"
+        " nodes are slaves.\n\n"
+        "The table has two costs per facet, in ns. The first is making the lists of candidates. The second"
+        " is a step, in which nodes choose among their lists (planed, bilinear facets). Lists last for the"
+        " number of steps in the last column, at a hundredth of a facet's size a step. There is one run on"
+        " one core."
     ),
     table(
         [
@@ -51,7 +54,6 @@ publish(
             for row in rows
         ],
     ),
-    "The cost over n log n changes with the power of n of "
-    + ", ".join(f"{exponent(column):+.2f} ({name})" for name, column in names.items())
-    + ": below 0 it grows more slowly than n log n.",
+    "The cost over n log n changes with a power of n. If that is below 0, the cost grows more slowly than n"
+    " log n.\n\n" + "\n".join(f"- {name}: {exponent(column):+.2f}" for name, column in names.items()),
 )

@@ -17,12 +17,9 @@ def beside_hand_set(works: Sequence[float], seconds: Sequence[float]) -> str:
     times = [s for s in seconds if not math.isnan(s)]
     none = len(works) - len(known)
     return (
-        f"Beside the cheapest run by hand that is within the target {sum(w <= MOST for w in known)} of"
-        f" {len(known)} take at most {MOST:g} times the work, {sum(s <= MOST for s in times)} of"
-        f" {len(times)} at most {MOST:g} times the CPU seconds (set-up included)"
-        + (
-            f"; for {none} no run by hand that was tried is within the target, and they are not counted."
-            if none
-            else "."
-        )
+        "They are compared with the cheapest run by hand that is within the target:"
+        f" {sum(w <= MOST for w in known)} of {len(known)} take at most {MOST:g} times the work."
+        f" {sum(s <= MOST for s in times)} of {len(times)} take at most {MOST:g} times the CPU seconds"
+        " (set-up included)."
+        + (f" For {none} no run by hand is within the target: they are not counted." if none else "")
     )

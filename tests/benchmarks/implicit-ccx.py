@@ -639,20 +639,23 @@ if __name__ == "__main__":
         "Deformable bodies in billet and in CalculiX",
         options,
         (
-            "The scenes of `prm/` in which deformable bodies touch each other, as they are, and the same in"
-            f" CalculiX {version}: the mesh that billet has written, the same penalty, friction, motion, and"
-            " first, smallest and largest steps; C3D8 (the billet C3D8R, see [billet-ccx](billet-ccx.md));"
-            " node-to-surface and surface-to-surface penalty contact; defaults otherwise: it stops at 0.5 %"
-            " of the force, as billet does where the scene sets no tolerance. Elastic bodies get a yield"
-            " stress beyond reach, since CalculiX's elasticity is one of large strain with plasticity only:"
-            " with `*ELASTIC` alone it grows soft in compression, and the ironed slab resists with 28 N"
-            " instead of 42 N. billet's logarithmic law and CalculiX's differ at large strain all the same."
-            " The turn of the twisted hemisphere is one of ten straight parts in CalculiX."
+            f"This page compares billet with CalculiX {version} where deformable bodies touch each other:"
+            " results, iterations and CPU seconds. The scenes are those of `prm/`, as they are.\n\n"
+            "CalculiX gets the mesh that billet has written. It also gets the same penalty, friction,"
+            " motion, and first, smallest and largest steps. Its elements are C3D8 (for the billet C3D8R,"
+            " see [billet-ccx](billet-ccx.md)). Its contact is a node-to-surface or surface-to-surface"
+            " penalty. All else is as by default: it stops at 0.5 % of the force, as billet does where the"
+            " scene sets no tolerance.\n\n"
+            "Elastic bodies get a yield stress beyond reach in CalculiX. Its elasticity is one of large"
+            " strain with plasticity only. With `*ELASTIC` alone it grows soft in compression: the ironed"
+            " slab resists with 28 N instead of 42 N. The logarithmic laws of billet and CalculiX differ at"
+            " large strain all the same. The turn of the twisted hemisphere is one of ten straight parts in"
+            " CalculiX."
         ),
         (
-            f"Each run once, on one core of a busy machine, CalculiX for {LIMIT} CPU seconds at most: CPU"
-            " seconds (user and system) are to be read as ratios; 0.3 to 0.6 of billet's are its start."
-            " Iterations count those of failed steps. What CalculiX says when it stops is quoted."
+            f"Each run is done once, on one core of a busy machine; CalculiX gets at most {LIMIT} CPU"
+            " seconds. Read CPU seconds (user and system) as ratios; 0.3 to 0.6 of billet's are its start."
+            " Iterations count those of failed steps. The table quotes what CalculiX says when it stops."
         ),
         table(
             ["scene", "program", "steps", "cuts", "iterations", "CPU s", "result", "fails"],
@@ -661,15 +664,16 @@ if __name__ == "__main__":
         "## What is compared",
         table(["scene", "penalty [N/mm³]", "friction", "result"], [row for _, row in compared]),
         (
-            "Penalties are billet's own: ten times E/h of both sides in series, h the root of the faces' mean"
-            " area, unless the scene has a number; billet augments two scenes, and is shown with the penalty"
-            " alone, too."
+            "Penalties are billet's own: ten times E/h of both sides in series, unless the scene has a"
+            " number. Here h is the root of the faces' mean area. billet augments two scenes, and is shown"
+            " with the penalty alone, too."
         ),
         (
-            "## Self-contact\n\nCalculiX knows pairs of a slave and a master surface. It takes one surface as"
-            " both, as here the inside of `hollow_block`, whose plates are bricks: nodes against faces it"
-            " stops, faces against faces it comes through. `ring_crush` has a tool with fillets, which"
-            " CalculiX, without analytical surfaces, would need as a mesh: it has not been tried (billet: 60"
-            " steps, 316 iterations)."
+            "## Self-contact\n\n"
+            "CalculiX knows pairs of a slave and a master surface. It takes one surface as both, as here"
+            " the inside of `hollow_block`, whose plates are bricks. With nodes against faces it stops;"
+            " with faces against faces it comes through.\n\n"
+            "`ring_crush` has a tool with fillets, which CalculiX, without analytical surfaces, would need"
+            " as a mesh. It has not been tried (billet: 60 steps, 316 iterations)."
         ),
     )

@@ -79,23 +79,25 @@ publish(
     "Patch tests in statics",
     options,
     (
-        "Two parts of a block, 4 elements across on 3, all vertices within them and on the interface moved by"
-        " 22 % of an element of the lower and 30 % of the upper part. Largest deviation of an element's"
-        " stress from the mean of all, relative to that, and in parentheses Newton iterations, of two steps."
-        " Pictures hold single precision: what is below 1e-7 is uniform to that; the test `implicit_patch`"
-        " asserts 1e-8. A dash: no solution, without cuts of the steps; at 0.01 and 0.1 E/h nodes would go"
-        " deeper than contact follows them. The nodal elements, which hold nodes out of facets, cannot be"
-        " exact, whatever their penalty."
+        "This page shows which facets pass a uniform stress on exactly, and with which penalties. Two parts"
+        " of a block meet, 4 elements across on 3. All vertices within them and on the interface are moved,"
+        " by 22 % of an element of the lower part and 30 % of the upper. The nodal elements, which hold"
+        " nodes out of facets, cannot be exact, whatever their penalty.\n\n"
+        "The table has the largest deviation of an element's stress from the mean of all, relative to that."
+        " Newton iterations of two steps stand in parentheses. Field output holds single precision: what is"
+        " below 1e-7 is uniform to that. The test `implicit_patch` asserts 1e-8. A dash: no solution,"
+        " without cuts of the steps; at 0.01 and 0.1 E/h nodes would go deeper than contact follows them."
     ),
-    "CalculiX 2.20 on undistorted meshes that do not match (own measurements): node-to-surface 14 to 31 %.",
+    "For comparison, CalculiX 2.20 on undistorted meshes that do not match (own measurements):"
+    " node-to-surface 14 to 31 %.",
     "## Turned block (`prm/patch_test.prm`)\n\n" + table(HEAD, rows("patch_test.prm")),
     "## The same, augmented to a penetration of 1e-6 facet sizes\n\n"
     + table(STIFF_HEAD, rows("patch_test.prm", 1e-6, penalties=STIFF)),
-    "## The same with penalties as factors\n\nOverlapping facets take the mean factor of E/h for a whole"
-    " surface; for nodes it is larger where facets are smaller.\n\n"
-    + table(HEAD, rows("patch_test.prm", unit=1, changes=FACTOR)),
-    "## Inclined cut with friction (`prm/patch_test_cut.prm`)\n\nThe penetration displaces the upper part"
-    " along the cut, beyond whose ends it finds nothing: that error goes with the penetration. At 10000 E/h"
-    " round-off of positions times the penalty is all that is left of the forces.\n\n"
-    + table(HEAD, rows("patch_test_cut.prm")),
+    "## The same with penalties as factors\n\n"
+    "Overlapping facets take the mean factor of E/h for a whole surface. For nodes the penalty is larger"
+    " where facets are smaller.\n\n" + table(HEAD, rows("patch_test.prm", unit=1, changes=FACTOR)),
+    "## Inclined cut with friction (`prm/patch_test_cut.prm`)\n\n"
+    "The penetration displaces the upper part along the cut, beyond whose ends it finds nothing. That error"
+    " goes with the penetration. At 10000 E/h nothing is left of the forces but the round-off of positions"
+    " times the penalty.\n\n" + table(HEAD, rows("patch_test_cut.prm")),
 )

@@ -166,9 +166,10 @@ publish(
     "Shallow ironing",
     options,
     (
-        "`prm/ironing.prm`: an elastic die (E 1000 MPa) is pressed 0.6 mm into an elastic slab (E 100 MPa,"
-        " facets of 0.5 mm), drawn 10 mm over it with a friction coefficient of 0.3, and lifted. Forces are"
-        " those in the plane of 0.5 mm."
+        "This page shows how the forces of ironing depend on facets and steps, and that a run can be"
+        " resumed in its middle. The scene is `prm/ironing.prm`. An elastic die (E 1000 MPa) is pressed 0.6"
+        " mm into an elastic slab (E 100 MPa, facets of 0.5 mm). It is drawn 10 mm over the slab with a"
+        " friction coefficient of 0.3, and lifted. Forces are those in the plane of 0.5 mm."
     ),
     "## All of the scene, steps as they come",
     table(
@@ -187,8 +188,9 @@ publish(
     ),
     "## Steps of equal length",
     (
-        f"Horizontal over vertical force, means over the slide from {FROM} to {SLIDE} mm (trapezoidal rule),"
-        " which steps of each length reach; in brackets Newton iterations for each step of all of the run."
+        "The table has horizontal over vertical force for steps of each length. Values are means over the"
+        f" slide from {FROM} to {SLIDE} mm (trapezoidal rule). Newton iterations for each step of all of the"
+        " run stand in brackets."
     ),
     table(
         ["slide in a step / facet"]
@@ -207,11 +209,12 @@ publish(
         ]
         + [["largest less smallest"] + [spread(k) for k in range(len(METHODS))]],
     ),
-    "## Stopped while the die is drawn, and gone on with",
+    "## Stopped while the die is drawn, and resumed",
     (
-        f"The scene as it is, from a checkpoint after {STOP} steps: the rest against the run without"
-        " interruption on as many ranks as before the stop. Largest difference of a force's component,"
-        " relative to the largest; and whether all of the history agrees to its last digit."
+        f"The scene as it is resumes from a checkpoint after {STOP} steps. The rest is compared with the run"
+        " without interruption on as many ranks as before the stop. The table has the largest difference of"
+        " a force's component, relative to the largest. It also says whether all of the history agrees to"
+        " its last digit."
     ),
     table(
         [
@@ -225,11 +228,11 @@ publish(
         going_on(),
     ),
     (
-        "Of planed facets in two passes this holds until the die is lifted: there friction turns round, and"
-        " round-off chooses between two solutions whose forces differ by 1e-4."
+        "With planed facets in two passes this holds until the die is lifted. There friction turns round,"
+        " and round-off chooses between two solutions whose forces differ by 1e-4."
     ),
     (
-        "CalculiX 2.20 (own measurements, the same bodies): node-to-surface contact stops; surface-to-surface"
-        " contact gives 0.88, 0.37, 0.31 and 0.30 as the increments shrink."
+        "For comparison, CalculiX 2.20 (own measurements, the same bodies): node-to-surface contact stops."
+        " Surface-to-surface contact gives 0.88, 0.37, 0.31 and 0.30 as the increments shrink."
     ),
 )

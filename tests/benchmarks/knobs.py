@@ -140,15 +140,17 @@ for scene, common, knobs in GROUPS:
 
 publish(
     "knobs",
-    "What the other knobs cost, and change",
+    "Cost and effect of the remaining settings",
     options,
     (
-        "Knobs without a page of their own. The billet of `prm/billet_upsetting.prm`, for `Forcing term` with"
-        " 480 bricks and GMRES; `prm/ironing.prm` until the die has been drawn 3 mm (time 1.6). Difference:"
-        " ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of the first of each group. The spheres of"
-        " `prm/passing_spheres.prm` begin and end apart: with soft penalties what differs is mostly how far"
-        " they give way, with stiff ones what the facets make. Symmetry: between two dies, without the plane"
-        " z = 0. Each run once."
+        "This page shows what settings without a page of their own cost, and how much they change the"
+        " forces. The billet is that of `prm/billet_upsetting.prm`, for `Forcing term` with 480 bricks and"
+        " GMRES. `prm/ironing.prm` ends when the die has been drawn 3 mm (time 1.6). For symmetry the"
+        " billet lies between two dies, without the plane z = 0.\n\n"
+        "The difference is ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces; F* is that of the first of each"
+        " group. Each run is done once.\n\n"
+        "The spheres of `prm/passing_spheres.prm` begin and end apart. With soft penalties the difference"
+        " is mostly how far they give way, with stiff ones what the facets make."
     ),
-    table(["scene", "knob", "value", "steps", "Newton iterations", "CPU seconds", "difference"], rows),
+    table(["scene", "setting", "value", "steps", "Newton iterations", "CPU seconds", "difference"], rows),
 )

@@ -5,12 +5,11 @@ solvers."""
 from __future__ import annotations
 
 import argparse
-
 import subprocess
 import sys
 from pathlib import Path
 
-from billet_runs import PROGRAM, ROOT, number, table
+from billet_runs import PROGRAM, ROOT, number, table, wrapped
 
 parser = argparse.ArgumentParser(prog="scripts/benchmarks linear-solvers")
 parser.add_argument("--quick", action="store_true", help="50 000 dofs only")
@@ -148,15 +147,15 @@ def memory() -> str | None:
         return None
     growth = found[largest, "sticking", 1] / found[middle, "sticking", 1]
     missing = [
-        f"{'symmetric' if tie == 'sticking' else 'unsymmetric'} on {ranks} rank{'s' if ranks > 1 else ''},"
+        f"- {'symmetric' if tie == 'sticking' else 'unsymmetric'} on {ranks} rank{'s' if ranks > 1 else ''},"
         f" {number(round(growth * found[middle, tie, ranks], -2))} MB"
         for ranks in (1, options.ranks)
         for tie in DIRECT_BYTES
         if (largest, tie, ranks) not in found and (middle, tie, ranks) in found
     ]
     return (
-        "MUMPS at the largest size, where it did not run, would need, growing as the symmetric factors on one"
-        " rank do: " + "; ".join(missing) + "."
+        "MUMPS did not run everywhere at the largest size. If its memory grows as the symmetric factors on"
+        " one rank do, it needs:\n\n" + "\n".join(missing)
         if missing
         else None
     )
@@ -172,30 +171,35 @@ for tie, krylov in TIES:
             ]
         )
 
-page = (
+page = wrapped(
     "\n\n".join(
         part
         for part in [
             "# Two bodies in contact: linear solvers",
             "Written by `scripts/benchmarks linear-solvers" + (" --large" if options.large else "") + "`.",
             (
-                "Two elastic cubes with meshes that do not fit, one on the other, tied node to facet by a"
-                " penalty k: sticking, k in all directions; frictionless, along the normal alone; sliding,"
-                " along the normal, with a friction of 0.3 of the pressure, so that the matrix is"
-                " unsymmetric. One linear system, solved to 1e-8, as an exact Newton step would; Newton's"
-                " forcing asks for 1e-2 most of the time, in a quarter of the iterations. CPU seconds are of"
-                " all ranks, each run once, on a busy machine: they are to be read as ratios. The peak memory"
-                " is of all ranks, mesh, matrix and libraries included. On several ranks each has a part of"
-                " both cubes. What a direct solver does depends on the pattern of the matrix, and not on k:"
-                " one k is enough. A step of Newton's method sets up and solves once. A dash: not measured,"
-                " or not enough memory."
+                "This page shows which linear solver is cheapest for two bodies in contact, over size,"
+                " contact and penalty. Two elastic cubes with meshes that do not fit lie on each other,"
+                " tied node to facet by a penalty k.\n\n"
+                "- Sticking: k acts in all directions.\n"
+                "- Frictionless: k acts along the normal alone.\n"
+                "- Sliding: k acts along the normal, with a friction of 0.3 of the pressure, so that the"
+                " matrix is unsymmetric.\n\n"
+                "Each run solves one linear system to 1e-8, as an exact Newton step would. Newton's forcing"
+                " asks for 1e-2 most of the time, in a quarter of the iterations. A step of Newton's method"
+                " sets up and solves once. What a direct solver does depends on the pattern of the matrix,"
+                " and not on k: one k is enough.\n\n"
+                "CPU seconds are those of all ranks, on a busy machine: read them as ratios. Each run is"
+                " done once. The peak memory is that of all ranks, mesh, matrix and libraries included. On"
+                " several ranks each has a part of both cubes. A dash: not measured, or not enough memory."
             ),
             table(head, rows),
             memory(),
             (
-                f"## What does it\n\nIterations at {SIZES[0]} dofs on one rank: multigrid alone; then with"
-                " the contact dofs solved directly after each cycle; then with the cycle for softened"
-                " contact, too, which is what the program does (theory: *Solution*)."
+                "## Which parts of multigrid help\n\n"
+                f"The table has the iterations at {SIZES[0]} dofs on one rank. Multigrid works alone first."
+                " Then the contact dofs are solved directly after each cycle. Last comes the cycle for"
+                " softened contact, too, which is what the program does (theory: *Solution*)."
             ),
             table(
                 ["contact", "k h / E", "solver", "multigrid", "and contact block", "and softened contact"],

@@ -167,13 +167,16 @@ publish(
     "The error of the mesh, estimated and found",
     options,
     (
-        "Shipped scenes on coarser and finer meshes; the scenes set the rest. Difference: ∫|F − F*| dt over"
-        " ∫|F*| dt of the forces of a tool or support, against those of the finest mesh of the scene, or of"
-        " the work of deformation where loads drive it. The finest mesh has an error of its own, so that the"
-        " last difference of each scene is too small: by a third if errors fall fourfold, by half if"
-        " they fall to a half. Estimated: the last value of `mesh_error`. Ratio: estimated over"
-        " difference. By levels: the error that `Target error of = everything` extrapolates from the"
-        " differences between this mesh and those before it; its ratio likewise."
+        "This page compares the error that the program estimates for a mesh with the difference from a"
+        " finer mesh. Shipped scenes run on coarser and finer meshes; the scenes set the rest.\n\n"
+        "- Difference: ∫|F − F*| dt over ∫|F*| dt of the forces of a tool or support, against those of the"
+        " finest mesh of the scene. Where loads drive it, the work of deformation is compared.\n"
+        "- Estimated: the last value of `mesh_error`.\n"
+        "- Ratio: estimated over difference.\n"
+        "- By levels: the error that `Target error of = everything` extrapolates from the differences"
+        " between this mesh and those before it; its ratio likewise.\n\n"
+        "The finest mesh has an error of its own, so that the last difference of each scene is too small."
+        " It is too small by a third if errors fall fourfold, by half if they fall to a half."
     ),
     f"{n_within} of {len(ratios)} ratios are from 0.5 to 3; {n_below} estimates are below the difference. By"
     f" levels it is {n_levels_within} of {len(by_levels)}, and {n_levels_below} below.",

@@ -104,13 +104,15 @@ publish(
     "Eight decades of the penalty",
     options,
     (
-        "The billet until half of its travel, two cylinders, a press fit, as shipped but for the penalty, in"
-        " parts of E/h, and the augmentation, in facet sizes. Residuals below 1e-8 of the forces. Errors are"
-        " of the force at the end, from that of 10 E/h augmented to 1e-6 of a facet on the same mesh. The"
-        " last column: what is left of the residual where Newton's method is asked for 1e-15, the largest of"
-        " all steps, of which three last bits of a position times the penalty are taken as nothing: how many"
-        " of sixteen digits the penalty takes. Where errors no longer fall as the penalty grows they are the"
-        " reference's."
+        "This page shows in which range of the penalty forces are right and Newton's method converges. The"
+        " scenes are the billet until half of its travel, two cylinders, and a press fit. They are as"
+        " shipped but for the penalty, in parts of E/h, and the augmentation, in facet sizes. Residuals are"
+        " below 1e-8 of the forces.\n\n"
+        "Errors are those of the force at the end. The reference is 10 E/h augmented to 1e-6 of a facet on"
+        " the same mesh. Where errors no longer fall as the penalty grows they are the reference's.\n\n"
+        "The last column shows how many of sixteen digits the penalty takes. It is what is left of the"
+        " residual where Newton's method is asked for 1e-15, the largest of all steps. Three last bits of a"
+        " position times the penalty count as nothing."
     ),
     *parts,
 )

@@ -130,17 +130,20 @@ publish(
     "Press fit of two rings",
     options,
     (
-        "`prm/press_fit.prm`: interference 0.01 at a radius of 20, `Initial penetration = ramp`, plane"
-        " strain, half as many elements across a ring as around it (24 of 288 and of 192), two steps. Errors"
-        " against Lamé's pressure and stresses: of the force between the halves, the largest of a node's"
-        " pressure, the stresses as root mean squares over elements. Lamé's law is linear and does not know"
-        " whose radius is 20; that is some 0.05 % here."
+        "This page compares the pressure and stresses of a press fit with Lamé's. The scene is"
+        " `prm/press_fit.prm`: interference 0.01 at a radius of 20, `Initial penetration = ramp`, plane"
+        " strain, two steps. A ring has half as many elements across as around (24 of 288 and of 192).\n\n"
+        "Errors are those of the force between the halves, of the largest of a node's pressure, and of the"
+        " stresses. Those of stresses are root mean squares over elements. Lamé's law is linear and does"
+        " not know whose radius is 20; that is some 0.05 % here."
     ),
     "## Meshes that match, penalty alone (10 E/h in series)\n\n" + table(HEAD, rows(SAME, 0)),
     "## The same, augmented to 1e-5 facet sizes\n\n" + table(HEAD, rows(SAME, 1e-5)),
-    "## Meshes that do not match, penalty alone\n\nFaces are flat facets: chords of different lengths leave"
-    " their circle by different heights, h²/(8 R), at 18 facets in 12 more than the interference. They touch"
-    " where corners are, and fit tighter than the circles. The error of the force falls with the square of"
-    " the facet size; the pressure becomes smooth only where h²/(8 R) is smaller than what it takes to press"
-    " a facet flat, about h p/E.\n\n" + table(HEAD, rows(OTHER, 0)),
+    "## Meshes that do not match, penalty alone\n\n"
+    "Faces are flat facets. Chords of different lengths leave their circle by different heights, h²/(8 R),"
+    " at 18 facets in 12 more than the interference. They touch where corners are, and fit tighter than the"
+    " circles.\n\n"
+    "The error of the force falls with the square of the facet size. The pressure becomes smooth only where"
+    " h²/(8 R) is smaller than what it takes to press a facet flat, about h p/E.\n\n"
+    + table(HEAD, rows(OTHER, 0)),
 )

@@ -6,6 +6,8 @@ from __future__ import annotations
 import math
 from typing import Mapping
 
+from billet_runs import table
+
 
 def no_better(errors: Mapping[str, Mapping[str, float]]) -> str:
     """{scene: {profile: error}}: where balanced is hardly better than fast, and for how many of them accurate
@@ -20,20 +22,31 @@ def no_better(errors: Mapping[str, Mapping[str, float]]) -> str:
     if not alike:
         return ""
     return (
-        f"balanced is no better than fast, or by less than a fifth, in {len(alike)} of {len(known)} scenes"
-        f" whose errors are known ({', '.join(alike)}). In {len(mended)} of these accurate, which augments,"
-        " has at most half of its error: penalties, which fast and balanced share in static scenes and which"
-        " let contacts give way, make most of the error there, and neither shorter steps nor tighter"
-        " tolerances help."
+        f"In {len(alike)} of {len(known)} scenes whose errors are known, balanced is no better than fast, or"
+        " by less than a fifth.\n\n"
+        f"- These are {', '.join(alike)}.\n"
+        f"- In {len(mended)} of these accurate, which augments, has at most half of its error. There"
+        " penalties, which let contacts give way, make most of the error. Fast and balanced share them in"
+        " static scenes. Neither shorter steps nor tighter tolerances help."
     )
 
 
 def without_errors(reasons: Mapping[str, str]) -> str:
     """{scene: why}: scenes whose reference failed, and what was said."""
     return (
-        ""
-        if not reasons
-        else "No error is told where the reference itself comes to no end: "
-        + "; ".join(f"{name} ({why})" for name, why in reasons.items())
-        + "."
+        "No error is given where the reference itself comes to no end:\n\n"
+        + table(["scene", "what the program says"], reasons.items())
+        if reasons
+        else ""
+    )
+
+
+def with_looser(depths: Mapping[str, float]) -> str:
+    """{scene: facet sizes}: scenes whose reference is augmented less than others."""
+    return (
+        "The reference is a looser one where the tightest finds no end. Errors near those of accurate are no"
+        " more than an order of magnitude there:\n\n"
+        + table(["scene", "augmented to [facet]"], ([name, f"{depth:g}"] for name, depth in depths.items()))
+        if depths
+        else ""
     )

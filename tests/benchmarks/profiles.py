@@ -11,7 +11,7 @@ from billet_runs import ROOT, Changes, arguments, number, percent, publish, tabl
 from billet_tools.scene import read_entries
 from billet_tools.text import first_sentence
 from curve_runs import CurveRun, error, run_all, write_csv
-from profile_words import no_better, without_errors
+from profile_words import no_better, with_looser, without_errors
 
 options = arguments("profiles")
 PROFILES = ("fast", "balanced", "accurate")
@@ -207,42 +207,33 @@ cheaper = sum(1 for row in rows if row[-1] and float(row[-1].split("/")[0]) >= 4
 shown = sum(1 for row in rows if row[-1])
 publish(
     "profiles",
-    "What the profiles cost, and how far they are off",
+    "Cost and error of the profiles",
     options,
     (
-        "Every shipped scene with `Profile` = fast, balanced and accurate, without what the scene itself sets"
-        " of it (in absolute units penalties stay); those marked cut with less time or a coarser mesh, as in"
-        " the script. Work: Newton iterations with those of failed steps and of estimates, of explicit scenes"
-        " element updates. Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs, of"
-        " explicit scenes of kinetic energy and of what is stored or dissipated, against a reference on the"
-        " same mesh: 400 steps (implicit dynamics: an error tolerance of 1e-6, and the penalties of the"
-        " scene, whose error is not in it), augmented to 1e-6 of a facet, residuals below 1e-10; explicit:"
-        " assumed strains, the scene's law, a penalty factor of 100 where penalties are factors, a safety"
-        " factor of 0.3 and a contact resolution of 4. What the mesh makes is not in it. The last column: CPU"
-        " seconds / work of accurate over fast, the seconds without those of setting up, which are those of a"
-        " run of 1e-5 of the time (the less of two; none where that fails; at least 0.01 s are left of each,"
-        " so that the largest ratios are rough). Each run once."
+        "This page shows what `Profile` = fast, balanced and accurate cost, and what errors they make. Each"
+        " shipped scene runs without what the scene itself sets of it (in absolute units penalties stay)."
+        " Scenes marked cut have less time or a coarser mesh, as in the script. Each run is done once.\n\n"
+        "- Work: Newton iterations with those of failed steps and of estimates; of explicit scenes element"
+        " updates.\n"
+        "- Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs. For explicit scenes it"
+        " is that of kinetic energy and of what is stored or dissipated. The error of the mesh is not in"
+        " it.\n"
+        "- Accurate / fast: CPU seconds / work of accurate over fast.\n\n"
+        "The reference F* is a run on the same mesh.\n\n"
+        "- Statics: 400 steps, augmented to 1e-6 of a facet, residuals below 1e-10.\n"
+        "- Implicit dynamics: an error tolerance of 1e-6 instead, and the penalties of the scene, whose"
+        " error is not included.\n"
+        "- Explicit: assumed strains, the scene's law, a safety factor of 0.3 and a contact resolution of"
+        " 4. Where penalties are factors, the penalty factor is 100.\n\n"
+        "The seconds in the last column are without those of setting up. Setting up takes what a run of"
+        " 1e-5 of the time takes (the less of two; none where that fails). At least 0.01 s are left of"
+        " each, so that the largest ratios are rough."
     ),
     f"fast takes a quarter of accurate's CPU seconds or less in {cheaper} of {shown} scenes in which both"
-    " end. "
-    + " ".join(
-        filter(
-            None,
-            (
-                no_better(errors),
-                without_errors(failures),
-                (
-                    ""
-                    if not looser
-                    else "The reference is a looser one, since the tightest finds no end, in "
-                    + ", ".join(
-                        f"{name} (augmented to {depth:g} of a facet)" for name, depth in looser.items()
-                    )
-                    + ": errors near those of accurate are no more than an order of magnitude there."
-                ),
-            ),
-        )
-    ),
+    " end.",
+    no_better(errors),
+    without_errors(failures),
+    with_looser(looser),
     table(["scene", "profile", "steps", "work", "CPU seconds", "error", "accurate / fast"], rows),
 )
 if not options.quick:

@@ -111,14 +111,17 @@ publish(
     "silent-errors",
     "Runs that are wrong in silence",
     options,
-    "Each run counts once. *Right*: its force (of impacts: the impulse) is what the reference has. *Warned*:"
-    " it is off and a warning says so. *Stopped*: the program ended it with a message. *Wrong*: it is off,"
-    f" or ended without a message, in silence. *No end*: within {SECONDS} s of a processor. *Unclear*: it is"
-    " off by less than three times what two references differ by. Where the reference has the run's own"
-    " mesh, no warning about the mesh excuses a difference."
-    + (f" Every {every}th run of each family (`--every {every}`)." if every > 1 else "")
+    "This page counts the runs whose results are wrong without any warning. Each run counts once.\n\n"
+    "- *Right*: its force (of impacts: the impulse) is what the reference has.\n"
+    "- *Warned*: it is off and a warning says so.\n"
+    "- *Stopped*: the program ended it with a message.\n"
+    "- *Wrong*: it is off, or ended without a message, in silence.\n"
+    f"- *No end*: within {SECONDS} s of a processor.\n"
+    "- *Unclear*: it is off by less than three times what two references differ by.\n\n"
+    "Where the reference has the run's own mesh, no warning about the mesh excuses a difference."
+    + (f" Every {every}th run of each family is done (`--every {every}`)." if every > 1 else "")
     + (
-        " Only some runs of the plan, those that were kept (`--kept`)."
+        " Some runs of the plan are left out: only those that were kept count (`--kept`)."
         if options.kept and len(cases) < sum(planned.values())
         else ""
     ),

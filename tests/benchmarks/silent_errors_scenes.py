@@ -1316,8 +1316,8 @@ ABOUT = {
             " tangents, line search, steps, penalties"
         ),
         (
-            "force within 3 % of the same mesh with penalty 300 and steps of 0.02, no warning about the mesh"
-            " excuses; and within 10 % of 120 x 4 one-point elements, any warning excuses"
+            "force within 3 % of the same mesh with penalty 300 and steps of 0.02, no warning about the"
+            " mesh excuses. Within 10 % of 120 x 4 one-point elements, any warning excuses"
         ),
     ),
     "flights": (
@@ -1332,7 +1332,7 @@ ABOUT = {
     ),
     "blocks": (
         (
-            "Two elastic blocks, pressed into each other by 10 to 80 % of the upper one's height: gaps of 0"
+            "Two elastic blocks, pressed into each other by 10 to 80 % of the upper one's height. Gaps of 0"
             " to 10, both orders, friction, steps, penalties"
         ),
         "force within 3 % of the same meshes and penalty, from touching on, in steps of 0.02",
@@ -1347,8 +1347,8 @@ ABOUT = {
     "stacks": (
         "Two to five plates, clamped by friction, sheared or twisted until one face slides",
         (
-            "force of the upper pair, once pressed, at the end of the motion and after its reversal, within 5"
-            " % of the same mesh with penalty 100 in steps of 0.1"
+            "force of the upper pair within 5 % of the same mesh with penalty 100 in steps of 0.1. Compared"
+            " once pressed, at the end of the motion and after its reversal"
         ),
     ),
     "turning tools": (
@@ -1367,7 +1367,7 @@ ABOUT = {
             " 0.02 to 0.5"
         ),
         (
-            "no energy that appears after the removal: plastic and elastic within 5 % of both before it; a"
+            "no energy that appears after the removal: plastic and elastic within 5 % of both before it. A"
             " strip that only its rolls would hold has to be stopped"
         ),
     ),
@@ -1380,8 +1380,8 @@ ABOUT = {
     ),
     "explicit": (
         (
-            "Balls of 0.1 to 2 facets on points of a facet; a plate that flies with its edge at the edge of a"
-            " tool, or of a plate; 0.01 to 0.3 of the wave speed"
+            "Balls of 0.1 to 2 facets on points of a facet, at 0.01 to 0.3 of the wave speed. A plate that"
+            " flies with its edge at the edge of a tool, or of a plate"
         ),
         (
             "change of velocity or momentum within 10 % of the same scene with four to six times finer"
@@ -1395,7 +1395,7 @@ ABOUT = {
     "friction account": (
         (
             "A block that slides, spins, or goes down a slope, on a tool and on a body, with all methods of"
-            " integration; a snap-fit in statics"
+            " integration. A snap-fit in statics"
         ),
         (
             "frictional dissipation within 2 % of the energy that is gone and of a closed form; snap-fit:"

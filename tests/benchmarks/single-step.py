@@ -116,15 +116,19 @@ publish(
     "The whole load in one step",
     options,
     (
-        "Upsetting of the billet by 64 %, µ = 0.1, the paper's penalty: first in equal steps, then with the"
-        " whole travel as the first and largest step, which is cut as Newton's method asks for it and grows"
-        " again. The force at the end is compared with that of 200 equal steps; *equal steps as large*: what"
-        " these would be off, in proportion to twenty equal steps, since the error is of first order in the"
-        " step. *Every single step to*, *furthest*: fixed steps of so much of the height from the undeformed"
-        " state, in fiftieths of the travel (of 480 bricks in twentieths), with this tangent alone, without a"
-        " cut: up to the first all converge, and the second is the largest of all that do; in between it is"
-        " luck. *Then exact*: steps could not be cut any more, and the exact tangent took over. Empty: not"
-        " run, since the same on 60 bricks took up to thousands of iterations."
+        "This page shows what happens if the whole load is the first step, and what that costs. The billet"
+        " is upset by 64 % with µ = 0.1 and the paper's penalty. It is upset first in equal steps. Then the"
+        " whole travel is the first and largest step, which is cut as Newton's method asks for it and grows"
+        " again.\n\n"
+        "- Force at the end: compared with that of 200 equal steps.\n"
+        "- *Equal steps as large*: the difference that these would have, in proportion to twenty equal"
+        " steps. The error is of first order in the step.\n"
+        "- *Every single step to*, *furthest*: fixed steps from the undeformed state, with this tangent"
+        " alone, without a cut. Steps are parts of the height, in fiftieths of the travel (for 480 bricks"
+        " in twentieths). Up to the first all converge, and the second is the largest of all that do; in"
+        " between it is luck.\n"
+        "- *Then exact*: steps could not be cut any more, and the exact tangent took over.\n"
+        "- Empty: not run, since the same on 60 bricks took up to thousands of iterations."
     ),
     *parts,
 )

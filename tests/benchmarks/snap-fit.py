@@ -62,11 +62,14 @@ publish(
     "Snap-fit",
     options,
     (
-        "`prm/snap_fit.prm`: a clip of 20.5 × 1 mm with a hook, up a ramp of 30 degrees and back over one of"
-        f" 45 degrees, friction 0.2, in plane strain. Where the hook has risen by {RISE} mm: axial over"
-        " transverse force beside (μ + tan α)/(1 − μ tan α); transverse force beside a cantilever under both"
-        " forces in its deformed state, and beside that of design guides, 3 E I y/((1 − ν²) L³). The largest"
-        " axial forces are those of the steps, near the fillets of the catch."
+        "This page compares the forces of a snap-fit with those of a beam and of design guides. The scene"
+        " is `prm/snap_fit.prm`, in plane strain with a friction of 0.2. A clip of 20.5 × 1 mm with a hook"
+        " goes up a ramp of 30 degrees and back over one of 45 degrees.\n\n"
+        f"Forces are compared where the hook has risen by {RISE} mm.\n\n"
+        "- Force ratio: axial over transverse force, beside (μ + tan α)/(1 − μ tan α).\n"
+        "- Beam: transverse force beside that of a cantilever under both forces in its deformed state.\n"
+        "- Design guides: transverse force beside 3 E I y/((1 − ν²) L³).\n"
+        "- Largest force: the largest axial force of the steps, near the fillets of the catch."
     ),
     table(
         [

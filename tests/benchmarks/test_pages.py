@@ -3,23 +3,62 @@
 
 from __future__ import annotations
 
+import ast
 import math
+import sys
 import unittest
-from typing import Iterable, Sequence
+from pathlib import Path
+from typing import Iterable, Iterator, Sequence
 
 from hand_set import beside_hand_set
-from profile_words import no_better, without_errors
+from profile_words import no_better, with_looser, without_errors
 from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, Sections, force_curve
 from billet_tools.scene import scene_text
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE.parent))
+import prose  # noqa: E402
+
+
+def texts_of(script: Path) -> Iterator[str]:
+    """Returns the strings of a script, with a word for each value that it puts in; not its docstrings."""
+
+    def walk(node: ast.AST) -> Iterator[str]:
+        if isinstance(node, ast.JoinedStr):
+            yield "".join(part.value if isinstance(part, ast.Constant) else "X" for part in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value
+        elif not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+            for child in ast.iter_child_nodes(node):
+                yield from walk(child)
+
+    return walk(ast.parse(script.read_text(encoding="utf-8")))
+
+
+class Sentences(unittest.TestCase):
+    def test_what_scripts_write_is_short(self) -> None:
+        """As tests/prose.py asks of pages: the next run of a script must not write longer sentences."""
+        scripts = [*HERE.glob("*.py"), *(ROOT / "tests/extremes/extremes").glob("*.py")]
+        scripts += (ROOT / "tools/billet_tools/trade").glob("*.py")
+        for script in scripts:
+            for text in texts_of(script):
+                if "subsection" in text or "--" in text[:20]:  # scenes and commands
+                    continue
+                faults = [fault for fault in prose.faults_of(text) if "columns" not in fault.what]
+                self.assertEqual(faults, [], script.name)
+
+    def test_text_is_found(self) -> None:
+        self.assertIn("one X two", list(texts_of(Path(__file__))))
+        self.assertEqual(f"one {len('ab')} two", "one 2 two")
 
 
 class Counting(unittest.TestCase):
     def test_what_cannot_be_compared_is_not_counted(self) -> None:
         said = beside_hand_set([1.0, 1.5, 1.6, math.nan], [0.9, 2.0, 1.7, math.nan])
-        self.assertIn(
-            "2 of 3 take at most 1.5 times the work, 1 of 3 at most 1.5 times the CPU seconds", said
-        )
-        self.assertIn("for 1 no run by hand that was tried is within the target", said)
+        self.assertIn("2 of 3 take at most 1.5 times the work", said)
+        self.assertIn("1 of 3 take at most 1.5 times the CPU seconds", said)
+        self.assertIn("For 1 no run by hand is within the target", said)
         self.assertNotIn("not counted", beside_hand_set([1.0], [2.0]))
 
 
@@ -31,13 +70,16 @@ class Profiles(unittest.TestCase):
             "c": {"fast": 0.01, "balanced": 0.01, "accurate": 0.009},
             "d": {"fast": math.nan, "balanced": 0.01, "accurate": 0.01},
         }
-        self.assertIn("in 2 of 3 scenes whose errors are known (a, c)", no_better(errors))
+        self.assertIn("In 2 of 3 scenes whose errors are known", no_better(errors))
+        self.assertIn("These are a, c.", no_better(errors))
         self.assertIn("In 1 of these accurate, which augments, has at most half", no_better(errors))
         self.assertEqual(no_better({"b": errors["b"]}), "")
 
     def test_reasons(self) -> None:
         self.assertEqual(without_errors({}), "")
-        self.assertIn("a (given up)", without_errors({"a": "given up"}))
+        self.assertIn("| a | given up |", without_errors({"a": "given up"}))
+        self.assertEqual(with_looser({}), "")
+        self.assertIn("| a | 0.0001 |", with_looser({"a": 1e-4}))
 
 
 class Told(Runner):

@@ -304,15 +304,18 @@ publish(
     "A square tube crushed along its axis",
     options,
     (
-        "[`prm/tube_crush.prm`](../../prm/tube_crush.prm): a quarter of a tube of 50 x 50 x 150 mm with 2 mm"
-        f" wall, {len(last.bricks)} bricks, under a plane that comes at 25 m/s. {r.steps} steps; largest"
-        f" drift of energy {percent(r.max_drift())} of the largest sum of energies."
+        "This page shows how a square tube folds, and whether its wall passes through itself. The scene is"
+        " [`prm/tube_crush.prm`](../../prm/tube_crush.prm). A quarter of a tube of 50 x 50 x 150 mm with 2"
+        f" mm wall has {len(last.bricks)} bricks. A plane comes down on it at 25 m/s. The run takes"
+        f" {r.steps} steps; the largest drift of energy is {percent(r.max_drift())} of the largest sum of"
+        " energies."
     ),
     "![Sections through the middles of the sides](../images/tube_crush.png)",
     (
-        "## Folds\n\nLobes, outward + inward, of the middle of a side: turning points of its line that stand"
-        " out by two wall thicknesses on both sides. Mean force of the whole tube so far; penetration of"
-        " self-contact relative to the wall."
+        "## Folds\n\n"
+        "The table has the lobes, outward + inward, of the middle of a side. They are turning points of its"
+        " line that stand out by two wall thicknesses on both sides. The mean force is that of the whole"
+        " tube so far. The penetration of self-contact is relative to the wall."
     ),
     table(
         [
@@ -327,18 +330,20 @@ publish(
         fold_rows,
     ),
     (
-        "## Does the wall pass through itself?\n\nEdges of boundary facets that go through another facet,"
-        " which penalty contact lets them by a little; those of them that do by more than 5 and 50 % of the"
-        " wall, and the deepest: by what would part edge and facet, the distance of the nearer end from the"
-        " facet's plane or of the edge from one of the facet's. Nodes that lie inside a brick of another"
-        " place of the wall, and how far from the nearest facet. Least coordinate across: symmetry planes are"
-        " at 0. Without self-contact the same check finds a wall that passes through itself; with nodes"
-        " against facets alone (`Edge contact = false`), ridges of folds cross each other."
+        "## Does the wall pass through itself?\n\n"
+        "The check looks for edges of boundary facets that go through another facet, which penalty contact"
+        " lets them by a little. Without self-contact it finds a wall that passes through itself. With"
+        " nodes against facets alone (`Edge contact = false`), ridges of folds cross each other.\n\n"
+        "The table has the number of such edges, of those deeper than 5 and 50 % of the wall, and the"
+        " deepest. Depth is what would part edge and facet. It is the distance of the nearer end from the"
+        " facet's plane or of the edge from one of the facet's.\n\n"
+        "Nodes inside lie inside a brick of another place of the wall; their depth is the distance from the"
+        " nearest facet. The last column is the least coordinate across: symmetry planes are at 0."
     ),
     (
         f"With self-contact the deepest edge is {worst_edge[5]} mm,"
-        f" {number(100 * float(worst_edge[5]) / WALL, 2)} % of the wall, in, at {worst_edge[1]} ms; the"
-        f" deepest node {worst_node[7]} mm, {number(100 * float(worst_node[7]) / WALL, 2)} %, at"
+        f" {number(100 * float(worst_edge[5]) / WALL, 2)} % of the wall, in, at {worst_edge[1]} ms. The"
+        f" deepest node is {worst_node[7]} mm, {number(100 * float(worst_node[7]) / WALL, 2)} %, in, at"
         f" {worst_node[1]} ms."
     ),
     table(

@@ -197,20 +197,22 @@ publish(
     "Wagoner's hemispherical punch",
     options,
     (
-        "A clamped disc of radius 66 mm and thickness 1 mm over a punch of radius 50.8 mm, travel 40 mm, k ="
-        " 1e5 N/mm³ (Bittencourt & Creus 1998, example 9.2). Each run once. Forces are those on the whole"
-        " punch, in kN; plastic strain is that of the elements, radii are those before forming, in mm."
+        "This page compares billet with example 9.2 of Bittencourt & Creus (1998): iterations with each"
+        " tangent, forces and strains. A punch of radius 50.8 mm goes 40 mm into a clamped disc of radius"
+        " 66 mm and thickness 1 mm, k = 1e5 N/mm³. Each run is done once. Forces are those on the whole"
+        " punch, in kN. Plastic strain is that of the elements; radii are those before forming, in mm."
     ),
     (
-        "## Tangents\n\nµ = 0.3, 192 bricks, steps of half a millimetre at most; iterations count those of"
-        " cut steps. Beside the default tolerance (5e-3 of the forces) a looser one, 1e-2, with 1e-4 of the"
-        " energy, which is about what the paper's two iterations a step point to."
+        "## Tangents\n\n"
+        "Runs have µ = 0.3, 192 bricks and steps of at most half a millimetre. Iterations count those of"
+        " cut steps. Beside the default tolerance (5e-3 of the forces) stands a looser one, 1e-2, with 1e-4"
+        " of the energy. The looser one is about what the paper's two iterations a step point to."
     ),
     tangents(),
     (
-        "## A step of 0.6 mm\n\nThat is 1.5 % of the travel. Residuals relative to the forces, after each"
-        " iteration, of a step past a third of the travel; the paper's mean residue beside them (its"
-        " table 5)."
+        "## A step of 0.6 mm\n\n"
+        "That is 1.5 % of the travel. The table has residuals relative to the forces, after each iteration,"
+        " of a step past a third of the travel. The paper's mean residue stands beside them (its table 5)."
     ),
     residuals(),
     (
@@ -224,8 +226,9 @@ publish(
     ),
     friction(),
     (
-        "## The place of the peak\n\nLargest plastic strain, and the radius where it is; elements are some 2"
-        " mm long there. Last, the plastic strain at the centre."
+        "## The place of the peak\n\n"
+        "The table has the largest plastic strain, and the radius where it is; elements are some 2 mm long"
+        " there. The last column is the plastic strain at the centre."
     ),
     peaks(),
 )

@@ -217,7 +217,7 @@ class TestBars(unittest.TestCase):
         words = " ".join(whole.words())
         for part in (
             "about 25 % off in force",
-            "and 9 % with their signs",
+            "It is 9 % off with their signs",
             "The largest source is mesh, 16 %",
             "takes 10 times the scene's seconds; it leaves 4 %",
             "The cheapest gain: a run with 'half'",

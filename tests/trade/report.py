@@ -13,7 +13,7 @@ from billet_tools.trade import picture, reference as reference_module, report, r
 from billet_tools.trade.outputs import Output
 from billet_tools.trade.reference import mesh_of
 from billet_tools.scene import Changes, Scene
-from billet_tools.text import first_sentence
+from billet_tools.text import first_sentence, wrapped
 
 DEFAULTS = "subsection Bodies\nsubsection (name of a body)\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n"
 SCENE = Scene("subsection Bodies\nsubsection bar\nsubsection Mesh\nset Layers = 4\nend\nend\nend\n", DEFAULTS)
@@ -224,6 +224,16 @@ class Judging(unittest.TestCase):
         self.assertEqual(first_sentence("inside out."), "inside out")
         self.assertLessEqual(len(first_sentence("much " * 200)), 400)
 
+    def test_lines_end_in_time(self) -> None:
+        self.assertEqual(wrapped("one two\nthree", 9), "one two\nthree")
+        self.assertEqual(wrapped("one\ntwo three", 9), "one two\nthree")
+        self.assertEqual(wrapped("- one two\n- three four\n", 8), "- one\n  two\n- three\n  four\n")
+        # no mark at the start of a line, no break within code, links and formulas
+        self.assertEqual(wrapped("three - two 5. `a b`", 7), "three -\ntwo 5.\n`a b`")
+        self.assertEqual(wrapped("see [the page](x) now", 8), "see\n[the page](x)\nnow")
+        for text in ("# one two three", "| one | two |", "```\none two three\n```", "$$\na b c d e f\n$$"):
+            self.assertEqual(wrapped(text, 5), text)
+
 
 class Cancellation(unittest.TestCase):
     def points(self) -> list[report.Point]:
@@ -250,7 +260,7 @@ class Cancellation(unittest.TestCase):
         said = " ".join(s.words())
         self.assertIn(
             (
-                "Not to be relied on, since errors of opposite sign take each other away: `mesh = 0.5`, off"
+                "Not to be relied on, since errors of opposite sign cancel: `mesh = 0.5`, off"
                 " by < 1 % where 2.5 % would be expected, that of `as written`"
             ),
             said,

@@ -33,6 +33,68 @@ def table(head: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
     return "\n".join("| " + " | ".join(str(cell).replace("|", "/") for cell in line) + " |" for line in lines)
 
 
+# A word; code, formulas and links are one.
+_WORD = re.compile(r"(?:`[^`]*`|\$[^$]+\$|!?\[[^\]]*\]\([^)]*\)|\S)+")
+# What would be a mark at the start of a line.
+_NEVER_FIRST = re.compile(r"[-*+]$|\d+[.)]$|[#|>]|={3}|-{3}|`{3}|~{3}|:::")
+_ITEM = re.compile(r"\s*(?:[-*+]|\d+[.)])\s+")
+_FENCE = re.compile(r"\s*(?:`{3}|~{3}|\${2}$)")
+_NO_PROSE = re.compile(r"\s*(?:$|[#|]|<!--|:::|\(\S+\)=$|\[\S+\]: |-{3,}$)")
+
+
+def wrapped(page: str, columns: int = 100) -> str:
+    """Returns Markdown whose paragraphs and lists have at most so many columns in a line, unless a word is
+    longer. Headings, tables, code in fences and formulas stay as they are."""
+    lines: list[str] = []
+    words: list[str] = []  # of the paragraph
+    begin = rest = ""  # of its first line, of the others
+
+    def close() -> None:
+        line = ""
+        for i, word in enumerate(words):
+            if i and len(line) + 1 + len(word) > columns:
+                lines.append(line)
+                line = rest + word
+            else:
+                line = f"{line} {word}" if i else begin + word
+        if words:
+            lines.append(line)
+        words.clear()
+
+    is_fenced = False
+    for text in page.split("\n"):
+        is_fence = bool(_FENCE.match(text))
+        if is_fenced or is_fence or _NO_PROSE.match(text):
+            close()
+            lines.append(text)
+            is_fenced ^= is_fence
+            continue
+        item = _ITEM.match(text)
+        if item:
+            close()
+            begin, rest = item[0], " " * len(item[0])
+            text = text[len(item[0]) :]
+        elif not words:
+            begin = rest = " " * (len(text) - len(text.lstrip()))
+        for word in _WORD.findall(text):
+            if words and _NEVER_FIRST.match(word):
+                words[-1] += f" {word}"
+            else:
+                words.append(word)
+    close()
+    return "\n".join(lines)
+
+
+def items(sentences: Iterable[str]) -> str:
+    """Returns a list in Markdown."""
+    return "\n".join(f"- {sentence}" for sentence in sentences)
+
+
+def written_by(command: str) -> str:
+    """Returns the part of a page that says which command writes it."""
+    return f"Written by:\n\n```sh\n{command}\n```"
+
+
 def first_sentence(text: str) -> str:
     """Returns it, or what stands before a list of details."""
     text = " ".join(text.split())

@@ -14,7 +14,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from billet_tools.records import Record
-from billet_tools.text import table
+from billet_tools.text import table, wrapped
 
 from .invariants import NUDGE, SYMMETRIES
 from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE
@@ -262,8 +262,10 @@ def programs(records: Records, ours: str) -> str:
     other = sum(count.values())
     return (
         f"{now} scene{'s' * (now != 1)} ran with the program as it is"
-        + f", {other} with {'one other state' if len(count) == 1 else f'{len(count)} other states'} "
-        f"of it and are kept from then ({others}; `--stale` runs these once more). Of those with others "
+        + f", {other} with {'one other state' if len(count) == 1 else f'{len(count)} other states'} of it"
+        " and are kept from then. The command `scripts/extremes --stale` runs these once more.\n\n"
+        f"- Other states: {others}.\n"
+        "- Outcomes with them: "
         + ", ".join(
             f"{n} {o}"
             for o, n in Counter(r["outcome"] for r in records if r["program"] != ours).most_common()
@@ -285,17 +287,13 @@ def units(records: Records) -> str:
     same = named.count(False)
     return (
         f"Of {len(named)} scenes in other units {same} take{'s' * (same == 1)} as many steps, cuts and"
-        f" iterations, {named.count(True)} one or two iterations more or less; of {len(exact)} in units that"
-        f" differ by powers of 2, {exact.count(False)}."
+        f" iterations, {named.count(True)} one or two iterations more or less. Of {len(exact)} in units that"
+        f" differ by powers of 2, {exact.count(False)} take as many."
     )
 
 
-def steps(record: Record) -> str:
-    return f", {record['steps']:.0f} steps" if "steps" in record else ""
-
-
 def slow(records: Records) -> str:
-    """In words: what took longer than hung runs are given for a step."""
+    """In words, and in a table: what took longer than hung runs are given for a step."""
     took = sorted(((r.get("processor seconds", r["seconds"]), r) for r in records), key=lambda pair: -pair[0])
     long = [(s, r) for s, r in took if s > PATIENCE]
     if not took:
@@ -305,28 +303,35 @@ def slow(records: Records) -> str:
             f"None took more than {PATIENCE:g} s of the processor; the longest, `{took[0][1]['name']}`,"
             f" {took[0][0]:.0f} s."
         )
-    return (
-        f"{len(long)} took more than {PATIENCE:g} s of the processor: "
-        + ", ".join(f"`{r['name']}` ({s:.0f} s, {r['outcome']}{steps(r)})" for s, r in long[:5])
-        + "."
+    return f"{len(long)} took more than {PATIENCE:g} s of the processor. The longest are:\n\n" + table(
+        ["scene", "seconds", "outcome", "steps"],
+        [
+            [f"`{r['name']}`", f"{s:.0f}", r["outcome"], f"{r['steps']:.0f}" if "steps" in r else ""]
+            for s, r in long[:5]
+        ],
     )
 
 
 def forgetful(records: Records) -> str:
-    """In words: motions in which a symmetry is lost to round-off."""
+    """In words, and in a table: motions in which a symmetry is lost to round-off."""
     lost = [r for r in records if r["outcome"] == "right" and r.get("sensitivity")]
     if not lost:
         return ""
     return (
-        f"In {len(lost)} motion{'s' * (len(lost) > 1)} that rattle{'s' * (len(lost) == 1)} round-off grows"
-        f" until symmetry is lost; run once more, nudged at the start by {NUDGE:g} of velocity and size,"
-        " displacements at the end differ by as much, or at least a tenth of it; among them are "
-        + ", ".join(
-            f"`{r['name']}` ({max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}, nudged"
-            f" {r['sensitivity']:.1g})"
-            for r in lost[:5]
+        f"In {len(lost)} motion{'s' * (len(lost) > 1)} with chatter round-off grows until symmetry is lost."
+        f" They ran once more, nudged at the start by {NUDGE:g} of velocity and size. Displacements at the"
+        " end then differ by as much, or at least a tenth of it. Among them are:\n\n"
+        + table(
+            ["scene", "loss of symmetry", "difference, nudged"],
+            [
+                [
+                    f"`{r['name']}`",
+                    f"{max(r['errors'].get(name, 0) for name in SYMMETRIES):.1g}",
+                    f"{r['sensitivity']:.1g}",
+                ]
+                for r in lost[:5]
+            ],
         )
-        + "."
     )
 
 
@@ -367,8 +372,8 @@ def changed(records: Records, before: Records) -> list[str]:
         "## Another outcome than before",
         (
             f"{len(both)} of these scenes ran with an older version, too; {len(other)} came out otherwise."
-            " Said: now, or before where nothing is now. Reason: from the same scene with mean dilatation,"
-            " the default before."
+            " The last column is what the program says now, or what it said before where it says nothing now."
+            " The reason is from the same scene with mean dilatation, the default before."
         ),
         table(
             ["before", "now", "scene", "reason", "said"],
@@ -393,24 +398,34 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         (
             "Written by `scripts/extremes`, on one rank:"
             f" {len(records)} {f'of the {planned} ' if planned > len(records) else ''}tiny scenes of the plan"
-            " (1 to 64 bricks), each parameter over its range, alone and in pairs, in every kind of run. In"
-            " each, what must hold is computed from what the run wrote: equilibrium, closed forms of bars"
-            " and columns, the yield condition, the friction cone of nodes and of whole forces, the ledger"
-            " of energies, momentum, impulse, mirror symmetry, penetration, elements inside out, and that"
-            " the same scene in other units takes as many steps and iterations, and turned in space gives"
-            " the same."
+            " (1 to 64 bricks)."
         ),
-        "*right*: all of that holds. *told*: it does, and a warning says that penetration takes more than 4"
-        " % of the energy along a load path, and how much. *soft*: it does, but a node goes deeper than"
-        f" {DEEP:g} facet sizes, or the log says that the penalty is low for the facets: what is in balance"
-        " then is less than the scene asks for, and forces are too small, by any factor. A larger penalty,"
-        " or a 'Penetration tolerance', mends both. *doubtful*: it does not hold, and the log says why, and"
-        " what to do: energies fail to balance, a law is no longer stable at such strains, or elements are"
-        " too stiff or too soft in bending. *refused*, *failed*: with a message that says where, why and"
-        " what to do. *unhelpful*: with one that does not. *wrong*, *crashed*, *hung* (no step accepted in"
-        f" {PATIENCE:g} s of the processor, or no end after {AT_MOST:g} s): what must not be. "
-        + slow(records),
-        " ".join(said for said in (units(records), forgetful(records), programs(records, program)) if said),
+        "This page shows in which range of each parameter the program gives right results, and what it does"
+        " beyond. Each parameter goes over its range, alone and in pairs, in every kind of run. What must"
+        " hold is computed from what the run wrote:\n\n"
+        "- equilibrium, and closed forms of bars and columns\n"
+        "- the yield condition, and the friction cone of nodes and of whole forces\n"
+        "- the ledger of energies, momentum, impulse, and mirror symmetry\n"
+        "- penetration, and elements inside out\n"
+        "- the same scene in other units takes as many steps and iterations, and turned in space gives the"
+        " same",
+        "Each scene has one outcome:\n\n"
+        "- *right*: all of that holds.\n"
+        "- *told*: all of that holds, and a warning says that penetration takes more than 4 % of the energy"
+        " along a load path, and how much.\n"
+        f"- *soft*: all of that holds. A node goes deeper than {DEEP:g} facet sizes, though, or a warning"
+        " says that the penalty is low for the facets. Forces are then too small, by any factor: what is in"
+        " balance is less than the scene asks for. A larger penalty, or a `Penetration tolerance`, mends"
+        " both.\n"
+        "- *doubtful*: something does not hold, and a warning says why, and what to do. Energies fail to"
+        " balance, a law is no longer stable at such strains, or elements are too stiff or too soft in"
+        " bending.\n"
+        "- *refused*, *failed*: the program stops with a message that says where, why and what to do.\n"
+        "- *unhelpful*: it stops with a message that does not.\n"
+        f"- *wrong*, *crashed*, *hung*: these must not be. A run hangs if it accepts no step in {PATIENCE:g}"
+        f" s of the processor, or has no end after {AT_MOST:g} s.",
+        *(said for said in (programs(records, program), units(records)) if said),
+        "## Outcomes",
         table(
             ["", *outcomes, "scenes"],
             [["all", *[whole[o] for o in outcomes], len(records)]]
@@ -423,18 +438,21 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
                 for kind, bases in KINDS.items()
             ],
         ),
+        *(said for said in (slow(records), forgetful(records)) if said),
         "## By parameter",
-        "*Safe* is the widest range around the default (for words: those) in which every scene that turns"
-        " this parameter alone is right or told, and not soft, by the kind of run; beyond it at least one of"
-        " them is not, which may be one of many, or none was tried. Scenes that are soft as they are"
+        "*Safe* is the widest range around the default, for each kind of run; of words it is those that are"
+        " safe. In this range every scene that turns this parameter alone is right or told, and not soft."
+        " Beyond it at least one of them is not, which may be one of many, or none was tried. Scenes that are"
+        " soft as they are"
         + (" (" + ", ".join(f"`{scene}`" for scene in sorted(soft)) + ")" if soft else "")
-        + " count as soft for penalties, strains and shapes only, and so do those that are told. Blocks are"
-        " strained as named only under penalties that do not give way: where a strain or a shape is turned"
-        " they are raised to what that takes, up to 1e5 E/h (the default of 10 E/h lets an elastic block"
-        " that is pressed to ln -1 give way at -0.76, and one pressed to ln -3 at -1.3: soft, and the log"
-        " says so). *In pairs*: it is never turned alone, and all its scenes count; soft ones are so by the"
-        " other parameter. Empty: not tried. Counts are of all scenes, those in pairs with it included."
-        " Scenes of fixed steps below a hundredth of the load end after twenty of them.",
+        + " count as soft for penalties, strains and shapes only. So do those that are told.\n\n"
+        "Blocks reach the strain that is named only under penalties that do not give way. Where a"
+        " strain or a shape is turned, penalties are raised to what that takes, up to 1e5 E/h. With the"
+        " default of 10 E/h an elastic block that is pressed to ln -1 gives way at -0.76. One pressed"
+        " to ln -3 gives way at -1.3. Such blocks are soft, and a warning says so.\n\n"
+        "*In pairs*: the parameter is never turned alone, and all its scenes count; soft ones are so by"
+        " the other parameter. Empty: not tried. Counts are of all scenes, those in pairs with it"
+        " included. Scenes of fixed steps below a hundredth of the load end after twenty of them.",
     ]
     names = []
     for r in records:
@@ -483,7 +501,7 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
             ),
         ]
     parts += changed(records, before)
-    (folder / "results/extremes.md").write_text("\n\n".join(parts) + "\n")
+    (folder / "results/extremes.md").write_text(wrapped("\n\n".join(parts)) + "\n")
 
 
 # --- pictures -------------------------------------------------------------------------------------
@@ -519,7 +537,7 @@ def draw_all(records: Records, folder: Path) -> list[str]:
     said = []
     for name, (pair, x, y, bases) in PICTURES.items():
         if draw(records, folder / f"extremes_{name}.png", pair, x, y, bases):
-            said.append(f"![Outcome over {x} and {y}](../images/extremes_{name}.png)")
+            said.append(f"![Outcome over {name.replace('_', ' and ')}](../images/extremes_{name}.png)")
     return said
 
 

@@ -15,7 +15,7 @@ import numpy
 from .. import UserError
 from ..output import Array
 from ..scene import Scene
-from ..text import number, percent, table
+from ..text import items, number, percent, table, written_by
 from . import measure
 from .outputs import Output
 from .paste import HOW, lines_to_paste
@@ -204,7 +204,7 @@ class Explanation:
         reach = f"{percent(low)} or more" if math.isinf(high) else f"{percent(low)} to {percent(high)}"
         said = [
             f"The scene is about {percent(self.sum)} off in {names} ({reach}) if the errors of all sources"
-            f" add up, and {percent(self.signed_sum)} with their signs.",
+            f" add up. It is {percent(self.signed_sum)} off with their signs.",
             f"The largest source is {largest.source.name}, {percent(largest.error)}.",
         ]
         if len(counted) > 1 and largest.low < counted[1].high:
@@ -220,7 +220,7 @@ class Explanation:
                 said.append("The cheapest gain: " + gain_of(best))
         if largest.error > USELESS:
             said.append(
-                f"A difference of {percent(largest.error)} is too large to extrapolate: it tells the order of"
+                f"A difference of {percent(largest.error)} is too large to extrapolate: it gives the order of"
                 " the sources at most. Other --outputs, such as shape, may be known better."
             )
         missing = [
@@ -298,20 +298,30 @@ class Explanation:
         ]
 
     def page(self, title: str, command: str, remarks: Sequence[str], picture: str) -> str:
-        weights = ", ".join(f"{o.name} ({o.meaning}), weight {self.weights[o.name]:g}" for o in self.outputs)
-        parts = [f"# How far off, and why: {title}", f"Written by `{command}`.", " ".join(self.words())]
+        outputs = [f"Error of {o.name}: {o.meaning}, weight {self.weights[o.name]:g}." for o in self.outputs]
+        parts = [f"# How far off, and why: {title}", written_by(command)]
+        parts.append(
+            "This page shows how far off results of a scene are, and what each source of error adds."
+        )
+        parts.append(items(self.words()))
         parts.append(f"![Errors by source]({picture})")
         parts.append(table(self.HEAD, self.rows()))
         parts.append(
-            f"Errors: {weights}. Each run reduces one source alone, and all take the steps of the scene."
-            " Costs are core-seconds over those of the scene,"
-            f" {number(self.base.core_seconds)}; the cost of the run is the price to halve the error, or to"
-            " remove what a run removes. With three levels the order is observed, from 1/2 to 2 used, and the"
-            " range ends at 1.25 times what the finer run leaves. With two levels the order is assumed."
+            items(
+                [
+                    *outputs,
+                    "Runs: each reduces one source alone, and all take the steps of the scene.",
+                    "Costs: core-seconds over those of the scene,"
+                    f" {number(self.base.core_seconds)}. The cost of the run is the price to halve the error,"
+                    " or to remove what a run removes.",
+                    "Ranges: with three levels the order is observed, and used from 1/2 to 2. The range ends"
+                    " at 1.25 times what the finer run leaves. With two levels the order is assumed.",
+                ]
+            )
         )
         notes = [*remarks, *self.remarks()]
         if notes:
-            parts.append("\n".join(f"- {note}" for note in notes))
+            parts.append(items(notes))
         for label, text in self.lines():
             parts += [f"{HOW}, for {label}:", f"```prm\n{text}```"]
         parts += self.more

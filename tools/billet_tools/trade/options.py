@@ -14,11 +14,11 @@ from .reference import GIVEN
 
 Options = argparse.Namespace
 
-HELP = """What accuracy costs in a scene of billet: changes one parameter after the other, measures each run
-against a converged reference that it makes itself, and writes a table, a CSV file and a picture of error over
-cost. With --explain: a bar for each source of error, as text and picture. With --target: the cheapest
-setting within an error, as lines to paste into the scene. What has been run is kept; after Ctrl-C there is
-the page of what was run, and the same command continues."""
+HELP = """Shows what accuracy costs in a scene of billet, in a table, a CSV file and a picture of error over
+cost. It changes one parameter after the other, and measures each run against a converged reference that it
+makes itself. With --explain: a bar for each source of error, as text and picture. With --target: the
+cheapest setting within an error, as lines to paste into the scene. Runs are kept: after Ctrl-C there is the
+page of what was run, and the same command continues."""
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -37,8 +37,8 @@ def make_parser() -> argparse.ArgumentParser:
         "--explain",
         action="store_true",
         help=(
-            "how far off the scene is, and what makes it so: one run for each source of error, without a"
-            " reference; with --target, also the cheapest way there by these runs"
+            "shows how far off the scene is, and why, by one run for each source of error. With --target,"
+            " also the cheapest way there by these runs"
         ),
     )
     group = parser.add_argument_group("what is changed")
@@ -126,8 +126,8 @@ def make_parser() -> argparse.ArgumentParser:
         "--reference-mesh",
         metavar="F,F,F",
         help=(
-            "factors of the mesh in one ratio, 1 among them (1,2,4 where that is affordable, else 0.5,1,2);"
-            " given: the scene's mesh is taken as it is, and errors are those of all else"
+            "factors of the mesh in one ratio, 1 among them (1,2,4 if that is affordable, else 0.5,1,2)."
+            " With 'given' the mesh is that of the scene, and errors are those of everything else"
         ),
     )
     add(

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterable, Mapping, Optional, Sequence
 
 from ..scene import Changes, Scene
-from ..text import big, first_sentence, number, percent, table
+from ..text import big, first_sentence, items, number, percent, table, written_by
 from . import measure
 from .outputs import Force, Output
 from .paste import HOW, lines_to_paste
@@ -330,8 +330,8 @@ class Sweep:
         ):
             return ""
         return (
-            " That mesh is coarser than the scene's: whether errors of mesh and steps take each other away"
-            f" there a reference known to {percent(self.uncertainty)} cannot tell."
+            " That mesh is coarser than the scene's. Errors of mesh and steps may cancel there: a reference"
+            f" known to {percent(self.uncertainty)} cannot tell."
         )
 
     def hint(self, point: Point) -> str:
@@ -340,7 +340,53 @@ class Sweep:
         return " (a gain below the reference's uncertainty)" if small else ""
 
     def words(self) -> list[str]:
-        """What came out, in sentences."""
+        """What came out, in sentences for the console."""
+        said = self.findings()
+        if self.failed():
+            said.append(
+                "Failed: "
+                + "; ".join(
+                    f"{label} {status}" + (f" ({reason})" if reason else "")
+                    for label, status, reason in self.failed()
+                )
+                + "."
+            )
+        if self.cancelling():
+            said.append(
+                "Not to be relied on, since errors of opposite sign cancel: "
+                + "; ".join(
+                    f"{label}, off by {error} where {expected} would be expected, {by}"
+                    for label, error, expected, by in self.cancelling()
+                )
+                + ". They count with the larger error, and stand in brackets."
+            )
+        if self.target is not None:
+            said.append(self.choice(self.target))
+        return said
+
+    def failed(self) -> list[list[str]]:
+        """Label, status and reason of runs that failed."""
+        return [
+            [f"`{p.label}`", p.status, first_sentence(p.reason) if p.reason else ""]
+            for p in self.points
+            if not p.is_good and not p.is_base
+        ]
+
+    def cancelling(self) -> list[list[str]]:
+        """Label, error, expected error and its source of runs whose errors cancel."""
+        return [
+            [
+                f"`{p.label}`",
+                error_text(p.error, self.uncertainty),
+                percent(self.ranked(p)),
+                self.cancelled[id(p)][1],
+            ]
+            for p in self.points
+            if id(p) in self.cancelled and not self.is_blind
+        ]
+
+    def findings(self) -> list[str]:
+        """What came out of the good runs, in sentences."""
         base, said = self.base, []
         u = self.uncertainty
         if self.is_blind:
@@ -367,7 +413,9 @@ class Sweep:
 
                 value = max(better, key=rate)
                 if value is not best:
-                    said.append(f"Most accuracy for its price by {self.say(value)}{self.hint(value)}.")
+                    said.append(
+                        f"Most accuracy for its price is bought by {self.say(value)}{self.hint(value)}."
+                    )
             else:
                 said.append(
                     "No parameter alone makes the error measurably smaller"
@@ -399,29 +447,6 @@ class Sweep:
                 )
         else:
             said.append(f"The scene as it is written is no good: {base.status}, {base.reason}.")
-        failed = [p for p in self.points if not p.is_good and not p.is_base]
-        if failed:
-            said.append(
-                "Failed: "
-                + "; ".join(
-                    f"`{p.label}` {p.status}" + (f" ({first_sentence(p.reason)})" if p.reason else "")
-                    for p in failed
-                )
-                + "."
-            )
-        if self.cancelled and not self.is_blind:
-            said.append(
-                "Not to be relied on, since errors of opposite sign take each other away: "
-                + "; ".join(
-                    f"`{p.label}`, off by {error_text(p.error, u)} where {percent(self.ranked(p))} would be"
-                    f" expected, {self.cancelled[id(p)][1]}"
-                    for p in self.points
-                    if id(p) in self.cancelled
-                )
-                + ". They count with the larger error, and stand in brackets."
-            )
-        if self.target is not None:
-            said.append(self.choice(self.target))
         return said
 
     def worth_timing(self) -> list[Point]:
@@ -442,8 +467,8 @@ class Sweep:
     def blindness(self) -> str:
         worst = max(self.reference.uncertainty_by_axis(), key=lambda row: row[2])
         return (
-            f"**The reference is known to {percent(self.uncertainty)} only, so that nothing can be said of"
-            f" errors, and no run is ranked.** Most of that is of {worst[0]}, from the"
+            f"**The reference is known to {percent(self.uncertainty)} only, so that errors are unknown, and"
+            f" no run is ranked.** Most of that is of {worst[0]}, from the"
             f" {worst[1]} ({percent(worst[2])}). {ADVICE.get(worst[1], ADVICE[''])} --until PART and"
             " --outputs, too, may choose what is known better."
         )
@@ -571,56 +596,72 @@ class Sweep:
         )
 
     def page(self, title: str, command: str, remarks: Sequence[str], picture: str) -> str:
-        weights = ", ".join(f"{o.name} ({o.meaning}), weight {self.weights[o.name]:g}" for o in self.outputs)
-        uncertainty = "; ".join(
-            f"{o.name} {percent(self.reference.uncertainty[o.name])}" for o in self.outputs
+        outputs = [f"Error of {o.name}: {o.meaning}, weight {self.weights[o.name]:g}." for o in self.outputs]
+        uncertainty = ", ".join(
+            f"{percent(self.reference.uncertainty[o.name])} for {o.name}" for o in self.outputs
         )
-        parts = [f"# What accuracy costs: {title}", f"Written by `{command}`."]
-        parts += [" ".join(self.words())]
+        times = f"median of {self.timed()}"
+        if self.noise and any(len(p.result.seconds) > 1 for p in self.points):
+            times += f", which differ by {percent(self.noise)} (median)"
+        parts = [f"# What accuracy costs: {title}", written_by(command)]
+        parts += [
+            "This page compares runs of one scene, each with one or a few parameters changed, by error and"
+            " cost."
+        ]
+        parts += [self.choice(self.target)] if self.target is not None else []
+        parts += [items(self.findings())]
         if self.lines():
             parts.append(f"{HOW}:\n\n```prm\n{self.lines()}```")
         if picture:
             parts.append(f"![Error over cost]({picture})")
         parts += [
-            f"Errors: {weights}; their weighted mean is the error. Work: {WORK[self.scene.is_explicit]}."
-            " Core-seconds: user and system, of all ranks, start-up and output included; "
-            + (
-                "median of "
-                + self.timed()
-                + (
-                    f", which differ by {percent(self.noise)} (median)"
-                    if self.noise and any(len(p.result.seconds) > 1 for p in self.points)
-                    else ""
-                )
-                + "."
+            items(
+                [
+                    *outputs,
+                    *(["Error: the weighted mean of these errors."] if len(outputs) > 1 else []),
+                    f"Work: {WORK[self.scene.is_explicit]}.",
+                    "Core-seconds: user and system, of all ranks, start-up and output included."
+                    f" They are the {times}.",
+                ]
             ),
             *remarks,
         ]
         parts += (
             [
                 "## What each parameter buys",
-                "The others as they are written; an error below the reference's uncertainty counts as that.",
+                "Each parameter is changed alone. An error below the reference's uncertainty counts as that.",
                 self.bought_table(),
             ]
             if self.base.is_good and not self.is_blind
             else []
         )
+        if self.failed():
+            parts += ["## Failed runs", table(["run", "status", "reason"], self.failed())]
+        if self.cancelling():
+            parts += [
+                "## Errors that cancel",
+                "Do not rely on these runs: errors of opposite sign cancel. They count with the larger"
+                " error.",
+                table(["run", "error", "expected error", "from"], self.cancelling()),
+            ]
         parts += [
             "## All runs",
             (
-                "Failed runs have no error; in brackets: errors that cancel. Penetration: the deepest, in"
-                " facet sizes. Drift: the largest of the energy balance, over the largest sum of energies."
+                "Failed runs have no error; errors that cancel stand in brackets. Penetration is the deepest,"
+                " in facet sizes. Drift is the largest of the energy balance, over the largest sum of"
+                " energies."
             ),
             table(self.head(), self.rows()),
             "## The reference",
             (
-                f"Uncertainty: {uncertainty}; of the weighted mean {percent(self.uncertainty)}. No error"
-                " below it is told. Differences are those of neighbours."
+                f"The uncertainty is {uncertainty}, and {percent(self.uncertainty)} for the weighted mean."
+                " Errors below it are unknown. Differences are those of neighbouring levels."
             ),
             self.reference_table(),
         ]
         if self.reference.remarks:
-            parts.append("Of the reference's own runs, " + "; ".join(self.reference.remarks) + ".")
+            parts.append("Remarks on the runs of the reference:")
+            parts.append(table(["remark"], [[remark] for remark in self.reference.remarks]))
         return "\n\n".join(parts) + "\n"
 
     def timed(self) -> str:

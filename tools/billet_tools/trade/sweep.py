@@ -13,7 +13,7 @@ from typing import Callable, Mapping, Sequence
 from .. import UserError
 from ..program import Stopped
 from ..scene import Scene
-from ..text import number, percent, table
+from ..text import number, percent, table, wrapped, written_by
 from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
 from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
@@ -172,7 +172,7 @@ def affordable_plan(plan: Plan, coarser: Plan | None, work: Work) -> Plan:
     if less >= seconds:
         return plan
     say(
-        f"The reference would take about {clock(seconds)} of {clock(work.budget.seconds_left())}: it is made"
+        f"The reference would take about {clock(seconds)} of {clock(work.budget.seconds_left())}. It is made"
         f" on meshes of 0.5, 1 and 2 times the elements along each edge, in about {clock(less)}"
     )
     return coarser
@@ -363,12 +363,11 @@ def write_costs(
     said = f"No error is known yet: {against}."
     left = [f"Beyond the budget: {', '.join(work.left_out)}."] if work.left_out else []
     told = table(["point", "status", "elements", "steps", "core-seconds"], rows)
-    parts = [f"# What accuracy costs: {title}", f"Written by `{command_text(arguments)}`.", said, *left, told]
+    parts = [f"# What accuracy costs: {title}", written_by(command_text(arguments)), said, *left, told]
     try:
         name.parent.mkdir(parents=True, exist_ok=True)
-        name.with_name(name.name + ".md").write_text(
-            "\n\n".join([*parts, *remarks_of(options, runner)]) + "\n"
-        )
+        page = "\n\n".join([*parts, *remarks_of(options, runner)])
+        name.with_name(name.name + ".md").write_text(wrapped(page) + "\n")
     except OSError as error:
         raise UserError(f"what came out cannot be written: {error}") from None
     print("\n\n".join([told, said, *left, f"{name}.md"]))
@@ -385,16 +384,18 @@ def remarks_of(options: Options, runner: Runner) -> list[str]:
         + "."
     ]
     if options.reference_mesh == GIVEN:
-        remarks.append("The mesh is taken as given: errors are those of all else.")
+        remarks.append("The mesh is taken as given: errors are those of everything else.")
     if options.until or options.mesh or options.set:
         told = [f"until {options.until:g} of the end time"] if options.until else []
         told += [f"{options.mesh} times the elements along each edge"] if options.mesh else []
-        remarks.append("Pilot form: " + ", ".join(told + options.set) + ".")
+        told += [f"`{entry}`" for entry in options.set]
+        remarks.append(f"Pilot form: {', '.join(told)}.")
     return remarks
 
 
 def command_text(arguments: Sequence[str]) -> str:
-    return "billet-trade " + shlex.join(arguments)
+    """Returns the command, each option on a line of its own."""
+    return "billet-trade " + shlex.join(arguments).replace(" --", " \\\n  --")
 
 
 def write_files(
@@ -413,7 +414,7 @@ def write_files(
         drawn.parent.mkdir(parents=True, exist_ok=True)
         write_csv(name.with_name(name.name + ".csv"))
         draw(drawn)
-        name.with_name(name.name + ".md").write_text(page(os.path.relpath(drawn, name.parent)))
+        name.with_name(name.name + ".md").write_text(wrapped(page(os.path.relpath(drawn, name.parent))))
     except (OSError, ValueError) as error:
         raise UserError(f"what came out cannot be written: {error}") from None
     return name, drawn
