@@ -187,8 +187,8 @@ inline const DiagnosticKind contact_unsettled(
     "contact-unsettled", Severity::warning,
     "Augmentation of a contact pair stops before its force converges. The last augmentation changes it by "
     "more than 0.5 % of the maximum force. The error of the force may be several times that.",
-    "Use a finer mesh where the pair touches, or 'Penetration tolerance = 1e-3', which augments until "
-    "convergence and takes many more iterations");
+    "Let the softer or finer body be 'Body', reduce 'Force tolerance', or use a finer mesh where the pair "
+    "touches. 'Penetration tolerance = 1e-3' augments until convergence; it takes many more iterations");
 
 inline const DiagnosticKind
     tangential_penalty_too_low("tangential-penalty-too-low", Severity::warning,
@@ -221,11 +221,12 @@ inline const DiagnosticKind
                        "or it misses the bodies.",
                        "Check its position, motion, units and the side to which it faces, or remove it");
 
-inline const DiagnosticKind
-    missing_pair("missing-pair", Severity::warning,
-                 "Two bodies, a body and a tool, or a body and itself penetrate where no contact pair "
-                 "connects them. They pass through each other without a force.",
-                 "Add a contact pair of the two, or the missing faces to the existing pair");
+inline const DiagnosticKind missing_pair(
+    "missing-pair", Severity::warning,
+    "Two bodies, a body and a tool, or a body and itself penetrate where no contact pair "
+    "connects them. They pass through each other without a force.",
+    "Add a contact pair of the two, or the missing faces to the existing pair. Limit a plane that "
+    "should not reach so far: 'Shape = rectangle' or 'disc'");
 
 inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warning,
                                              "A penalty is so high that the solution is slow: steps become "
