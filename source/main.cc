@@ -10,6 +10,7 @@
 #include "billet/run/preview.h"
 #include "billet/run/target_mesh.h"
 #include "billet/run/type_lists.h"
+#include "billet/shipped.h"
 #include "billet/version.h"
 
 #include <deal.II/base/mpi.h>
@@ -63,28 +64,21 @@ exceeds the 'Target error'.
 
 )";
 
-/// Returns the folder or file in one of these places, seen from a folder above the program: where it is
-/// installed, or in the sources around the folder in which it was built.
-std::string find_shipped(const std::vector<std::string> &places) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path(); folder.has_relative_path();
-       folder = folder.parent_path())
-    for (const std::string &place : places)
-      if (fs::exists(folder / place, error))
-        return (folder / place).string();
-  return places.back() + " in the sources";
+/// Returns where one of these is, or its name where the program stands alone.
+std::string place_of(const std::vector<std::string> &places) {
+  const std::string found = billet::find_shipped(places);
+  return found.empty() ? places.back() + " in the sources" : found;
 }
 
 /// Returns the manual: the site if it is there, else its source.
 std::string find_manual() {
-  return find_shipped({"share/doc/billet/html/index.html", "doc/html/index.html",
-                       "share/doc/billet/manual.md", "doc/manual.md"});
+  return place_of({"share/doc/billet/html/index.html", "doc/html/index.html", "share/doc/billet/manual.md",
+                   "doc/manual.md"});
 }
 
 void print_help(std::ostream &stream) {
   stream << help << "Shipped scenes:  "
-         << find_shipped({"share/billet/prm/billet_upsetting.prm", "prm/billet_upsetting.prm"})
+         << place_of({"share/billet/prm/billet_upsetting.prm", "prm/billet_upsetting.prm"})
          << " and others beside it\nManual:          " << find_manual()
          << "\nbillet-trade:    measures accuracy against cost of a scene's parameters; see 'billet-trade "
             "--help'\n";

@@ -20,6 +20,7 @@ inline const VoceHardening voce{450., 715., 16.93, 129.24};     // Simo's neckin
 inline const PowerLawHardening power_law{565.3, 0.0071, 0.259}; // NUMISHEET'93 cup
 inline const PowerLawHardening steep_power_law{589., 1e-4,
                                                0.216}; // Wagoner's punch: 80 MPa at first, slope near 3 G
+inline const LudwikHardening ludwik{90., 292., 0.31};  // Johnson and Cook's copper
 inline const TabulatedHardening table({0., 0.01, 0.1, 0.5}, {400., 450., 520., 600.});
 
 /// Calls run(name, hardening) for one of each.
@@ -29,6 +30,7 @@ template <class Function> void for_each_hardening(const Function &run) {
   run("Voce hardening", voce);
   run("power law", power_law);
   run("steep power law", steep_power_law);
+  run("Ludwik", ludwik);
   run("table", table);
 }
 

@@ -6,11 +6,13 @@ namespace billet {
 HardeningType linear_hardening_type();
 HardeningType voce_hardening_type();
 HardeningType power_law_hardening_type();
+HardeningType ludwik_hardening_type();
 HardeningType tabulated_hardening_type();
 
 TypeTable<std::shared_ptr<const HardeningLaw>> &hardening_types() {
   static TypeTable<std::shared_ptr<const HardeningLaw>> types{
-      linear_hardening_type(), voce_hardening_type(), power_law_hardening_type(), tabulated_hardening_type()};
+      linear_hardening_type(), voce_hardening_type(), power_law_hardening_type(), ludwik_hardening_type(),
+      tabulated_hardening_type()};
   return types;
 }
 

@@ -7,6 +7,7 @@
 #include "billet/parameters/missing_end.h"
 #include "billet/parameters/number_text.h"
 #include "billet/parameters/renames.h"
+#include "billet/shipped.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -243,7 +244,12 @@ void SceneFile::include(const std::string &statement, const std::string &where, 
   constexpr std::size_t max_depth = 20;
   if (files.size() > max_depth)
     fail(where + ": files include each other in a cycle");
-  const std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
+  std::string included = statement.front() == '/' ? statement : folder_of(name) + statement;
+  const std::string materials = "materials/"; // of the program, unless the scene has its own
+  if (statement.compare(0, materials.size(), materials) == 0 && !std::filesystem::exists(included)) {
+    const std::string shipped = find_shipped({"share/billet/" + statement, statement});
+    included = shipped.empty() ? included : shipped;
+  }
   std::ifstream stream(included);
   if (!stream || std::filesystem::is_directory(included))
     fail(where + ": the included file '" + included + "' cannot be read");

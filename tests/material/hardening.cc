@@ -76,6 +76,9 @@ int main() {
                                [](const double a) { return power_law.prestrain + a; });
   test_derivative_and_integral("steep power law", steep_power_law,
                                [](const double a) { return steep_power_law.prestrain + a; });
+  test_derivative_and_integral("Ludwik", ludwik,
+                               [](const double a) { return std::max(a, 0.5 * LudwikHardening::a_0); },
+                               {LudwikHardening::a_0, 2e-6, 4e-6, 8e-6}); // panels of its steep beginning
   test_derivative_and_integral("table", table, [](const double) { return 1e-3; }, {0.01, 0.1, 0.5});
 
   // Values that can be read off.
@@ -83,6 +86,11 @@ int main() {
   check("Voce hardening, start and end",
         std::abs(voce.stress(0.) - 450.) + std::abs(voce.stress(10.) - (715. + 1292.4)), 1e-12);
   check("power law, value", std::abs(power_law.stress(1. - 0.0071) - 565.3), 1e-12);
+  check("Ludwik, values",
+        std::abs(ludwik.stress(0.) - 90.) + std::abs(ludwik.stress(1.) - 382.) +
+            std::abs(ludwik.stress(LudwikHardening::a_0 / 2.) - 90. -
+                     146. * std::pow(LudwikHardening::a_0, 0.31)),
+        1e-10);
   check("table, at its points",
         std::abs(table.stress(0.) - 400.) + std::abs(table.stress(0.01) - 450.) +
             std::abs(table.stress(0.1) - 520.) + std::abs(table.stress(0.5) - 600.),

@@ -104,6 +104,36 @@ struct PowerLawHardening {
   LaneHardening lane_form() const;
 };
 
+/// Ludwik's σ_y + B a^n, that of Johnson and Cook. Its slope is infinite at a = 0, so that up to a_0 it is
+/// the secant: the stress differs from the curve by at most B a_0^n there.
+struct LudwikHardening {
+  static constexpr double a_0 = 1e-6;
+
+  double yield_stress;
+  double coefficient;
+  double exponent;
+
+  static std::string description() { return "Ludwik's hardening"; }
+  double stress(const double a) const {
+    return yield_stress + (a < a_0 ? initial_slope() * a : coefficient * std::pow(a, exponent));
+  }
+  double slope(const double a) const {
+    return a < a_0 ? initial_slope() : coefficient * exponent * std::pow(a, exponent - 1.);
+  }
+  double work(const double a) const {
+    if (a < a_0)
+      return (yield_stress + 0.5 * initial_slope() * a) * a;
+    const auto integral = [this](const double x) {
+      return coefficient / (exponent + 1.) * std::pow(x, exponent + 1.);
+    };
+    return yield_stress * a + 0.5 * initial_slope() * a_0 * a_0 + integral(a) - integral(a_0);
+  }
+  bool is_bounded() const { return coefficient == 0. || exponent == 0.; }
+
+private:
+  double initial_slope() const { return coefficient * std::pow(a_0, exponent - 1.); }
+};
+
 /// Piecewise linear curve through (strain, stress) points, constant beyond the last one. The strains start at
 /// 0 and increase strictly.
 class TabulatedHardening {
