@@ -30,7 +30,6 @@ template <class Function> void for_each_hardening(const Function &run) {
   run("Voce hardening", voce);
   run("power law", power_law);
   run("steep power law", steep_power_law);
-  run("Ludwik", ludwik);
   run("table", table);
 }
 

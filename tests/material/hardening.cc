@@ -111,6 +111,7 @@ int main() {
 
   for_each_hardening(
       [](const std::string &name, const auto &hardening) { test_consistency(name, hardening); });
+  test_consistency("Ludwik", ludwik);
   test_consistency("almost no hardening", LinearHardening{700., 1e-9});
   test_consistency("hardening far above 3G", LinearHardening{700., 1e9});
   test_consistency("softening", LinearHardening{1e8, -1e-2});
