@@ -71,7 +71,7 @@ Explanation SlidingGuard::describe(const std::size_t contact, const double t,
       if (parts_.contacts()[i].rigid_tool() == tool && friction_[i].limit > 0.)
         text << ", while contact pair '" << parts_.contacts()[i].name() << "' bears a friction force of "
              << friction_[i].tangential << " of at most " << friction_[i].limit;
-    advice = std::string("Move the tool by its ") + (turns ? "'Rotation angle'" : "'Translation'") +
+    advice = std::string("Use ") + (turns ? "'Rotation angle'" : "'Translation'") + " of the tool" +
              " instead of its load";
   }
   if (advice.empty() && cause.empty())
