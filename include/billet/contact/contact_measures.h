@@ -16,7 +16,7 @@
 
 namespace billet {
 
-/// Measures of a contact pair at the last ContactInterface::update(). They are of this rank unless documented
+/// Measures of a contact pair at the last update() of its forces. They are of this rank unless documented
 /// otherwise.
 class ContactMeasures {
 public:

@@ -9,7 +9,7 @@
 namespace billet {
 
 /// Penalties of a contact pair, and its augmented Lagrangian. Values are those of this rank at the last
-/// ContactInterface::update().
+/// update() of its forces.
 class ContactPenalties {
 public:
   /// Factors at which the first of this rank's given penalties reaches 10 E/h; infinite without one.

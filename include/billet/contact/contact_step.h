@@ -2,7 +2,7 @@
 #ifndef BILLET_CONTACT_CONTACT_STEP_H
 #define BILLET_CONTACT_CONTACT_STEP_H
 
-#include "billet/algebra/matrix.h"
+#include "billet/algebra/vector.h"
 #include "billet/geometry/placement.h"
 
 #include <vector>

@@ -4,8 +4,8 @@
 
 #include "billet/contact/contact_couplings.h"
 #include "billet/contact/contact_step.h"
+#include "billet/contact/traction.h"
 #include "billet/discretization/supports.h"
-#include "billet/scene/scene.h"
 
 namespace billet {
 
