@@ -165,8 +165,7 @@ public:
     for (unsigned int i = 0; i < max_iterations; ++i) {
       differentiate();
       const double before = delta_alpha_;
-      if (!find_increment())
-        return false;
+      const bool is_found = find_increment();
       assemble();
       const LinearSystem6 system(jacobian());
       if (!system.is_regular())
@@ -180,7 +179,7 @@ public:
       const double size = std::sqrt(dot(change, change)) + std::abs(delta_alpha_ - before);
       if (!std::isfinite(size) || !std::isfinite(q_))
         return false;
-      if (size <= round_off || (size < small && size >= 0.5 * last)) {
+      if (is_found && (size <= round_off || (size < small && size >= 0.5 * last))) {
         differentiate();
         return true;
       }
@@ -398,6 +397,7 @@ private:
   }
 
   /// Finds Δα and μ = Δα/Q. Q over Δα is linear, and exact if flow is radial: 1/Q is linear in μ, (M23).
+  /// Returns false, and keeps both, far from the solution where that line is of no use.
   bool find_increment() {
     const LinearSystem6 system(jacobian());
     if (!system.is_regular())
@@ -415,7 +415,7 @@ private:
     delta_alpha_ = increment.strain;
     flow_slope_ = increment.slope;
     mu_ = delta_alpha_ / (q - m * delta_alpha_);
-    return std::isfinite(mu_);
+    return true;
   }
 
   /// Finds the temperature at Δα, (M29) of doc/theory.md, and the slope of the flow stress with it.

@@ -48,7 +48,7 @@ struct Cycle {
     const double trial = young * (e - plastic_strain) - backstress(0., 0.), sign = trial > 0. ? 1. : -1.;
     double a = 0.;
     if (std::abs(trial) > yield_stress(alpha)) {
-      double low = 0., high = std::abs(e - plastic_strain);
+      double low = 0., high = std::abs(trial) / young;
       for (unsigned int i = 0; i < 200; ++i) {
         a = 0.5 * (low + high);
         const double excess =
@@ -97,14 +97,13 @@ void test_known_numbers() {
   const Law law = make_law(flat, armstrong);
   DrivenPoint<Law> saturated(law);
   saturated.move(axial, {1.});
-  check("saturation at C/g", std::abs(saturated.stress[0] - 400.) / 400., 1e-12);
+  check("saturation at C/g", std::abs(saturated.stress[0] - 400.) / 400., 1e-10);
 
   const Law three = make_law(flat, chaboche);
   WorstError chaboche_error;
   for (const auto &[strain, stress] : {std::pair(0.001, 258.04), std::pair(0.005, 349.74),
                                        std::pair(0.02, 433.76), std::pair(0.1, 569.99)}) {
     DrivenPoint<Law> point(three);
-    point.move(axial, {strain + stress / young}); // the plastic strain is what is given
     const double plastic = strain, exact = 200. + 100. * -std::expm1(-600. * plastic) +
                                            120. * -std::expm1(-100. * plastic) + 1500. * plastic;
     point.move(axial, {plastic + exact / young});
