@@ -123,7 +123,7 @@ template <bool has_directions, bool is_thermal> struct FlowRulePlasticity<has_di
   SymmetricTensor<2, 3> strain;    ///< dev ½ ln M
 
   /// Returns the gradient of the rate that symmetric d of space has in that frame, d − Ω with the spin Ω of
-  /// the rotation, (M27) of doc/theory.md.
+  /// the rotation, (H14) of doc/theory.md.
   Tensor<2, 3> gradient_of(const SymmetricTensor<2, 3> &d, const bool is_turned) const {
     Tensor<2, 3> L = d;
     if (!is_turned)
@@ -196,7 +196,7 @@ public:
       add(sum, 2. / 3. * law_.rule_.backstress[j].modulus, kappa_[j]);
     return transform(trial_.rotation, from_kelvin(sum));
   }
-  /// Returns the energy that the terms of backstress store, (M24) of doc/theory.md [stress].
+  /// Returns the energy that the terms of backstress store, (H9) of doc/theory.md [stress].
   double backstress_energy() const {
     double sum = 0.;
     for (std::size_t j = 0; j < n_terms(); ++j)
@@ -396,7 +396,7 @@ private:
     return response;
   }
 
-  /// Finds Δα and μ = Δα/Q. Q over Δα is linear, and exact if flow is radial: 1/Q is linear in μ, (M23).
+  /// Finds Δα and μ = Δα/Q. Q over Δα is linear, and exact if flow is radial: 1/Q is linear in μ, (H7).
   /// Returns false, and keeps both, far from the solution where that line is of no use.
   bool find_increment() {
     const LinearSystem6 system(jacobian());
@@ -418,7 +418,7 @@ private:
     return true;
   }
 
-  /// Finds the temperature at Δα, (M29) of doc/theory.md, and the slope of the flow stress with it.
+  /// Finds the temperature at Δα, (H16) of doc/theory.md, and the slope of the flow stress with it.
   void set_temperature() {
     factor_ = 1.;
     slope_ = flow_slope_;

@@ -9,7 +9,7 @@ RateFactorType johnson_cook_rate_type();
 
 namespace {
 
-/// Factor 1 + C ln(ε̇/ε̇_0), 1 below ε̇_0, (M30) of doc/theory.md (Johnson & Cook 1983).
+/// Factor 1 + C ln(ε̇/ε̇_0), 1 below ε̇_0, (H18) of doc/theory.md (Johnson & Cook 1983).
 class JohnsonCookRate final : public RateFactor {
 public:
   JohnsonCookRate(const double coefficient, const double lowest)

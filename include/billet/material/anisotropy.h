@@ -10,7 +10,7 @@
 
 namespace billet {
 
-/// Coefficients of Hill's quadratic yield function in the material axes (Hill 1948), (M25) of doc/theory.md,
+/// Coefficients of Hill's quadratic yield function in the material axes (Hill 1948), (H11) of doc/theory.md,
 ///   Q² = F (σ22 − σ33)² + G (σ33 − σ11)² + H (σ11 − σ22)² + 2 L σ23² + 2 M σ13² + 2 N σ12².
 /// The default is von Mises' function.
 struct HillCoefficients {

@@ -64,7 +64,7 @@ struct InverseStretch {
   bool compute(const dealii::SymmetricTensor<2, 3> &strain);
 };
 
-/// Deviator of ½ ln(Y M Y): the logarithmic strain that M has beside the elastic stretch Y⁻¹, (M22) of
+/// Deviator of ½ ln(Y M Y): the logarithmic strain that M has beside the elastic stretch Y⁻¹, (H2) of
 /// doc/theory.md.
 class RelativeStrain {
 public:
