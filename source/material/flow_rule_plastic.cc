@@ -154,7 +154,8 @@ public:
     return std::isfinite(q_);
   }
   bool yields() const {
-    return q_ > factor_ * law_.flow_->stress(history_n_.equivalent_plastic_strain) * (1. + step_.yield_slack);
+    return q_ >
+           heat_.factor * law_.flow_->stress(history_n_.equivalent_plastic_strain) * (1. + step_.yield_slack);
   }
 
   /// Iterates to round-off. Returns false if that fails.
@@ -164,7 +165,7 @@ public:
     double last = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < max_iterations; ++i) {
       differentiate();
-      const double before = delta_alpha_;
+      const double before = increment_.alpha;
       const bool is_found = find_increment();
       assemble();
       const LinearSystem6 system(jacobian());
@@ -176,7 +177,7 @@ public:
         return false;
       assemble();
       set_temperature();
-      const double size = std::sqrt(dot(change, change)) + std::abs(delta_alpha_ - before);
+      const double size = std::sqrt(dot(change, change)) + std::abs(increment_.alpha - before);
       if (!std::isfinite(size) || !std::isfinite(q_))
         return false;
       if (is_found && (size <= round_off || (size < small && size >= 0.5 * last))) {
@@ -207,10 +208,10 @@ public:
   /// Writes what flow changes.
   void advance(History &history) const {
     const double alpha_n = history_n_.equivalent_plastic_strain;
-    history.equivalent_plastic_strain += delta_alpha_;
-    law_.flow_->advance(alpha_n, delta_alpha_, step_.dt, history_n_.flow, history.flow);
-    history.temperature_rise = rise_;
-    history.dissipated += (factor_ - 1.) * work_;
+    history.equivalent_plastic_strain += increment_.alpha;
+    law_.flow_->advance(alpha_n, increment_.alpha, step_.dt, history_n_.flow, history.flow);
+    history.temperature_rise = heat_.rise;
+    history.dissipated += (heat_.factor - 1.) * heat_.work;
     const Tensor<2, 3> inverse = dealii::invert(trial_.A);
     const auto pull_back = [&](const double factor, const Vector6 &twice_strain, const Tensor<2, 3> &outer) {
       Vector6 exponent{};
@@ -225,22 +226,23 @@ public:
       history.inverse_metrics[j] = pull_back(2., kappa_[j], V);
       Vector6 start = terms_[j].value();
       add(start, -1., flow_strain_.value());
-      history.dissipated +=
-          2. / 3. * term.modulus * integrate_recovery(term.rate * delta_alpha_, start, flow_strain_.value());
+      history.dissipated += 2. / 3. * term.modulus *
+                            integrate_recovery(term.rate * increment_.alpha, start, flow_strain_.value());
     }
   }
 
   /// Computes the moduli in space, and the derivatives of the share of a stabilisation.
   void compute_moduli(SpatialModuli &moduli) const {
     const bool is_turned = law_.rule_.anisotropy != nullptr;
-    const double two_g = 2. * law_.elastic_.shear, three_g = 1.5 * two_g, h = slope_, p = (1. - mu_ * h) / q_,
-                 share = 1. / (1. + three_g * mu_), share_slope = -three_g * share * share;
+    const double two_g = 2. * law_.elastic_.shear, three_g = 1.5 * two_g, h = heat_.slope,
+                 p = (1. - increment_.mu * h) / q_, share = 1. / (1. + three_g * increment_.mu),
+                 share_slope = -three_g * share * share;
     const LinearSystem6 system(jacobian());
     const Response response = respond(system);
     const double stiffness = h - response.of_mu * p - response.of_alpha;
     Vector6 by_alpha = multiply(law_.yield_, xi_alpha_); // −b_α/μ
     for (unsigned int i = 0; i < 6; ++i)
-      by_alpha[i] = mu_ * by_alpha[i] + p * flow_[i];
+      by_alpha[i] = increment_.mu * by_alpha[i] + p * flow_[i];
     by_alpha = system.solve(by_alpha); // ∂ε/∂Δα
     const Tensor<2, 3> T = local_stress();
     Matrix6 local{};
@@ -256,13 +258,13 @@ public:
       Vector6 xi_rate{};
       for (std::size_t j = 0; j < n_terms(); ++j) {
         const double c = 2. / 3. * law_.rule_.backstress[j].modulus;
-        const Recovery recovery(law_.rule_.backstress[j].rate * delta_alpha_);
+        const Recovery recovery(law_.rule_.backstress[j].rate * increment_.alpha);
         add(xi_rate, -c * recovery.decay, terms_[j].along(rate_of(trial_.metrics[j])));
         add(xi_rate, -c * (recovery.mean - recovery.decay), strain_rate);
       }
       Vector6 residual_rate = multiply(law_.yield_, xi_rate);
       for (unsigned int i = 0; i < 6; ++i)
-        residual_rate[i] = strain_rate[i] - mu_ * residual_rate[i];
+        residual_rate[i] = strain_rate[i] - increment_.mu * residual_rate[i];
       Vector6 elastic_rate{};
       add(elastic_rate, -1., system.solve(residual_rate));
       const double q_rate = dot(response.gradient, elastic_rate) + dot(flow_, xi_rate) / q_,
@@ -287,10 +289,10 @@ public:
   /// Sets the share of a stabilisation without moduli.
   void set_share() const {
     if (step_.shared != nullptr)
-      step_.shared->share = 1. / (1. + 3. * law_.elastic_.shear * mu_);
+      step_.shared->share = 1. / (1. + 3. * law_.elastic_.shear * increment_.mu);
   }
 
-  double delta_alpha() const { return delta_alpha_; }
+  double delta_alpha() const { return increment_.alpha; }
 
 private:
   /// Linear response of Q at the elastic strain that the flow rule gives.
@@ -325,7 +327,7 @@ private:
     xi_alpha_ = {};
     for (std::size_t j = 0; j < n_terms(); ++j) {
       const BackstressTerm &term = law_.rule_.backstress[j];
-      const Recovery recovery(term.rate * delta_alpha_);
+      const Recovery recovery(term.rate * increment_.alpha);
       const double c = 2. / 3. * term.modulus, of_flow = recovery.mean - recovery.decay;
       kappa_[j] = {};
       add(kappa_[j], recovery.decay, terms_[j].value());
@@ -335,7 +337,7 @@ private:
       add(xi_alpha_, -c * term.rate * (recovery.slope + recovery.decay), flow_strain_.value());
     }
     flow_ = multiply(law_.yield_, xi_);
-    const double share = 1. / (1. + 3. * law_.elastic_.shear * mu_);
+    const double share = 1. / (1. + 3. * law_.elastic_.shear * increment_.mu);
     q_ = std::sqrt(std::max(dot(xi_, flow_), 0.) + stabilisation_ * share * share);
     q_mu_ = q_ > 0. ? -3. * law_.elastic_.shear * stabilisation_ * share * share * share / q_ : 0.;
   }
@@ -357,7 +359,7 @@ private:
     }
     for (std::size_t j = 0; j < n_terms(); ++j) {
       const BackstressTerm &term = law_.rule_.backstress[j];
-      const Recovery recovery(term.rate * delta_alpha_);
+      const Recovery recovery(term.rate * increment_.alpha);
       const double c = 2. / 3. * term.modulus;
       add(result, -c * recovery.decay, terms_by_strain_[j]);
       add(result, -c * (recovery.mean - recovery.decay), strain_by_strain_);
@@ -367,7 +369,7 @@ private:
 
   Vector6 residual() const {
     Vector6 result = flow_strain_.value();
-    add(result, -mu_, flow_);
+    add(result, -increment_.mu, flow_);
     return result;
   }
   /// Returns the derivative of the residual; that along the trace is −1, which keeps it.
@@ -379,7 +381,7 @@ private:
         double sum = 0.;
         for (unsigned int j = 0; j < 6; ++j)
           sum += law_.yield_[i][j] * by_strain[j][k];
-        result[i][k] -= mu_ * sum + (i < 3 && k < 3 ? 1. / 3. : 0.);
+        result[i][k] -= increment_.mu * sum + (i < 3 && k < 3 ? 1. / 3. : 0.);
       }
     return result;
   }
@@ -391,8 +393,9 @@ private:
       add(response.gradient, flow_[i] / q_, by_strain[i]);
     response.at_zero = -dot(response.gradient, system.solve(residual()));
     response.of_mu = dot(response.gradient, system.solve(flow_)) + q_mu_;
-    response.of_alpha = mu_ * dot(response.gradient, system.solve(multiply(law_.yield_, xi_alpha_))) +
-                        dot(flow_, xi_alpha_) / q_;
+    response.of_alpha =
+        increment_.mu * dot(response.gradient, system.solve(multiply(law_.yield_, xi_alpha_))) +
+        dot(flow_, xi_alpha_) / q_;
     return response;
   }
 
@@ -403,53 +406,58 @@ private:
     if (!system.is_regular())
       return false;
     const Response response = respond(system);
-    const double y = 1. / q_, base = y - y * y * (response.at_zero - response.of_mu * mu_);
+    const double y = 1. / q_, base = y - y * y * (response.at_zero - response.of_mu * increment_.mu);
     if (!(base > 0.) || !(response.of_mu < 0.))
       return false;
-    const double correction = response.of_alpha / (1. + y * response.of_mu * mu_);
-    const double q = 1. / base - correction * delta_alpha_, m = -y * y * response.of_mu / base - correction;
+    const double correction = response.of_alpha / (1. + y * response.of_mu * increment_.mu);
+    const double q = 1. / base - correction * increment_.alpha,
+                 m = -y * y * response.of_mu / base - correction;
     if (!(m > 0.) || !(q > 0.))
       return false;
     const PlasticIncrement increment =
-        law_.flow_->solve(q / factor_, m / factor_, history_n_.equivalent_plastic_strain, step_.dt);
-    delta_alpha_ = increment.strain;
-    flow_slope_ = increment.slope;
-    mu_ = delta_alpha_ / (q - m * delta_alpha_);
+        law_.flow_->solve(q / heat_.factor, m / heat_.factor, history_n_.equivalent_plastic_strain, step_.dt);
+    increment_.alpha = increment.strain;
+    increment_.slope = increment.slope;
+    increment_.mu = increment_.alpha / (q - m * increment_.alpha);
     return true;
   }
 
   /// Finds the temperature at Δα, (H16) of doc/theory.md, and the slope of the flow stress with it.
   void set_temperature() {
-    factor_ = 1.;
-    slope_ = flow_slope_;
-    rise_ = history_n_.temperature_rise;
-    work_ = 0.;
+    heat_.factor = 1.;
+    heat_.slope = increment_.slope;
+    heat_.rise = history_n_.temperature_rise;
+    heat_.work = 0.;
     if constexpr (is_thermal) {
       const ThermalFactor &thermal = *law_.rule_.thermal;
-      const double alpha_n = history_n_.equivalent_plastic_strain, alpha = alpha_n + delta_alpha_;
-      if (delta_alpha_ > 0.) {
+      const double alpha_n = history_n_.equivalent_plastic_strain, alpha = alpha_n + increment_.alpha;
+      if (increment_.alpha > 0.) {
         FlowStress::State state{};
-        law_.flow_->advance(alpha_n, delta_alpha_, step_.dt, history_n_.flow, state);
-        work_ = law_.flow_->plastic_work(alpha, state) - law_.flow_->plastic_work(alpha_n, history_n_.flow);
+        law_.flow_->advance(alpha_n, increment_.alpha, step_.dt, history_n_.flow, state);
+        heat_.work =
+            law_.flow_->plastic_work(alpha, state) - law_.flow_->plastic_work(alpha_n, history_n_.flow);
       }
       const double heating = law_.rule_.heating, start = step_.temperature + history_n_.temperature_rise;
       double temperature = start;
       constexpr unsigned int max_iterations = 50;
       for (unsigned int i = 0; i < max_iterations; ++i) {
-        const double change = (start + heating * thermal.value(temperature) * work_ - temperature) /
-                              (1. - heating * thermal.slope(temperature) * work_);
+        const double change = (start + heating * thermal.value(temperature) * heat_.work - temperature) /
+                              (1. - heating * thermal.slope(temperature) * heat_.work);
         temperature += change;
         if (std::abs(change) <= 1e-15 * (std::abs(temperature) + std::abs(start)))
           break;
       }
-      factor_ = thermal.value(temperature);
-      rise_ = temperature - step_.temperature;
+      heat_.factor = thermal.value(temperature);
+      heat_.rise = temperature - step_.temperature;
       const double theta_slope = thermal.slope(temperature), at_rest = law_.flow_->stress(alpha),
-                   raw = q_ / factor_;
+                   raw = q_ / heat_.factor;
       const double work_slope =
-          raw + (delta_alpha_ > 0. ? (flow_slope_ / raw - law_.flow_->slope(alpha) / at_rest) * work_ : 0.);
-      slope_ = factor_ * flow_slope_ +
-               raw * theta_slope * heating * factor_ * work_slope / (1. - heating * theta_slope * work_);
+          raw + (increment_.alpha > 0.
+                     ? (increment_.slope / raw - law_.flow_->slope(alpha) / at_rest) * heat_.work
+                     : 0.);
+      heat_.slope = heat_.factor * increment_.slope + raw * theta_slope * heating * heat_.factor *
+                                                          work_slope /
+                                                          (1. - heating * theta_slope * heat_.work);
     }
   }
 
@@ -475,7 +483,12 @@ private:
   double stabilisation_; ///< 6 G W
 
   Vector6 strain_; ///< deviator of the elastic strain
-  double mu_ = 0., delta_alpha_ = 0., flow_slope_ = 0., slope_ = 0., factor_ = 1., rise_ = 0., work_ = 0.;
+  struct {
+    double mu = 0., alpha = 0., slope = 0.; ///< Δα/Q, Δα, derivative of the flow stress without heat
+  } increment_;
+  struct {
+    double factor = 1., rise = 0., work = 0., slope = 0.; ///< slope: of the flow stress with heat
+  } heat_;
   InverseStretch stretch_;
   RelativeStrain flow_strain_;
   std::array<RelativeStrain, FlowRule::max_terms> terms_;
