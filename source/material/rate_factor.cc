@@ -6,10 +6,15 @@
 namespace billet {
 
 RateFactorType cowper_symonds_type();
+RateFactorType johnson_cook_rate_type();
+RateFactorType tabulated_rate_type();
 
 TypeTable<std::shared_ptr<const RateFactor>> &rate_factor_types() {
   static TypeTable<std::shared_ptr<const RateFactor>> types{
-      {"none", "1", {}, [](const TypeInput &) { return nullptr; }}, cowper_symonds_type()};
+      {"none", "1", {}, [](const TypeInput &) { return nullptr; }},
+      cowper_symonds_type(),
+      johnson_cook_rate_type(),
+      tabulated_rate_type()};
   return types;
 }
 

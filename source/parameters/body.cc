@@ -2,6 +2,7 @@
 #include "billet/parameters/body.h"
 
 #include "billet/errors.h"
+#include "billet/material/flow_rule.h"
 #include "billet/material/hardening.h"
 #include "billet/material/rate_factor.h"
 #include "billet/nearest_name.h"
@@ -246,6 +247,18 @@ void Mesh::parse(Reader &reader) {
     reader.reject("Merge nodes within", "a length >= 0, or nothing");
 }
 
+namespace {
+
+/// Returns the parameters of flow rules that no type brings.
+std::vector<TypeParameter> flow_rule_parameters() {
+  std::vector<TypeParameter> all = FlowRule::backstress_parameters();
+  for (const TypeParameter &parameter : FlowRule::heating_parameters())
+    all.push_back(parameter);
+  return all;
+}
+
+} // namespace
+
 void Material::declare(ParameterHandler &prm) {
   prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws)),
                     "elastic: no plasticity; elastoplastic: J2 plasticity (yield in Kirchhoff stress, exact "
@@ -264,17 +277,76 @@ void Material::declare(ParameterHandler &prm) {
   declare_selection(prm, "Rate factor", "none", rate_factor_types(),
                     "Factor of the yield stress over the rate of plastic strain. In static scenes the time "
                     "of the scene is that of the process.");
+  declare_selection(prm, "Thermal factor", "none", thermal_factor_types(),
+                    "Factor of the yield stress over the temperature, 'Temperature' and what plastic work "
+                    "adds to it. 'Elasticity = Hencky' alone has it.");
+  declare_selection(prm, "Anisotropy", "none", anisotropy_types(),
+                    "Yield function. 'Elasticity = Hencky' alone takes others than von Mises'.");
+  for (const TypeParameter &parameter : flow_rule_parameters())
+    declare_parameter(prm, parameter, parameter.meaning);
 }
 
 namespace {
 
+/// Calls visit(table, key) for each table of types that plasticity alone uses.
+template <class Visit> void for_each_plastic_table(const Visit &visit) {
+  visit(hardening_types(), "Hardening");
+  visit(rate_factor_types(), "Rate factor");
+  visit(thermal_factor_types(), "Thermal factor");
+  visit(anisotropy_types(), "Anisotropy");
+}
+
 /// Whether the material has plasticity: as 'Law' says, or else if a parameter of plasticity is set.
 bool wants_plasticity(const Reader &reader) {
   const auto is_set = [&](const std::string &key) { return reader.is_set(key); };
-  return chosen(laws, reader.text("Law"))
-      .value_or(is_set("Hardening") || is_set("Rate factor") ||
-                join_parameters(hardening_types()).is_any_set(is_set) ||
-                join_parameters(rate_factor_types()).is_any_set(is_set));
+  bool is_any_set = false;
+  for_each_plastic_table([&](const auto &table, const char *key) {
+    is_any_set |= is_set(key) || join_parameters(table).is_any_set(is_set);
+  });
+  for (const TypeParameter &parameter : flow_rule_parameters())
+    is_any_set |= is_set(parameter.key);
+  return chosen(laws, reader.text("Law")).value_or(is_any_set);
+}
+
+/// Refuses parameters that an elastic law does not use: a forgotten switch is the usual reason.
+void reject_plasticity(const Reader &reader) {
+  for_each_plastic_table([&](const auto &table, const char *key) {
+    if (reader.is_set(key))
+      reader.reject(key, "no value: the law is elastic");
+    join_parameters(table).reject_unused(reader, {}, "the law is elastic");
+  });
+  for (const TypeParameter &parameter : flow_rule_parameters())
+    if (reader.is_set(parameter.key))
+      reader.reject(parameter.key, "no value: the law is elastic");
+}
+
+FlowRule read_flow_rule(const Reader &reader, const double density) {
+  FlowRule rule;
+  rule.backstress = FlowRule::read_backstress(reader);
+  rule.anisotropy = make_selected(reader, "Anisotropy", anisotropy_types());
+  rule.thermal = make_selected(reader, "Thermal factor", thermal_factor_types());
+  if (rule.thermal != nullptr)
+    rule.heating = FlowRule::read_heating(reader, density);
+  else
+    for (const TypeParameter &parameter : FlowRule::heating_parameters())
+      if (reader.is_set(parameter.key))
+        reader.reject(parameter.key, "no value: 'Thermal factor = none' does not use it");
+  return rule;
+}
+
+/// Returns the plastic law. Refuses flow rules that the elasticity does not have.
+SharedLaw read_plastic_law(const Reader &reader, const Elasticity &elasticity, const double density) {
+  const SharedFlow flow = make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
+                                           make_selected(reader, "Rate factor", rate_factor_types()));
+  const FlowRule rule = read_flow_rule(reader, density);
+  SharedLaw law = make_plastic_law(elasticity, flow, rule);
+  if (law == nullptr && !rule.is_plain() && elasticity.make_plastic_law(flow) != nullptr)
+    reader.reject(!rule.backstress.empty()     ? "Backstress moduli"
+                  : rule.anisotropy != nullptr ? "Anisotropy"
+                                               : "Thermal factor",
+                  "no value with 'Elasticity = " + reader.text("Elasticity") +
+                      "'; choose 'Elasticity = Hencky'");
+  return law;
 }
 
 } // namespace
@@ -283,17 +355,10 @@ void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
   elasticity = make_selected(reader, "Elasticity", elasticity_types());
   if (!wants_plasticity(reader)) {
-    // Parameters that the law does not use are refused: a forgotten switch is the usual reason.
-    for (const std::string key : {"Hardening", "Rate factor"})
-      if (reader.is_set(key))
-        reader.reject(key, "no value: the law is elastic");
-    join_parameters(hardening_types()).reject_unused(reader, {}, "the law is elastic");
-    join_parameters(rate_factor_types()).reject_unused(reader, {}, "the law is elastic");
+    reject_plasticity(reader);
     law = elasticity->make_elastic_law();
   } else
-    law = elasticity->make_plastic_law(
-        make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
-                         make_selected(reader, "Rate factor", rate_factor_types())));
+    law = read_plastic_law(reader, *elasticity, density.value);
   if (law == nullptr)
     reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' has no plasticity");
   temperature = reader.located("Temperature", reader.text("Temperature"));

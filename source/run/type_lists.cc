@@ -7,9 +7,11 @@
 #include "billet/geometry/surface_type.h"
 #include "billet/integration/time_integrator_type.h"
 #include "billet/loads/load.h"
+#include "billet/material/anisotropy.h"
 #include "billet/material/elasticity.h"
 #include "billet/material/hardening.h"
 #include "billet/material/rate_factor.h"
+#include "billet/material/thermal_factor.h"
 #include "billet/mechanics/element_type.h"
 #include "billet/nearest_name.h"
 #include "billet/output/field_quantity.h"
@@ -97,6 +99,8 @@ std::vector<Named> list_materials() {
   add_types(elasticity_types(), "Elasticity", all);
   add_types(hardening_types(), "Hardening", all);
   add_types(rate_factor_types(), "Rate factor", all);
+  add_types(thermal_factor_types(), "Thermal factor", all);
+  add_types(anisotropy_types(), "Anisotropy", all);
   return all;
 }
 
@@ -129,7 +133,8 @@ std::vector<Named> list_history() {
 const std::vector<TypeList> &type_lists() {
   static const std::vector<TypeList> lists = {
       {"primitives", "bodies that need no mesh file: 'Bodies / NAME / Mesh'", &list_primitives},
-      {"materials", "elasticity, hardening and rate factors: 'Bodies / NAME / Material'", &list_materials},
+      {"materials", "elasticity, hardening, factors and anisotropy: 'Bodies / NAME / Material'",
+       &list_materials},
       {"elements", "formulations of bricks: 'Bodies / NAME'", types_of(&element_types, "Element")},
       {"loads", "loads on bodies: 'Bodies / NAME / Loads / NAME'", types_of(&load_types, "Type")},
       {"surfaces", "surfaces of tools: 'Tools / NAME / Surfaces / NAME'", types_of(&surface_types, "Shape")},

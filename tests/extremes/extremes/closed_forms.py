@@ -140,7 +140,17 @@ def friction_limit(
 
 
 def yield_stress_of(k: Knobs, plastic: float, young: float | None = None) -> float:
-    """At this plastic strain, of the law that these knobs make."""
+    """At this plastic strain of tension along z, of the law that these knobs make."""
+    if k.flow_rule == "thermal":
+        return 0.75 * hardened_stress_of(k, plastic, young)
+    if k.flow_rule == "backstress":
+        y = k.all["yield"] * (young or k.young)
+        return hardened_stress_of(k, plastic, young) - y * math.expm1(-20 * plastic) + 0.5 * y * plastic
+    return hardened_stress_of(k, plastic, young)
+
+
+def hardened_stress_of(k: Knobs, plastic: float, young: float | None = None) -> float:
+    """The same of isotropic hardening."""
     e = young or k.young
     y, h = k.all["yield"] * e, k.hardening_modulus * e
     if k.hardening == "linear":

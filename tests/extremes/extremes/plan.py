@@ -245,6 +245,9 @@ def everything() -> Iterator[Case]:  # noqa: C901
     yield from product(
         ("yield", "hardening modulus"), ("upset", "pull"), yields[:7:2], hardenings[2:], along=PLASTIC
     )
+    for base in ("upset", "pull", "slide", "drop.explicit", "drop.implicit"):
+        for rule in ("backstress", "Hill", "thermal"):
+            yield Case(base, {**PLASTIC, "flow rule": rule}, ("flow rule",), (rule,))
     for hardening in ("Voce", "power law", "table"):
         yield from single(
             "yield",
@@ -664,6 +667,9 @@ FIXED = (
     "upset/kinematics=neo-Hookean,strained=True,strain=-1",
     "upset/law=elastoplastic,hardening modulus=0",
     "upset/law=elastoplastic,hardening modulus=-0.1",
+    "upset/law=elastoplastic,flow rule=Hill",
+    "pull/law=elastoplastic,flow rule=backstress",
+    "drop.explicit/law=elastoplastic,flow rule=thermal",
     "upset/element=one point,distortion=3",
     "upset/strained=True,aspect=1000,strain=-0.5",
     "upset/mu=0.2,length=0.000976562,stress=1,time=1 like mu=0.2",

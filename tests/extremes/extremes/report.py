@@ -46,6 +46,7 @@ WORDS = {
     "aspect": "height over width of a brick",
     "yield": "yield stress, E",
     "hardening modulus": "hardening modulus, E",
+    "flow rule": "flow rule of the plasticity",
     "augmentation": "`Penetration tolerance`",
     "tangential penalty": "tangential penalty, E/h",
     "grading": "largest over smallest element",

@@ -31,6 +31,7 @@ KNOBS: dict[str, Any] = {
     "hardening": "linear",
     "yield": 0.01,
     "hardening modulus": 0.1,
+    "flow rule": "plain",
     "density": 1e-3,
     "bricks": None,
     "aspect": 1.0,
@@ -188,7 +189,25 @@ def material(k: Knobs, f: Frame, young: float | None = None, density: float | No
             )
         elif k.hardening == "table":
             m["Table"] = ", ".join(f"{number(s)} : {number(y + h * s)}" for s in (0, 0.1, 0.5, 5))
+        m.update(flow_rule(k, f, y))
     return m
+
+
+def flow_rule(k: Knobs, f: Frame, y: float) -> Sections:
+    """What plasticity has beside isotropic hardening; tension along z yields as closed_forms.py says."""
+    if k.flow_rule == "backstress":
+        return {"Backstress moduli": f"{number(20 * y)}, {number(0.5 * y)}", "Backstress rates": "20, 0"}
+    if k.flow_rule == "Hill":
+        return {
+            "Anisotropy": "Hill",
+            "Stress ratios": "1, 1.2, 1.2, 0.9, 0.9, 1.1",
+            "Axes": "local",
+            "First axis": f.vector((0, 0, 1)),
+            "Second axis": f.vector((1, 0, 0)),
+        }
+    if k.flow_rule == "thermal":
+        return {"Thermal factor": "table", "Thermal table": "0 : 1, 100 : 0.5", "Temperature": 50}
+    return {}
 
 
 def body(

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/rate_factor.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+namespace billet {
+
+RateFactorType tabulated_rate_type();
+
+namespace {
+
+/// Piecewise linear factor through (rate, factor) points, from (0, 1) on, constant beyond the last one.
+class TabulatedRate final : public RateFactor {
+public:
+  explicit TabulatedRate(std::vector<std::pair<double, double>> points) : points_(std::move(points)) {}
+
+  std::string description() const override { return "times a table of the rate"; }
+  double value(const double rate) const override {
+    const auto &start = points_[segment(rate)];
+    return start.second + slope(rate) * (rate - start.first);
+  }
+  double slope(const double rate) const override {
+    const std::size_t i = segment(rate);
+    return i + 1 == points_.size()
+               ? 0.
+               : (points_[i + 1].second - points_[i].second) / (points_[i + 1].first - points_[i].first);
+  }
+
+private:
+  /// Returns the number of the last point at or below a rate >= 0.
+  std::size_t segment(const double rate) const {
+    const auto above =
+        std::upper_bound(points_.begin(), points_.end(), rate,
+                         [](const double value, const auto &point) { return value < point.first; });
+    return static_cast<std::size_t>(above - points_.begin()) - 1;
+  }
+
+  std::vector<std::pair<double, double>> points_;
+};
+
+} // namespace
+
+RateFactorType tabulated_rate_type() {
+  constexpr const char *key = "Rate table";
+  return {"table",
+          "linear interpolation between points, from 1 at rest",
+          {{key, "", TypeParameter::Kind::text,
+            "Points 'rate : factor', separated by commas. Rates > 0 increase strictly; factors >= 1 do not "
+            "decrease. The factor is 1 at rest, and constant beyond the last point. [1/time : -]"}},
+          [](const TypeInput &input) -> std::shared_ptr<const RateFactor> {
+            std::vector<std::pair<double, double>> points = {{0., 1.}};
+            for (const std::string &part : input.parts(key, ',')) {
+              const auto colon = part.find(':');
+              const auto last = points.back();
+              try {
+                if (colon == std::string::npos)
+                  throw std::invalid_argument("pair");
+                points.emplace_back(parse_number(part.substr(0, colon)),
+                                    parse_number(part.substr(colon + 1)));
+              } catch (const std::invalid_argument &) {
+                input.reject(key, "'rate : factor' pairs, separated by commas");
+              }
+              if (!(points.back().first > last.first))
+                input.reject(key, "rates > 0 that increase strictly");
+              if (!(points.back().second >= last.second))
+                input.reject(key, "factors >= 1 that do not decrease");
+            }
+            if (points.size() == 1)
+              input.reject(key, "at least one 'rate : factor' pair");
+            return std::make_shared<const TabulatedRate>(std::move(points));
+          }};
+}
+
+} // namespace billet

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Thermal factors and adiabatic heating: with Johnson and Cook's factor of exponent 1 the softening of a
+// material at a constant rate is exp(−a W(α)), a = β/(ρ c (T_m − T_r)); a step has the factor
+// θ_n/(1 + a ΔW). Known numbers of 4340 steel. Tables. A factor of 1 is Hencky's law; the tangent is
+// symmetric without directions. Moduli against differences, with heat, rates, backstress and anisotropy.
+
+#include "point_driver.h"
+
+#include "billet/material/flow_rule_plastic.h"
+
+using namespace billet;
+using namespace billet::testing;
+
+namespace {
+
+using Isotropic = FlowRulePlasticity<false, true>;
+using Directed = FlowRulePlasticity<true, true>;
+
+/// A parameter text beside numbers.
+class Texts final : public TypeInput {
+public:
+  explicit Texts(std::map<std::string, std::string> texts) : texts_(std::move(texts)) {}
+  Texts(const std::string &key, const std::string &text) : texts_({{key, text}}) {}
+
+  bool is_set(const std::string &key) const override { return texts_.count(key) > 0; }
+  std::string text(const std::string &key) const override { return is_set(key) ? texts_.at(key) : ""; }
+  bool flag(const std::string &key) const override { return text(key) == "true"; }
+  double number(const std::string &key) const override { return is_set(key) ? parse_number(text(key)) : 0.; }
+  double positive(const std::string &key) const override {
+    if (!(number(key) > 0.))
+      reject(key, "a number > 0");
+    return number(key);
+  }
+  double not_negative(const std::string &key) const override { return number(key); }
+  std::vector<double> numbers(const std::string &key) const override {
+    std::vector<double> result;
+    for (const std::string &part : parts(key, ','))
+      result.push_back(parse_number(part));
+    return result;
+  }
+  Tensor<1, 3> vector(const std::string &key) const override { reject(key, "no vector"); }
+  Tensor<1, 3> direction(const std::string &key) const override { reject(key, "no direction"); }
+  std::vector<std::string> parts(const std::string &key, const char separator) const override {
+    return dealii::Utilities::split_string_list(text(key), separator);
+  }
+  std::string file(const std::string &key) const override { reject(key, "no file"); }
+  [[noreturn]] void reject(const std::string &key, const std::string &allowed) const override {
+    throw std::invalid_argument("'" + key + "': allowed is " + allowed);
+  }
+
+private:
+  std::map<std::string, std::string> texts_;
+};
+
+constexpr double room = 293., melting = 1793.;
+
+std::shared_ptr<const ThermalFactor> johnson_cook(const std::string &exponent) {
+  return thermal_factor_types()
+      .find("Johnson-Cook")
+      ->make(Texts({{"Reference temperature", "293"},
+                    {"Melting temperature", "1793"},
+                    {"Thermal exponent", exponent}}));
+}
+
+/// β/(ρ c) of 4340 steel in N, mm, K.
+constexpr double heating = 0.9 / (7.83e-9 * 477e6);
+
+template <class Law>
+Law make_law(const SharedFlow &flow, const std::string &exponent, const double heat = heating,
+             FlowRule rule = {}) {
+  rule.thermal = johnson_cook(exponent);
+  rule.heating = heat;
+  return Law(steel, flow, rule);
+}
+
+/// Pure shear to a strain whose equivalent plastic strain the law finds.
+template <class Law, class Visit>
+void shear(const Law &law, const double measure, const unsigned int n_steps, const double dt,
+           const Visit &visit) {
+  typename Law::History history_n, history;
+  PointStep step;
+  step.dt = dt;
+  step.temperature = room;
+  for (unsigned int i = 1; i <= n_steps; ++i) {
+    const double e = 0.5 * std::sqrt(3.) * measure * i / n_steps;
+    Tensor<2, 3> F;
+    F[0][0] = std::exp(e);
+    F[1][1] = std::exp(-e);
+    F[2][2] = 1.;
+    SymmetricTensor<2, 3> tau;
+    if (!law.update(F, history_n, history, tau, nullptr, step))
+      return check("shear fails", false);
+    visit(std::sqrt(1.5) * dealii::deviator(tau).norm(), history_n, history);
+    history_n = history;
+  }
+}
+
+template <class Hardening> void test_closed_form(const std::string &name, const Hardening &hardening) {
+  const Isotropic law = make_law<Isotropic>(make_hardening(hardening), "1");
+  const double a = heating / (melting - room);
+  WorstError error, heat, work;
+  double theta = 1., last_error = 0., order = 0.;
+  shear(law, 1., 20, 1., [&](const double q, const auto &before, const auto &after) {
+    const double alpha = after.equivalent_plastic_strain,
+                 step_work = hardening.work(alpha) - hardening.work(before.equivalent_plastic_strain);
+    theta /= 1. + a * step_work;
+    error.add(std::abs(q / (theta * hardening.stress(alpha)) - 1.));
+    heat.add(std::abs(after.temperature_rise - (melting - room) * (1. - theta)) / 100.);
+    work.add(std::abs(law.plastic_work(after) - law.plastic_work(before) - theta * step_work) / 100.);
+  });
+  check(name + ", flow stress of each step", error.value(), 1e-10);
+  check(name + ", temperature of each step", heat.value(), 1e-10);
+  check(name + ", dissipation of each step", work.value(), 1e-10);
+  for (const unsigned int n : {100U, 200U}) {
+    double end = 0.;
+    shear(law, 1., n, 1., [&](const double, const auto &, const auto &after) {
+      end = after.temperature_rise -
+            (melting - room) * -std::expm1(-a * hardening.work(after.equivalent_plastic_strain));
+    });
+    order = std::log2(std::abs(last_error / end));
+    last_error = end;
+  }
+  check(name + ", steps tend to the closed form", std::abs(order - 1.), 0.05);
+}
+
+/// A + B e^n of 4340 steel; the prestrain keeps the slope finite.
+struct Steel4340 {
+  static std::string description() { return "hardening of 4340 steel"; }
+  static constexpr double A = 792., B = 510., n = 0.26, start = 1e-9;
+  double stress(const double a) const { return A + B * std::pow(a + start, n); }
+  double slope(const double a) const { return B * n * std::pow(a + start, n - 1.); }
+  double work(const double a) const {
+    return A * a + B * (std::pow(a + start, n + 1.) - std::pow(start, n + 1.)) / (n + 1.);
+  }
+  bool is_bounded() const { return false; }
+};
+
+void test_known_numbers() {
+  const auto rate = rate_factor_types()
+                        .find("Johnson-Cook")
+                        ->make(GivenValues({{"Rate coefficient", 0.014}, {"Lowest rate", 1.}}));
+  check("Johnson and Cook's factor of the rate",
+        std::abs(rate->value(1e3) - 1. - 0.014 * std::log(1e3)) + std::abs(rate->value(0.5) - 1.) +
+            std::abs(rate->value(1.) - 1.) + std::abs(rate->slope(10.) - 0.0014),
+        1e-14);
+  for (const auto &[exponent, strain, stress, rise, allowed] :
+       {std::tuple("1", 0.3, 1206.19, 83.82, 2e-3), std::tuple("1", 1., 1156.46, 285.15, 2e-3),
+        std::tuple("1.03", 0.3, 1211.9, 84.1, 3e-3), std::tuple("1.03", 1., 1168.0, 286.9, 3e-3)}) {
+    const Isotropic law = make_law<Isotropic>(at_rate(Steel4340(), rate), exponent);
+    // The elastic strain, σ/3G, does not count.
+    const double measure = strain + stress / (3. * steel.shear);
+    double q = 0., heat = 0.;
+    shear(law, measure, 800, measure / 800. / 1e3, [&](const double now, const auto &, const auto &after) {
+      q = now;
+      heat = after.temperature_rise;
+    });
+    const std::string name =
+        std::string("4340 steel, exponent ") + exponent + ", strain " + std::to_string(strain);
+    check(name + ", stress", std::abs(q / stress - 1.), allowed);
+    check(name + ", temperature", std::abs(heat / rise - 1.), 5e-3);
+  }
+}
+
+void test_tables() {
+  const auto thermal =
+      thermal_factor_types().find("table")->make(Texts("Thermal table", "300 : 1, 500 : 0.8, 1000 : 0.2"));
+  check("thermal table, values",
+        std::abs(thermal->value(100.) - 1.) + std::abs(thermal->value(400.) - 0.9) +
+            std::abs(thermal->value(750.) - 0.5) + std::abs(thermal->value(2000.) - 0.2),
+        1e-14);
+  check("thermal table, slopes",
+        std::abs(thermal->slope(400.) + 1e-3) + std::abs(thermal->slope(750.) + 1.2e-3) +
+            std::abs(thermal->slope(100.)) + std::abs(thermal->slope(2000.)),
+        1e-16);
+  const auto rate = rate_factor_types().find("table")->make(Texts("Rate table", "10 : 1.5, 1000 : 2"));
+  check("rate table, values",
+        std::abs(rate->value(0.) - 1.) + std::abs(rate->value(5.) - 1.25) +
+            std::abs(rate->value(505.) - 1.75) + std::abs(rate->value(1e6) - 2.),
+        1e-14);
+  const auto refuses = [](const auto &types, const char *key, const std::string &text) {
+    try {
+      types.find("table")->make(Texts(key, text));
+    } catch (const std::invalid_argument &) {
+      return true;
+    }
+    return false;
+  };
+  for (const std::string text : {"", "300", "300 : 0", "300 : 1, 300 : 0.9", "300 : x"})
+    check("thermal table refuses '" + text + "'", refuses(thermal_factor_types(), "Thermal table", text));
+  for (const std::string text : {"", "10", "0 : 1", "10 : 0.9", "10 : 2, 20 : 1.5", "10 : 2, 10 : 3"})
+    check("rate table refuses '" + text + "'", refuses(rate_factor_types(), "Rate table", text));
+}
+
+template <class Law> void test_moduli(const std::string &name, const Law &law, const bool is_symmetric) {
+  Random random;
+  PointStep step;
+  step.dt = 0.1;
+  step.temperature = 400.;
+  WorstError error, skew;
+  typename Law::History history_n, history;
+  Tensor<2, 3> F = unit;
+  unsigned int n_yields = 0;
+  for (unsigned int i = 0; i < 60; ++i) {
+    F = (unit + random.tensor(i < 30 ? 0.02 : 0.1)) * F;
+    F /= std::cbrt(dealii::determinant(F));
+    SymmetricTensor<2, 3> tau;
+    SpatialModuli c;
+    if (!law.update(F, history_n, history, tau, &c, step))
+      return check(name + " fails", false);
+    skew.add(asymmetry(c));
+    if (history.equivalent_plastic_strain > history_n.equivalent_plastic_strain + 1e-4) {
+      ++n_yields;
+      for (unsigned int j = 0; j < 9; ++j) {
+        Tensor<2, 3> L;
+        L[j / 3][j % 3] = 1.;
+        const SymmetricTensor<2, 3> difference = central_difference(
+            [&](const double e) {
+              typename Law::History ignored;
+              SymmetricTensor<2, 3> at;
+              law.update((unit + e * L) * F, history_n, ignored, at, nullptr, step);
+              return at;
+            },
+            1e-5);
+        error.add((predict(c, tau, L) - static_cast<Tensor<2, 3>>(difference)).norm() / norm(c));
+      }
+    }
+    // At rest the stress of the end is that of the state.
+    typename Law::History same;
+    SymmetricTensor<2, 3> again;
+    PointStep rest;
+    rest.temperature = step.temperature;
+    law.update(F, history, same, again, nullptr, rest);
+    error.add((again - tau).norm() / tau.norm() * 1e2);
+    history_n = history;
+  }
+  check(name + ", it yields", n_yields > 40);
+  check(name + ", moduli, and the same stress at rest", error.value(), 1e-7);
+  check(name + ", temperature rises", history.temperature_rise > 30.);
+  if (is_symmetric)
+    check(name + ", symmetry", skew.value(), 1e-9);
+}
+
+} // namespace
+
+int main() {
+  test_closed_form("linear", linear);
+  test_closed_form("Voce", voce);
+  test_closed_form("power law", power_law);
+  test_known_numbers();
+  test_tables();
+  test_moduli("linear", make_law<Isotropic>(make_hardening(linear), "1"), true);
+  test_moduli("at a rate", make_law<Isotropic>(at_rate(voce, cowper_symonds(40., 5.)), "1.03"), true);
+  FlowRule rule;
+  rule.backstress = {{20000., 100.}, {1500., 0.}};
+  rule.anisotropy = std::make_shared<const Anisotropy>(
+      Anisotropy{HillCoefficients::from_r_values(1.79, 1.51, 2.27),
+                 {Tensor<1, 3>({0.6, 0.8, 0.}), Tensor<1, 3>({-0.8, 0.6, 0.}), Tensor<1, 3>({0., 0., 1.})}});
+  test_moduli("with directions at a rate",
+              make_law<Directed>(at_rate(voce, cowper_symonds(40., 5.)), "1.03", heating, rule), false);
+  return exit_code();
+}
