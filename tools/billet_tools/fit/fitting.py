@@ -76,8 +76,10 @@ class Problem:
         return self.fit_of(law_of(min(runs, key=lambda run: float(run.cost)).x))
 
     def ogden(self, n_terms: int) -> Fit:
-        """Returns the best one of n terms with μ α >= 0, which is stable. Given exponents, it is linear in the
-        products, so that only the exponents are searched for."""
+        """Returns the best one of n terms with μ α >= 0, which is stable.
+
+        Given exponents it is linear in these products, so that only the exponents are searched for.
+        """
 
         def solve(exponents: Array) -> tuple[Law, Array]:
             columns = [self.scaled(laws.ogden([1 / a], [a])) for a in exponents]
