@@ -295,7 +295,8 @@ void Material::parse(Reader &reader) {
         make_flow_stress(make_selected(reader, "Hardening", hardening_types()),
                          make_selected(reader, "Rate factor", rate_factor_types())));
   if (law == nullptr)
-    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' has no plasticity");
+    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") +
+                             "' with these parameters has no plasticity");
   temperature = reader.located("Temperature", reader.text("Temperature"));
   if (law->depends_on_temperature() && temperature.value.empty())
     reader.reject("Temperature", "an expression of t, since the law '" + law->name() + "' depends on it");
