@@ -20,7 +20,7 @@ from sphinx.domains.math import MathDomain
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
-sys.path.insert(0, str(ROOT / "tools"))  # for billet-trade's options, which need no VTK
+sys.path.insert(0, str(ROOT / "tools"))  # for the options of billet-trade and billet-fit
 for _module in ("util", "util.numpy_support", "vtkIOXML", "vtkCommonCore", "vtkCommonDataModel"):
     sys.modules.setdefault("vtkmodules", MagicMock())
     sys.modules.setdefault(f"vtkmodules.{_module}", MagicMock())
@@ -68,7 +68,10 @@ mathjax_path = "katex/katex.min.js"
 mathjax_options = {"defer": "defer"}
 math_eqref_format = "({number})"
 
-man_pages = [("reference/billet-trade", "billet-trade", "accuracy against cost of a scene", "", 1)]
+man_pages = [
+    ("reference/billet-trade", "billet-trade", "accuracy against cost of a scene", "", 1),
+    ("reference/billet-fit", "billet-fit", "constants of laws of rubber", "", 1),
+]
 man_show_urls = False
 
 

@@ -2,7 +2,7 @@
 # Usage: packages.sh GROUP...     Installs the packages of these groups that are not there yet (Debian, Ubuntu).
 #
 #   build       compile, run and test billet
-#   trade       run billet-trade, and its tests
+#   trade       run billet-trade and billet-fit, and their tests
 #   benchmarks  compare with CalculiX, billet-trade included
 #   python      format and check the Python of the repository
 #   pictures    draw the manual's pictures with ParaView, without a display
@@ -27,7 +27,7 @@ for group in "$@"; do
         nlohmann-json3-dev numdiff python3 universal-ctags)
       [[ -n ${DEAL_II_DIR:-} ]] || packages+=(libdeal.ii-dev)
       ;;
-    trade) packages+=(python3 python3-matplotlib python3-paraview) ;;
+    trade) packages+=(python3 python3-matplotlib python3-paraview python3-scipy) ;;
     benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
     python) packages+=(black flake8 mypy python3-numpy) ;;
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth

@@ -4,6 +4,7 @@
 #include "billet/material/hypoelastic.h"
 #include "billet/material/law_adapter.h"
 #include "billet/material/neo_hookean.h"
+#include "billet/material/viscoelastic.h"
 
 #include <algorithm>
 
@@ -12,10 +13,15 @@ namespace billet {
 ElasticityType hencky_type();
 ElasticityType neo_hookean_type();
 ElasticityType hypoelastic_type();
+ElasticityType mooney_rivlin_type();
+ElasticityType yeoh_type();
+ElasticityType ogden_type();
+ElasticityType arruda_boyce_type();
 
 TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> &elasticity_types() {
-  static TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> types{hencky_type(), neo_hookean_type(),
-                                                                            hypoelastic_type()};
+  static TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> types{
+      hencky_type(), neo_hookean_type(), hypoelastic_type(), mooney_rivlin_type(),
+      yeoh_type(),   ogden_type(),       arruda_boyce_type()};
   return types;
 }
 
@@ -90,12 +96,16 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
 }
 
 ElasticityType hencky_type() {
-  return isotropic_elasticity_type(hencky, "multiplicative plasticity with logarithmic strains",
-                                   &make_hencky_law);
+  return with_prony_series(isotropic_elasticity_type(hencky,
+                                                     "multiplicative plasticity with logarithmic strains",
+                                                     &make_hencky_law),
+                           &make_hencky_energy);
 }
 ElasticityType neo_hookean_type() {
-  return isotropic_elasticity_type(neo_hookean, "Simo's radial return, without an eigenproblem",
-                                   &make_neo_hookean_law);
+  return with_prony_series(isotropic_elasticity_type(neo_hookean,
+                                                     "Simo's radial return, without an eigenproblem",
+                                                     &make_neo_hookean_law),
+                           [](const double shear) { return make_ogden_energy({shear}, {2.}); });
 }
 ElasticityType hypoelastic_type() {
   return isotropic_elasticity_type(hypoelastic,

@@ -360,7 +360,8 @@ void Material::parse(Reader &reader) {
   } else
     law = read_plastic_law(reader, *elasticity, density.value);
   if (law == nullptr)
-    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") + "' has no plasticity");
+    reader.reject("Law", "elastic, since '" + reader.text("Elasticity") +
+                             "' with these parameters has no plasticity");
   temperature = reader.located("Temperature", reader.text("Temperature"));
   if (law->depends_on_temperature() && temperature.value.empty())
     reader.reject("Temperature", "an expression of t, since the law '" + law->name() + "' depends on it");

@@ -2,6 +2,7 @@
 #include "billet/scene/scene.h"
 
 #include "billet/errors.h"
+#include "billet/material/drucker.h"
 #include "billet/material/state_fields.h"
 #include "billet/parameters/reader.h"
 #include "billet/scene/boundary_names.h"
@@ -224,14 +225,18 @@ WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
   return whole;
 }
 
-/// Returns element, unless it is the default one, elasticity and law.
+/// Returns element, unless it is the default one, elasticity and law, and where a law of rubber is stable.
 std::string describe_law(const parameters::Body &body) {
+  const auto *rubber = dynamic_cast<const HasStableRanges *>(body.material.law.get());
+  const std::string stability = rubber != nullptr ? describe_stability(rubber->isochoric_energy()) : "";
   const BrickElement element = body.element.value;
   return (element != BrickElement::assumed_strain ? std::string(element.name()) + ", " : "") +
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
-         body.material.law->name() + (body.material.law->has_plasticity() ? " J2 plasticity" : " elasticity");
+         body.material.law->name() +
+         (body.material.law->has_plasticity() ? " J2 plasticity" : " elasticity") +
+         (stability.empty() ? "" : ", " + stability);
 }
 
 /// Builds the meshes of all bodies in one.

@@ -8,8 +8,9 @@ records   the messages of a run
 kept      files that keep what was computed
 text      numbers, tables and sentences of pages
 trade     billet-trade: what accuracy costs in a scene
+fit       billet-fit: constants of laws of rubber
 
-All but output and trade do with Python's own library.
+All but output, trade and fit do with Python's own library.
 """
 
 from __future__ import annotations
