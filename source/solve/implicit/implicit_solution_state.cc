@@ -51,7 +51,7 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
     throw InputError("its scheme '" + name_of_scheme + "' is unknown; known are " +
                      parameters::selection(parameters::schemes()));
   const bool is_implicit = scheme != Scheme::explicit_dynamics, is_own = scheme == problem_.scheme().kind();
-  report.is_exact = is_own;
+  report.is_exact = is_own && refined_bodies(reader).empty();
   compare_parts(reader, problem_.scene(), report);
   state.energies = to_energies(reader.read("energies"));
   load_nodal(reader, is_implicit ? "displacements" : "displacements before", nodes, step.start.displacements);
@@ -129,7 +129,8 @@ void ImplicitSolution::compute_forces(RestartReport &report) {
   energies.hourglass = now.hourglass;
   energies.elastic = now.elastic;
   energies.plastic = now.plastic;
-  energies.initial += drift - energies.drift();
+  report.energy_change = drift - energies.drift();
+  energies.initial += report.energy_change;
   rules_->hold_imbalance(residual);
 }
 
