@@ -36,8 +36,8 @@ std::vector<Fade> find_fades(const parameters::Scene &scene, const parameters::B
     if (pair.body.value == body.name)
       for (const auto &tool : scene.tools)
         if (tool.name == pair.tool.value)
-          fades.push_back({"tool '" + tool.name + "'", tool.removal_time.value,
-                           tool.removal_time.value + tool.release_time.value});
+          fades.push_back({"tool '" + tool.name + "'", tool.motion.removal_time.value,
+                           tool.motion.removal_time.value + tool.motion.release_time});
   return fades;
 }
 
@@ -60,7 +60,7 @@ void check_body(const parameters::Scene &scene, const parameters::Body &body) {
                      std::to_string(body.points_through.value) +
                      "', whose layers cannot be carried over; allowed are 2 points, or a finer mesh from the "
                      "start by 'Refinements' in Mesh");
-  const auto check_nodes = [&](const std::string &what, const parameters::NodeSelection &nodes) {
+  const auto check_nodes = [&](const std::string &what, const NodeSelection &nodes) {
     if (!nodes.lines.empty() || !nodes.sets.empty())
       throw InputError(origin + " refines a body whose " + what +
                        " acts on nodes of a line or of a set, and the nodes between them would be new; "

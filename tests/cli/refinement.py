@@ -15,7 +15,20 @@ import re
 import sys
 from glob import glob
 
-from checks import HERE, Checks, Program, Run, Runner, enter_folder, near, read_text, require, says
+from checks import (
+    HERE,
+    Checks,
+    Program,
+    Run,
+    Runner,
+    enter_folder,
+    near,
+    read_text,
+    require,
+    run,
+    says,
+    write_text,
+)
 from edits import edit
 
 BLOCK, IMPACT = (read_text(HERE / f"{name}.prm") for name in ("refined", "refined_impact"))
@@ -80,4 +93,116 @@ def _() -> None:
     says("32 elements become 256", refined.said)
 
 
-sys.exit(check.finish() if hasattr(check, "finish") else 0)
+# --- against the mesh that is fine from the start -------------------------------------------------
+
+
+@check("a rough die: much closer to the fine mesh than the coarse one is")
+def _() -> None:
+    coarse, refined, fine = (runs(BLOCK, combined(ROUGH, edits)) for edits in ("", HALF, FINE))
+    target = fine.force("die")
+    before, after = (abs(of.force("die") / target - 1) for of in (coarse, refined))
+    require(before > 0.01, f"the coarse mesh is as good: {before}")
+    require(after < 0.25 * before, f"error {after}, of the coarse mesh {before}")
+
+
+IMPACTS = {
+    "assumed strain": "",
+    "one point": "block: + set Element = one point",
+    "mean dilatation": "block: + set Element = mean dilatation",
+    "hypoelastic": "Material: + set Elasticity = hypoelastic",
+    "elastic": "Material: - Yield stress & Material: - Hardening modulus",
+}
+MOTION = ("wall.force_z", "kinetic_energy", "plastic_work", "momentum_z")
+EARLY = "block: + set Refinement times = 1e-6"
+for name, shape in IMPACTS.items():
+
+    @check(f"an impact that is refined before contact, {name}")
+    def _() -> None:
+        refined = runs(IMPACT, combined(shape, EARLY))
+        fine = runs(IMPACT, combined(shape, FINE, "Time stepping: + set Stops = 1e-6"))
+        for column in MOTION:
+            p, q = refined.last(column), fine.last(column)
+            near(column, p, q, 1e-7 * max(abs(p), abs(q), 1e-12))
+        require(abs(float(note(refined)[1])) < 1e-9 * refined.column("kinetic_energy")[0], "energy is made")
+
+
+@check("an impact that is refined in contact")
+def _() -> None:
+    refined = runs(IMPACT, "block: + set Refinement times = 4e-6")
+    fine = runs(IMPACT, FINE)
+    energy = refined.column("kinetic_energy")[0]
+    require(abs(float(note(refined)[1])) < 0.02 * energy, f"energy: {note(refined)[1]} of {energy}")
+    near("plastic work", refined.last("plastic_work"), fine.last("plastic_work"), 0.1 * energy)
+
+
+# --- ranks and restarts ---------------------------------------------------------------------------
+
+if program.launcher:
+    for name, base, edits in (("block", BLOCK, combined(ROUGH, HALF)), ("impact", IMPACT, EARLY)):
+
+        @check(f"{name} on two ranks")
+        def _() -> None:
+            one, two = (runs(base, edits, ranks) for ranks in (1, 2))
+            for column in STATIC if base is BLOCK else MOTION:
+                near(column, two.last(column), one.last(column), 1e-6 * abs(one.last(column)) + 1e-9)
+
+
+def resume(base: str, edits: str, checkpoint: str, folder: str, ranks: int = 1) -> Run:
+    """Returns a run that resumes from a checkpoint and writes into this folder."""
+    write_text("resumed.prm", edit(base, f"Output: Folder = {folder} & {edits}").text)
+    ended = run(*program.on(ranks, "--restart", checkpoint, "resumed.prm"))
+    return Run(folder, ended)
+
+
+EVERY = "Output: + subsection Checkpoint\n set Step interval = 1\n set Keep = 100\nend"
+for name, base, edits in (("block", BLOCK, combined(ROUGH, HALF)), ("impact", IMPACT, EARLY)):
+
+    @check(f"{name} resumes bitwise before and after the refinement")
+    def _() -> None:
+        whole = runs(base, combined(edits, EVERY))
+        history = whole.text("history.csv")
+        checkpoints = sorted(glob(f"{whole.folder}/checkpoint_*.h5"))
+        for checkpoint in (checkpoints[1], checkpoints[len(checkpoints) * 3 // 4]):
+            resumed = resume(base, combined(edits, EVERY), checkpoint, whole.folder)
+            require(resumed.ended.code == 0, resumed.complained)
+            require(resumed.text("history.csv") == history, f"another history from {checkpoint}")
+
+
+@check("a restart may refine at once, but not join elements")
+def _() -> None:
+    coarse = runs(BLOCK, EVERY)
+    resumed = resume(
+        BLOCK, "block: + set Refinement times = 0.35", f"{coarse.folder}/checkpoint_00005.h5", "once"
+    )
+    require(resumed.ended.code == 0, resumed.complained)
+    says("4 elements become 32", resumed.said)
+    fine = runs(BLOCK, combined(HALF, EVERY))
+    refused = resume(BLOCK, "", f"{fine.folder}/checkpoint_00008.h5", "never")
+    require(refused.ended.code == 2, f"exit code {refused.ended.code}")
+    says("the elements of its body 'block' have been divided 1 times", refused.complained)
+
+
+# --- what users see -------------------------------------------------------------------------------
+
+
+@check("--check counts the elements")
+def _() -> None:
+    write_text("checked.prm", edit(BLOCK, "block: + set Refinement times = 0.5, 0.8").text)
+    ended = run(*program.on(1, "--check", "checked.prm"))
+    says("block: 4 hexahedra, 32 from time 0.5, 256 from time 0.8", ended.output)
+
+
+for form, index in (("vtu", "scene.pvd"), ("hdf5", "fields.xdmf")):
+
+    @check(f"field output as {form} has both meshes")
+    def _() -> None:
+        result = runs(BLOCK, combined(HALF, f"Output: Format = {form}"))
+        text = result.text(index)
+        if form == "vtu":
+            require(len(result.pictured().split()) == 11, text)
+        else:
+            require(len(re.findall('NumberOfElements="4"', text)) > 0, "no coarse mesh")
+            require(len(re.findall('NumberOfElements="32"', text)) > 0, "no fine mesh")
+
+
+sys.exit(check.finish())
