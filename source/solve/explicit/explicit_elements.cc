@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_elements.h"
 
+#include "billet/solve/refined_reader.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
