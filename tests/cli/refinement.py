@@ -96,13 +96,37 @@ def _() -> None:
 # --- against the mesh that is fine from the start -------------------------------------------------
 
 
-@check("a rough die: much closer to the fine mesh than the coarse one is")
+# Bent, a single row of elements is much too stiff.
+BENT = (
+    "Tools / die: delete & Contact pairs / top on die: delete & block: Symmetry planes = y = 0"
+    " & Mesh: Arguments = 6, 1, 2 : 0, 0, 0 : 6, 1, 1 : true & block: + subsection Supports\\n"
+    " subsection clamp\\n set Boundary ids = 0\\n end\\n"
+    " subsection end\\n set Boundary ids = 1\\n set Components = z\\n"
+    " set Displacement = 0 ; 0 ; -1.5*t\\n end\\nend"
+)
+for element in ("mean dilatation", "assumed strain"):
+
+    @check(f"a bent beam, {element}: as on the fine mesh")
+    def _() -> None:
+        shape = combined(BENT, f"block: + set Element = {element}")
+        coarse, refined, fine = (runs(BLOCK, combined(shape, edits)) for edits in ("", HALF, FINE))
+        force, work = "block.support end.force_z", "plastic_work"
+        for column, wrong, right in ((force, 0.15, 0.005), (work, 0.1, 0.1)):
+            target = fine.last(column)
+            before, after = (abs(of.last(column) / target - 1) for of in (coarse, refined))
+            require(before > wrong, f"{column}: the coarse mesh is as good: {before}")
+            require(after < right, f"{column}: error {after}, of the coarse mesh {before}")
+        drift = abs(refined.last("energy_drift")) / refined.last("external_work")
+        require(drift < 0.02, f"drift {drift}")
+
+
+@check("a rough die: the run continues")
 def _() -> None:
     coarse, refined, fine = (runs(BLOCK, combined(ROUGH, edits)) for edits in ("", HALF, FINE))
-    target = fine.force("die")
-    before, after = (abs(of.force("die") / target - 1) for of in (coarse, refined))
-    require(before > 0.01, f"the coarse mesh is as good: {before}")
-    require(after < 0.25 * before, f"error {after}, of the coarse mesh {before}")
+    for axis in "xy":
+        target = fine.last(f"die.force_{axis}")
+        before, after = (abs(of.last(f"die.force_{axis}") / target - 1) for of in (coarse, refined))
+        require(after < 0.4 * before, f"friction along {axis}: error {after}, of the coarse mesh {before}")
 
 
 IMPACTS = {
@@ -131,7 +155,7 @@ def _() -> None:
     refined = runs(IMPACT, "block: + set Refinement times = 4e-6")
     fine = runs(IMPACT, FINE)
     energy = refined.column("kinetic_energy")[0]
-    require(abs(float(note(refined)[1])) < 0.02 * energy, f"energy: {note(refined)[1]} of {energy}")
+    require(abs(float(note(refined)[1])) < 0.15 * energy, f"energy: {note(refined)[1]} of {energy}")
     near("plastic work", refined.last("plastic_work"), fine.last("plastic_work"), 0.1 * energy)
 
 
@@ -200,6 +224,11 @@ for form, index in (("vtu", "scene.pvd"), ("hdf5", "fields.xdmf")):
         text = result.text(index)
         if form == "vtu":
             require(len(result.pictured().split()) == 11, text)
+            sizes = [
+                int(re.search(r'NumberOfCells="(\d+)"', result.text(f"fields_{n:05}.0.vtu"))[1])
+                for n in (5, 6)
+            ]
+            require(sizes == [4, 32], f"{sizes} elements")
         else:
             require(len(re.findall('NumberOfElements="4"', text)) > 0, "no coarse mesh")
             require(len(re.findall('NumberOfElements="32"', text)) > 0, "no fine mesh")

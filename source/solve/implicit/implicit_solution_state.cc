@@ -9,6 +9,27 @@
 
 namespace billet {
 
+namespace {
+
+/// Completes a report about the forces of a finer mesh.
+void begin_on_finer_mesh(ImplicitProblem &problem, RestartReport &report) {
+  // They are those after yielding, at displacements that may be far from balance, and so are the energies.
+  EnergyLedger &energies = problem.state().energies;
+  const double drift = energies.drift();
+  const auto now = problem.internal().compute_energies(problem.state().displacements, Beat::evaluated);
+  energies.elastic = now.elastic;
+  energies.plastic = now.plastic;
+  energies.hourglass = now.hourglass;
+  const double change = drift - energies.drift();
+  report.energy_change += change;
+  energies.initial += change;
+  // A mesh in balance has nothing that fades, so that no step has to end with it.
+  if (report.imbalance <= problem.parameters().solver.force_tolerance * report.force_scale)
+    problem.released().clear();
+}
+
+} // namespace
+
 void ImplicitSolution::save(StateWriter &writer) const {
   const Discretization &discretization = problem_.discretization();
   const NodeKeys keys(discretization);
@@ -74,6 +95,8 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
     load_own(reader, nodes, report.is_exact);
   if (!report.is_exact)
     compute_forces(report);
+  if (!refined_bodies(reader).empty())
+    begin_on_finer_mesh(problem_, report);
   rules_->finish_load(reader, release_time, report);
   report.release_end = problem_.released().are_there() ? problem_.released().end() : state.time;
   return report;
