@@ -504,6 +504,13 @@ inline const DiagnosticKind results_moved("results-moved", Severity::note,
 inline const DiagnosticKind resumed("resumed", Severity::note, "The run continues from a checkpoint.",
                                     "Without '--restart' it begins at time 0");
 
+inline const DiagnosticKind mesh_refined(
+    "mesh-refined", Severity::note,
+    "'Refinement times' divides the elements of these bodies into eight, and the run continues on the finer "
+    "mesh. Contact pairs of these bodies begin anew. The new elements are not quite in balance: in static "
+    "scenes the unbalanced forces fade, in dynamic ones they accelerate the bodies.",
+    "If the imbalance or the change of energy is large, refine at a time of less deformation");
+
 inline const DiagnosticKind mass_scaling(
     "mass-scaling", Severity::note,
     "This is the mass that 'Mass scaling step' adds to the bodies. Added mass makes steps longer and changes "

@@ -95,6 +95,11 @@ public:
     leave();
   }
 
+protected:
+  // For readers that pass on what another one reads:
+  static void enter_group(StateReader &of, const std::string &name) { of.enter(name); }
+  static void leave_group(StateReader &of) { of.leave(); }
+
 private:
   virtual void enter(const std::string &name) = 0;
   virtual void leave() = 0;

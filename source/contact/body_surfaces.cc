@@ -13,10 +13,13 @@ namespace billet {
 
 namespace {
 
-/// Returns the key of a facet from those of two opposite corners: unique, and the same on any number of
-/// ranks.
+/// Returns the key of a facet: unique, and the same on any number of ranks. It is made of those of two
+/// opposite corners, unless these are of a refined body and have too many bits.
 std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
   const std::uint64_t first = keys(facet.dofs[0][0]), second = keys(facet.dofs[3][0]);
+  constexpr std::uint64_t refined = std::uint64_t{1} << 63U;
+  if (std::max(first, second) >> 32U != 0)
+    return refined | facet.key;
   return (std::min(first, second) << 32U) | std::max(first, second);
 }
 
@@ -25,6 +28,8 @@ std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
 BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const NodeKeys &node_keys) {
   const Discretization &discretization = nodes.discretization();
   std::map<DofIndex, unsigned int> index;
+  for (unsigned int side = 0; side < 2; ++side)
+    coarse[side] = std::exp2(discretization.levels()[pair.bodies[side]]);
   const unsigned int n_surfaces = pair.is_self_contact ? 1 : 2;
   std::vector<BoundaryFacet> all;
   for (unsigned int surface = 0; surface < n_surfaces; ++surface)
@@ -56,7 +61,8 @@ BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const 
     keys.push_back(node_keys(nodes.dofs(node)[0]));
     const FacetSize size = sizes_around.at(nodes.dofs(node)[0]);
     sizes.push_back(size.size);
-    penalty_lengths.push_back(penalty_length(pair.penalty_counts_thickness, size.size, size.thickness));
+    penalty_lengths.push_back(coarse[surface_of[penalty_lengths.size()]] *
+                              penalty_length(pair.penalty_counts_thickness, size.size, size.thickness));
   }
 }
 
@@ -80,8 +86,9 @@ PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const 
     return scene.bodies()[pair.bodies[surface]].young_modulus;
   };
   const auto mean_length = [&](const unsigned int surface) {
-    return penalty_length(pair.penalty_counts_thickness, std::sqrt(totals[surface] / totals[2 + surface]),
-                          totals[4 + surface] / totals[surface]);
+    return surfaces.coarse[surface] * penalty_length(pair.penalty_counts_thickness,
+                                                     std::sqrt(totals[surface] / totals[2 + surface]),
+                                                     totals[4 + surface] / totals[surface]);
   };
   std::vector<double> lengths = surfaces.penalty_lengths;
   if (pair.facets == FacetMethod::overlap) // these pass a uniform pressure exactly if all penalties are equal

@@ -68,6 +68,8 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
   std::map<DofIndex, unsigned int> index;
   const auto boundary_facets = collect_boundary_facets(discretization, pair.body, pair.boundary_ids);
   const auto sizes = compute_facet_sizes(discretization, boundary_facets);
+  // Penalties of a refined body remain, so that its pressures continue.
+  const double coarse = std::exp2(discretization.levels()[pair.body]);
   for (const auto &boundary : boundary_facets) {
     ContactFacet facet{};
     facet.key = boundary.key;
@@ -82,8 +84,8 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
         node.size = node.spacing = size.size;
         node.reach = reach_of_facet * node.size;
         const double length = penalty_length(pair.penalty_counts_thickness, size.size, size.thickness);
-        node.stiffness = {pair.scaled_penalty(pair.normal_penalty, young_modulus, length),
-                          pair.scaled_penalty(pair.tangential_penalty, young_modulus, length)};
+        node.stiffness = {pair.scaled_penalty(pair.normal_penalty, young_modulus, coarse * length),
+                          pair.scaled_penalty(pair.tangential_penalty, young_modulus, coarse * length)};
         const double room = enough_penalty * young_modulus / (length * node.stiffness.normal);
         max_stiffening = std::min(max_stiffening, room);
         max_tangential_stiffening = std::min(

@@ -19,8 +19,10 @@ namespace billet {
 namespace {
 
 /// Builds the whole mesh, partitioned by METIS into one part for each rank. First rank only.
-void build_partitioned(const Scene &scene, const unsigned int n_parts, dealii::Triangulation<3> &mesh) {
+void build_partitioned(const Scene &scene, const MeshLevels &levels, const unsigned int n_parts,
+                       dealii::Triangulation<3> &mesh) {
   scene.build_mesh(MeshDetail::full, mesh);
+  refine_bodies(scene.parameters(), levels, mesh);
   if (mesh.n_active_cells() < n_parts)
     throw InputError(scene.parameters().file_name + ": the mesh has " +
                      std::to_string(mesh.n_active_cells()) + " elements for " + std::to_string(n_parts) +
@@ -54,15 +56,17 @@ void close_rim(const dealii::TriangulationDescription::Description<3, 3> &descri
 
 } // namespace
 
-Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
-    : communicator_(communicator), tria_(communicator), fe_(dealii::FE_Q<3>(1), 3) {
+Discretization::Discretization(const Scene &scene, MPI_Comm communicator, MeshLevels levels)
+    : communicator_(communicator), tria_(communicator), fe_(dealii::FE_Q<3>(1), 3),
+      levels_(std::move(levels)) {
+  levels_.resize(scene.bodies().size(), 0);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
 
   dealii::Triangulation<3> whole; // on the first rank, until it is distributed
   fail_together(communicator, [&] {
     if (is_first)
-      build_partitioned(scene, n_ranks, whole);
+      build_partitioned(scene, levels_, n_ranks, whole);
   });
   std::array<double, 6> box{};
   if (is_first) {
@@ -113,6 +117,13 @@ Discretization::Discretization(const Scene &scene, MPI_Comm communicator)
 }
 
 Discretization::~Discretization() = default;
+
+std::vector<std::size_t> Discretization::count_elements() const {
+  std::vector<std::size_t> counts;
+  for (const auto &of_body : elements_)
+    counts.push_back(dealii::Utilities::MPI::sum(of_body.size(), communicator_));
+  return counts;
+}
 
 ElementVectors nodal_positions(const CellIterator &cell) {
   ElementVectors positions{};

@@ -159,6 +159,17 @@ public:
     block_->set_state(element, state + n_last);
   }
 
+  void set_parent_state(const std::size_t element, const ParentElement &parent,
+                        const double *displacements) override {
+    const ElementVectors u = gather(element, displacements);
+    block_->set_parent_state(element, parent.state + n_last, parent.child);
+    MeanDilatationKinematics kinematics;
+    if (!compute_kinematics(references_[element], u, kinematics))
+      return;
+    last_[element] = {kinematics.current_volume, find_omega(element, kinematics), parent.state[2],
+                      block_->summarize(element, u, Beat::committed).plastic_work};
+  }
+
   ElementStress compute_stress(const std::size_t element, const double *displacements) const override {
     return block_->compute_stress(element, gather(element, displacements));
   }

@@ -287,6 +287,12 @@ public:
     is_fresh_ = false;
   }
 
+  void set_parent_state(const std::size_t element, const ParentElement &parent,
+                        const double *displacements) override {
+    is_fresh_ = false;
+    storage_.set_parent_history(element, parent, displacements);
+  }
+
   ElementStress compute_stress(const std::size_t element, const double *displacements) const override {
     ElementStress stress;
     const std::vector<PointState> states = storage_.compute_states(element, displacements);

@@ -637,6 +637,83 @@ void ExplicitStorage<Number>::set_history(const std::size_t element, const doubl
   repeat_last(element);
 }
 
+template <class Number>
+Tensor<2, 3> ExplicitStorage<Number>::inverse_reference(const ElementVectors &positions,
+                                                        const unsigned int point) const {
+  if (element_ == Element::mean_dilatation) {
+    ReferenceElement reference;
+    compute_reference_element(positions, reference);
+    return compute_inverse_jacobian(reference, point);
+  }
+  const ModalGeometry geometry(positions);
+  Tensor<2, 3> jacobian;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      jacobian[i][k] = geometry.modes[k][i];
+  return invert(jacobian);
+}
+
+template <class Number>
+void ExplicitStorage<Number>::set_parent_hourglass(const std::size_t element, const ParentElement &parent) {
+  const ElementVectors own = gather(element, reference_positions_.data());
+  std::array<std::array<double, 3>, 4> strain{}, shift{};
+  const auto find_reference = [this](const ElementVectors &positions) {
+    const ModalGeometry geometry(positions);
+    const Tensor<2, 3> inverse = inverse_reference(positions, 0);
+    std::array<Tensor<1, 3>, 4> modes;
+    for (unsigned int m = 0; m < 4; ++m)
+      modes[m] = inverse * geometry.modes[3 + m];
+    return modes;
+  };
+  const auto of_parent = find_reference(parent.positions), of_own = find_reference(own);
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k) {
+      strain[m][k] = parent.state[last::n + 3 * m + k];
+      shift[m][k] = strain[m][k] - (is_single ? 0. : of_parent[m][k]);
+    }
+  shift = hourglass_of_child(shift, parent.child);
+  for (unsigned int m = 0; m < 4; ++m)
+    for (unsigned int k = 0; k < 3; ++k)
+      set_history(element, last::n + std::size_t{3} * m + k, shift[m][k] + (is_single ? 0. : of_own[m][k]));
+}
+
+template <class Number>
+void ExplicitStorage<Number>::set_parent_history(const std::size_t element, const ParentElement &parent,
+                                                 const double *displacements) {
+  const bool is_one_point = element_ == Element::one_point;
+  const unsigned int from = is_one_point ? 0 : parent.child;
+  const double *const point = parent.state + first_point_ + from * layout_.n_point_history;
+  const Tensor<2, 3> X_xi = invert(inverse_reference(parent.positions, from));
+  Tensor<2, 3> C; // C_p⁻¹
+  std::size_t k = 0;
+  for (const auto &pair : symmetric_pairs)
+    if (!is_rate())
+      C[pair[0]][pair[1]] = C[pair[1]][pair[0]] = point[k++];
+  C = X_xi * C * transpose(X_xi);
+  if (is_one_point)
+    set_parent_hourglass(element, parent);
+  double ratio = 1., volume = 0.;
+  visit_points(element, displacements,
+               [&](const std::size_t first, const double reference_volume, const double volume_ratio,
+                   const Tensor<2, 3> &, const Tensor<2, 3> &xi_X) {
+                 ratio = volume_ratio;
+                 volume += reference_volume * volume_ratio;
+                 for (std::size_t i = 0; i < layout_.n_point_history; ++i)
+                   set_history(element, first + i, point[i]);
+                 if (is_rate() || is_single)
+                   return;
+                 const Tensor<2, 3> H = xi_X * C * transpose(xi_X);
+                 std::size_t i = first;
+                 for (const auto &pair : symmetric_pairs)
+                   set_history(element, i++, H[pair[0]][pair[1]]);
+               });
+  constexpr double omega_of_child = 4.; // 4/(ρ L²)
+  set_history(element, last::volume, is_single ? ratio - 1. : volume);
+  set_history(element, last::omega, omega_of_child * parent.state[last::omega]);
+  set_history(element, last::viscous_pressure, parent.state[last::viscous_pressure]);
+  repeat_last(element);
+}
+
 template <class Number> void ExplicitStorage<Number>::repeat_last(const std::size_t element) {
   if (element + 1 == n_elements_)
     for (std::size_t e = n_elements_; e % n_lanes_ != 0; ++e)

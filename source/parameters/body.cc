@@ -506,6 +506,12 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
       "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' for a plate or 'x ; y ; "
       "0' for a tube about z. Each brick uses its axis nearest to it.");
   prm.declare_entry(
+      "Refinement times", "", Patterns::Anything(),
+      "Times, ascending and separated by commas, at each of which every brick of this body is divided into "
+      "eight; steps end there. The run continues on the finer mesh, to which it carries displacements, "
+      "velocities and the histories of the material. At most 5 times. Not with more than 2 'Points through "
+      "thickness'. Empty: the mesh remains. [time]");
+  prm.declare_entry(
       "Initial velocity", "0 ; 0 ; 0", Patterns::Anything(),
       "Dynamic scenes: initial velocity, three muParser expressions of the position x, y, z. [length/time]");
   prm.declare_entry("Symmetry planes", "", Patterns::Anything(),
@@ -628,6 +634,10 @@ void Body::parse(Reader &reader) {
                   "thickness' is more than 2");
   if (points_through.value == 2 && !thickness_direction.value.empty())
     reader.reject("Thickness direction", "no value: 'Points through thickness = 2' does not use it");
+  refinement_times = reader.located("Refinement times", reader.numbers("Refinement times"));
+  for (std::size_t i = 0; i < refinement_times.value.size(); ++i)
+    if (!(refinement_times.value[i] > (i == 0 ? 0. : refinement_times.value[i - 1])))
+      reader.reject("Refinement times", "numbers > 0, each above the one before");
   const auto velocity = reader.parts("Initial velocity");
   if (velocity.size() != 3)
     reader.reject("Initial velocity", "three expressions, separated by semicolons");

@@ -51,7 +51,7 @@ DiagnosticList check_mass_scaling(const ExplicitDynamics &problem, const RunRevi
 } // namespace
 
 ExplicitRun::ExplicitRun(const Scene &scene, const MPI_Comm communicator, Resumption *resumption)
-    : Run(scene, communicator), problem_(scene, discretization_), stops_(scene),
+    : Run(scene, communicator, resumption), problem_(scene, discretization_), stops_(scene),
       history_times_(stops_.end(), parameters_.output.history_interval), watch_times_(stops_.end(), 0.) {
   if (parameters_.target_error > 0.)
     errors_ = std::make_unique<EnergyErrors>(parameters_.target_error);
@@ -60,14 +60,14 @@ ExplicitRun::ExplicitRun(const Scene &scene, const MPI_Comm communicator, Resump
 }
 
 void ExplicitRun::load(Resumption &resumption) {
-  CheckpointReader &reader = resumption.reader;
-  resumption.load(scene_, discretization_, [&] { return problem_.load(reader); });
+  resumption.load(scene_, discretization_, [&] { return problem_.load(resumption.state()); });
+  StateReader &reader = resumption.state();
   problem_.plan_to(stops_.next(problem_.time()));
   if (errors_)
     errors_->begin(problem_.time());
-  if (!resumption.report.is_exact || !reader.has("rows"))
+  if (!resumption.report().is_exact || !reader.has("rows"))
     return;
-  reader.load("rows", [&] {
+  resumption.in("rows", [&] {
     // If the interval has changed, the next row is due at once.
     if (reader.number("interval") == history_times_.interval())
       history_times_.begin_after(reader.number("last"));
@@ -99,8 +99,13 @@ void ExplicitRun::save_method(StateWriter &writer) const {
 }
 
 void ExplicitRun::begin(RunOutput &output, const Resumption *resumption) {
-  announce(problem_, output, resumption, 0.);
   problem_.set_mesh_errors(mesh_errors_);
+  first_step_ = problem_.n_steps();
+  if (resumption != nullptr && resumption->is_refinement()) {
+    change_ = resumption->change(); // its energy is known after the first forces
+    return;
+  }
+  announce(problem_, output, resumption, 0.);
   if (parameters_.explicit_dynamics.scaled_step > 0.)
     output.report(describe_mass_scaling(problem_));
 }
@@ -128,7 +133,18 @@ bool ExplicitRun::step(RunOutput &output) {
   return true;
 }
 
+void ExplicitRun::report_change(RunOutput &output) {
+  if (!change_)
+    return;
+  problem_.update_ledger();
+  RestartReport report;
+  report.energy_change = problem_.energy_of_refinement();
+  output.report(change_->describe(report, 0.));
+  change_.reset();
+}
+
 void ExplicitRun::after_step(RunOutput &output) {
+  report_change(output);
   if (problem_.n_steps() == 0)
     show_number_of_steps(output);
   const bool is_start = problem_.n_steps() == 0;
@@ -252,8 +268,8 @@ void ExplicitRun::end(RunOutput &output) {
     problem_.update_state();
     report_errors(report, mesh_errors_, discretization_, parameters_, review_, output);
   }
-  output.progress().show_pace(problem_.n_steps(), discretization_.n_global_elements(), stopwatch_.seconds(),
-                              stopwatch_.processor_seconds());
+  output.progress().show_pace(problem_.n_steps() - first_step_, discretization_.n_global_elements(),
+                              stopwatch_.seconds(), stopwatch_.processor_seconds());
   problem_.update_state();
   output.report(describe_mesh_errors(mesh_errors_, parameters_));
   output.report(find_unneeded_costs(collect_costs(problem_, review_)));

@@ -29,7 +29,7 @@ bool has_sticking_overlaps(const Scene &scene) {
 } // namespace
 
 ImplicitRun::ImplicitRun(const Scene &scene, const MPI_Comm communicator, Resumption *resumption)
-    : Run(scene, communicator), problem_(scene, discretization_),
+    : Run(scene, communicator, resumption), problem_(scene, discretization_),
       control_(parameters_.time_stepping, parameters_.output.interval, load_problem(resumption)),
       energies_(make_energy_watch(parameters_)) {
   if (parameters_.scheme().has_inertia && parameters_.target_error > 0.)
@@ -40,26 +40,33 @@ ImplicitRun::ImplicitRun(const Scene &scene, const MPI_Comm communicator, Resump
     load_control(*resumption);
 }
 
+double ImplicitRun::release_time(const Resumption &resumption) const {
+  if (parameters_.restart.release_time > 0. || !resumption.is_refinement())
+    return parameters_.restart.release_time;
+  constexpr double short_part = 0.1; // half as long takes more iterations, twice as long few less
+  return short_part * parameters_.time_stepping.end_time;
+}
+
 std::vector<double> ImplicitRun::load_problem(Resumption *resumption) {
   std::vector<double> stops = scene_.stops();
   if (resumption != nullptr) {
     resumption->load(scene_, discretization_,
-                     [&] { return problem_.load(resumption->reader, parameters_.restart.release_time); });
-    stops.push_back(resumption->report.release_end);
+                     [&] { return problem_.load(resumption->state(), release_time(*resumption)); });
+    stops.push_back(resumption->report().release_end);
   }
   return stops;
 }
 
 void ImplicitRun::load_control(Resumption &resumption) {
-  const RestartReport &start = resumption.report;
-  CheckpointReader &reader = resumption.reader;
+  const RestartReport &start = resumption.report();
+  StateReader &reader = resumption.state();
   control_.begin(start.time, 0);
   if (watch_)
     watch_->begin(start.time);
   if (errors_)
     errors_->begin(start.time);
   if (reader.has("steps"))
-    reader.load("steps", [&] {
+    resumption.in("steps", [&] {
       control_.load(reader);
       const std::vector<double> totals = reader.read("totals", 2);
       continued_ = start.is_exact ? totals.at(0) : 0.;
@@ -93,7 +100,7 @@ void ImplicitRun::begin(RunOutput &output, const Resumption *resumption) {
   problem_.set_mesh_errors(mesh_errors_);
   if (!mesh_errors_.has_begun())
     mesh_errors_.add(problem_);
-  if (resumption == nullptr || !resumption->report.is_exact)
+  if (resumption == nullptr || !(resumption->report().is_exact || resumption->is_refinement()))
     output.snapshots().write(problem_);
 }
 

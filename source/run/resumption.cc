@@ -6,60 +6,103 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
 namespace billet {
+
+Resumption::Resumption(const MPI_Comm communicator, const std::string &file_name, const std::string &origin)
+    : file_(communicator, file_name, origin) {}
+
+Resumption::Resumption(const std::string &file_name, const MPI_Comm communicator, MeshChange change)
+    : file_(communicator, file_name, "state for the refined mesh"), change_(std::move(change)) {}
 
 std::unique_ptr<Resumption> Resumption::open(const parameters::Scene &parameters,
                                              const MPI_Comm communicator) {
   if (!parameters.restart.is_wanted())
     return nullptr;
   const auto &[file, origin] = parameters.restart.file;
-  return std::unique_ptr<Resumption>(new Resumption{CheckpointReader(communicator, file, origin), {}});
+  return std::unique_ptr<Resumption>(new Resumption(communicator, file, origin));
+}
+
+MeshLevels Resumption::find_levels(const Scene &scene) {
+  if (change_)
+    return change_->levels;
+  double time = 0.;
+  in("solution", [&] { time = file_.number("time"); });
+  MeshLevels levels;
+  in("scene", [&] { levels = load_levels(file_, scene, time); });
+  return levels;
 }
 
 bool Resumption::is_from(const std::string &folder) const {
-  const auto from = std::filesystem::path(reader.file_name()).parent_path();
+  const auto from = std::filesystem::path(file_.file_name()).parent_path();
   std::error_code error;
   return std::filesystem::equivalent(from.empty() ? "." : from, folder, error);
 }
 
+void Resumption::in(const std::string &group, const std::function<void()> &load) { file_.load(group, load); }
+
 void Resumption::load(const Scene &scene, const Discretization &discretization,
                       const std::function<RestartReport()> &load) {
   std::vector<std::string> changed;
-  reader.load("scene", [&] { changed = check_scene(reader, scene, discretization); });
-  reader.load("solution", [&] { report = load(); });
-  report.changed = std::move(changed);
-  report.is_exact = report.is_exact && report.changed.empty();
-  const parameters::Scene &parameters = scene.parameters();
-  if (report.time < parameters.time_stepping.end_time)
+  if (change_) {
+    in("", [&] { refined_ = std::make_unique<RefinedReader>(file_, discretization, change_->is_refined); });
+  } else
+    in("scene", [&] { changed = check_scene(file_, scene, discretization); });
+  in("solution", [&] { report_ = load(); });
+  report_.changed = std::move(changed);
+  report_.is_exact = report_.is_exact && report_.changed.empty();
+  check_end(scene.parameters());
+}
+
+void Resumption::check_end(const parameters::Scene &parameters) const {
+  if (report_.time < parameters.time_stepping.end_time)
     return;
   std::ostringstream message;
   constexpr double rounding = 1e-9;
-  if (report.is_exact &&
-      std::abs(report.time - parameters.time_stepping.end_time) <= rounding * std::abs(report.time)) {
-    message << reader.file_name() << " is from the end of the scene, time " << report.time
+  if (report_.is_exact &&
+      std::abs(report_.time - parameters.time_stepping.end_time) <= rounding * std::abs(report_.time)) {
+    message << file_.file_name() << " is from the end of the scene, time " << report_.time
             << ", so that nothing remains to be computed";
     throw AlreadyComplete{Diagnostic(diagnostic::already_complete, message.str())};
   }
   message << parameters.file_name << ": 'End time' is " << parameters.time_stepping.end_time
-          << "; allowed is a time after that of the checkpoint, " << report.time;
+          << "; allowed is a time after that of the checkpoint, " << report_.time;
   throw InputError(message.str());
 }
 
-Diagnostic Resumption::describe(const double force_tolerance) const {
-  std::ostringstream text;
-  text << "The run resumes from " << reader.file_name() << " at time " << report.time;
-  for (const auto &part : report.gone)
-    text << ", without " << part;
-  for (const auto &parameter : report.changed)
-    text << (&parameter == &report.changed.front() ? ". Parameters with other values: " : ", ") << parameter;
-  if (report.kinetic_energy > 0.)
-    text << ". The kinetic energy there, " << report.kinetic_energy << ", is discarded";
+Diagnostic MeshChange::describe(const RestartReport &report, const double force_tolerance) const {
+  std::ostringstream what;
+  what << "Each element is divided into eight: " << text;
   if (report.imbalance > force_tolerance * report.force_scale)
-    text << ". Unbalanced forces, " << 100. * report.imbalance / report.force_scale
+    what << ". Unbalanced forces, " << 100. * report.imbalance / report.force_scale
          << " % of those in the scene, fade until time " << report.release_end;
+  what << ". The energy changes by " << report.energy_change;
+  Diagnostic message(diagnostic::mesh_refined, what.str());
+  // Each refinement is a message of its own.
+  message.part("mesh", std::to_string(1 + std::accumulate(levels.begin(), levels.end(), 0U)));
+  message.time(time).value("energy change", report.energy_change);
+  if (report.force_scale > 0.)
+    message.value("imbalance", report.imbalance / report.force_scale);
+  return message;
+}
+
+Diagnostic Resumption::describe(const double force_tolerance) const {
+  if (change_)
+    return change_->describe(report_, force_tolerance);
+  std::ostringstream text;
+  text << "The run resumes from " << file_.file_name() << " at time " << report_.time;
+  for (const auto &part : report_.gone)
+    text << ", without " << part;
+  for (const auto &parameter : report_.changed)
+    text << (&parameter == &report_.changed.front() ? ". Parameters with other values: " : ", ") << parameter;
+  if (report_.kinetic_energy > 0.)
+    text << ". The kinetic energy there, " << report_.kinetic_energy << ", is discarded";
+  if (report_.imbalance > force_tolerance * report_.force_scale)
+    text << ". Unbalanced forces, " << 100. * report_.imbalance / report_.force_scale
+         << " % of those in the scene, fade until time " << report_.release_end;
   return Diagnostic(diagnostic::resumed, text.str());
 }
 

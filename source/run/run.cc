@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/run.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/run/check.h"
 #include "billet/run/explicit_run.h"
 #include "billet/run/implicit_run.h"
+
+#include <filesystem>
+#include <utility>
 
 namespace billet {
 
@@ -15,6 +19,10 @@ std::unique_ptr<const Scene> build_scene(const parameters::Scene &parameters, co
 
 void Run::announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
                    const double force_tolerance) const {
+  if (resumption != nullptr && resumption->is_refinement()) {
+    output.report(resumption->describe(force_tolerance));
+    return;
+  }
   output.progress().start(discretization_, solution);
   output.report(scene_.parameters().warnings);
   output.report(solution.initial_diagnostics());
@@ -59,19 +67,86 @@ bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
   return request == Signals::Request::end && !is_finished;
 }
 
+/// Returns the refinement that the scene demands at the run's time, each body at most once; none if there is
+/// none. Collective.
+std::optional<MeshChange> find_change(const Run &run, const Scene &scene) {
+  const MeshLevels &now = run.discretization().levels(),
+                   wanted = find_mesh_levels(scene.parameters(), run.time());
+  if (run.is_finished() || now == wanted)
+    return {};
+  const std::vector<std::size_t> counts = run.discretization().count_elements();
+  MeshChange change{now, {}, run.time(), ""};
+  for (std::size_t b = 0; b < now.size(); ++b) {
+    change.is_refined.push_back(now[b] < wanted[b]);
+    if (now[b] >= wanted[b])
+      continue;
+    ++change.levels[b];
+    change.text += (change.text.empty() ? "'" : ", '") + scene.bodies()[b].name + "' (" +
+                   std::to_string(counts[b]) + " elements become " + std::to_string(8 * counts[b]) + ")";
+  }
+  return change;
+}
+
+/// File that its owner removes, on the first rank.
+struct TransientFile {
+  std::string name;
+  bool is_first;
+
+  ~TransientFile() {
+    std::error_code ignored;
+    if (is_first)
+      std::filesystem::remove(name, ignored);
+  }
+};
+
+/// Ends the run and starts one from its state on the finer mesh. Collective.
+std::unique_ptr<Run> refine(std::unique_ptr<Run> run, const Scene &scene, RunOutput &output,
+                            const MeshChange &change) {
+  MPI_Comm communicator = run->discretization().communicator();
+  const TransientFile file{scene.parameters().output.folder.value + "/refinement.h5",
+                           dealii::Utilities::MPI::this_mpi_process(communicator) == 0};
+  CheckpointWriter writer(communicator, file.name);
+  run->save(writer);
+  writer.in("mesh", [&] { save_mesh(writer, run->discretization()); });
+  if (const std::string failure = writer.finish(); !failure.empty())
+    throw SolutionFailure(Diagnostic(diagnostic::solution_failed,
+                                     scene.parameters().file_name +
+                                         ": the state for the refined mesh cannot be stored: " + failure)
+                              .time(change.time));
+  run.reset(); // its memory is free for the finer mesh
+  Resumption resumption(file.name, communicator, change);
+  try {
+    run = make_run(scene, communicator, &resumption);
+  } catch (const InputError &error) { // on all ranks
+    throw SolutionFailure(
+        Diagnostic(diagnostic::solution_failed, scene.parameters().file_name +
+                                                    ": the run cannot continue with finer elements of " +
+                                                    change.text + ": " + error.what())
+            .time(change.time)
+            .advice("Choose an earlier time in 'Refinement times', when elements are less distorted"));
+  }
+  run->begin(output, &resumption);
+  return run;
+}
+
 } // namespace
 
-ExitCode run_to_end(Run &run, RunOutput &output, const Resumption *resumption) {
-  run.begin(output, resumption);
-  while (!run.is_finished()) {
-    if (!run.step(output))
+ExitCode run_to_end(std::unique_ptr<Run> run, const Scene &scene, RunOutput &output,
+                    const Resumption *resumption) {
+  run->begin(output, resumption);
+  while (!run->is_finished()) {
+    if (const auto change = find_change(*run, scene)) {
+      run = refine(std::move(run), scene, output, *change);
       continue;
-    run.after_step(output);
+    }
+    if (!run->step(output))
+      continue;
+    run->after_step(output);
     bool has_checkpoint = false;
-    if (heed_signals(run, output, has_checkpoint))
-      return output.stop(run.n_steps(), run.time(), has_checkpoint);
+    if (heed_signals(*run, output, has_checkpoint))
+      return output.stop(run->n_steps(), run->time(), has_checkpoint);
   }
-  run.end(output);
+  run->end(output);
   return output.finish();
 }
 

@@ -30,13 +30,36 @@ double memory_of_process(const Discretization &discretization) {
   return Memory::process * mpi::n_mpi_processes(discretization.communicator());
 }
 
+/// Returns the number of elements at the end of the run over that of the mesh, which is of time 0.
+double growth_of_mesh(const Scene &scene, const Discretization &discretization) {
+  const MeshLevels levels = find_mesh_levels(scene.parameters(), scene.parameters().time_stepping.end_time);
+  const std::vector<std::size_t> counts = discretization.count_elements();
+  double n = 0.;
+  for (std::size_t body = 0; body < counts.size(); ++body)
+    n += static_cast<double>(counts[body]) * std::pow(8., levels[body]);
+  return n / static_cast<double>(discretization.n_global_elements());
+}
+
+/// Returns the factor by which refinements of this body increase the number of steps, whose length follows
+/// its elements.
+double growth_of_steps(const Scene &scene, const std::size_t body) {
+  const double end = scene.parameters().time_stepping.end_time;
+  double factor = 1., step = 1.;
+  for (const double time : scene.parameters().bodies[body].refinement_times.value) {
+    factor += (end - time) / end / step;
+    step *= 0.5;
+  }
+  return factor;
+}
+
 double count_steps(const double end, const double length) {
   constexpr double rounding = 1e-9;
   return std::max(1., std::ceil(end / length * (1. - rounding)));
 }
 
 /// Finds the element of all ranks that sets the stable step of the elements.
-StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamics &problem) {
+StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamics &problem,
+                                       std::size_t &body) {
   const Discretization &discretization = problem.discretization();
   LimitingElement own;
   fail_together(discretization.communicator(), [&] { own = problem.find_limiting_element(); });
@@ -51,7 +74,8 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
     least = std::min(least, of_rank);
   StableStepReport report;
   report.of_elements = least[0];
-  report.body = scene.bodies()[static_cast<std::size_t>(least[1])].name;
+  body = static_cast<std::size_t>(least[1]);
+  report.body = scene.bodies()[body].name;
   report.element = dealii::Tensor<1, 3>({least[2], least[3], least[4]});
   report.least_edge = least[5];
   return report;
@@ -92,13 +116,15 @@ RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const Scen
   const double end = scene.parameters().time_stepping.end_time;
   RunReport report;
   report.n_dofs = discretization.dof_handler().n_dofs();
-  report.memory = memory_of_process(discretization) +
-                  Memory::explicit_element * static_cast<double>(discretization.n_global_elements());
+  report.memory =
+      memory_of_process(discretization) + Memory::explicit_element * growth_of_mesh(scene, discretization) *
+                                              static_cast<double>(discretization.n_global_elements());
   try {
-    StableStepReport stable = find_limiting_element(scene, problem);
+    std::size_t body = 0;
+    StableStepReport stable = find_limiting_element(scene, problem, body);
     problem.prepare_step(end);
     stable.step = problem.usual_step();
-    report.n_steps = count_steps(scene, problem, of_scene, stable);
+    report.n_steps = std::ceil(growth_of_steps(scene, body) * count_steps(scene, problem, of_scene, stable));
     report.stable_step = stable;
   } catch (const SolutionFailure &) { // on all ranks
     report.is_minimum = true;
@@ -112,10 +138,11 @@ RunReport forecast_run(const Scene &scene, const ImplicitSolution &problem) {
   const parameters::TimeStepping &steps = scene.parameters().time_stepping;
   RunReport report;
   report.n_dofs = discretization.dof_handler().n_dofs();
-  const auto n_dofs = static_cast<double>(report.n_dofs);
+  const double growth = growth_of_mesh(scene, discretization),
+               n_dofs = growth * static_cast<double>(report.n_dofs);
   report.memory =
       memory_of_process(discretization) +
-      Memory::implicit_element * static_cast<double>(discretization.n_global_elements()) +
+      Memory::implicit_element * growth * static_cast<double>(discretization.n_global_elements()) +
       Memory::matrix_dof * n_dofs +
       (problem.solves_iteratively() ? Memory::multigrid_dof * n_dofs
                                     : direct_memory(n_dofs, !scene.capabilities().unsymmetric_matrix));

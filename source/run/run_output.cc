@@ -51,15 +51,15 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
   const bool continues = resumption != nullptr && resumption->is_from(folder);
   HistoryFile::Mark mark;
   if (resumption != nullptr)
-    resumption->reader.load("output", [&] {
-      mark = {resumption->reader.read_text("columns"),
-              to_count(resumption->reader.number("bytes"), std::uintmax_t{1} << 50U)};
-      checkpoints_.load(resumption->reader, resumption->report.time, continues);
-      snapshots_.load(resumption->reader);
-      if (continues && resumption->reader.read_text("format") == format())
-        writer_.load(resumption->reader);
-      if (continues && resumption->reader.has("diagnostics"))
-        diagnostics_.load(resumption->reader.read_text("diagnostics"));
+    resumption->in("output", [&] {
+      const StateReader &state = resumption->state();
+      mark = {state.read_text("columns"), to_count(state.number("bytes"), std::uintmax_t{1} << 50U)};
+      checkpoints_.load(state, resumption->report().time, continues);
+      snapshots_.load(state);
+      if (continues && state.read_text("format") == format())
+        writer_.load(state);
+      if (continues && state.has("diagnostics"))
+        diagnostics_.load(state.read_text("diagnostics"));
     });
   diagnostics_.set_print([this](const Severity severity, const std::string &text) {
     progress_.show_diagnostic(severity, text);
@@ -68,7 +68,7 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
     if (is_first_) {
       write_scene(scene.parameters());
       diagnostics_.open(folder + "/diagnostics.jsonl", continues);
-      history_ = continues ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report.time)
+      history_ = continues ? std::make_unique<HistoryFile>(scene, folder, mark, resumption->report().time)
                            : std::make_unique<HistoryFile>(scene, folder);
     }
   });

@@ -9,6 +9,7 @@
 
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace billet {
 
@@ -35,7 +36,7 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
   Diagnostics diagnostics(is_first);
   ExitCode code = ExitCode::success;
   try {
-    const std::unique_ptr<Run> run = make_run(scene, communicator, resumption.get());
+    std::unique_ptr<Run> run = make_run(scene, communicator, resumption.get());
     std::string moved;
     fail_together(communicator, [&] {
       if (!is_first)
@@ -53,7 +54,7 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
           Severity::note,
           Diagnostic(diagnostic::results_moved, "The results of an earlier run are now in '" + moved + "'")
               .text());
-    code = run_to_end(*run, output, resumption.get());
+    code = run_to_end(std::move(run), scene, output, resumption.get());
   } catch (const AlreadyComplete &complete) { // on all ranks
     if (is_first)
       std::cout << complete.diagnostic.text() << std::endl;

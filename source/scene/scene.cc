@@ -6,6 +6,7 @@
 #include "billet/material/state_fields.h"
 #include "billet/parameters/reader.h"
 #include "billet/scene/boundary_names.h"
+#include "billet/scene/mesh_refinements.h"
 #include "billet/usage.h"
 
 #include <nlohmann/json.hpp>
@@ -295,6 +296,7 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
       resolved.unsound_bodies.insert(i);
   }
   check_state_fields(parameters.output.state_fields, bodies_);
+  check_refinements(parameters, errors);
   check_before_start([&] {
     for (const auto &tool : parameters.tools) {
       tools_.emplace_back(tool, parameters.amplitudes);
@@ -473,6 +475,8 @@ std::vector<double> Scene::stops() const {
     for (const Hold &hold : body.holds)
       add_times(hold.times);
   }
+  for (const double time : refinement_times(parameters_))
+    times.push_back(time);
   if (parameters_.scheme().has_matrix)
     add_corners(times);
   return times;
@@ -618,6 +622,16 @@ std::size_t count_elements_of(const parameters::Body &body) {
   return count_full_elements(body.mesh, outline);
 }
 
+/// Returns the numbers of elements after refinements: "512 from time 0.5, ".
+std::string describe_refinements(const parameters::Body &body, std::size_t n_elements) {
+  std::ostringstream text;
+  for (const double time : body.refinement_times.value) {
+    n_elements *= dealii::GeometryInfo<3>::max_children_per_cell;
+    text << n_elements << " from time " << time << ", ";
+  }
+  return text.str();
+}
+
 } // namespace
 
 void Scene::describe(std::ostream &stream) const {
@@ -641,9 +655,9 @@ void Scene::describe(std::ostream &stream) const {
     const auto &body = parameters_.bodies[i];
     const std::size_t n = count_elements_of(body);
     n_elements += n;
-    stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_law(body) << ", "
-           << body.symmetry_planes.value.size() << " symmetry planes, " << body.supports.size()
-           << " supports, " << body.loads.size() << " loads"
+    stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_refinements(body, n)
+           << describe_law(body) << ", " << body.symmetry_planes.value.size() << " symmetry planes, "
+           << body.supports.size() << " supports, " << body.loads.size() << " loads"
            << (body.is_stabilised.value ? ", contact stabilisation until contact\n" : "\n");
   }
   for (const auto &tool : tools_) {
@@ -737,6 +751,11 @@ std::string Scene::describe_as_json(const DiagnosticList &diagnostics) const {
                                {"loads", body.loads.size()}});
     if (body.is_stabilised.value)
       scene["bodies"].back()["stabilised"] = "until contact";
+    std::size_t n_refined = n;
+    for (const double time : body.refinement_times.value) {
+      n_refined *= dealii::GeometryInfo<3>::max_children_per_cell;
+      scene["bodies"].back()["refinements"].push_back({{"time", time}, {"hexahedra", n_refined}});
+    }
   }
   scene["tools"] = Json::array();
   for (const auto &tool : tools_) {

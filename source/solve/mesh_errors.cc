@@ -3,6 +3,8 @@
 
 #include "billet/discretization/element_key.h"
 #include "billet/discretization/node_keys.h"
+#include "billet/solve/refined_reader.h"
+#include "billet/solve/restart.h"
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/grid/grid_tools.h>
@@ -245,6 +247,25 @@ void MeshErrors::load(const StateReader &reader) {
         displacement = row.number();
       own.error = row.number();
     }
+  const std::vector<bool> are_refined = refined_bodies(reader);
+  for (std::size_t body = 0; body < are_refined.size(); ++body)
+    for (std::size_t e = 0; are_refined[body] && e < elements_[body].size(); ++e)
+      elements_[body][e] =
+          part_of(elements_[body][e], child_number(element_key(discretization_.elements(body)[e].cell)));
+}
+
+MeshErrors::OwnedElement MeshErrors::part_of(const OwnedElement &element, const unsigned int child) {
+  OwnedElement part = element;
+  part.error /= n_element_nodes;
+  for (unsigned int v = 0; v < n_element_nodes; ++v) {
+    const auto weights = weights_in_parent(child, v);
+    for (unsigned int i = 0; i < 3; ++i) {
+      double &displacement = part.displacements[3 * v + i] = 0.;
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        displacement += weights[a] * element.displacements[3 * a + i];
+    }
+  }
+  return part;
 }
 
 } // namespace billet

@@ -52,6 +52,8 @@ constexpr const char *explicit_method = "explicit", *implicit_method = "implicit
 
 constexpr std::uint64_t max_ranks = 1U << 20U;
 
+constexpr const char *level_entry = "level"; // of a body's mesh
+
 /// Returns the fields that save_fields() has written; none if there were none.
 std::vector<StateField> read_fields(const StateReader &reader) {
   std::vector<StateField> fields;
@@ -173,7 +175,37 @@ void save_scene(StateWriter &writer, const Scene &scene, const Discretization &d
       writer.write_text("material parameters",
                         join_lines(material_of(scene.parameters(), scene.bodies()[b].name)));
       writer.write("mesh", measure(discretization, b));
+      writer.write(level_entry, {static_cast<double>(discretization.levels()[b])});
     });
+}
+
+MeshLevels load_levels(StateReader &reader, const Scene &scene, const double time) {
+  const MeshLevels here = find_mesh_levels(scene.parameters(), time);
+  MeshLevels levels(here.size(), 0);
+  for (std::size_t b = 0; b < here.size() && reader.has(group("body", b)); ++b)
+    reader.in(group("body", b), [&] {
+      levels[b] = to_count(reader.number(level_entry), max_refinements);
+      if (levels[b] > here[b])
+        throw InputError("the elements of its body '" + scene.bodies()[b].name + "' have been divided " +
+                         std::to_string(levels[b]) + " times by 'Refinement times', but this scene has " +
+                         std::to_string(here[b]) +
+                         " of these times until then. Elements are not joined again");
+    });
+  return levels;
+}
+
+std::vector<bool> refined_bodies(const StateReader &reader) {
+  constexpr const char *entry = "refined bodies";
+  if (!reader.has(entry))
+    return {};
+  const std::vector<double> flags = reader.read(entry);
+  return {flags.begin(), flags.end()};
+}
+
+bool is_refined(const StateReader &reader, const ContactInterface &contact) {
+  const std::vector<bool> are_refined = refined_bodies(reader);
+  return !are_refined.empty() && std::any_of(contact.bodies().begin(), contact.bodies().end(),
+                                             [&](const std::size_t body) { return are_refined[body]; });
 }
 
 std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,

@@ -396,9 +396,9 @@ REFUSED = [
     Refused("a flipped bit", spoiled("flipped.h5", FLIPPED), "", "is damaged: its checksum does not match;"),
     Refused(
         "another format",
-        spoiled("format.h5", WHOLE.replace(b"format 11", b"format 8", 1)),
+        spoiled("format.h5", WHOLE.replace(b"format 12", b"format 8", 1)),
         "",
-        "has format 8, but this program reads format 11;",
+        "has format 8, but this program reads format 12;",
     ),
     Refused(
         "another version",

@@ -87,7 +87,7 @@ Result hand_over(const std::string &name, parameters::Scene parameters, const un
   resumed.restart.file.value = output.checkpoints().last();
   const std::unique_ptr<Resumption> resumption = Resumption::open(resumed, MPI_COMM_WORLD);
   run = make_run(scene, MPI_COMM_WORLD, resumption.get());
-  run_to_end(*run, output, resumption.get());
+  run_to_end(std::move(run), scene, output, resumption.get());
   const std::string history = read_history(name + "_in_parts");
   return {is_half_way, !history.empty() && history == read_history(name + "_whole")};
 }

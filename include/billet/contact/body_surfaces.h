@@ -9,6 +9,7 @@
 #include "billet/discretization/node_keys.h"
 #include "billet/scene/scene.h"
 
+#include <array>
 #include <vector>
 
 namespace billet {
@@ -17,13 +18,17 @@ namespace billet {
 struct BodySurfaces {
   BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const NodeKeys &keys);
 
+  /// Size of a facet of the unrefined body over that of its parts, for each of the two bodies. Penalties of a
+  /// refined body remain, so that its pressures continue.
+  std::array<double, 2> coarse;
+
   // For each surface node.
 
   std::vector<std::uint64_t> keys;
   std::vector<unsigned int> local_nodes;
   std::vector<unsigned int> surface_of; ///< which of the two bodies it belongs to
   std::vector<double> sizes;            ///< of the facets around it [length]
-  std::vector<double> penalty_lengths;  ///< penalty_length() there [length]
+  std::vector<double> penalty_lengths;  ///< penalty_length() there, of the unrefined body [length]
 
   // For each facet.
 

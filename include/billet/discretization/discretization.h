@@ -4,6 +4,7 @@
 
 #include "billet/algebra/vector.h"
 #include "billet/mechanics/mean_dilatation.h"
+#include "billet/scene/mesh_refinements.h"
 #include "billet/scene/scene.h"
 
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -28,8 +29,9 @@ struct Element {
 /// its own cells and one layer around them. Cell material ids are body indices.
 class Discretization {
 public:
-  /// Builds the mesh on the first rank and distributes it. Throws InputError.
-  Discretization(const Scene &scene, MPI_Comm communicator);
+  /// Builds the mesh on the first rank, with bodies refined to `levels`, and distributes it. Throws
+  /// InputError.
+  Discretization(const Scene &scene, MPI_Comm communicator, MeshLevels levels = {});
   ~Discretization();
 
   MPI_Comm communicator() const { return communicator_; }
@@ -40,6 +42,10 @@ public:
   /// Returns the owned elements of a body.
   const std::vector<Element> &elements(const std::size_t body) const { return elements_[body]; }
 
+  /// Returns the refinement level of each body.
+  const MeshLevels &levels() const { return levels_; }
+  /// Returns the number of elements of each body on all ranks. Collective.
+  std::vector<std::size_t> count_elements() const;
   std::size_t n_global_elements() const { return tria_.n_global_active_cells(); }
 
   /// Middle, and half the diagonal, of the bounding box of the undeformed bodies [length].
@@ -65,6 +71,7 @@ private:
   std::vector<std::vector<Element>> elements_;
   dealii::Tensor<1, 3> centre_;
   double radius_ = 0.;
+  MeshLevels levels_;
 };
 
 /// Returns the entries of a ghosted vector at the dofs of an element.

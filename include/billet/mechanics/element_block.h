@@ -103,6 +103,11 @@ public:
   virtual PointStates point_states() const = 0; ///< in the numbers of get_state()
   /// Returns averages over the reference volume at the start of the step.
   virtual StateAverages average_states(std::size_t element) const = 0;
+
+  // To continue on a finer mesh:
+  /// Sets the history of one of the eight elements into which an element with this state was divided, (R4)
+  /// and (R5) of doc/theory. `child`: its number, in deal.II's order. For two points through the thickness.
+  virtual void set_parent_state(std::size_t element, const double *state, unsigned int child) = 0;
 };
 
 /// Makes the block; every element supports every law.

@@ -30,6 +30,13 @@ struct ExplicitFormulation {
   NumberType number_type = NumberType::double_precision; ///< float computes twice as many elements at once
 };
 
+/// Element that was divided into eight, of which `child` is one.
+struct ParentElement {
+  ElementVectors positions; ///< of its undeformed nodes [length]
+  const double *state;      ///< from ExplicitBlock::get_state()
+  unsigned int child;       ///< number of the child, in deal.II's order
+};
+
 /// All elements of one body on one rank, for central differences. An explicit step is never repeated: history
 /// advances in place, in one stage. Elements are stored in batches as wide as the instruction set; nodal sums
 /// are accumulated in the order of the elements.
@@ -119,6 +126,12 @@ public:
   /// Returns averages over the reference volume at the displacements of the last call. Kernels find the state
   /// by PointLaw::set_stress().
   virtual StateAverages average_states(std::size_t element, const double *displacements) const = 0;
+
+  // To continue on a finer mesh:
+  /// Sets the history of one of the eight elements into which `parent` was divided, (R4) and (R5) of
+  /// doc/theory. `displacements`: those of the last call. Call it after initialize().
+  virtual void set_parent_state(std::size_t element, const ParentElement &parent,
+                                const double *displacements) = 0;
 };
 
 /// Whether the kernels compute this element with this law; other ones are computed one by one, in double

@@ -98,6 +98,8 @@ public:
 
   void get_history(std::size_t element, double *numbers) const;
   void set_history(std::size_t element, const double *numbers);
+  /// Sets the history of a part of an element, see ExplicitBlock::set_parent_state().
+  void set_parent_history(std::size_t element, const ParentElement &parent, const double *displacements);
 
 private:
   static constexpr bool is_single = sizeof(Number) == sizeof(float);
@@ -126,6 +128,10 @@ private:
   template <class Visit>
   void visit_points(std::size_t element, const double *displacements, const Visit &visit) const;
   ElementVectors gather(std::size_t element, const double *values) const;
+  /// Returns ∂ξ/∂X, up to the same factor as in visit_points(), at a point of an undeformed brick.
+  dealii::Tensor<2, 3> inverse_reference(const ElementVectors &positions, unsigned int point) const;
+  /// Sets the hourglass strains of a part of an element without those that displacements alone determine.
+  void set_parent_hourglass(std::size_t element, const ParentElement &parent);
   void resize(std::size_t n_elements);
   bool initialize_element(std::size_t element, double density, double yield_stress);
   /// Initializes an element with the mean gradient: first the common data, then those of its kind. `lambda`

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <type_traits>
 
 namespace billet {
@@ -212,6 +213,22 @@ public:
       std::copy_n(state, n_points * n_state_, own);
     if constexpr (keeps_element_history)
       history_[element] = history_n_[element] = Element::restore(state + n_points * n_state_);
+  }
+
+  void set_parent_state(const std::size_t element, const double *state, const unsigned int child) override {
+    if constexpr (is_layered) {
+      throw std::logic_error("an element with layers is not divided");
+    } else {
+      const double *const point = state + (n_points == n_element_nodes ? child * n_state_ : 0);
+      for (unsigned int q = 0; q < n_points; ++q)
+        for (auto *const states : {&state_n_, &state_})
+          std::copy_n(point, n_state_, state_of(*states, element, q));
+      if constexpr (keeps_element_history) {
+        history_n_[element] = Element::restore(state + n_points * n_state_);
+        history_n_[element].shift = hourglass_of_child(history_n_[element].shift, child);
+        history_[element] = history_n_[element];
+      }
+    }
   }
 
   ElementStress compute_stress(const std::size_t element,

@@ -62,6 +62,19 @@ struct ModalGeometry {
   }
 };
 
+/// Returns what a number of b_1, b_2, b_3 and c in an element's own directions is in one of the eight
+/// elements into which it is divided, (R5) of doc/theory: h has the modes in its rows.
+template <class HourglassVector>
+HourglassVector hourglass_of_child(const HourglassVector &h, const unsigned int child) {
+  HourglassVector of_child = h;
+  for (unsigned int k = 0; k < 3; ++k) {
+    for (unsigned int m = 0; m < 3; ++m)
+      of_child[m][k] = 0.5 * (h[m][k] + 0.5 * corner(child, m) * h[3][k]);
+    of_child[3][k] = 0.25 * h[3][k];
+  }
+  return of_child;
+}
+
 } // namespace billet
 
 #endif

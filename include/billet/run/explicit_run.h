@@ -10,6 +10,7 @@
 #include "billet/solve/explicit/explicit_dynamics.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace billet {
@@ -36,6 +37,8 @@ private:
   void load(Resumption &resumption);
   /// Runs and times a part of a step. On failure, writes the state and throws an explanation.
   template <class Part> void attempt(RunOutput &output, const Part &part);
+  /// Reports the refinement with which the run began, after its first forces.
+  void report_change(RunOutput &output);
   void show_number_of_steps(RunOutput &output) const;
   void write_row(RunOutput &output);
   /// Reports what the state shows of contact, elements and energies.
@@ -57,6 +60,8 @@ private:
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
   Stopwatch stopwatch_;                                 ///< for the steps, without output
   unsigned int balanced_step_ = 0;                      ///< last step with a balance of energies
+  unsigned int first_step_ = 0;                         ///< of this run, after those that it continues
+  std::optional<MeshChange> change_;                    ///< until it is reported
   double next_check_ = 0.;                              ///< time of the next check_stability() [time]
   bool is_finished_ = false, is_between_steps_ = true;
 };

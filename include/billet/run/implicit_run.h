@@ -34,6 +34,8 @@ protected:
 private:
   /// Loads the checkpoint into the problem, if there is one. Returns the times at which steps have to end.
   std::vector<double> load_problem(Resumption *resumption);
+  /// Returns the time over which unbalanced forces fade; 0: until the end.
+  double release_time(const Resumption &resumption) const;
   /// Reads the step control and the rest of the checkpoint.
   void load_control(Resumption &resumption);
   /// Passes the accepted step to the error control.

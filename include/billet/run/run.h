@@ -19,16 +19,19 @@ namespace billet {
 /// InputError before anything is written.
 class Run {
 public:
-  Run(const Scene &scene, MPI_Comm communicator)
-      : scene_(scene), parameters_(scene.parameters()), discretization_(scene, communicator),
+  /// `resumption`: null at time 0.
+  Run(const Scene &scene, MPI_Comm communicator, Resumption *resumption)
+      : scene_(scene), parameters_(scene.parameters()),
+        discretization_(scene, communicator,
+                        resumption == nullptr ? MeshLevels() : resumption->find_levels(scene)),
         review_(scene, discretization_), stability_(scene, discretization_), mesh_errors_(discretization_),
         probes_(scene, discretization_) {}
   virtual ~Run() = default;
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
 
-  /// Starts the run before the first step: shows the model and reports warnings about the scene.
-  /// `resumption`: null at time 0. Collective, as all functions below.
+  /// Starts the run before the first step: shows the model and reports warnings about the scene, unless the
+  /// run continues another one. `resumption`: null at time 0. Collective, as all functions below.
   virtual void begin(RunOutput &output, const Resumption *resumption) = 0;
   /// Whether the run has reached its end time.
   virtual bool is_finished() const = 0;
@@ -45,6 +48,7 @@ public:
   double end_time() const { return parameters_.time_stepping.end_time; }
   /// Whether a run could resume from the current state.
   virtual bool is_resumable() const { return true; }
+  const Discretization &discretization() const { return discretization_; }
   /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.
   void save(StateWriter &writer) const;
 
@@ -71,8 +75,10 @@ std::unique_ptr<const Scene> build_scene(const parameters::Scene &parameters, MP
 /// Makes the method that the scene selects. `resumption`: null at time 0. Collective.
 std::unique_ptr<Run> make_run(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
 
-/// Runs from begin() to end(), or until a signal requests the end. Collective.
-ExitCode run_to_end(Run &run, RunOutput &output, const Resumption *resumption);
+/// Runs from begin() to end(), or until a signal requests the end. At 'Refinement times' another run, on the
+/// finer mesh, replaces `run`. Collective.
+ExitCode run_to_end(std::unique_ptr<Run> run, const Scene &scene, RunOutput &output,
+                    const Resumption *resumption);
 
 } // namespace billet
 

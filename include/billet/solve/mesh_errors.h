@@ -52,6 +52,8 @@ private:
     double work = 0.;   ///< of deformation [energy]
   };
 
+  /// Returns one of the eight parts of an element.
+  static OwnedElement part_of(const OwnedElement &element, unsigned int child);
   static Interval compare(const ElementVectors &positions, const OwnedElement &before, const Stress &stress,
                           const ElementVectors &displacements);
   /// Computes the interval of the owned elements, and gets that of the ghost elements. By active cell index.

@@ -23,9 +23,16 @@ struct RestartReport {
   double imbalance = 0.;            ///< forces out of balance, which fade from the restart on [force]
   double release_end = 0.;          ///< time at which they have faded
   double force_scale = 0.;          ///< reference value of the imbalance [force]
+  double energy_change = 0.;        ///< by other elements or another scheme [energy]
   std::vector<std::string> gone;    ///< tools and pairs that this scene no longer has
   std::vector<std::string> changed; ///< parameters of materials with another value now
 };
+
+/// Returns which bodies' elements are those of the state, each divided into eight; empty if the mesh is that
+/// of the state. See RefinedReader.
+std::vector<bool> refined_bodies(const StateReader &reader);
+/// Returns whether a contact pair has such a body.
+bool is_refined(const StateReader &reader, const ContactInterface &contact);
 
 /// Saves the properties that must agree between the scenes before and after a restart: bodies, their meshes
 /// and the kinds of their materials.
@@ -34,6 +41,9 @@ void save_scene(StateWriter &writer, const Scene &scene, const Discretization &d
 /// materials that have another value now: "'Yield stress' of body 'cube' (300, now 900)".
 std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
                                      const Discretization &discretization);
+/// Returns the refinement levels of the bodies of the state. Throws InputError if they exceed those of the
+/// scene at this time.
+MeshLevels load_levels(StateReader &reader, const Scene &scene, double time);
 
 /// Nodes whose dofs this rank owns, with their keys.
 struct OwnedNodes {

@@ -143,7 +143,7 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   if (is_exact) {
     parts_.clock.load(reader);
     parts_.motion.load(reader, rows);
-    parts_.elements.load(reader, time());
+    parts_.elements.load(reader, time(), parts_.motion.displacements_before(step_length()));
   } else {
     parts_.clock.begin(reader.number(reader.has("time before") ? "time before" : "time"));
     parts_.motion.load_foreign(reader, rows);
@@ -166,9 +166,13 @@ void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) 
   // Contact was committed with the last forces. The step is 0 if they are those of the present time.
   const NodalVectors u_before = parts_.motion.displacements_before(step_length());
   const std::vector<Placement> placements = parts_.tools.placements_before();
-  for (auto &contact : parts_.contacts)
-    if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }))
+  for (auto &contact : parts_.contacts) {
+    const bool begins = is_refined(reader, contact); // what the coarser mesh cannot tell remains as it begins
+    if (begins)
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
+    if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }) && !begins)
+      contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
+  }
 }
 
 } // namespace billet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_elements.h"
 
+#include "billet/solve/refined_reader.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -220,17 +222,37 @@ bool ExplicitElements::has_same_formulations(StateReader &reader) const {
   return are_same;
 }
 
-void ExplicitElements::load(StateReader &reader, const double t) {
+void ExplicitElements::load(StateReader &reader, const double t, const NodalVectors &displacements) {
   set_temperatures(t);
+  const std::vector<bool> are_refined = refined_bodies(reader);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     reader.in(group("body", b), [&] {
       const std::size_t width = blocks_[b]->history_size();
       const Body &body = scene_.bodies()[b];
       const auto rows = load_history(reader, body.name, *body.law, blocks_[b]->point_states(), width,
                                      element_keys(nodes_.discretization(), b));
+      if (!are_refined.empty() && are_refined[b]) {
+        load_parents(b, rows, displacements);
+        return;
+      }
       for (std::size_t e = 0; e < blocks_[b]->size(); ++e)
         blocks_[b]->set_state(e, rows.data() + width * e);
     });
+}
+
+void ExplicitElements::load_parents(const std::size_t body, const std::vector<double> &rows,
+                                    const NodalVectors &displacements) {
+  ExplicitBlock &block = *blocks_[body];
+  const std::size_t width = block.history_size();
+  for (std::size_t e = 0; e < block.size(); ++e) {
+    const CellIterator &cell = nodes_.discretization().elements(body)[e].cell;
+    ParentElement parent{{}, rows.data() + width * e, child_number(element_key(cell))};
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      for (unsigned int i = 0; i < 3; ++i)
+        parent.positions[3 * a + i] = cell->parent()->vertex(a)[i];
+    block.set_parent_state(e, parent, displacements.data());
+  }
+  block.renew(displacements.data());
 }
 
 void ExplicitElements::load_stresses(StateReader &reader, const NodalVectors &displacements,

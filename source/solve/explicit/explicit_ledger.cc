@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_ledger.h"
 
+#include "billet/solve/restart.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -112,6 +114,11 @@ void ExplicitLedger::update(SolutionState &state) {
   }
   if (parts_.clock.is_at_start())
     energies.initial = energies.total() - energies.external;
+  if (drift_before_) {
+    energy_of_refinement_ = *drift_before_ - energies.drift();
+    energies.initial += energy_of_refinement_;
+    drift_before_.reset();
+  }
   // The present energy counts half only, so that spurious energy does not hide itself.
   const double energy = std::max(0.5 * energies.total(), std::abs(energies.initial + energies.external));
   max_energy_ = std::max(max_energy_, energy);
@@ -144,6 +151,7 @@ double ExplicitLedger::kinetic_energy() const {
 }
 
 void ExplicitLedger::save(StateWriter &writer, EnergyLedger energies) const {
+  writer.write("drift", {energies.drift()});
   energies.kinetic = kinetic_energy();
   writer.write("kinetic energy", {energies.kinetic});
   const std::vector<double> own{works_.external,
@@ -168,6 +176,8 @@ void ExplicitLedger::save(StateWriter &writer, EnergyLedger energies) const {
 }
 
 EnergyLedger ExplicitLedger::load(const StateReader &reader, const bool is_exact) {
+  if (!refined_bodies(reader).empty())
+    drift_before_ = reader.number("drift");
   // The ledger resumes these sums; the rest follows from the state.
   const EnergyLedger energies = to_energies(reader.read("energies"));
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(parts_.communicator());

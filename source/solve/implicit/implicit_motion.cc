@@ -242,6 +242,10 @@ void ImplicitMotion::load(const StateReader &reader, const OwnedNodes &nodes) {
 void ImplicitMotion::begin(const StateReader &reader, const OwnedNodes &nodes, const double t) {
   if (reader.has("velocities"))
     load_nodal(reader, "velocities", nodes, start_.velocity);
+  if (!refined_bodies(reader).empty()) { // the run goes on
+    loads_.load(reader, nodes);
+    error_.load(reader);
+  }
   held_.start(t, scene_.parameters().time_stepping.initial_step);
   supports_.homogeneous().distribute(start_.velocity);
   start_.velocity += held_.at_start().velocity;

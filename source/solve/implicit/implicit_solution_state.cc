@@ -9,6 +9,27 @@
 
 namespace billet {
 
+namespace {
+
+/// Completes a report about the forces of a finer mesh.
+void begin_on_finer_mesh(ImplicitProblem &problem, RestartReport &report) {
+  // They are those after yielding, at displacements that may be far from balance, and so are the energies.
+  EnergyLedger &energies = problem.state().energies;
+  const double drift = energies.drift();
+  const auto now = problem.parts().internal().compute_energies(problem.state().displacements, Beat::evaluated);
+  energies.elastic = now.elastic;
+  energies.plastic = now.plastic;
+  energies.hourglass = now.hourglass;
+  const double change = drift - energies.drift();
+  report.energy_change += change;
+  energies.initial += change;
+  // A mesh in balance has nothing that fades, so that no step has to end with it.
+  if (report.imbalance <= problem.parts().parameters().solver.force_tolerance * report.force_scale)
+    problem.parts().released().clear();
+}
+
+} // namespace
+
 void ImplicitSolution::save(StateWriter &writer) const {
   const Discretization &discretization = parts_.discretization();
   const NodeKeys keys(discretization);
@@ -51,7 +72,7 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
     throw InputError("its scheme '" + name_of_scheme + "' is unknown; known are " +
                      parameters::selection(parameters::schemes()));
   const bool is_implicit = parameters::type_of(*scheme).has_matrix, is_own = scheme == parts_.scheme().kind();
-  report.is_exact = is_own;
+  report.is_exact = is_own && refined_bodies(reader).empty();
   compare_parts(reader, parts_.scene(), report);
   state.energies = to_energies(reader.read("energies"));
   load_nodal(reader, is_implicit ? "displacements" : "displacements before", nodes, step.start.displacements);
@@ -74,6 +95,8 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
     load_own(reader, nodes, report.is_exact);
   if (!report.is_exact)
     compute_forces(report);
+  if (!refined_bodies(reader).empty())
+    begin_on_finer_mesh(problem_, report);
   rules_->finish_load(reader, release_time, report);
   report.release_end = parts_.released().are_there() ? parts_.released().end() : state.time;
   return report;
@@ -129,7 +152,8 @@ void ImplicitSolution::compute_forces(RestartReport &report) {
   energies.hourglass = now.hourglass;
   energies.elastic = now.elastic;
   energies.plastic = now.plastic;
-  energies.initial += drift - energies.drift();
+  report.energy_change = drift - energies.drift();
+  energies.initial += report.energy_change;
   rules_->hold_imbalance(residual);
 }
 

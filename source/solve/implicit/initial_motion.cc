@@ -84,7 +84,9 @@ void InitialMotion::load(StateReader &reader, RestartReport &report) {
   accelerate();
   const double drift = state.energies.drift();
   motion_.update_state(state);
-  state.energies.initial += drift - state.energies.drift(); // energy of initial velocities is not drift
+  const double change = drift - state.energies.drift();
+  report.energy_change += change;
+  state.energies.initial += change; // energy of initial velocities is not drift
 }
 
 } // namespace billet

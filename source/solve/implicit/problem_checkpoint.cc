@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/problem_checkpoint.h"
 
+#include "billet/solve/refined_reader.h"
+
 #include <vector>
 
 namespace billet {
@@ -82,8 +84,13 @@ bool ProblemCheckpoint::load_body(const std::size_t body, StateReader &reader) {
   const Body &scene_body = parts_.scene().bodies()[body];
   const auto rows = load_history(reader, scene_body.name, *scene_body.law, block.point_states(), width,
                                  element_keys(discretization, body));
+  const std::vector<bool> are_refined = refined_bodies(reader);
   for (std::size_t e = 0; e < block.size(); ++e)
-    block.set_state(e, rows.data() + width * e);
+    if (are_refined.empty() || !are_refined[body])
+      block.set_state(e, rows.data() + width * e);
+    else
+      block.set_parent_state(e, rows.data() + width * e,
+                             child_number(element_key(discretization.elements(body)[e].cell)));
   return true;
 }
 
@@ -111,14 +118,17 @@ void ProblemCheckpoint::load_contacts(StateReader &reader, const NodeKeys &keys)
   auto body_pair_load = state.body_pair_loads.begin();
   for (auto &contact : parts_.contacts()) {
     ContactLoad *const load = contact.rigid_tool() ? nullptr : &*body_pair_load++;
+    const ContactStep at{state.time, state.time, 0., state.placements, state.placements};
+    const bool begins = is_refined(reader, contact); // what the coarser mesh cannot tell remains as it begins
+    if (begins)
+      contact.with_matrix().begin(at, state.displacements);
     const bool is_known = load_pair(reader, contact, [&] {
       contact.load(reader, keys);
       if (load != nullptr && reader.has("load"))
         *load = to_contact_load(reader.read("load"));
     });
-    if (!is_known)
-      contact.with_matrix().begin({state.time, state.time, 0., state.placements, state.placements},
-                                  state.displacements);
+    if (!is_known && !begins)
+      contact.with_matrix().begin(at, state.displacements);
   }
 }
 

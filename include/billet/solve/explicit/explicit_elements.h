@@ -61,7 +61,8 @@ public:
   void save(StateWriter &writer) const;
   /// Whether the checkpoint's histories belong to the same formulations.
   bool has_same_formulations(StateReader &reader) const;
-  void load(StateReader &reader, double t);
+  /// `displacements`: those of the last forces.
+  void load(StateReader &reader, double t, const NodalVectors &displacements);
   /// Sets histories that give the stresses of another formulation at these displacements, in both forms
   /// (`ghosted`: with ghosts).
   void load_stresses(StateReader &reader, const NodalVectors &displacements, const Vector &ghosted, double t);
@@ -69,6 +70,8 @@ public:
 private:
   void make_blocks();
   void set_temperatures(double t);
+  /// Loads a refined body from the histories of the elements before, one row for each of their parts.
+  void load_parents(std::size_t body, const std::vector<double> &rows, const NodalVectors &displacements);
   double stable_step_of(std::size_t body, std::size_t begin, std::size_t end, double min_step) const;
   void count_memory();
   HistoryFormat history_format(std::size_t body) const;

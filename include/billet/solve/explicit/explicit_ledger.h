@@ -5,6 +5,7 @@
 #include "billet/solve/explicit/explicit_parts.h"
 #include "billet/solve/solution.h"
 
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -32,6 +33,10 @@ public:
   /// larger, it is the reference.
   double relative_drift(const EnergyLedger &energies, double stable_step) const;
 
+  /// Returns the energy that the refinement of bodies has made, (R6) of doc/theory. The first update() finds
+  /// it, and counts it as initial energy.
+  double energy_of_refinement() const { return energy_of_refinement_; }
+
   /// `energies`: those of the last update. Collective.
   void save(StateWriter &writer, EnergyLedger energies) const;
   /// Resumes with works of all ranks so far, and with `energies` read from the checkpoint.
@@ -51,6 +56,8 @@ private:
   const ExplicitParts &parts_;
   ExplicitWorks works_;
   double max_energy_ = 0., max_energy_when_due_ = 0.;
+  std::optional<double> drift_before_; ///< refinement, until the first update() after it [energy]
+  double energy_of_refinement_ = 0.;   ///< [energy]
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
 };
 

@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: refinement.py BILLET [LAUNCHER...]
+
+Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
+
+Runs of refined.prm and refined_impact.prm whose meshes become finer on the way. They are judged by runs on
+meshes that are fine from the start, by fields that a finer mesh must carry over exactly, and by each other on
+other numbers of ranks and after restarts.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from glob import glob
+
+from checks import (
+    HERE,
+    Checks,
+    Program,
+    Run,
+    Runner,
+    enter_folder,
+    near,
+    read_text,
+    require,
+    run,
+    says,
+    write_text,
+)
+from edits import edit
+
+BLOCK, IMPACT = (read_text(HERE / f"{name}.prm") for name in ("refined", "refined_impact"))
+program = Program(sys.argv[1:])
+runner = Runner(program)
+check = Checks()
+enter_folder()
+
+HALF = "block: + set Refinement times = 0.5"
+FINE = "Bodies / block / Mesh: Refinements = 1"
+ROUGH = "top on die: + set Friction coefficient = 0.3"
+LAYERS = ("mean dilatation", "assumed strain", "one point")
+
+
+def runs(base: str, edits: str, ranks: int = 1) -> Run:
+    """Returns a run that must succeed."""
+    result = runner.run(base, edits, ranks=ranks)
+    require(result.ended.code == 0, f"exit code {result.ended.code}: {result.complained}{result.said[-500:]}")
+    return result
+
+
+def combined(*edits: str) -> str:
+    """Returns all edits as one."""
+    return " & ".join(text for text in edits if text)
+
+
+def worst(a: Run, b: Run, column: str) -> float:
+    """Returns the largest difference of a column, relative to its largest number."""
+    x, y = a.column(column), b.column(column)
+    require(len(x) == len(y), f"{len(x)} rows, not {len(y)}")
+    return max(abs(p - q) for p, q in zip(x, y)) / max(1e-300, *(abs(p) for p in x))
+
+
+def note(result: Run) -> re.Match[str]:
+    """Returns the message about the refinement: its energy."""
+    return says(r"Each element is divided into eight: .*?The energy changes by (\S+)", result.said)
+
+
+# --- fields that a finer mesh has, too ------------------------------------------------------------
+
+STATIC = ("die.force_z", "elastic_energy", "plastic_work", "external_work")
+for element in LAYERS:
+
+    @check(f"uniform upsetting, {element}")
+    def _() -> None:
+        shape = f"block: + set Element = {element}"
+        coarse, refined = runs(BLOCK, shape), runs(BLOCK, combined(shape, HALF))
+        for column in STATIC:
+            difference = worst(coarse, refined, column)
+            require(difference < 1e-8, f"{column} differs by {difference}")
+        note(refined)
+        says("4 elements become 32", refined.said)
+
+
+@check("uniform upsetting, refined twice")
+def _() -> None:
+    coarse = runs(BLOCK, "")
+    refined = runs(BLOCK, "block: + set Refinement times = 0.3, 0.7")
+    for column in STATIC:
+        difference = worst(coarse, refined, column)
+        require(difference < 1e-8, f"{column} differs by {difference}")
+    says("32 elements become 256", refined.said)
+
+
+# --- against the mesh that is fine from the start -------------------------------------------------
+
+
+# Bent, a single row of elements is much too stiff.
+BENT = (
+    "Tools / die: delete & Contact pairs / top on die: delete & block: Symmetry planes = y = 0"
+    " & Mesh: Arguments = 6, 1, 2 : 0, 0, 0 : 6, 1, 1 : true & block: + subsection Supports\\n"
+    " subsection clamp\\n set Boundary ids = 0\\n end\\n"
+    " subsection end\\n set Boundary ids = 1\\n set Components = z\\n"
+    " set Displacement = 0 ; 0 ; -1.5*t\\n end\\nend"
+)
+for element in ("mean dilatation", "assumed strain"):
+
+    @check(f"a bent beam, {element}: as on the fine mesh")
+    def _() -> None:
+        shape = combined(BENT, f"block: + set Element = {element}")
+        coarse, refined, fine = (runs(BLOCK, combined(shape, edits)) for edits in ("", HALF, FINE))
+        force, work = "block.support end.force_z", "plastic_work"
+        for column, wrong, right in ((force, 0.15, 0.005), (work, 0.1, 0.1)):
+            target = fine.last(column)
+            before, after = (abs(of.last(column) / target - 1) for of in (coarse, refined))
+            require(before > wrong, f"{column}: the coarse mesh is as good: {before}")
+            require(after < right, f"{column}: error {after}, of the coarse mesh {before}")
+        drift = abs(refined.last("energy_drift")) / refined.last("external_work")
+        require(drift < 0.02, f"drift {drift}")
+
+
+@check("a rough die: the run continues")
+def _() -> None:
+    coarse, refined, fine = (runs(BLOCK, combined(ROUGH, edits)) for edits in ("", HALF, FINE))
+    for axis in "xy":
+        target = fine.last(f"die.force_{axis}")
+        before, after = (abs(of.last(f"die.force_{axis}") / target - 1) for of in (coarse, refined))
+        require(after < 0.4 * before, f"friction along {axis}: error {after}, of the coarse mesh {before}")
+
+
+IMPACTS = {
+    "assumed strain": "",
+    "one point": "block: + set Element = one point",
+    "mean dilatation": "block: + set Element = mean dilatation",
+    "hypoelastic": "Material: + set Elasticity = hypoelastic",
+    "elastic": "Material: - Yield stress & Material: - Hardening modulus",
+}
+MOTION = ("wall.force_z", "kinetic_energy", "plastic_work", "momentum_z")
+EARLY = "block: + set Refinement times = 1e-6"
+for name, shape in IMPACTS.items():
+
+    @check(f"an impact that is refined before contact, {name}")
+    def _() -> None:
+        refined = runs(IMPACT, combined(shape, EARLY))
+        fine = runs(IMPACT, combined(shape, FINE, "Time stepping: + set Stops = 1e-6"))
+        for column in MOTION:
+            p, q = refined.last(column), fine.last(column)
+            near(column, p, q, 1e-7 * max(abs(p), abs(q), 1e-12))
+        require(abs(float(note(refined)[1])) < 1e-9 * refined.column("kinetic_energy")[0], "energy is made")
+
+
+@check("an impact that is refined in contact")
+def _() -> None:
+    refined = runs(IMPACT, "block: + set Refinement times = 4e-6")
+    fine = runs(IMPACT, FINE)
+    energy = refined.column("kinetic_energy")[0]
+    require(abs(float(note(refined)[1])) < 0.15 * energy, f"energy: {note(refined)[1]} of {energy}")
+    near("plastic work", refined.last("plastic_work"), fine.last("plastic_work"), 0.1 * energy)
+
+
+# --- ranks and restarts ---------------------------------------------------------------------------
+
+if program.launcher:
+    for name, base, edits in (("block", BLOCK, combined(ROUGH, HALF)), ("impact", IMPACT, EARLY)):
+
+        @check(f"{name} on two ranks")
+        def _() -> None:
+            one, two = (runs(base, edits, ranks) for ranks in (1, 2))
+            for column in STATIC if base is BLOCK else MOTION:
+                near(column, two.last(column), one.last(column), 1e-6 * abs(one.last(column)) + 1e-9)
+
+
+def resume(base: str, edits: str, checkpoint: str, folder: str, ranks: int = 1) -> Run:
+    """Returns a run that resumes from a checkpoint and writes into this folder."""
+    write_text("resumed.prm", edit(base, f"Output: Folder = {folder} & {edits}").text)
+    ended = run(*program.on(ranks, "--restart", checkpoint, "resumed.prm"))
+    return Run(folder, ended)
+
+
+EVERY = "Output: + subsection Checkpoint\n set Step interval = 1\n set Keep = 100\nend"
+for name, base, edits in (("block", BLOCK, combined(ROUGH, HALF)), ("impact", IMPACT, EARLY)):
+
+    @check(f"{name} resumes bitwise before and after the refinement")
+    def _() -> None:
+        whole = runs(base, combined(edits, EVERY))
+        history = whole.text("history.csv")
+        checkpoints = sorted(glob(f"{whole.folder}/checkpoint_*.h5"))
+        for checkpoint in (checkpoints[1], checkpoints[len(checkpoints) * 3 // 4]):
+            resumed = resume(base, combined(edits, EVERY), checkpoint, whole.folder)
+            require(resumed.ended.code == 0, resumed.complained)
+            require(resumed.text("history.csv") == history, f"another history from {checkpoint}")
+
+
+@check("a restart may refine at once, but not join elements")
+def _() -> None:
+    coarse = runs(BLOCK, EVERY)
+    resumed = resume(
+        BLOCK, "block: + set Refinement times = 0.35", f"{coarse.folder}/checkpoint_00005.h5", "once"
+    )
+    require(resumed.ended.code == 0, resumed.complained)
+    says("4 elements become 32", resumed.said)
+    fine = runs(BLOCK, combined(HALF, EVERY))
+    refused = resume(BLOCK, "", f"{fine.folder}/checkpoint_00008.h5", "never")
+    require(refused.ended.code == 2, f"exit code {refused.ended.code}")
+    says("the elements of its body 'block' have been divided 1 times", refused.complained)
+
+
+# --- what users see -------------------------------------------------------------------------------
+
+
+@check("--check counts the elements")
+def _() -> None:
+    write_text("checked.prm", edit(BLOCK, "block: + set Refinement times = 0.5, 0.8").text)
+    ended = run(*program.on(1, "--check", "checked.prm"))
+    says("block: 4 hexahedra, 32 from time 0.5, 256 from time 0.8", ended.output)
+
+
+for form, index in (("vtu", "scene.pvd"), ("hdf5", "fields.xdmf")):
+
+    @check(f"field output as {form} has both meshes")
+    def _() -> None:
+        result = runs(BLOCK, combined(HALF, f"Output: Format = {form}"))
+        text = result.text(index)
+        if form == "vtu":
+            require(len(result.pictured().split()) == 11, text)
+            sizes = [
+                int(re.search(r'NumberOfCells="(\d+)"', result.text(f"fields_{n:05}.0.vtu"))[1])
+                for n in (5, 6)
+            ]
+            require(sizes == [4, 32], f"{sizes} elements")
+        else:
+            require(len(re.findall('NumberOfElements="4"', text)) > 0, "no coarse mesh")
+            require(len(re.findall('NumberOfElements="32"', text)) > 0, "no fine mesh")
+
+
+sys.exit(check.finish())
