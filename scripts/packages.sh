@@ -33,7 +33,7 @@ for group in "$@"; do
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     documentation)
       packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse
-        libjs-katex codespell python3-numpy python3-matplotlib)
+        libjs-katex codespell doxygen python3-numpy python3-matplotlib)
       ;;
     package) packages+=(lintian mmdebstrap dpkg-dev) ;;
     *)
