@@ -72,7 +72,7 @@ void check_body(const parameters::Scene &scene, const parameters::Body &body) {
     check_nodes("load '" + load.name + "'", load.nodes);
   for (const auto &pair : scene.pairs)
     if ((pair.body.value == body.name || pair.second_body.value == body.name) &&
-        (pair.may_overlap || pair.closed_gap > 0.))
+        (pair.initial.may_overlap || pair.initial.closed_gap > 0.))
       throw InputError(origin + " refines body '" + body.name + "', whose contact pair '" + pair.name +
                        "' allows initial penetrations or closes initial gaps, which cannot be carried over; "
                        "allowed are pairs without them");
