@@ -120,6 +120,14 @@ CLOSED_FORMS = (
         command="ctest -R loaded_scenes",
     ),
     Case(
+        "Coupon under cyclic strain: force at the peak in tension",
+        "Armstrong and Frederick's loop",
+        "scenes/cyclic_coupon",
+        {"force of the grip at the peaks, N": "tension"},
+        "difference",
+        command="ctest -R loaded_scenes",
+    ),
+    Case(
         "Drop of a ball: speed of the rebound over that of the impact",
         "elastic impact",
         "scenes/drop",

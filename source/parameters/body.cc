@@ -261,7 +261,7 @@ std::vector<TypeParameter> flow_rule_parameters() {
 
 void Material::declare(ParameterHandler &prm) {
   prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws)),
-                    "elastic: no plasticity; elastoplastic: J2 plasticity (yield in Kirchhoff stress, exact "
+                    "elastic: no plasticity; elastoplastic: plasticity (yield in Kirchhoff stress, exact "
                     "return map); automatic: elastoplastic if a parameter of hardening or rate factors is "
                     "set, such as 'Yield stress', and elastic otherwise.");
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),

@@ -235,8 +235,7 @@ std::string describe_law(const parameters::Body &body) {
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
-         body.material.law->name() +
-         (body.material.law->has_plasticity() ? " J2 plasticity" : " elasticity") +
+         body.material.law->name() + (body.material.law->has_plasticity() ? " plasticity" : " elasticity") +
          (stability.empty() ? "" : ", " + stability);
 }
 

@@ -82,6 +82,21 @@ def _() -> None:
     )
 
 
+@check("the coupon settles in the loop of Armstrong and Frederick")
+def _() -> None:
+    young, start, modulus, rate, strain = 200e3, 200.0, 20e3, 100.0, 0.01
+    stress = start
+    for _iteration in range(100):  # a contraction
+        stress = start + modulus / rate * math.tanh(rate * (strain - stress / young))
+    rows = run_to_end("cyclic_coupon")
+    for time, sign in ((4.25, 1), (4.75, -1)):
+        peak = next(row for row in rows if abs(row["time"] - time) < 1e-9)
+        force = sign * stress * math.exp(-sign * strain)  # tau/lambda, on 1 mm^2
+        near("force of the grip", peak["coupon.support grip.force_z"], force, 1e-6)
+    first = next(row for row in rows if abs(row["time"] - 0.25) < 1e-9)
+    require(first["coupon.support grip.force_z"] < 312, "the first peak is lower")
+
+
 A, B, E, NU, YIELD = 10.0, 20.0, 210e3, 0.3, 240.0  # of the cylinder
 
 
