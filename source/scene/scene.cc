@@ -2,8 +2,8 @@
 #include "billet/scene/scene.h"
 
 #include "billet/errors.h"
-#include "billet/material/drucker.h"
 #include "billet/material/state_fields.h"
+#include "billet/material/viscoelastic.h"
 #include "billet/parameters/reader.h"
 #include "billet/scene/boundary_names.h"
 #include "billet/scene/mesh_refinements.h"
@@ -230,13 +230,14 @@ WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
 std::string describe_law(const parameters::Body &body) {
   const auto *rubber = dynamic_cast<const HasStableRanges *>(body.material.law.get());
   const std::string stability = rubber != nullptr ? describe_stability(rubber->isochoric_energy()) : "";
+  const bool is_viscous = dynamic_cast<const ViscoelasticLaw *>(body.material.law.get()) != nullptr;
   const BrickElement element = body.element.value;
   return (element != BrickElement::assumed_strain ? std::string(element.name()) + ", " : "") +
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
          body.material.law->name() + (body.material.law->has_plasticity() ? " plasticity" : " elasticity") +
-         (stability.empty() ? "" : ", " + stability);
+         (is_viscous ? " with viscosity" : "") + (stability.empty() ? "" : ", " + stability);
 }
 
 /// Builds the meshes of all bodies in one.

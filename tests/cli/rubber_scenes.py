@@ -76,6 +76,14 @@ def _() -> None:
     require(0 < squeezed["plastic_work"] < 0.05 * squeezed["elastic_energy"], "no viscosity")
 
 
+@check("the check names viscosity, and where a law is stable")
+def _() -> None:
+    ended = run(program, "--check", str(SHIPPED / "seal.prm"), "--set", "Bodies/seal/Material/C20=-0.2")
+    require("Yeoh elasticity, stable (Drucker) at stretches of " in ended.output, ended.output)
+    ended = run(program, "--check", str(SHIPPED / "o_ring.prm"))
+    require("Mooney-Rivlin elasticity with viscosity, 3 symmetry planes" in ended.output, ended.output)
+
+
 @check("pages")
 def _() -> None:
     for scene in ("seal", "o_ring"):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Laws of rubber in scenes: a brick in four modes against the point and Rivlin's simple shear, with every
 // element; static, implicit dynamic and explicit; relaxation; Rivlin's torsion of a cylinder; a bonded disc
-// that does not lock.
+// that does not lock; a sphere inflated past its maximum pressure; a cylinder pressed flat.
 
 #include "../material/rubber_laws.h"
 #include "explicit_run.h"
@@ -266,6 +266,65 @@ void test_bonded(const std::string &element) {
   check(element + ", a bonded disc does not lock", std::abs(found / exact - 1.), 0.05);
 }
 
+/// A thick sphere, inflated from inside by its displacement: p/µ = [2/l + 1/(2 l⁴)] at the outer less the
+/// inner stretch (Green & Zerna 1968), past its maximum at a stretch of 1.85.
+void test_sphere(const std::string &element) {
+  const std::string bodies =
+      "subsection Bodies\n  subsection shell\n    set Element = " + element +
+      "\n    set Symmetry planes = z = 0\n    subsection Mesh\n      set Section = axisymmetric\n"
+      "      set Wedge angle = 5\n      set Primitive = subdivided_hyper_rectangle\n"
+      "      set Arguments = 8, 16 : 1, 0 : 2, 90 : true\n"
+      "      set Positions = x*cos(pi/180*y) ; x*sin(pi/180*y)\n    end\n    subsection Material\n"
+      "      set Elasticity = Mooney-Rivlin\n      set C10 = 0.5\n      set Poisson ratio = 0.4995\n    end\n"
+      "    subsection Supports\n" +
+      support("inside", 0, "x, y, z", "2*t*x ; 2*t*y ; 2*t*z") + "    end\n  end\nend\n";
+  parameters::Scene scene =
+      read(bodies, "  set End time = 1\n  set Initial step = 0.05\n  set Maximum step = 0.1\n");
+  scene.solver.force_tolerance = 1e-6;
+  scene.solver.energy_tolerance = 1e-10;
+  SceneRun run(scene);
+  WorstError error;
+  const auto part = [](const double l) { return 2. / l + 0.5 * std::pow(l, -4.); };
+  double last = 0., greatest = 0.;
+  run.finish([&](const NewtonReport &) {
+    const double l = 1. + 2. * run.problem.state().time, outer = std::cbrt(1. + (l * l * l - 1.) / 8.);
+    last = reaction(run, "support inside").force[2] * run.scene.whole_section().factor / (M_PI * l * l);
+    greatest = std::max(greatest, last);
+    error.add(std::abs(last / (part(outer) - part(l)) - 1.));
+  });
+  check(element + ", pressure of a sphere", error.value(), 1e-2);
+  check(element + ", it is past its maximum", last < 0.85 * greatest);
+}
+
+/// A cylinder of radius 200 pressed between frictionless plates to half of its height: 250 N per mm of width
+/// at an approach of 100, 1400 N at 200, read from a graph (Sussman & Bathe 1987; verification manual of
+/// ANSYS, VM201).
+void test_pressed_cylinder() {
+  const std::string scene =
+      "subsection Bodies\n  subsection cylinder\n    set Symmetry planes = x = 0 ; y = 0\n"
+      "    subsection Mesh\n      set Section = plane strain\n      set Height = 10\n"
+      "      set Primitive = quarter_hyper_ball\n      set Arguments = 0, 0 : 200\n"
+      "      set Refinements = 3\n    end\n    subsection Material\n      set Elasticity = Mooney-Rivlin\n"
+      "      set C10 = 0.293\n      set C01 = 0.177\n      set Poisson ratio = 0.49967\n    end\n  end\nend\n"
+      "subsection Tools\n  subsection plate\n    subsection Surfaces\n      subsection plane\n"
+      "        set Point = 0, 200, 0\n        set Normal = 0, -1, 0\n      end\n    end\n"
+      "    subsection Motion\n      set Translation = 0 ; -100*t ; 0\n    end\n  end\nend\n"
+      "set Contact = all\nsubsection General contact\n  set Self-contact = false\nend\n";
+  parameters::Scene parameters =
+      read(scene, "  set End time = 1\n  set Stops = 0.5\n  set Initial step = 0.02\n"
+                  "  set Maximum step = 0.05\n");
+  parameters.solver.force_tolerance = 1e-3;
+  parameters.solver.energy_tolerance = 1e-5;
+  SceneRun run(parameters);
+  run.finish([&](const NewtonReport &) {
+    const double t = run.problem.state().time, force = 2. * std::abs(run.load().force[1]) / 10.;
+    if (std::abs(t - 0.5) < 1e-9)
+      check("a cylinder pressed by a quarter", std::abs(force / 250. - 1.), 0.04);
+    if (std::abs(t - 1.) < 1e-9)
+      check("a cylinder pressed by a half", std::abs(force / 1400. - 1.), 0.02);
+  });
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -275,7 +334,10 @@ int main(int argc, char *argv[]) {
   test_dynamics();
   for (const std::string element : {"assumed strain", "mean dilatation"})
     test_torsion(element);
-  for (const std::string element : elements)
+  for (const std::string element : elements) {
     test_bonded(element);
+    test_sphere(element);
+  }
+  test_pressed_cylinder();
   return testing::exit_code();
 }
