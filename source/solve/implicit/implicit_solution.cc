@@ -184,6 +184,7 @@ ImplicitSolution::Probe ImplicitSolution::probe(const double t, const double pre
 }
 
 void ImplicitSolution::commit(const double t, NewtonReport &report) {
+  const double t_n = problem_.state().time, drift_n = problem_.state().energies.drift();
   StepState &step = problem_.step();
   ForceScales &scales = problem_.scales();
   reactions_.start();
@@ -206,6 +207,9 @@ void ImplicitSolution::commit(const double t, NewtonReport &report) {
   ledger.elastic = energies.elastic;
   ledger.plastic = energies.plastic;
   ledger.hourglass = energies.hourglass;
+  // What a finer mesh loses until it is in balance is not work of the model.
+  if (releases_refinement_ && problem_.released().left(t_n) > 0.)
+    ledger.initial += drift_n - ledger.drift();
   rules_->close_step(t);
   if (!attempt_.stopping().empty())
     rules_->predictor().lose_pace();
@@ -221,7 +225,8 @@ void ImplicitSolution::commit_works(const double t) {
   const double before = problem_.scheme().contact_before();
   const StepWorks works = problem_.contacts().compute_step_works(1. - before);
   state.energies.external -= problem_.removal().work(state.time, t, step.last_increment);
-  state.energies.external += problem_.released().work(state.time, t, step.last_increment);
+  if (!releases_refinement_)
+    state.energies.external += problem_.released().work(state.time, t, step.last_increment);
   state.energies.external += problem_.switched_supports().work(state.time, t, step.last_increment);
   rules_->commit(t);
   step.start.displacements = step.trial.displacements;

@@ -56,6 +56,7 @@ void ImplicitSolution::save(StateWriter &writer) const {
   checkpoint_.save_tools(writer, nodes);
   checkpoint_.save_contacts(writer, keys);
   problem_.released().save(writer, nodes);
+  writer.write("release of refinement", {releases_refinement_ ? 1. : 0.});
   problem_.switched_supports().save(writer, nodes);
 }
 
@@ -93,9 +94,11 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
       problem_.contacts().find_spring_round_off(); // with the present penalties
   if (is_own)
     load_own(reader, nodes, report.is_exact);
-  if (!report.is_exact)
+  if (!report.is_exact) {
     compute_forces(report);
-  if (!refined_bodies(reader).empty())
+    releases_refinement_ = !refined_bodies(reader).empty();
+  }
+  if (releases_refinement_ && !report.is_exact)
     begin_on_finer_mesh(problem_, report);
   rules_->finish_load(reader, release_time, report);
   report.release_end = problem_.released().are_there() ? problem_.released().end() : state.time;
@@ -118,6 +121,7 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
     problem_.tangent().take_exact();
   problem_.scales().lasting = reader.read("scales", 2).at(0);
   problem_.released().load(reader, nodes, problem_.discretization());
+  releases_refinement_ = reader.number("release of refinement") != 0.;
 }
 
 void ImplicitSolution::compute_forces(RestartReport &report) {

@@ -142,6 +142,7 @@ private:
   ProblemCheckpoint checkpoint_;
   ImplicitReactions reactions_;
   double penetration_ = 0.;
+  bool releases_refinement_ = false; ///< whether the unbalanced forces are those of a finer mesh
 };
 
 } // namespace billet
