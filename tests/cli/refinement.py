@@ -4,7 +4,7 @@
 
 Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
 
-Runs of refined.prm and refined_impact.prm whose meshes become finer on the way. They are judged by runs on
+Runs of refined.prm, refined_impact.prm and refined_stack.prm whose meshes become finer on the way. They are judged by runs on
 meshes that are fine from the start, by fields that a finer mesh must carry over exactly, and by each other on
 other numbers of ranks and after restarts.
 """
@@ -31,7 +31,9 @@ from checks import (
 )
 from edits import edit
 
-BLOCK, IMPACT = (read_text(HERE / f"{name}.prm") for name in ("refined", "refined_impact"))
+BLOCK, IMPACT, STACK = (
+    read_text(HERE / f"{name}.prm") for name in ("refined", "refined_impact", "refined_stack")
+)
 program = Program(sys.argv[1:])
 runner = Runner(program)
 check = Checks()
@@ -135,6 +137,8 @@ IMPACTS = {
     "mean dilatation": "block: + set Element = mean dilatation",
     "hypoelastic": "Material: + set Elasticity = hypoelastic",
     "elastic": "Material: - Yield stress & Material: - Hardening modulus",
+    "float": "+ subsection Explicit dynamics\\n set Number type = float\\nend",
+    "implicit": "Time stepping: Scheme = implicit dynamics",
 }
 MOTION = ("wall.force_z", "kinetic_energy", "plastic_work", "momentum_z")
 EARLY = "block: + set Refinement times = 1e-6"
@@ -148,6 +152,20 @@ for name, shape in IMPACTS.items():
             p, q = refined.last(column), fine.last(column)
             near(column, p, q, 1e-7 * max(abs(p), abs(q), 1e-12))
         require(abs(float(note(refined)[1])) < 1e-9 * refined.column("kinetic_energy")[0], "energy is made")
+
+
+for body in ("upper", "lower", "both"):
+
+    @check(f"friction sticks while a mesh is refined: {body}")
+    def _() -> None:
+        bodies = ("upper", "lower") if body == "both" else (body,)
+        coarse = runs(STACK, "")
+        refined = runs(STACK, combined(*(f"{name}: + set Refinement times = 0.5" for name in bodies)))
+        fine = runs(STACK, combined(*(f"Bodies / {name} / Mesh: + set Refinements = 1" for name in bodies)))
+        force = "upper.support ram.force_x"
+        before, after = (abs(of.last(force) / fine.last(force) - 1) for of in (coarse, refined))
+        require(after < 0.015 and after < before, f"error {after}, of the coarse mesh {before}")
+        require(refined.last("friction_dissipation") < 1e-12, "it slips")
 
 
 @check("an impact that is refined in contact")
@@ -178,16 +196,21 @@ def resume(base: str, edits: str, checkpoint: str, folder: str, ranks: int = 1) 
     return Run(folder, ended)
 
 
-EVERY = "Output: + subsection Checkpoint\n set Step interval = 1\n set Keep = 100\nend"
-for name, base, edits in (("block", BLOCK, combined(ROUGH, HALF)), ("impact", IMPACT, EARLY)):
+EVERY = "Output: + subsection Checkpoint\\n set Step interval = 1\\n set Keep = 100\\nend"
+OFTEN = EVERY.replace("Step interval = 1", "Interval = 0.5e-6")
+for name, base, edits in (
+    ("block", BLOCK, combined(ROUGH, HALF, EVERY)),
+    ("impact", IMPACT, combined(EARLY, OFTEN)),
+):
 
-    @check(f"{name} resumes bitwise before and after the refinement")
+    @check(f"{name} resumes bitwise before, at and after the refinement")
     def _() -> None:
-        whole = runs(base, combined(edits, EVERY))
+        whole = runs(base, edits)
         history = whole.text("history.csv")
         checkpoints = sorted(glob(f"{whole.folder}/checkpoint_*.h5"))
-        for checkpoint in (checkpoints[1], checkpoints[len(checkpoints) * 3 // 4]):
-            resumed = resume(base, combined(edits, EVERY), checkpoint, whole.folder)
+        at = 4 if base is BLOCK else 1
+        for checkpoint in (checkpoints[at - 1], checkpoints[at], checkpoints[at + 1], checkpoints[-2]):
+            resumed = resume(base, edits, checkpoint, whole.folder)
             require(resumed.ended.code == 0, resumed.complained)
             require(resumed.text("history.csv") == history, f"another history from {checkpoint}")
 
