@@ -118,7 +118,7 @@ struct Body {
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z
   Located<std::vector<SymmetryPlane>> symmetry_planes;
-  Located<bool> is_stabilised; ///< viscous forces stabilise it until contact supports it
+  Located<bool> is_stabilised;                   ///< viscous forces stabilise it until contact supports it
   Located<std::vector<double>> refinement_times; ///< > 0, ascending; each element is divided there [time]
 
   static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names,

@@ -38,7 +38,8 @@ void AcceptedSteps::add_works(const AcceptedStep &step) {
   // Work of the supports and of the tools, by the trapezoidal rule, but with (I4) that of contact by its
   // forces at the end.
   energies.external -= parts_.removal().work(step.start_time, step.end_time, step.increment);
-  energies.external += parts_.released().work(step.start_time, step.end_time, step.increment);
+  if (!parts_.released().are_of_refinement())
+    energies.external += parts_.released().work(step.start_time, step.end_time, step.increment);
   energies.external += parts_.switched_supports().work(step.start_time, step.end_time, step.increment);
   p_.rules.commit(step.end_time);
   Vector mean_forces = step.trial.supports;

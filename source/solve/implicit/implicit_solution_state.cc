@@ -16,7 +16,8 @@ void begin_on_finer_mesh(ImplicitProblem &problem, RestartReport &report) {
   // They are those after yielding, at displacements that may be far from balance, and so are the energies.
   EnergyLedger &energies = problem.state().energies;
   const double drift = energies.drift();
-  const auto now = problem.parts().internal().compute_energies(problem.state().displacements, Beat::evaluated);
+  const auto now =
+      problem.parts().internal().compute_energies(problem.state().displacements, Beat::evaluated);
   energies.elastic = now.elastic;
   energies.plastic = now.plastic;
   energies.hourglass = now.hourglass;
@@ -26,6 +27,8 @@ void begin_on_finer_mesh(ImplicitProblem &problem, RestartReport &report) {
   // A mesh in balance has nothing that fades, so that no step has to end with it.
   if (report.imbalance <= problem.parts().parameters().solver.force_tolerance * report.force_scale)
     problem.parts().released().clear();
+  else
+    problem.parts().released().are_of_refinement(true);
 }
 
 } // namespace
@@ -93,10 +96,11 @@ RestartReport ImplicitSolution::load(StateReader &reader, const double release_t
       parts_.contacts().find_spring_round_off(); // with the present penalties
   if (is_own)
     load_own(reader, nodes, report.is_exact);
-  if (!report.is_exact)
+  if (!report.is_exact) {
     compute_forces(report);
-  if (!refined_bodies(reader).empty())
-    begin_on_finer_mesh(problem_, report);
+    if (!refined_bodies(reader).empty())
+      begin_on_finer_mesh(problem_, report);
+  }
   rules_->finish_load(reader, release_time, report);
   report.release_end = parts_.released().are_there() ? parts_.released().end() : state.time;
   return report;

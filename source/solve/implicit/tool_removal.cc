@@ -106,7 +106,7 @@ double ReleasedForces::work(const double t_n, const double t, const Vector &incr
 void ReleasedForces::save(StateWriter &writer, const OwnedNodes &nodes) const {
   if (!forces_)
     return;
-  writer.write("release", {begin_, end_});
+  writer.write("release", {begin_, end_, are_of_refinement_ ? 1. : 0.});
   save_nodal(writer, "imbalance", nodes, *forces_);
 }
 
@@ -116,9 +116,10 @@ void ReleasedForces::load(StateReader &reader, const OwnedNodes &nodes,
     return;
   forces_ = std::make_unique<Vector>(discretization.make_owned_vector());
   load_nodal(reader, "imbalance", nodes, *forces_);
-  const std::vector<double> release = reader.read("release", 2);
+  const std::vector<double> release = reader.read("release", 3);
   begin_ = release[0];
   end_ = release[1];
+  are_of_refinement_ = release[2] != 0.;
 }
 
 } // namespace billet

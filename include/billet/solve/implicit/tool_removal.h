@@ -60,7 +60,13 @@ public:
   double end() const { return end_; }
   /// Makes the residual at time t the forces that fade.
   void hold(const Vector &residual, double t);
-  void clear() { forces_.reset(); }
+  void clear() {
+    forces_.reset();
+    are_of_refinement_ = false;
+  }
+  /// Whether they are the imbalance of a finer mesh, whose work is none of the model.
+  bool are_of_refinement() const { return are_of_refinement_; }
+  void are_of_refinement(const bool are) { are_of_refinement_ = are; }
   void fade_until(const double end) { end_ = end; }
   double begin() const { return begin_; }
   /// Subtracts the remaining residual at t.
@@ -74,6 +80,7 @@ public:
 private:
   std::unique_ptr<Vector> forces_; ///< residual at the start, on free dofs; or null
   double begin_ = 0., end_ = 0.;
+  bool are_of_refinement_ = false;
 };
 
 } // namespace billet
