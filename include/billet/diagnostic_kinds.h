@@ -507,8 +507,8 @@ inline const DiagnosticKind resumed("resumed", Severity::note, "The run continue
 inline const DiagnosticKind mesh_refined(
     "mesh-refined", Severity::note,
     "'Refinement times' divides the elements of these bodies into eight, and the run continues on the finer "
-    "mesh. Contact pairs of these bodies begin anew. The new elements are not quite in balance: in static "
-    "scenes the unbalanced forces fade, in dynamic ones they accelerate the bodies.",
+    "mesh, to which it carries its state. In static scenes the unbalanced forces of the finer mesh fade, in "
+    "dynamic ones they accelerate the bodies.",
     "If the imbalance or the change of energy is large, refine at a time of less deformation");
 
 inline const DiagnosticKind mass_scaling(

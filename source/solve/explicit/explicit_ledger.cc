@@ -119,6 +119,7 @@ void ExplicitLedger::update(SolutionState &state) {
     energies.initial += energy_of_refinement_;
     drift_before_.reset();
   }
+  drift_ = energies.drift();
   // The present energy counts half only, so that spurious energy does not hide itself.
   const double energy = std::max(0.5 * energies.total(), std::abs(energies.initial + energies.external));
   max_energy_ = std::max(max_energy_, energy);
@@ -151,7 +152,7 @@ double ExplicitLedger::kinetic_energy() const {
 }
 
 void ExplicitLedger::save(StateWriter &writer, EnergyLedger energies) const {
-  writer.write("drift", {energies.drift()});
+  writer.write("drift", {drift_});
   energies.kinetic = kinetic_energy();
   writer.write("kinetic energy", {energies.kinetic});
   const std::vector<double> own{works_.external,
@@ -176,8 +177,10 @@ void ExplicitLedger::save(StateWriter &writer, EnergyLedger energies) const {
 }
 
 EnergyLedger ExplicitLedger::load(const StateReader &reader, const bool is_exact) {
+  if (is_exact)
+    drift_ = reader.number("drift");
   if (!refined_bodies(reader).empty())
-    drift_before_ = reader.number("drift");
+    drift_before_ = drift_;
   // The ledger resumes these sums; the rest follows from the state.
   const EnergyLedger energies = to_energies(reader.read("energies"));
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(parts_.communicator());

@@ -57,6 +57,7 @@ private:
   ExplicitWorks works_;
   double max_energy_ = 0., max_energy_when_due_ = 0.;
   std::optional<double> drift_before_; ///< refinement, until the first update() after it [energy]
+  double drift_ = 0.;                  ///< at the last update(), also before a restart [energy]
   double energy_of_refinement_ = 0.;   ///< [energy]
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
 };
