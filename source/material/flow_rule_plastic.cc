@@ -145,9 +145,9 @@ public:
         stabilisation_(step.shared != nullptr ? 6. * law.elastic_.shear * step.shared->energy : 0.),
         strain_(to_kelvin(trial.strain)) {}
 
-  /// Evaluates the trial state. Returns false if it is inadmissible.
+  /// Evaluates the trial state. Returns false if it is inadmissible. Only terms need its strains.
   bool start() {
-    if (!evaluate())
+    if (n_terms() > 0 && !evaluate())
       return false;
     assemble();
     set_temperature();
@@ -163,6 +163,8 @@ public:
     constexpr unsigned int max_iterations = 100;
     constexpr double round_off = 1e-15, small = 1e-10; // strains
     double last = std::numeric_limits<double>::infinity();
+    if (n_terms() == 0 && !evaluate())
+      return false;
     for (unsigned int i = 0; i < max_iterations; ++i) {
       differentiate();
       const double before = increment_.alpha;
