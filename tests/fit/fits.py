@@ -64,7 +64,7 @@ def command(*arguments: str) -> tuple[int, str, str]:
 
 
 class Laws(unittest.TestCase):
-    """Stresses against evaluations of the literature, and stability."""
+    """Stresses against separate evaluations of the formulas, and stability."""
 
     def test_stresses(self) -> None:
         for mode, stretch, stress in (

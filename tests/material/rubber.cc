@@ -87,7 +87,7 @@ void test_closed_forms() {
   check("the same, Yeoh", yeoh.value(), 1e-10);
   check("the same, Ogden", ogden.value(), 1e-10);
   check("simple shear, with normal stresses", shear.value(), 1e-10);
-  // Published evaluations at stretches 2, 4 and 7, to the digits that they have.
+  // Separate evaluations of the formulas, to the digits that they have.
   const SharedEnergy treloar = make_ogden_energy(ogden_moduli, ogden_exponents);
   check("Ogden's fit of Treloar's data at a stretch of 7, uniaxial",
         std::abs(nominal(treloar, 7.).uniaxial - 3.9952), 6e-5);
