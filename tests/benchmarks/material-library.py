@@ -36,7 +36,7 @@ def pull(file: Path, stretch: float, rate: float) -> list[tuple[float, float]]:
         )
         with open(Path(folder) / "pulled/history.csv", encoding="utf-8", newline="") as rows:
             return [
-                (math.exp(rate * float(row["time"])), float(row["support head.force_x"]))
+                (math.exp(rate * float(row["time"])), float(row["cube.support head.force_x"]))
                 for row in csv.DictReader(rows)
             ]
 

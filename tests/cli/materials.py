@@ -28,7 +28,7 @@ def pull(file: Path, constants: Constants, stretch: float, rate: float, toleranc
     ended = run(program, "cube.prm", "--output", "pulled", "--force")
     require(ended.code == 0, ended.output + ended.errors)
     row = history("pulled")[-1]
-    near("force", row["support head.force_x"], tension(constants, stretch, rate), tolerance)
+    near("force", row["cube.support head.force_x"], tension(constants, stretch, rate), tolerance)
 
 
 files = sorted(FOLDER.glob("*.prm"))
@@ -66,7 +66,7 @@ def _() -> None:
     write_text("cube.prm", tension_scene("OFHC_copper.prm", 1.01, 1.0))
     ended = run(program, "cube.prm", "--output", "own", "--force")
     require(ended.code == 0, ended.output + ended.errors)
-    force = history("own")[-1]["support head.force_x"]
+    force = history("own")[-1]["cube.support head.force_x"]
     near("force", force, 7 * math.log(1.01) / 1.01, 1e-2)
 
 

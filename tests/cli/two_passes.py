@@ -17,8 +17,8 @@ program, *launcher = sys.argv[1:]
 check = Checks()
 enter_folder()
 PRESSURE, AREA = 100.0, 100.0
-# Step 2 of an explicit run lets the blocks oscillate a little.
-STATIC, MOVING = 1e-6, 2e-2
+# Areas of facets that do not fit are measured on both sides. Explicit blocks oscillate a little.
+STATIC, UNEQUAL, MOVING = 1e-6, 1e-4, 2e-2
 FINER = "Bodies/bottom/Mesh/Arguments=3, 3, 2 : 0, 0, 0 : 10, 10, 10"
 EXPLICIT = ("Time stepping/Scheme=explicit", "Time stepping/End time=4e-4", "Time stepping/Initial step=")
 RAMP = ("Bodies/top/Loads/press/Pressure=100*min(1, 5e3*t)", "Bodies/top/Contact stabilisation=")
@@ -50,12 +50,12 @@ for method in ("planed", "bilinear"):
 
     @check(f"other meshes, {method} facets")
     def _() -> None:
-        check_pressures(last_row(1, facets, FINER), STATIC, False)
+        check_pressures(last_row(1, facets, FINER), UNEQUAL, False)
 
 
 @check("two ranks")
 def _() -> None:
-    check_pressures(last_row(2, FINER), STATIC, False)
+    check_pressures(last_row(2, FINER), UNEQUAL, False)
 
 
 @check("one pass has the same pressure")
