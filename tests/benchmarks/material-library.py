@@ -80,6 +80,7 @@ for axes, title in zip(panels, titles):
     axes.set_ylabel("Kirchhoff stress, MPa" if axes is not panels[2] else "nominal stress, MPa")
     axes.legend(fontsize=7)
     axes.grid(alpha=0.3)
+panels[0].set_ylim(0, 1800)  # room for the legend
 figure.tight_layout()
 if not options.quick:
     figure.savefig(ROOT / "doc/images/material_library.png", dpi=110)
