@@ -175,6 +175,8 @@ def check_program(program: str) -> int:
     """Prints sentences that are too long; returns their number."""
     n_faults = 0
     for name, text in descriptions_of(program):
+        # The meaning of a value begins with its name, which may be in small letters: "none: no friction".
+        text = re.sub(r"\. (?=[a-z][\w ,|-]*:)", ". The ", text)
         for sentence in sentences_of(re.sub(r"(?<!\w)'[^']+'(?!\w)", "C", text)):
             for part in sentence.split("; "):  # the values of a parameter, each with its meaning
                 if n_words(part) > MAX_WORDS:

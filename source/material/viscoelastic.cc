@@ -24,8 +24,8 @@ std::vector<TypeParameter> prony_parameters() {
   using Kind = TypeParameter::Kind;
   return {
       {moduli_key, "", Kind::text,
-       "g of each term of Prony's series, > 0 and together < 1, separated by commas: shares of the "
-       "instantaneous isochoric stress that relax. Empty: no viscosity."},
+       "g of each term of Prony's series, separated by commas. They are the shares of the instantaneous "
+       "isochoric stress that relax, each > 0 and together < 1. Empty: no viscosity."},
       {times_key, "", Kind::text,
        "Relaxation time of each term, > 0, separated by commas. The elastic constants are those of a fast "
        "deformation. [time]"}};

@@ -89,8 +89,9 @@ void Mesh::declare(ParameterHandler &prm) {
                     "The content tells the format. Groups of faces give boundary ids and names.");
   prm.declare_entry(
       "Volumes", "", Patterns::Anything(),
-      "Mesh files: names or numbers of the volumes that are this body, separated by commas: physical volumes "
-      "of Gmsh, sets of elements of a deck, numbers of materials in other formats; of a 'Section', "
+      "Mesh files: names or numbers of the volumes that are this body, separated by commas. They are "
+      "physical "
+      "volumes of Gmsh, sets of elements of a deck, numbers of materials in other formats; of a 'Section', "
       "physical surfaces. Faces beside other volumes are boundary faces of this body, with the names "
       "'interface' and 'interface NAME', where NAME is the other volume. Empty: the whole file is one body.");
   prm.declare_entry(
@@ -112,12 +113,12 @@ void Mesh::declare(ParameterHandler &prm) {
                     "Angle of the rotation of the mesh. [degrees]");
   prm.declare_entry("Translation", "0, 0, 0", Patterns::Anything(),
                     "Translation of the mesh after the rotation. [length]");
-  prm.declare_entry("Boundary ids", "", Patterns::Anything(),
-                    "New ids or names of boundary faces: 'id : condition ; name : condition ...', each "
-                    "condition a muParser "
-                    "expression of the face's centre x, y, z in the final position, such as 'top : abs(z - "
-                    "15) < 1e-6'. The "
-                    "last true condition applies; faces without a true one keep their id.");
+  prm.declare_entry(
+      "Boundary ids", "", Patterns::Anything(),
+      "New ids or names of boundary faces: 'id : condition ; name : condition ...'. A condition "
+      "is a muParser expression of the face's centre x, y, z in the final position, such as "
+      "'top : abs(z - 15) < 1e-6'. The "
+      "last true condition applies; faces without a true one keep their id.");
 }
 
 namespace {
@@ -502,7 +503,7 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
                     "sheets, with two bricks through the thickness rather than one.");
   prm.declare_entry(
       "Thickness direction", "", Patterns::Anything(),
-      "Direction from the inner to the outer side, with more than 2 points through the thickness: three "
+      "Direction from the inner to the outer side, for more than 2 points through the thickness. Three "
       "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' for a plate or 'x ; y ; "
       "0' for a tube about z. Each brick uses its axis nearest to it.");
   prm.declare_entry(
@@ -518,8 +519,8 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
                     "Symmetry planes, which boundary nodes on them cannot leave, separated by semicolons: 'x "
                     "= 0', or with a normal and the distance along it, '1, 1, 0 = 3.5'. [length]");
   prm.declare_entry("Contact stabilisation", "none", Patterns::Selection("none|until contact"),
-                    "Static scenes. until contact: a small viscous force acts on a body that neither "
-                    "supports nor contact constrain at the start, and fades once contact supports it.");
+                    "Static scenes. until contact: a small viscous force acts on a body that is free at the "
+                    "start, and fades once contact supports it.");
   prm.enter_subsection("Mesh");
   Mesh::declare(prm);
   prm.leave_subsection();

@@ -386,9 +386,9 @@ void Solver::parse(Reader &reader) {
 
 void Output::declare(ParameterHandler &prm) {
   prm.declare_entry("Folder", "", Patterns::Anything(),
-                    "Folder of all output, relative to the current folder. The run creates it if necessary; "
-                    "a folder with results of another run is moved aside first, to FOLDER.1 or the lowest "
-                    "free number, unless --force is given or the run resumes from a checkpoint in it. Empty: "
+                    "Folder of all output, relative to the current folder. The run creates it if necessary. "
+                    "A folder with results of another run is moved aside first, to FOLDER.1 or the lowest "
+                    "free number. It stays with --force and if the run resumes from it. Empty: "
                     "the name of the scene file without its extension.");
   prm.declare_entry("Format", "vtu", Patterns::Selection(selection(formats)),
                     "Format of the field output for ParaView. vtu: VTU, one file for each block and output "
@@ -414,9 +414,9 @@ void Output::declare(ParameterHandler &prm) {
   prm.declare_entry(
       "State fields", "", Patterns::Anything(),
       "Fields of the materials' states to write, by name, separated by commas, such as "
-      "'inverse plastic metric'; for an unknown name the message lists those of the scene. Each "
-      "is averaged over the undeformed volume of an element, is named state_NAME or "
-      "state_NAME_COMPONENT in the files, and is 0 in bodies whose law does not have it.");
+      "'inverse plastic metric'; for an unknown name the message lists those of the scene. In "
+      "the files they are state_NAME or state_NAME_COMPONENT, means over the undeformed volume of an "
+      "element. They are 0 in bodies whose law does not have them.");
   prm.declare_entry("Contact", "true", Patterns::Bool(),
                     "Write contact pressure, traction, gap, slip and status, if there is contact.");
   prm.declare_entry("Nodal averages", "false", Patterns::Bool(),

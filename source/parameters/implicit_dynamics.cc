@@ -26,10 +26,11 @@ void ImplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry("Mass", "consistent", Patterns::Selection(selection(masses)),
                     "Mass matrix. consistent: that of the shape functions; lumped: its row sums at the "
                     "nodes, as in explicit scenes.");
-  prm.declare_entry("Error tolerance", "1e-3", Patterns::Double(),
-                    "Automatic steps: maximum error of the time integration in a step (Zienkiewicz & Xie "
-                    "1991, root mean square over the mass), as a part of the reference displacement. The "
-                    "error cuts steps and limits their growth. 0: steps depend on the iterations only.");
+  prm.declare_entry(
+      "Error tolerance", "1e-3", Patterns::Double(),
+      "Automatic steps: maximum error of the time integration in a step, as a part of the "
+      "reference displacement. It is a root mean square over the mass (Zienkiewicz & Xie "
+      "1991). The error cuts steps and limits their growth. 0: steps depend on the iterations only.");
   prm.declare_entry("Reference displacement", "0", Patterns::Double(),
                     "Displacement to which the error tolerance refers. 0: maximum displacement so far (root "
                     "mean square over the mass), at least a millionth of the scene's radius. Rigid-body "

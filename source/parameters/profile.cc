@@ -361,7 +361,7 @@ void declare_presets(dealii::ParameterHandler &prm) {
       dealii::Patterns::Selection(std::string(of_mesh_given) + "|" + of_everything),
       "mesh given: 'Target error' is that of all sources but the mesh. everything: two thirds of it are "
       "left to the mesh. The scene runs on coarser levels of the given meshes first, then on finer "
-      "ones, until the difference between the last levels shows that the error is small enough.");
+      "ones. The run ends where the difference between the last levels is small enough.");
   prm.declare_entry(
       finest_key, "1", dealii::Patterns::Integer(0),
       "'Target error of = everything': most levels above the given meshes. Each has bricks of half the "

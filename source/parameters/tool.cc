@@ -49,8 +49,8 @@ void Motion::declare(ParameterHandler &prm) {
       "> 0. Moment of inertia of a tool with a moment about its axis, in dynamic scenes. [mass length^2]");
   prm.declare_entry(
       "Initial speed", "0", Patterns::Double(),
-      "Initial speed of a tool with a force or moment, in dynamic scenes: along the force direction, or "
-      "about its axis, in addition to its translation and rotation. [length/time, or radians/time]");
+      "Dynamic scenes: initial speed of a tool with a force or moment, along that direction or about that "
+      "axis. Its translation and rotation are added. [length/time, or radians/time]");
   prm.declare_entry(
       "Removal time", "", Patterns::Anything(),
       "Time of the removal of the tool, after which the bodies spring back. Empty: never. [time]");
@@ -233,8 +233,8 @@ void ContactPair::declare_values_of_bodies(ParameterHandler &prm) {
                     "Pairs of bodies, nodes against facets. true: contact of edges with edges, which nodes "
                     "against facets do not detect; automatic: true in explicit scenes.");
   prm.declare_entry("Smoothing", "0.1", Patterns::Double(),
-                    "> 0 and <= 0.5. Pairs of bodies, nodes against facets: width at the edges of a facet, "
-                    "as a part of its size, over which normal and gap blend into those of its neighbour. "
+                    "> 0 and <= 0.5. Pairs of bodies, nodes against facets: part of a facet, at its edges, "
+                    "over which normal and gap blend into those of its neighbour. "
                     "0.5: over the whole facet, a smooth surface of mean normals.");
   prm.declare_entry(
       "Search margin", "0.5", Patterns::Double(),

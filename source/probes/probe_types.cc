@@ -214,9 +214,10 @@ TypeParameter probed_point() {
 }
 
 TypeParameter probed_place() {
-  return {"Place", "material", TypeParameter::Kind::choice,
-          "material|nearest node|space: points of the undeformed body move with it, or the nodes nearest to "
-          "them do, or points stay in space and read what is there; then 'nan' means that nothing is."};
+  return {
+      "Place", "material", TypeParameter::Kind::choice,
+      "material|nearest node|space: Points of the undeformed body that move with it. Or the nodes nearest "
+      "to them. Or points that stay in space and read what is there; 'nan' if nothing is."};
 }
 
 TypeParameter probed_quantities() {
