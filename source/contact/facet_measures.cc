@@ -70,17 +70,27 @@ std::vector<SlaveForce> FacetMeasures::slave_forces() const {
 }
 
 std::vector<SurfaceForce> FacetMeasures::nodal_forces() const {
-  std::vector<SurfaceForce> forces(parts_.surfaces.exchange().n_own_nodes());
-  for (std::size_t i = 0; i < std::min(forces.size(), parts_.nodal_forces.size()); ++i)
-    forces[i].force = parts_.nodal_forces[i];
-  for (unsigned int f = 0; f < parts_.surfaces.exchange().n_own_facets(); ++f) {
-    const FacetAreas &areas = parts_.surfaces.moved().areas(f);
-    const dealii::Tensor<1, 3> normal = parts_.surfaces.moved().plane(f).normal();
-    for (unsigned int a = 0; a < 4; ++a) {
-      const double area = areas.share(a, -normal);
-      forces[parts_.surfaces.facet(f).nodes[a]] += {{}, area * normal, area};
-    }
+  const SurfaceExchange &exchange = parts_.surfaces.exchange();
+  std::vector<double> of_pressures(exchange.n_nodes());
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    const SlaveState &state = parts_.touching[s];
+    parts_.touching.visit_forces(s, [&](const FacetShare &share, const auto &, const auto &) {
+      const double part = parts_.touching.area_of(state, share) * state.traction.pressure;
+      of_pressures[parts_.slaves.node(s)] += part;
+      for (unsigned int a = 0; a < 4; ++a)
+        of_pressures[parts_.surfaces.facet(share.facet).nodes[a]] += share.projection.weights[a] * part;
+    });
   }
+  exchange.collect(of_pressures);
+  std::vector<SurfaceForce> forces(exchange.n_own_nodes());
+  for (std::size_t i = 0; i < std::min(forces.size(), parts_.nodal_forces.size()); ++i) {
+    forces[i].force = parts_.nodal_forces[i];
+    forces[i].of_pressures = of_pressures[i];
+  }
+  for (unsigned int f = 0; f < exchange.n_own_facets(); ++f)
+    for (unsigned int a = 0; a < 4; ++a)
+      forces[parts_.surfaces.facet(f).nodes[a]].area +=
+          parts_.surfaces.moved().areas(f).share(a, -parts_.surfaces.moved().plane(f).normal());
   return forces;
 }
 

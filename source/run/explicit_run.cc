@@ -137,6 +137,7 @@ void ExplicitRun::report_change(RunOutput &output) {
   if (!change_)
     return;
   problem_.update_ledger();
+  change_->check(parameters_.file_name, problem_.state().energies);
   RestartReport report;
   report.energy_change = problem_.energy_of_refinement();
   output.report(change_->describe(report, 0.));

@@ -48,6 +48,7 @@ void Resumption::load(const Scene &scene, const Discretization &discretization,
                       const std::function<RestartReport()> &load) {
   std::vector<std::string> changed;
   if (change_) {
+    in("solution", [&] { change_->before = to_energies(file_.read("energies")); });
     in("", [&] { refined_ = std::make_unique<RefinedReader>(file_, discretization, change_->is_refined); });
   } else
     in("scene", [&] { changed = check_scene(file_, scene, discretization); });
@@ -71,6 +72,23 @@ void Resumption::check_end(const parameters::Scene &parameters) const {
   message << parameters.file_name << ": 'End time' is " << parameters.time_stepping.end_time
           << "; allowed is a time after that of the checkpoint, " << report_.time;
   throw InputError(message.str());
+}
+
+void MeshChange::check(const std::string &scene_name, const EnergyLedger &after) const {
+  const double gained = after.contact - before.contact, allowed = max_gain * before.total();
+  if (!(gained > allowed))
+    return;
+  std::ostringstream what;
+  what << scene_name << ": finer elements of " << text
+       << " penetrate what they touch. Contact springs would gain an energy of " << gained << "; allowed is "
+       << allowed << ", " << 100. * max_gain
+       << " % of all energy. New nodes lie on the chords of faces, inside a curved surface";
+  throw SolutionFailure(
+      Diagnostic(diagnostic::solution_failed, what.str())
+          .time(time)
+          .measure("gained / energy", before.total() > 0. ? gained / before.total() : 0.)
+          .advice("Use 'Refinement times' before the bodies touch curved surfaces, or finer "
+                  "elements from the start"));
 }
 
 Diagnostic MeshChange::describe(const RestartReport &report, const double force_tolerance) const {

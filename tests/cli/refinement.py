@@ -228,6 +228,27 @@ def _() -> None:
     says("the elements of its body 'block' have been divided 1 times", refused.complained)
 
 
+for scheme, times in (
+    ("static", {}),
+    (
+        "explicit",
+        {
+            "Bodies/strip/Refinement times": "5e-4",
+            "Tools/punch/Motion/Translation": "0 ; 0 ; -3e3*t",
+            "Time stepping/End time": "1e-3",
+        },
+    ),
+):
+
+    @check(f"finer elements on a curved tool are refused, {scheme}")
+    def _() -> None:
+        changes = {"Time stepping/Scheme": scheme, **times}
+        settings = [part for path, value in changes.items() for part in ("--set", f"{path}={value}")]
+        ended = run(*program.on(1, "refined_on_cylinder.prm", "--output", f"on_{scheme}", *settings))
+        require(ended.code == 3, f"exit code {ended.code}")
+        says("penetrate what they touch. Contact springs would gain an energy of", ended.errors)
+
+
 # --- what users see -------------------------------------------------------------------------------
 
 

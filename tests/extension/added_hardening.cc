@@ -106,6 +106,7 @@ int main(int argc, char *argv[]) {
       {"linear", "set Yield stress = 300\nset Hardening modulus = 500"},
       {"Voce", "set Yield stress = 300\nset Saturation stress = 500\nset Saturation rate = 10"},
       {"power law", "set Strength coefficient = 500\nset Prestrain = 0.01\nset Hardening exponent = 0.2"},
+      {"Ludwik", "set Yield stress = 300\nset Hardening coefficient = 400\nset Hardening exponent = 0.3"},
       {"table", "set Table = 0 : 300, 0.05 : 400"},
       {"hyperbolic", "set Yield stress = 300\nset Limit stress = 500\nset Half strain = 0.05"}};
   for (const HardeningType &type : hardening_types()) {

@@ -83,22 +83,11 @@ struct Crossings {
 /// All forces on a node of a contact surface (C13): its own, and the reactions to other nodes that touch its
 /// facets. With two passes, pressure and traction of a slave are only its own part.
 struct SurfaceForce {
-  dealii::Tensor<1, 3> force;  ///< on the body [force]
-  dealii::Tensor<1, 3> normal; ///< outward normal times area, of the facets around it [length²]
-  double area = 0.;            ///< of these facets [length²]
+  dealii::Tensor<1, 3> force; ///< on the body [force]
+  double of_pressures = 0.;   ///< sum of the forces along their normals, > 0 in compression [force]
+  double area = 0.;           ///< of the facets around it [length²]
 
-  SurfaceForce &operator+=(const SurfaceForce &other) {
-    force += other.force;
-    normal += other.normal;
-    area += other.area;
-    return *this;
-  }
-  /// Returns the pressure [stress], > 0 in compression; 0 without an area.
-  double pressure() const {
-    const double projected = normal.norm() * area;
-    return projected > 0. ? -(force * normal) / projected : 0.;
-  }
-  /// Returns the traction [stress]; 0 without an area.
+  double pressure() const { return area > 0. ? of_pressures / area : 0.; }
   dealii::Tensor<1, 3> traction() const { return area > 0. ? force / area : dealii::Tensor<1, 3>(); }
 };
 

@@ -26,8 +26,14 @@ struct MeshChange {
   MeshLevels levels;            ///< after it
   std::vector<bool> is_refined; ///< by body
   double time;
-  std::string text; ///< names of the bodies and numbers of their elements, for messages
+  std::string text;         ///< names of the bodies and numbers of their elements, for messages
+  EnergyLedger before = {}; ///< on the coarser mesh
 
+  /// Maximum energy that contact springs may gain, as a part of all energy before. New nodes lie on the
+  /// chords of faces, which a curved surface lets penetrate: springs then push bodies apart.
+  static constexpr double max_gain = 0.01;
+  /// Throws SolutionFailure if contact springs gain more, on the finer mesh.
+  void check(const std::string &scene_name, const EnergyLedger &after) const;
   /// Returns a message about the change. It includes unbalanced forces above this relative tolerance.
   Diagnostic describe(const RestartReport &report, double force_tolerance) const;
 };

@@ -25,32 +25,29 @@ std::vector<int> find_two_passes(const std::vector<std::vector<ContactNodeReport
 /// Replaces pressures and tractions of a pair, which are those of one pass, by all forces over the area.
 /// Collective.
 void take_total_forces(const Discretization &discretization, std::vector<ContactNodeReport> &reports) {
-  std::array<Vector, 3> sums; // forces, normals, areas
-  for (auto &sum : sums)
-    sum = discretization.make_additive_vector();
+  Vector forces = discretization.make_additive_vector(), sums = discretization.make_additive_vector();
   for (const auto &node : reports)
-    if (node.total)
-      for (unsigned int i = 0; i < 3; ++i) {
-        sums[0].add(1, &node.dofs[i], &node.total->force[i]);
-        sums[1].add(1, &node.dofs[i], &node.total->normal[i]);
-        if (i == 0)
-          sums[2].add(1, &node.dofs[i], &node.total->area);
-      }
-  std::array<Vector, 3> owned;
-  for (unsigned int k = 0; k < 3; ++k) {
-    sums[k].compress(dealii::VectorOperation::add);
+    if (node.total) {
+      for (unsigned int i = 0; i < 3; ++i)
+        forces.add(1, &node.dofs[i], &node.total->force[i]);
+      sums.add(1, &node.dofs[0], &node.total->of_pressures);
+      sums.add(1, &node.dofs[1], &node.total->area);
+    }
+  std::array<Vector, 2> owned;
+  for (unsigned int k = 0; k < 2; ++k) {
+    Vector &shared = k == 0 ? forces : sums;
+    shared.compress(dealii::VectorOperation::add);
     owned[k] = discretization.make_owned_vector();
-    owned[k] = sums[k];
+    owned[k] = shared;
   }
   for (auto &node : reports) {
     if (!node.total || !discretization.owned_dofs().is_element(node.dofs[0]))
       continue;
     SurfaceForce all;
-    for (unsigned int i = 0; i < 3; ++i) {
+    for (unsigned int i = 0; i < 3; ++i)
       all.force[i] = owned[0](node.dofs[i]);
-      all.normal[i] = owned[1](node.dofs[i]);
-    }
-    all.area = owned[2](node.dofs[0]);
+    all.of_pressures = owned[1](node.dofs[0]);
+    all.area = owned[1](node.dofs[1]);
     node.pressure = all.pressure();
     node.traction = all.traction();
   }
