@@ -72,19 +72,25 @@ std::vector<SlaveForce> FacetMeasures::slave_forces() const {
 std::vector<SurfaceForce> FacetMeasures::nodal_forces() const {
   const SurfaceExchange &exchange = parts_.surfaces.exchange();
   std::vector<double> of_pressures(exchange.n_nodes());
+  std::vector<dealii::Tensor<1, 3>> sums(exchange.n_nodes());
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];
-    parts_.touching.visit_forces(s, [&](const FacetShare &share, const auto &, const auto &) {
+    parts_.touching.visit_forces(s, [&](const FacetShare &share, const auto &force, const auto &) {
       const double part = parts_.touching.area_of(state, share) * state.traction.pressure;
       of_pressures[parts_.slaves.node(s)] += part;
-      for (unsigned int a = 0; a < 4; ++a)
-        of_pressures[parts_.surfaces.facet(share.facet).nodes[a]] += share.projection.weights[a] * part;
+      sums[parts_.slaves.node(s)] += force;
+      for (unsigned int a = 0; a < 4; ++a) {
+        const unsigned int node = parts_.surfaces.facet(share.facet).nodes[a];
+        of_pressures[node] += share.projection.weights[a] * part;
+        sums[node] -= share.projection.weights[a] * force;
+      }
     });
   }
   exchange.collect(of_pressures);
+  exchange.collect(sums);
   std::vector<SurfaceForce> forces(exchange.n_own_nodes());
-  for (std::size_t i = 0; i < std::min(forces.size(), parts_.nodal_forces.size()); ++i) {
-    forces[i].force = parts_.nodal_forces[i];
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    forces[i].force = sums[i];
     forces[i].of_pressures = of_pressures[i];
   }
   for (unsigned int f = 0; f < exchange.n_own_facets(); ++f)

@@ -137,9 +137,9 @@ void ExplicitRun::report_change(RunOutput &output) {
   if (!change_)
     return;
   problem_.update_ledger();
-  change_->check(parameters_.file_name, problem_.state().energies);
   RestartReport report;
   report.energy_change = problem_.energy_of_refinement();
+  change_->check(parameters_.file_name, report.energy_change, problem_.state().energies);
   output.report(change_->describe(report, 0.));
   change_.reset();
 }

@@ -74,11 +74,23 @@ void Resumption::check_end(const parameters::Scene &parameters) const {
   throw InputError(message.str());
 }
 
-void MeshChange::check(const std::string &scene_name, const EnergyLedger &after) const {
-  const double gained = after.contact - before.contact, allowed = max_gain * before.total();
+void MeshChange::check(const std::string &scene_name, const double energy_change,
+                       const EnergyLedger &after) const {
+  const double all = before.total(), gained = after.contact - before.contact, allowed = max_gain * all;
+  std::ostringstream what;
+  if (!(gained > allowed) && std::abs(energy_change) > max_change * all) {
+    what << scene_name << ": finer elements of " << text
+         << " resist strains that the coarse ones let pass. The energy would change by " << energy_change
+         << "; allowed is " << max_change * all << ", " << 100. * max_change << " % of all energy";
+    throw SolutionFailure(
+        Diagnostic(diagnostic::solution_failed, what.str())
+            .time(time)
+            .measure("change / energy", all > 0. ? std::abs(energy_change) / all : 0.)
+            .advice("Use 'Refinement times' of less deformation, or finer elements from the "
+                    "start"));
+  }
   if (!(gained > allowed))
     return;
-  std::ostringstream what;
   what << scene_name << ": finer elements of " << text
        << " penetrate what they touch. Contact springs would gain an energy of " << gained << "; allowed is "
        << allowed << ", " << 100. * max_gain
@@ -86,7 +98,7 @@ void MeshChange::check(const std::string &scene_name, const EnergyLedger &after)
   throw SolutionFailure(
       Diagnostic(diagnostic::solution_failed, what.str())
           .time(time)
-          .measure("gained / energy", before.total() > 0. ? gained / before.total() : 0.)
+          .measure("gained / energy", all > 0. ? gained / all : 0.)
           .advice("Use 'Refinement times' before the bodies touch curved surfaces, or finer "
                   "elements from the start"));
 }

@@ -20,7 +20,8 @@ std::unique_ptr<const Scene> build_scene(const parameters::Scene &parameters, co
 void Run::announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
                    const double force_tolerance) const {
   if (resumption != nullptr && resumption->is_refinement()) {
-    resumption->change().check(parameters_.file_name, solution.state().energies);
+    resumption->change().check(parameters_.file_name, resumption->report().energy_change,
+                               solution.state().energies);
     output.report(resumption->describe(force_tolerance));
     return;
   }
