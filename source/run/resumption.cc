@@ -81,7 +81,7 @@ void MeshChange::check(const std::string &scene_name, const double energy_change
   if (!(gained > allowed) && std::abs(energy_change) > max_change * all) {
     what << scene_name << ": finer elements of " << text
          << " resist strains that the coarse ones let pass. The energy would change by " << energy_change
-         << "; allowed is " << max_change * all << ", " << 100. * max_change << " % of all energy";
+         << "; allowed is " << max_change * all << ", all energy that there is";
     throw SolutionFailure(
         Diagnostic(diagnostic::solution_failed, what.str())
             .time(time)
