@@ -599,7 +599,8 @@ def _() -> None:
 def _() -> None:
     says(
         r"tool 'die' finds no resistance to its moment of [\d.]+ .* it jumps, while contact pair 'top on die'"
-        r" bears a friction force of [\d.]+ of at most [\d.]+.* \(time [\d.e-]+\)\. Use 'Rotation angle' of the tool",
+        r" bears a friction force of [\d.]+ of at most [\d.]+.* \(time [\d.e-]+\)\."
+        r" Use 'Rotation angle' of the tool",
         billet("Motion: Moment = 10*t^2", code=3).complained,
     )
 
