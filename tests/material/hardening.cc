@@ -76,9 +76,11 @@ int main() {
                                [](const double a) { return power_law.prestrain + a; });
   test_derivative_and_integral("steep power law", steep_power_law,
                                [](const double a) { return steep_power_law.prestrain + a; });
-  test_derivative_and_integral("Ludwik", ludwik,
-                               [](const double a) { return std::max(a, 0.5 * LudwikHardening::a_0); },
-                               {LudwikHardening::a_0, 2e-6, 4e-6, 8e-6}); // panels of its steep beginning
+  std::vector<double> doubled; // panels for a curve whose slope goes to infinity
+  for (double a = LudwikHardening::a_0; a < 2.; a *= 2.)
+    doubled.push_back(a);
+  test_derivative_and_integral(
+      "Ludwik", ludwik, [](const double a) { return std::max(a, 0.5 * LudwikHardening::a_0); }, doubled);
   test_derivative_and_integral("table", table, [](const double) { return 1e-3; }, {0.01, 0.1, 0.5});
 
   // Values that can be read off.
