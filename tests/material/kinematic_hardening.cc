@@ -209,17 +209,6 @@ void test_shear() {
   check("Prager in shear, flow stress stays that of pure shear", flow.value(), 5e-3);
 }
 
-/// Random steps of random size about a growing deformation.
-template <class Visit> void follow_path(const double size, const unsigned int n, const Visit &visit) {
-  Random random;
-  Tensor<2, 3> F = unit;
-  for (unsigned int i = 0; i < n; ++i) {
-    F = (unit + random.tensor(size)) * F;
-    F /= std::cbrt(dealii::determinant(F));
-    visit(F);
-  }
-}
-
 template <class Hardening> void test_plain(const std::string &name, const Hardening &hardening) {
   const Law law = make_law(hardening, {});
   const HenckyPlasticity hencky(steel, make_hardening(hardening));
@@ -255,46 +244,6 @@ template <class Hardening> void test_plain(const std::string &name, const Harden
   check(name + ", moduli of the isotropic law", moduli.value(), 1e-9);
   check(name + ", energies of the isotropic law", work.value(), 1e-9);
   check(name + ", shared yield of the isotropic law", yield.value(), 1e-9);
-}
-
-/// The moduli against differences; dissipation; the elastic range.
-void test_moduli(const std::string &name, const Law &law, const PointStep &step) {
-  WorstError error;
-  double least_dissipation = 1e300;
-  unsigned int n_yields = 0;
-  for (const double size : {2e-3, 2e-2, 0.2}) {
-    Law::History history_n, history;
-    follow_path(size, 40, [&](const Tensor<2, 3> &F) {
-      SymmetricTensor<2, 3> tau;
-      SpatialModuli c;
-      if (!law.update(F, history_n, history, tau, &c, step))
-        return check(name + " fails", false);
-      least_dissipation =
-          std::min(least_dissipation, law.plastic_work(history) - law.plastic_work(history_n));
-      if (history.equivalent_plastic_strain > history_n.equivalent_plastic_strain + 1e-4) {
-        ++n_yields;
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j) {
-            Tensor<2, 3> L;
-            L[i][j] += 1.;
-            L[j][i] += i <= j ? 1. : -1.;
-            const SymmetricTensor<2, 3> difference = central_difference(
-                [&](const double e) {
-                  Law::History ignored;
-                  SymmetricTensor<2, 3> at;
-                  law.update((unit + e * L) * F, history_n, ignored, at, nullptr, step);
-                  return at;
-                },
-                1e-5);
-            error.add((predict(c, tau, L) - static_cast<Tensor<2, 3>>(difference)).norm() / norm(c));
-          }
-      }
-      history_n = history;
-    });
-  }
-  check(name + ", it yields", n_yields > 60);
-  check(name + ", moduli", error.value(), 1e-7);
-  check(name + ", dissipation", -least_dissipation, 1e-12);
 }
 
 /// On a straight path the work of the stress is what is stored and dissipated, whatever the step.
@@ -357,12 +306,13 @@ int main() {
   test_shear();
   PointStep step;
   step.dt = 0.1;
-  test_moduli("Prager", make_law(linear, prager), step);
-  test_moduli("Armstrong-Frederick", make_law(voce, armstrong), step);
-  test_moduli("Chaboche", make_law(perfect, chaboche), step);
+  test_moduli("Prager", make_law(linear, prager), step, 40, 60);
+  test_moduli("Armstrong-Frederick", make_law(voce, armstrong), step, 40, 60);
+  test_moduli("Chaboche", make_law(perfect, chaboche), step, 40, 60);
   FlowRule rule;
   rule.backstress = chaboche;
-  test_moduli("Chaboche at a rate", Law(steel, at_rate(power_law, cowper_symonds(40., 5.)), rule), step);
+  test_moduli("Chaboche at a rate", Law(steel, at_rate(power_law, cowper_symonds(40., 5.)), rule), step, 40,
+              60);
   test_energy();
   test_objectivity();
   return exit_code();

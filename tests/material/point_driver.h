@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-/// Drives a point by some strains, and by stresses of zero for the rest.
+/// What tests of laws with a state share: points that are driven by some strains and stresses, and moduli.
 namespace billet::testing {
 
 /// A point whose F is symmetric: F = exp(e) with a logarithmic strain e in space, in the order 11, 22, 33,
@@ -79,6 +79,60 @@ private:
   PointStep step_;
   typename Law::History next_;
 };
+
+/// Random steps of random size about a growing deformation.
+template <class Visit> void follow_path(const double size, const unsigned int n, const Visit &visit) {
+  Random random;
+  Tensor<2, 3> F = unit;
+  for (unsigned int i = 0; i < n; ++i) {
+    F = (unit + random.tensor(size)) * F;
+    F /= std::cbrt(dealii::determinant(F));
+    visit(F);
+  }
+}
+
+/// Compares the moduli with differences along paths of `n_steps` of three sizes, and checks that dissipation
+/// never decreases. The paths must yield more than `min_yields` times.
+template <class Law>
+void test_moduli(const std::string &name, const Law &law, const PointStep &step, const unsigned int n_steps,
+                 const unsigned int min_yields) {
+  WorstError error;
+  double least_dissipation = 1e300;
+  unsigned int n_yields = 0;
+  for (const double size : {2e-3, 2e-2, 0.2}) {
+    typename Law::History history_n, history;
+    follow_path(size, n_steps, [&](const Tensor<2, 3> &F) {
+      SymmetricTensor<2, 3> tau;
+      SpatialModuli c;
+      if (!law.update(F, history_n, history, tau, &c, step))
+        return check(name + " fails", false);
+      least_dissipation =
+          std::min(least_dissipation, law.plastic_work(history) - law.plastic_work(history_n));
+      if (history.equivalent_plastic_strain > history_n.equivalent_plastic_strain + 1e-4) {
+        ++n_yields;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j) {
+            Tensor<2, 3> L;
+            L[i][j] += 1.;
+            L[j][i] += i <= j ? 1. : -1.;
+            const SymmetricTensor<2, 3> difference = central_difference(
+                [&](const double e) {
+                  typename Law::History ignored;
+                  SymmetricTensor<2, 3> at;
+                  law.update((unit + e * L) * F, history_n, ignored, at, nullptr, step);
+                  return at;
+                },
+                1e-5);
+            error.add((predict(c, tau, L) - static_cast<Tensor<2, 3>>(difference)).norm() / norm(c));
+          }
+      }
+      history_n = history;
+    });
+  }
+  check(name + ", it yields", n_yields > min_yields);
+  check(name + ", moduli", error.value(), 1e-7);
+  check(name + ", dissipation", -least_dissipation, 1e-12);
+}
 
 } // namespace billet::testing
 
