@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/csv_columns.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -81,6 +83,22 @@ std::vector<std::array<double, 2>> read_columns(const TypeInput &input, const st
   if (rows.empty())
     input.reject(file_key, "a table with numbers in the columns " + input.text(columns_key));
   return rows;
+}
+
+std::vector<std::array<double, 2>> read_pairs(const TypeInput &input, const std::string &key,
+                                              const std::string &names) {
+  std::vector<std::array<double, 2>> pairs;
+  for (const std::string &part : input.parts(key, ',')) {
+    const auto pair = dealii::Utilities::split_string_list(part, ':');
+    try {
+      if (pair.size() != 2)
+        throw std::invalid_argument("pair");
+      pairs.push_back({parse_number(pair[0]), parse_number(pair[1])});
+    } catch (const std::invalid_argument &) {
+      input.reject(key, "'" + names + "' pairs, separated by commas");
+    }
+  }
+  return pairs;
 }
 
 } // namespace billet

@@ -2,12 +2,9 @@
 #include "billet/material/csv_columns.h"
 #include "billet/material/hardening.h"
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <array>
 #include <sstream>
-#include <stdexcept>
 
 namespace billet {
 
@@ -53,18 +50,7 @@ Points read_points(const TypeInput &input) {
   }
   if (input.is_set("Table columns"))
     input.reject("Table columns", "no value: there is no 'Table file'");
-  Points points;
-  for (const auto &part : input.parts("Table", ',')) {
-    const auto pair = dealii::Utilities::split_string_list(part, ':');
-    try {
-      if (pair.size() != 2)
-        throw std::invalid_argument("pair");
-      points.push_back({parse_number(pair[0]), parse_number(pair[1])});
-    } catch (const std::invalid_argument &) {
-      input.reject("Table", "'strain : stress' pairs, separated by commas");
-    }
-  }
-  return points;
+  return read_pairs(input, "Table", "strain : stress");
 }
 
 std::string print(const double number) {

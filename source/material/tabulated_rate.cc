@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/csv_columns.h"
 #include "billet/material/rate_factor.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 namespace billet {
@@ -52,21 +52,12 @@ RateFactorType tabulated_rate_type() {
             "decrease. The factor is 1 at rest, and constant beyond the last point. [1/time : -]"}},
           [](const TypeInput &input) -> std::shared_ptr<const RateFactor> {
             std::vector<std::pair<double, double>> points = {{0., 1.}};
-            for (const std::string &part : input.parts(key, ',')) {
-              const auto colon = part.find(':');
-              const auto last = points.back();
-              try {
-                if (colon == std::string::npos)
-                  throw std::invalid_argument("pair");
-                points.emplace_back(parse_number(part.substr(0, colon)),
-                                    parse_number(part.substr(colon + 1)));
-              } catch (const std::invalid_argument &) {
-                input.reject(key, "'rate : factor' pairs, separated by commas");
-              }
-              if (!(points.back().first > last.first))
+            for (const auto &[rate, factor] : read_pairs(input, key, "rate : factor")) {
+              if (!(rate > points.back().first))
                 input.reject(key, "rates > 0 that increase strictly");
-              if (!(points.back().second >= last.second))
+              if (!(factor >= points.back().second))
                 input.reject(key, "factors >= 1 that do not decrease");
+              points.emplace_back(rate, factor);
             }
             if (points.size() == 1)
               input.reject(key, "at least one 'rate : factor' pair");

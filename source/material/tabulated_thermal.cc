@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/csv_columns.h"
 #include "billet/material/thermal_factor.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -57,20 +57,12 @@ ThermalFactorType tabulated_thermal_type() {
             "> 0. The factor is constant beyond both ends. [temperature : -]"}},
           [](const TypeInput &input) -> std::shared_ptr<const ThermalFactor> {
             std::vector<std::pair<double, double>> points;
-            for (const std::string &part : input.parts(key, ',')) {
-              const auto colon = part.find(':');
-              try {
-                if (colon == std::string::npos)
-                  throw std::invalid_argument("pair");
-                points.emplace_back(parse_number(part.substr(0, colon)),
-                                    parse_number(part.substr(colon + 1)));
-              } catch (const std::invalid_argument &) {
-                input.reject(key, "'temperature : factor' pairs, separated by commas");
-              }
-              if (!(points.back().second > 0.))
+            for (const auto &[temperature, factor] : read_pairs(input, key, "temperature : factor")) {
+              if (!(factor > 0.))
                 input.reject(key, "factors > 0");
-              if (points.size() > 1 && !(points.back().first > points[points.size() - 2].first))
+              if (!points.empty() && !(temperature > points.back().first))
                 input.reject(key, "temperatures that increase strictly");
+              points.emplace_back(temperature, factor);
             }
             if (points.empty())
               input.reject(key, "at least one 'temperature : factor' pair");

@@ -21,6 +21,11 @@ std::vector<std::array<double, 2>> read_columns(std::istream &text, std::array<u
 std::vector<std::array<double, 2>> read_columns(const TypeInput &input, const std::string &file_key,
                                                 const std::string &columns_key);
 
+/// Reads the pairs of numbers of a parameter: 'FIRST : SECOND' between commas. `names`: what they are, such
+/// as "strain : stress", for messages.
+std::vector<std::array<double, 2>> read_pairs(const TypeInput &input, const std::string &key,
+                                              const std::string &names);
+
 } // namespace billet
 
 #endif
