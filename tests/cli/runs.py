@@ -469,8 +469,10 @@ for ranks in (1, 2):
 
     @check(f"messages are records, on {ranks} ranks")
     def _() -> None:
-        lines = billet(SOFT, ranks=ranks).text("diagnostics.jsonl").splitlines()
-        require(len(lines) == 3, "lines: " + "\n".join(lines))
+        written = billet(SOFT, ranks=ranks).text("diagnostics.jsonl").splitlines()
+        # A note on time may stand between them: a busy machine takes seconds to write fields.
+        lines = [line for line in written if '"key":"unneeded-cost","severity"' not in line]
+        require(len(lines) == 3, "lines: " + "\n".join(written))
         first = (
             r'\{"key":"penalty-too-low","severity":"warning","message":"Nodes penetrate .*","pair":"top on'
             r' die",'
@@ -478,9 +480,10 @@ for ranks in (1, 2):
         )
         require(re.fullmatch(first, lines[0]), f"first: {lines[0]}")
         last = (
-            r'\{"summary":\{"exit code":0,"errors":0,"warnings":2,"notes":0,"messages":\['
+            r'\{"summary":\{"exit code":0,"errors":0,"warnings":2,"notes":[01],"messages":\['
             r'\{"key":"penalty-too-low","pair":"top on die","count":\d+,"largest":[\d.]+,"at time":1(\.0)?\},'
-            r'\{"key":"contact-too-soft","pair":"top on die","count":1,"largest":[\d.]+\}\]\}\}'
+            r'\{"key":"contact-too-soft","pair":"top on die","count":1,"largest":[\d.]+\}'
+            r'(,\{"key":"unneeded-cost","count":1,"largest":[\d.]+\})?\]\}\}'
         )
         require(re.fullmatch(last, lines[2]), f"last: {lines[2]}")
 

@@ -14,6 +14,8 @@ import math
 import os
 import subprocess
 import sys
+import threading
+import time
 import unittest
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,6 +25,9 @@ from billet_tools.trade import parameters
 from billet_tools.trade.command import run
 from billet_tools.trade.options import parse
 from billet_tools.trade.plan import pilot, read_presets, with_value
+from billet_tools.trade.results import Result
+from billet_tools.trade.run import Progress, Runner, Work
+from billet_tools.program import Program, Stopped
 from billet_tools.scene import Scene, read_scene
 
 SCENE = """set Title = A bar
@@ -273,6 +278,31 @@ class TestCommand(unittest.TestCase):
         )
         self.assertEqual(missed.returncode, 3)
         self.assertIn("Nothing tried is within 3 %", missed.stdout)
+
+    def test_stop_while_others_wait(self) -> None:
+        """A study that is stopped ends, though the run after the one that was stopped takes its time."""
+
+        class Slow(Runner):
+            def elements(self, scene: Scene) -> int:
+                return 1
+
+            def run(self, scene: Scene, repeat: int | None = None, limit: float | None = None) -> Result:
+                if self.stop.is_set():
+                    time.sleep(0.3)  # long enough for the first to be heard of
+                self.stop.set()
+                raise Stopped
+
+        runner = Slow(Program(self.folder / "fake", 1), self.folder / "stopped", 4.0, 1)
+        scene = Scene(SCENE)
+        work = Work(runner, Progress(4, 10, 1.0, False, 1), scene)
+        penalty = "Contact pairs/top/Normal penalty"
+        tasks = [(f"penalty {value}", scene.changed({penalty: value}), 1) for value in "1234"]
+        found: list[dict[str, Result]] = []
+        thread = threading.Thread(target=lambda: found.append(work.run(tasks, 1)), daemon=True)
+        thread.start()
+        thread.join(30)
+        runner.close()
+        self.assertEqual((found, work.was_stopped, work.left_out), ([{}], True, {}))
 
     def test_weights_and_given_mesh(self) -> None:
         done = self.trade(

@@ -12,7 +12,7 @@ import statistics
 import sys
 import threading
 import time
-from concurrent.futures import CancelledError, ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any, Iterable, Mapping
 
@@ -271,6 +271,8 @@ class Work:
             begin = time.monotonic()
             if times[key] == 0:
                 return key, self.runner.run(scene, repeats), 0.0, True
+            if self.runner.stop.is_set():
+                raise Stopped
             if not self.budget.take(left[key] * self.progress.pace(), times[key]):
                 return key, None, 0.0, False
             limit = max(1.0, min(self.runner.limit, self.budget.seconds_left()))
@@ -285,9 +287,10 @@ class Work:
                 for future in as_completed(futures):
                     try:
                         key, result, took, was_kept = future.result()
-                    except (Stopped, CancelledError):
+                    except Stopped:
+                        # Those that wait end by themselves. Cancelled ones would never be given here: the pool
+                        # does not tell as_completed() of them.
                         self.was_stopped = True
-                        pool.shutdown(wait=False, cancel_futures=True)
                         continue
                     label = planned[key][0]
                     if result is None:
