@@ -288,8 +288,8 @@ class Work:
                     try:
                         key, result, took, was_kept = future.result()
                     except Stopped:
-                        # Those that wait end by themselves. Cancelled ones would never be given here: the pool
-                        # does not tell as_completed() of them.
+                        # Those that wait end by themselves. Of cancelled ones the pool tells nothing to
+                        # as_completed(), which would wait for ever.
                         self.was_stopped = True
                         continue
                     label = planned[key][0]
