@@ -8,7 +8,9 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <unistd.h>
+#include <vector>
 
 namespace billet {
 
@@ -80,6 +82,18 @@ std::string move_aside(const parameters::Scene &parameters, const fs::path &fold
   }
 }
 
+/// Removes checkpoints and fields of an earlier run, of which a shorter one would not write over all.
+void remove_numbered_files(const fs::path &folder) {
+  const std::regex numbered("(checkpoint|fields)_[0-9]{5,10}\\..+");
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto &entry : fs::directory_iterator(folder, error))
+    if (entry.is_regular_file(error) && std::regex_match(entry.path().filename().string(), numbered))
+      files.push_back(entry.path());
+  for (const fs::path &file : files)
+    fs::remove(file, error);
+}
+
 [[noreturn]] void refuse_writing(const parameters::Scene &parameters) {
   throw InputError(parameters.output.folder.origin + ": the program cannot write to '" +
                    parameters.output.folder.value + "'");
@@ -126,6 +140,8 @@ std::string prepare_output_folder(const parameters::Scene &parameters, const Ear
     check_movable(parameters, folder);
     moved = move_aside(parameters, folder);
   }
+  if (earlier == EarlierResults::replaced && has_results(folder))
+    remove_numbered_files(folder);
   make_folder(parameters);
   return moved;
 }

@@ -93,8 +93,14 @@ for n_ranks in RANKS:
     def _() -> None:
         name = f"cup{n_ranks}"
         write_text(f"{name}/mark", "fourth")
+        stale = ("checkpoint_00042.h5", "fields_00042.vtm", "fields_00042.0.vtu")
+        for file in (*stale, "fields_of_mine.csv"):
+            write_text(f"{name}/{file}", "longer run")
         billet("--force", f"{name}.prm", ranks=n_ranks)
         equal("mark", read_text(f"{name}/mark"), "fourth")
+        left = [file for file in stale if Path(name, file).exists()]
+        require(not left, f"of a longer run before: {left}")
+        equal("another file", read_text(f"{name}/fields_of_mine.csv"), "longer run")
         require(not Path(f"{name}.4").exists(), "they were moved")
 
 

@@ -9,7 +9,7 @@ namespace billet {
 /// What becomes of results of an earlier run in the output folder.
 enum class EarlierResults {
   moved_aside, ///< the folder is renamed FOLDER.1, or FOLDER with the lowest free number
-  replaced,    ///< the new run writes over them
+  replaced,    ///< the new run writes over them; its checkpoints and fields are removed
   continued    ///< the new run resumes from a checkpoint among them
 };
 
@@ -20,8 +20,9 @@ constexpr const char *log_file = "billet.log";
 /// results that would have to be moved aside but cannot be, or is in use by another run.
 void check_output_folder(const parameters::Scene &parameters, EarlierResults earlier);
 
-/// Moves earlier results aside if they are to be, and makes the folder. Returns the name that the results
-/// have now; empty if none were moved. First rank only. Throws InputError on failure.
+/// Moves earlier results aside, or removes checkpoints and fields, if they are to be, and makes the folder.
+/// Returns the name that the results have now; empty if none were moved. First rank only. Throws InputError
+/// on failure.
 std::string prepare_output_folder(const parameters::Scene &parameters, EarlierResults earlier);
 
 /// Writes a copy of the scene as read into the folder, which it makes if necessary. First rank only. Throws
