@@ -76,31 +76,27 @@ void Resumption::check_end(const parameters::Scene &parameters) const {
 
 void MeshChange::check(const std::string &scene_name, const double energy_change,
                        const EnergyLedger &after) const {
-  const double all = before.total(), gained = after.contact - before.contact, allowed = max_gain * all;
-  std::ostringstream what;
-  if (!(gained > allowed) && std::abs(energy_change) > max_change * all) {
-    what << scene_name << ": finer elements of " << text
-         << " resist strains that the coarse ones let pass. The energy would change by " << energy_change
-         << "; allowed is " << max_change * all << ", all energy that there is";
+  const double all = before.total(), gained = after.contact - before.contact;
+  const auto refuse = [&](const std::string &what, const std::string &measure, const double energy,
+                          const std::string &advice) {
     throw SolutionFailure(
-        Diagnostic(diagnostic::solution_failed, what.str())
+        Diagnostic(diagnostic::solution_failed, scene_name + ": finer elements of " + text + " " + what)
             .time(time)
-            .measure("change / energy", all > 0. ? std::abs(energy_change) / all : 0.)
-            .advice("Use 'Refinement times' of less deformation, or finer elements from the "
-                    "start"));
+            .measure(measure + " / energy", all > 0. ? energy / all : 0.)
+            .advice("Use 'Refinement times' " + advice + ", or finer elements from the start"));
+  };
+  std::ostringstream what;
+  if (gained > max_gain * all) {
+    what << "penetrate what they touch. Contact springs would gain an energy of " << gained << "; allowed is "
+         << max_gain * all << ", " << 100. * max_gain
+         << " % of all energy. New nodes lie on the chords of faces, inside a curved surface";
+    refuse(what.str(), "gained", gained, "before the bodies touch curved surfaces");
   }
-  if (!(gained > allowed))
-    return;
-  what << scene_name << ": finer elements of " << text
-       << " penetrate what they touch. Contact springs would gain an energy of " << gained << "; allowed is "
-       << allowed << ", " << 100. * max_gain
-       << " % of all energy. New nodes lie on the chords of faces, inside a curved surface";
-  throw SolutionFailure(
-      Diagnostic(diagnostic::solution_failed, what.str())
-          .time(time)
-          .measure("gained / energy", all > 0. ? gained / all : 0.)
-          .advice("Use 'Refinement times' before the bodies touch curved surfaces, or finer "
-                  "elements from the start"));
+  if (std::abs(energy_change) > max_change * all) {
+    what << "resist strains that the coarse ones let pass. The energy would change by " << energy_change
+         << "; allowed is " << max_change * all << ", all energy that there is";
+    refuse(what.str(), "change", std::abs(energy_change), "of less deformation");
+  }
 }
 
 Diagnostic MeshChange::describe(const RestartReport &report, const double force_tolerance) const {

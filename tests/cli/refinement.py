@@ -197,9 +197,17 @@ def resume(base: str, edits: str, checkpoint: str, folder: str, ranks: int = 1) 
 
 EVERY = "Output: + subsection Checkpoint\\n set Step interval = 1\\n set Keep = 100\\nend"
 OFTEN = EVERY.replace("Step interval = 1", "Interval = 0.5e-6")
-for name, base, edits in (
-    ("block", BLOCK, combined(ROUGH, HALF, EVERY)),
-    ("impact", IMPACT, combined(EARLY, OFTEN)),
+# A slow elastic impact, refined when most of its energy is elastic.
+ELASTIC = combined(
+    "block: Initial velocity = 0 ; 0 ; -2e3",
+    "block / Mesh: Arguments = 2, 2, 2 : 0, 0, 0.0005 : 1, 1, 1.0005 : true",
+    "block: + set Refinement times = 5e-7",
+    "Time stepping: End time = 2e-6",
+)
+for name, base, edits, at in (
+    ("block", BLOCK, combined(ROUGH, HALF, EVERY), 4),
+    ("impact", IMPACT, combined(EARLY, OFTEN), 1),
+    ("elastic impact", IMPACT, combined(ELASTIC, OFTEN.replace("0.5e-6", "1e-7")), 4),
 ):
 
     @check(f"{name} resumes bitwise before, at and after the refinement")
@@ -207,7 +215,6 @@ for name, base, edits in (
         whole = runs(base, edits)
         history = whole.text("history.csv")
         checkpoints = sorted(glob(f"{whole.folder}/checkpoint_*.h5"))
-        at = 4 if base is BLOCK else 1
         for checkpoint in (checkpoints[at - 1], checkpoints[at], checkpoints[at + 1], checkpoints[-2]):
             resumed = resume(base, edits, checkpoint, whole.folder)
             require(resumed.ended.code == 0, resumed.complained)

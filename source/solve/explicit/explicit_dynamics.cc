@@ -154,6 +154,9 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
   parts_.tools.load(reader, rows, is_exact, time());
   load_contacts(reader, rows.keys());
   state_.energies = ledger_.load(reader, is_exact);
+  // A refinement at this time saves the state before new forces.
+  if (is_exact && dealii::Utilities::MPI::this_mpi_process(parts_.communicator()) == 0)
+    parts_.elements.set_energies(state_.energies.elastic, state_.energies.hourglass);
   if (is_exact)
     parts_.forces.of_loads().load(reader);
   if (is_exact)

@@ -143,13 +143,13 @@ void ImplicitSolution::compute_forces(RestartReport &report) {
   const Contacts::Loads loads = parts_.contacts().compute_loads();
   state.tool_loads = loads.of_tools;
   state.body_pair_loads = loads.of_body_pairs;
-  state.energies.contact = 0.;
-  for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
-    for (const ContactLoad &load : *of)
-      state.energies.contact += load.stored_energy;
-  // Energy lost by the interruption is not drift.
+  // Energy that the interruption changes is not drift.
   EnergyLedger &energies = state.energies;
   const double drift = energies.drift();
+  energies.contact = 0.;
+  for (const auto *of : {&loads.of_tools, &loads.of_body_pairs})
+    for (const ContactLoad &load : *of)
+      energies.contact += load.stored_energy;
   const auto now = parts_.internal().compute_energies(state.displacements);
   if (!parts_.scheme().has_inertia())
     energies.kinetic = 0.;

@@ -51,6 +51,11 @@ public:
   /// Return energies of this rank at the last forces [energy].
   double elastic_energy() const { return elastic_energy_; }
   double hourglass_energy() const { return hourglass_energy_; }
+  /// Sets them until the next forces, for this rank's share of a state that is loaded [energy].
+  void set_energies(const double elastic, const double hourglass) {
+    elastic_energy_ = elastic;
+    hourglass_energy_ = hourglass;
+  }
 
   std::vector<ElementSummary> summarize(std::size_t body, const NodalVectors &displacements) const;
   std::vector<StateAverages> average_states(std::size_t body, const NodalVectors &displacements) const;
