@@ -32,41 +32,12 @@ struct WrittenQuantities {
   bool read_states = false;
 };
 
-/// Whether two bodies are of the same material, as far as it shows.
-bool have_same_material(const Body &a, const Body &b) {
-  const PointLaw &law = *a.law, &other = *b.law;
-  if (law.name() != other.name() || law.description() != other.description() || a.density != b.density ||
-      law.elastic().bulk != other.elastic().bulk || law.elastic().shear != other.elastic().shear ||
-      law.has_plasticity() != other.has_plasticity())
-    return false;
-  if (!law.has_plasticity())
-    return true;
-  const std::array<double, 5> samples{0., 1e-3, 0.03, 0.4, 2.};
-  return std::all_of(samples.begin(), samples.end(), [&](const double alpha) {
-    return law.flow_stress()->stress(alpha) == other.flow_stress()->stress(alpha);
-  });
-}
-
-/// Returns the number of the body's material, in the order of the bodies.
-std::size_t find_material(const std::vector<Body> &bodies, const std::size_t body) {
-  std::size_t n_materials = 0;
-  for (std::size_t b = 0; b <= body; ++b) {
-    std::size_t first = 0;
-    while (!have_same_material(bodies[first], bodies[b]))
-      ++first;
-    if (b == body)
-      return first == b ? n_materials : find_material(bodies, first);
-    n_materials += first == b ? 1 : 0;
-  }
-  return n_materials;
-}
-
 /// Averages of the elements of a body.
 class BodyAverages {
 public:
   BodyAverages(const Solution &solution, const Scene &scene, const std::size_t body,
                const WrittenQuantities &written, const bool has_layers)
-      : body_(body), material_(find_material(scene.bodies(), body)), solution_(solution),
+      : body_(body), material_(scene.bodies()[body].material), solution_(solution),
         summaries_(solution.discretization().elements(body).size()) {
     if (!written.of_layers.empty())
       summaries_ = solution.summarize(body);

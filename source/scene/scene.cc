@@ -3,7 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/material/state_fields.h"
-#include "billet/material/viscoelastic.h"
+#include "billet/parameters/material_texts.h"
 #include "billet/parameters/reader.h"
 #include "billet/scene/boundary_names.h"
 #include "billet/scene/mesh_refinements.h"
@@ -226,18 +226,14 @@ WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
   return whole;
 }
 
-/// Returns element, unless it is the default one, elasticity and law, and where a law of rubber is stable.
+/// Returns element, unless it is the default one, and law.
 std::string describe_law(const parameters::Body &body) {
-  const auto *rubber = dynamic_cast<const HasStableRanges *>(body.material.law.get());
-  const std::string stability = rubber != nullptr ? describe_stability(rubber->isochoric_energy()) : "";
-  const bool is_viscous = dynamic_cast<const ViscoelasticLaw *>(body.material.law.get()) != nullptr;
   const BrickElement element = body.element.value;
   return (element != BrickElement::assumed_strain ? std::string(element.name()) + ", " : "") +
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
-         body.material.law->name() + (body.material.law->has_plasticity() ? " plasticity" : " elasticity") +
-         (is_viscous ? " with viscosity" : "") + (stability.empty() ? "" : ", " + stability);
+         body.material.law->summary();
 }
 
 /// Builds the meshes of all bodies in one.
@@ -287,10 +283,12 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
   ErrorNotes &errors = resolved.errors;
   if (!resolved.has_meshes)
     errors.require_none();
+  const std::vector<std::size_t> materials = parameters::number_materials(parameters);
   for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
     bodies_.push_back(
         make_body(parameters.bodies[i], parameters.amplitudes,
                   parameters.scheme().has_inertia ? 0. : 0.01 * parameters.time_stepping.end_time));
+    bodies_.back().material = materials[i];
     bodies_.back().boundary_names = std::move(resolved.names[i]);
     if (!errors.note([&] { select_nodes(parameters.bodies[i], bodies_.back()); }))
       resolved.unsound_bodies.insert(i);

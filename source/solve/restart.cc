@@ -5,6 +5,7 @@
 #include "billet/errors.h"
 #include "billet/material/elasticity.h"
 #include "billet/material/state_fields.h"
+#include "billet/parameters/material_texts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,29 +113,16 @@ HistoryFormat load_format(const StateReader &reader) {
 
 namespace {
 
-/// Parameters of a body's material that the scene sets, with their values.
-using MaterialTexts = std::map<std::string, std::string>;
-
-MaterialTexts material_of(const parameters::Scene &scene, const std::string &body) {
-  std::istringstream text(scene.text);
-  const SceneFile file = SceneFile::scan(text, scene.file_name);
-  MaterialTexts material;
-  for (const SceneFile::Entry &entry : file.entries())
-    if (entry.path == SceneFile::Path{"Bodies", body, "Material"})
-      material[entry.key] = entry.value;
-  return material;
-}
-
-/// Writes them, each with a line for its name and one for its value.
-std::string join_lines(const MaterialTexts &material) {
+/// Writes each parameter with a line for its name and one for its value.
+std::string join_lines(const parameters::MaterialTexts &material) {
   std::string lines;
   for (const auto &[key, value] : material)
     lines += key + "\n" + value + "\n";
   return lines;
 }
 
-MaterialTexts split_lines(const std::string &text) {
-  MaterialTexts material;
+parameters::MaterialTexts split_lines(const std::string &text) {
+  parameters::MaterialTexts material;
   std::istringstream lines(text);
   std::string key, value;
   while (std::getline(lines, key) && std::getline(lines, value))
@@ -142,26 +130,11 @@ MaterialTexts split_lines(const std::string &text) {
   return material;
 }
 
-bool is_same_value(const std::string &then, const std::string &now) {
-  try {
-    return parse_number(then) == parse_number(now);
-  } catch (const std::invalid_argument &) { // a name, a table or a file
-    return then == now;
-  }
-}
-
 /// Adds "'Yield stress' of body 'cube' (300, now 900)" for each parameter that is not as in the checkpoint.
-void compare_materials(const MaterialTexts &then, const MaterialTexts &now, const std::string &body,
-                       std::vector<std::string> &changed) {
-  MaterialTexts all = then;
-  all.insert(now.begin(), now.end());
-  const auto find = [](const MaterialTexts &material, const std::string &key) -> std::string {
-    const auto found = material.find(key);
-    return found == material.end() ? "default" : found->second;
-  };
-  for (const auto &[key, unused] : all)
-    if (const std::string before = find(then, key), after = find(now, key); !is_same_value(before, after))
-      changed.push_back("'" + key + "' of body '" + body + "' (" + before + ", now " + after + ")");
+void describe_changes(const std::vector<parameters::ChangedParameter> &parameters, const std::string &body,
+                      std::vector<std::string> &changed) {
+  for (const auto &[key, before, after] : parameters)
+    changed.push_back("'" + key + "' of body '" + body + "' (" + before + ", now " + after + ")");
 }
 
 } // namespace
@@ -172,8 +145,8 @@ void save_scene(StateWriter &writer, const Scene &scene, const Discretization &d
     writer.in(group("body", b), [&] {
       writer.write_text("name", scene.bodies()[b].name);
       writer.write_text("material", scene.bodies()[b].law->description());
-      writer.write_text("material parameters",
-                        join_lines(material_of(scene.parameters(), scene.bodies()[b].name)));
+      writer.write_text("material parameters", join_lines(parameters::find_material_texts(
+                                                   scene.parameters(), scene.bodies()[b].name)));
       writer.write("mesh", measure(discretization, b));
       writer.write(level_entry, {static_cast<double>(discretization.levels()[b])});
     });
@@ -225,8 +198,10 @@ std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
       if (material != body.law->description())
         throw InputError("its body '" + name + "' is " + material + ", but here it is " +
                          body.law->description());
-      compare_materials(split_lines(reader.read_text("material parameters")),
-                        material_of(scene.parameters(), name), name, changed);
+      describe_changes(
+          parameters::compare_materials(split_lines(reader.read_text("material parameters")),
+                                        parameters::find_material_texts(scene.parameters(), name)),
+          name, changed);
       const std::vector<double> then = reader.read("mesh", 5), now = measure(discretization, b);
       if (then.at(0) != now[0])
         throw InputError("its body '" + name + "' has " + std::to_string(std::lround(then[0])) +

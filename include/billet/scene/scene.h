@@ -122,6 +122,7 @@ struct Body {
   std::string name;
   BoundaryNames boundary_names; ///< of its mesh
   std::shared_ptr<const PointLaw> law;
+  std::size_t material; ///< its number, the same for bodies whose materials have the same parameters
   ElementFormulation formulation; ///< for implicit scenes
   double young_modulus;
   double max_modulus;                      ///< uniaxial-strain modulus, K + 4/3 G [stress]
