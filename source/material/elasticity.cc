@@ -58,8 +58,7 @@ constexpr const char *hencky = "Hencky", *neo_hookean = "neo-Hookean", *hypoelas
 } // namespace
 
 double PointLaw::bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const {
-  const double mean = dealii::trace(tau) / 3., mises = std::sqrt(1.5) * dealii::deviator(tau).norm();
-  return std::max(3. * elastic().bulk, 2. * elastic().shear) + 4. * std::abs(mean) + 3. * mises;
+  return bound_elastic_stiffness(elastic(), tau);
 }
 
 SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow) {

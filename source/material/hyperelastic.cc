@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/hyperelastic.h"
 
+#include "billet/material/drucker.h"
 #include "billet/material/stability.h"
 #include "billet/material/viscoelastic.h"
 
@@ -77,6 +78,11 @@ void compute_hyperelastic_moduli(const HyperelasticState &state, const double sh
     const auto s = symmetric_dyad(n[a], n[b]);
     add(4. * (share * state.response.shear[k] - tau[b]), s, s);
   }
+}
+
+std::string HyperelasticLaw::summary() const {
+  const std::string stability = describe_stability(*isochoric_);
+  return PointLaw::summary() + (stability.empty() ? "" : ", " + stability);
 }
 
 bool HyperelasticLaw::update(const Tensor<2, 3> &F, double, const PointStep &, const double *, double *,

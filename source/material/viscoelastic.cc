@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/viscoelastic.h"
 
+#include "billet/material/drucker.h"
 #include "billet/material/state_fields.h"
 
 #include <algorithm>
@@ -361,6 +362,11 @@ void ViscoelasticLaw::set_stress(const Tensor<2, 3> &F, const SymmetricTensor<2,
   for (std::size_t i = 0; i < series_.times.size(); ++i)
     write(series_.moduli[i] / (1. - lasting) * (map.pull(deviator) - lasting * T),
           state + n_common + n_term * i);
+}
+
+std::string ViscoelasticLaw::summary() const {
+  const std::string stability = describe_stability(elastic_.isochoric_energy());
+  return PointLaw::summary() + " with viscosity" + (stability.empty() ? "" : ", " + stability);
 }
 
 double ViscoelasticLaw::bound_stiffness(const SymmetricTensor<2, 3> &tau) const {

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace billet {
@@ -47,8 +49,27 @@ StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discret
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
     if (body.law->min_wave_stiffness({1., 1., 1.}))
-      bodies_.push_back({b, body.name, body.law, false});
+      bodies_.push_back({b, body.name, body.law, find_safe_range(*body.law), false});
   }
+}
+
+StabilityWatch::Range StabilityWatch::find_safe_range(const PointLaw &law) {
+  // Most elements are not strained further, and most laws are stable there for any Poisson's ratio.
+  constexpr std::array<Range, 3> ranges{{{0.75, 1.3}, {0.9, 1.1}, {0.98, 1.02}}};
+  constexpr unsigned int n = 4; // stretches of a range that are tried
+  const auto is_stable = [&](const Range &range) {
+    const auto stretch = [&](const unsigned int i) {
+      return range.least + i * (range.largest - range.least) / (n - 1);
+    };
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        for (unsigned int k = 0; k <= j; ++k)
+          if (law.min_wave_stiffness({stretch(i), stretch(j), stretch(k)}).value_or(-1.) < 0.)
+            return false;
+    return true;
+  };
+  const auto *safe = std::find_if(ranges.begin(), ranges.end(), is_stable);
+  return safe == ranges.end() ? Range{1., 1.} : *safe;
 }
 
 DiagnosticList StabilityWatch::check(const double time, const Vector &displacements) {
@@ -74,14 +95,12 @@ DiagnosticList StabilityWatch::check(const double time, const Vector &displaceme
 
 StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,
                                                      const Vector &displacements) const {
-  // Stretches in which every law is stable, for any Poisson's ratio.
-  constexpr double surely_above = 0.75, surely_below = 1.3;
   Weakest weakest = {1., {1., 1., 1.}};
   for (const Element &element : discretization_.elements(watched.body)) {
     const dealii::Tensor<2, 3> J = middle_jacobian(nodal_positions(element.cell));
     const Stretches stretches =
         principal_stretches((J + middle_jacobian(gather(displacements, element.dofs))) * dealii::invert(J));
-    if (stretches[2] > surely_above && stretches[0] < surely_below)
+    if (stretches[2] > watched.safe.least && stretches[0] < watched.safe.largest)
       continue;
     const double stiffness = watched.law->min_wave_stiffness(stretches).value_or(1.);
     if (stiffness < weakest.stiffness)

@@ -63,7 +63,8 @@ publish(
         " method asks for it. The linear solver is the one that `automatic` takes. Each run is done once,"
         " on a busy machine.\n\n"
         "Columns headed by a number have the force on the whole billet in kN at this part of the travel."
-        " The last column is the difference of the whole curve from the finest mesh's, ∫|F − F*| / ∫|F*|."
+        " The last column is the difference of the whole curve from the finest mesh's,"
+        " ∫|F − F*| / ∫|F*|."
         " The order is Richardson's from the last three meshes. A dash: the differences change sign, and"
         " there is no order."
     ),

@@ -122,7 +122,7 @@ void test_stretch() {
 
 /// δτ by A : L and, at fixed J, no pressure; in a second step, with a turn between the two.
 template <class Law> void test_moduli(const std::string &name, const Law &law, const double size) {
-  WorstError error;
+  WorstError error, stiffness;
   Random random;
   double max_asymmetry = 0.;
   for (unsigned int path = 0; path < 10; ++path) {
@@ -134,6 +134,17 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
       continue; // turned by nearly π
     GradientModuli A;
     law.update(F, 1., first, second, tau, &A);
+    for (unsigned int i = 0; i < 50; ++i) { // with changes of volume alone as the first
+      const Tensor<2, 3> L = i == 0 ? unit : random.tensor(1.);
+      double work = A.volumetric * trace(L) * trace(L) -
+                    scalar_product(static_cast<Tensor<2, 3>>(tau) * transpose(L), L);
+      for (unsigned int row = 0; row < 9; ++row)
+        for (unsigned int column = 0; column < 9; ++column)
+          work += L[row / 3][row % 3] *
+                  A[SymmetricTensor<2, 3>::component_to_unrolled_index({row / 3, row % 3})][column] *
+                  L[column / 3][column % 3];
+      stiffness.add(work / L.norm_square() / bound_by_moduli(A, tau));
+    }
     double scale = 0., skew = 0.;
     for (unsigned int i = 0; i < 6; ++i)
       for (unsigned int j = 0; j < 9; ++j)
@@ -159,6 +170,8 @@ template <class Law> void test_moduli(const std::string &name, const Law &law, c
   }
   check(name + ", differences", error.value(), 1e-8);
   check(name + ", not symmetric", max_asymmetry > 1e-6);
+  check(name + ", stiffness is below the bound of the moduli", stiffness.value(), 1.);
+  check(name + ", and above a quarter of it", stiffness.value() > 0.25);
 }
 
 int main() {

@@ -213,7 +213,7 @@ double greatest_stiffness(const SpatialModuli &c, const SymmetricTensor<2, 3> &t
 
 void test_points() {
   for (const auto &[name, energy] : rubber_energies()) {
-    WorstError tangent, energy_error, turned, bound;
+    WorstError tangent, energy_error, turned, bound, bound_of_moduli, excess;
     for (const auto kind : volume_kinds) {
       const HyperelasticLaw law("test", energy, volume(kind));
       for (const Tensor<2, 3> &F : sampled_gradients()) {
@@ -230,13 +230,18 @@ void test_points() {
                 central_difference([&](const double e) { return point.stored((unit + e * L) * F); }, 1e-3) -
                 scalar_product(static_cast<Tensor<2, 3>>(tau), L)) /
             norm(c));
-        bound.add(greatest_stiffness(c, tau) / law.bound_stiffness(tau) - 1.);
+        const double greatest = greatest_stiffness(c, tau), by_moduli = bound_by_moduli(c, tau);
+        bound.add(greatest / law.bound_stiffness(tau) - 1.);
+        bound_of_moduli.add(greatest / by_moduli - 1.);
+        excess.add(by_moduli / greatest);
       }
     }
     check(name + ", moduli", tangent.value(), 1e-7);
     check(name + ", stress is the derivative of the energy", energy_error.value(), 1e-8);
     check(name + ", stress turns", turned.value(), 1e-12);
     check(name + ", stiffness is below its bound", bound.value(), 1e-12);
+    check(name + ", and below that of the moduli", bound_of_moduli.value(), 1e-12);
+    check(name + ", which is at most four times as large", excess.value(), 4.);
   }
 }
 

@@ -25,14 +25,6 @@ inline constexpr double least_searched_stretch = 0.1, greatest_searched_stretch 
 /// Returns the ranges of three modes around the undeformed state, to a relative error of 1e-3.
 std::array<StableRange, 3> find_stable_ranges(const IsochoricEnergy &energy);
 
-/// Law that can say where it is stable.
-class HasStableRanges {
-public:
-  virtual ~HasStableRanges() = default;
-
-  virtual const IsochoricEnergy &isochoric_energy() const = 0;
-};
-
 /// Returns words such as "stable from 0.1 to 2.3 (uniaxial), ..."; empty if it is stable from 0.1 to 10 in
 /// all modes.
 std::string describe_stability(const IsochoricEnergy &energy);

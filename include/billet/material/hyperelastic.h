@@ -21,13 +21,15 @@ struct HyperelasticState {
 };
 
 /// Hyperelastic law W(λ̄) + U(J) with a symmetric tangent and no history. Prony's series stands on it.
-class HyperelasticLaw : public SpatialLaw, public HasStableRanges {
+class HyperelasticLaw : public SpatialLaw {
 public:
   HyperelasticLaw(std::string name, SharedEnergy isochoric, const VolumetricEnergy &volumetric)
       : name_(std::move(name)), isochoric_(std::move(isochoric)),
         volumetric_(volumetric), moduli_{volumetric.bulk, isochoric_->shear_modulus()} {}
 
   std::string name() const override { return name_; }
+  /// With the stretches at which it is stable.
+  std::string summary() const override;
   const ElasticModuli &elastic() const override { return moduli_; }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override;
   std::shared_ptr<const FlowStress> shared_flow_stress() const override { return nullptr; }
@@ -48,7 +50,7 @@ public:
                   double *) const override {}
   std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const override;
 
-  const IsochoricEnergy &isochoric_energy() const override { return *isochoric_; }
+  const IsochoricEnergy &isochoric_energy() const { return *isochoric_; }
   const SharedEnergy &shared_energy() const { return isochoric_; }
   const VolumetricEnergy &volumetric_energy() const { return volumetric_; }
 

@@ -93,6 +93,9 @@ public:
   static double plastic_work(const History &) { return 0.; }
   static double equivalent_plastic_strain(const History &) { return 0.; }
   const ElasticModuli &elastic() const { return elastic_; }
+  double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const {
+    return bound_elastic_stiffness(elastic_, tau);
+  }
   double min_wave_stiffness(const Stretches &stretches) const {
     return min_wave_stiffness_of_rates(elastic_, stretches);
   }

@@ -20,6 +20,9 @@ namespace billet {
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   depends_on_temperature         true, if it reads PointStep::temperature
+///   bound_stiffness(tau)           PointLaw::bound_stiffness(), if that of PointLaw is not the law's. An
+///   elastic
+///                                  law without it is bounded by its moduli.
 ///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:
@@ -33,6 +36,10 @@ public:
 
   std::string name() const override { return name_; }
   const ElasticModuli &elastic() const override { return law_.elastic(); }
+  double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override {
+    return find_bound(law_, tau, 0);
+  }
+  bool has_bound_of_stiffness() const override { return Law::has_plasticity || has_own_bound<Law>(0); }
   std::shared_ptr<const FlowStress> shared_flow_stress() const override {
     if constexpr (Law::has_plasticity)
       return law_.flow_stress();
@@ -106,6 +113,21 @@ private:
     return L::lane_law;
   }
   template <class L> static std::optional<LaneLaw> find_lane_law(long) { return {}; }
+
+  template <class L>
+  auto find_bound(const L &law, const dealii::SymmetricTensor<2, 3> &tau, int) const
+      -> decltype(law.bound_stiffness(tau)) {
+    return law.bound_stiffness(tau);
+  }
+  template <class L> double find_bound(const L &, const dealii::SymmetricTensor<2, 3> &tau, long) const {
+    return PointLaw::bound_stiffness(tau);
+  }
+  template <class L>
+  static constexpr auto has_own_bound(int)
+      -> decltype(std::declval<const L &>().bound_stiffness(dealii::SymmetricTensor<2, 3>()), bool()) {
+    return true;
+  }
+  template <class L> static constexpr bool has_own_bound(long) { return false; }
 
   template <class L> static constexpr auto finds_temperature(int) -> decltype(L::depends_on_temperature) {
     return L::depends_on_temperature;

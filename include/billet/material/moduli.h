@@ -32,6 +32,16 @@ struct GradientModuli : std::array<std::array<double, 9>, 6> {
       0.; ///< derivative of the pressure tr τ/3 by ln J, which the rows do not contain [stress]
 };
 
+/// Returns an upper bound of the stiffness of waves per squared velocity gradient of a law that does not
+/// stiffen but by the rotation and stretch of its Kirchhoff stress, (X9) of doc/theory with 2G [stress].
+double bound_elastic_stiffness(const ElasticModuli &moduli, const dealii::SymmetricTensor<2, 3> &tau);
+
+/// Return an upper bound of the stiffness of waves per squared velocity gradient, as
+/// PointLaw::bound_stiffness() does, from the moduli and the Kirchhoff stress at a point, (X17) of doc/theory
+/// [stress].
+double bound_by_moduli(const SpatialModuli &moduli, const dealii::SymmetricTensor<2, 3> &tau);
+double bound_by_moduli(const GradientModuli &moduli, const dealii::SymmetricTensor<2, 3> &tau);
+
 } // namespace billet
 
 #endif

@@ -57,9 +57,11 @@ public:
   /// Returns the name of the elasticity in scene files.
   virtual std::string name() const = 0;
   /// Returns a description for messages and checkpoints, such as "elastoplastic with linear hardening".
-  std::string description() const {
+  virtual std::string description() const {
     return flow_stress() == nullptr ? "elastic" : "elastoplastic with " + flow_stress()->description();
   }
+  /// Returns what the report of a scene says of the law, such as "Hencky plasticity".
+  virtual std::string summary() const { return name() + (has_plasticity() ? " plasticity" : " elasticity"); }
 
   /// Returns the bulk and shear modulus of the undeformed solid. They determine time steps, penalties and
   /// hourglass control.
@@ -67,9 +69,13 @@ public:
   /// Returns an upper bound of the stiffness of waves at a point, per squared velocity gradient [stress]. It
   /// has terms beyond the moduli, since stresses rotate and stretch with the body.
   virtual double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const;
+  /// Whether bound_stiffness() holds for all deformations. For a law that stiffens without a bound by its
+  /// stress, callers take it from the moduli, bound_by_moduli().
+  virtual bool has_bound_of_stiffness() const { return true; }
   /// Returns null for laws without plasticity.
   virtual std::shared_ptr<const FlowStress> shared_flow_stress() const = 0;
   const FlowStress *flow_stress() const { return shared_flow_stress().get(); }
+  /// Whether the law flows at a yield stress, which it has by flow_stress().
   bool has_plasticity() const { return shared_flow_stress() != nullptr; }
 
   /// Whether the law reads PointStep::temperature. Scenes must then give it, and otherwise must not. Stored
@@ -99,7 +105,7 @@ public:
   virtual void set_stress(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                           double equivalent_plastic_strain, double *state) const = 0;
 
-  /// Returns the minimum stiffness of plane waves over the shear modulus at these principal stretches, (M2)
+  /// Returns the minimum stiffness of plane waves over the shear modulus at these principal stretches, (M7)
   /// of doc/theory.md; nothing if the law cannot compute it. If it is negative, ellipticity is lost and
   /// results depend on the mesh.
   virtual std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const = 0;

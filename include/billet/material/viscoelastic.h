@@ -28,12 +28,13 @@ PronySeries read_prony_series(const TypeInput &input);
 /// doc/theory/rubber.md. The stress T that is conjugate to the logarithmic strain ½ ln C relaxes; the
 /// pressure does not. The recurrence is exact for a T that is linear in time, at any length of the step
 /// (Taylor, Pister & Goudreau 1970). Dissipation is never negative where Drucker's condition holds.
-class ViscoelasticLaw final : public SpatialLaw, public HasStableRanges {
+class ViscoelasticLaw final : public SpatialLaw {
 public:
   ViscoelasticLaw(HyperelasticLaw elastic, PronySeries series)
       : elastic_(std::move(elastic)), series_(std::move(series)) {}
 
   std::string name() const override { return elastic_.name(); }
+  std::string summary() const override;
   /// Returns those of a fast deformation.
   const ElasticModuli &elastic() const override { return elastic_.elastic(); }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override;
@@ -57,8 +58,6 @@ public:
   std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const override {
     return elastic_.min_wave_stiffness(stretches);
   }
-
-  const IsochoricEnergy &isochoric_energy() const override { return elastic_.isochoric_energy(); }
 
 private:
   // The state: T of the elastic law and the dissipated energy, then of each term its stress and compliance.

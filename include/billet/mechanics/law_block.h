@@ -144,10 +144,14 @@ public:
       const double *state = state_of(beat == Beat::committed ? state_n_ : state_, element, q);
       const double w = Element::reference_volume(reference, q);
       dealii::SymmetricTensor<2, 3> tau;
-      if (!update(reference, kinematics, q, at_rest_, state, scratch_.data(), tau, nullptr))
+      typename Law::Moduli moduli;
+      const bool has_bound = law_.has_bound_of_stiffness();
+      if (!update(reference, kinematics, q, at_rest_, state, scratch_.data(), tau,
+                  has_bound ? nullptr : &moduli))
         continue;
       summary.cauchy_stress += w * tau; // σ J w = τ w
-      summary.stiffness_bound = std::max(summary.stiffness_bound, law_.bound_stiffness(tau));
+      summary.stiffness_bound = std::max(summary.stiffness_bound, has_bound ? law_.bound_stiffness(tau)
+                                                                            : bound_by_moduli(moduli, tau));
       summary.equivalent_plastic_strain += w * law_.equivalent_plastic_strain(state);
       summary.plastic_work += w * law_.dissipated_energy(state);
       summary.elastic_energy +=

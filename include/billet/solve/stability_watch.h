@@ -27,16 +27,23 @@ public:
   bool has_unstable_bodies() const { return has_unstable_bodies_; }
 
 private:
+  /// Range of principal stretches.
+  struct Range {
+    double least, largest;
+  };
   struct Watched {
     std::size_t body;
     std::string name;
     std::shared_ptr<const PointLaw> law;
+    Range safe; ///< in which the law is stable
     bool is_unstable;
   };
   struct Weakest {
     double stiffness; ///< over the shear modulus
     Stretches stretches;
   };
+  /// Returns the largest of some ranges in which a law is stable; an empty one if it is stable in none.
+  static Range find_safe_range(const PointLaw &law);
   /// Finds the weakest element of all ranks.
   Weakest find_weakest(const Watched &watched, const Vector &displacements) const;
 
