@@ -2,6 +2,7 @@
 #include "billet/contact/facet_measures.h"
 
 #include <algorithm>
+#include <array>
 
 namespace billet {
 
@@ -69,6 +70,22 @@ std::vector<SlaveForce> FacetMeasures::slave_forces() const {
   return result;
 }
 
+namespace {
+
+/// Returns the parts of a slave's force that the nodes of its facet count. Beyond an edge of the facet some
+/// weights are negative; their nodes count nothing, since no pressure is negative.
+std::array<double, 4> counted_parts(const std::array<double, 4> &weights) {
+  std::array<double, 4> parts{};
+  double sum = 0.;
+  for (unsigned int a = 0; a < 4; ++a)
+    sum += parts[a] = std::max(0., weights[a]);
+  for (double &part : parts)
+    part /= sum;
+  return parts;
+}
+
+} // namespace
+
 std::vector<SurfaceForce> FacetMeasures::nodal_forces() const {
   const SurfaceExchange &exchange = parts_.surfaces.exchange();
   std::vector<double> of_pressures(exchange.n_nodes());
@@ -79,10 +96,11 @@ std::vector<SurfaceForce> FacetMeasures::nodal_forces() const {
       const double part = parts_.touching.area_of(state, share) * state.traction.pressure;
       of_pressures[parts_.slaves.node(s)] += part;
       sums[parts_.slaves.node(s)] += force;
+      const std::array<double, 4> parts = counted_parts(share.projection.weights);
       for (unsigned int a = 0; a < 4; ++a) {
         const unsigned int node = parts_.surfaces.facet(share.facet).nodes[a];
-        of_pressures[node] += share.projection.weights[a] * part;
-        sums[node] -= share.projection.weights[a] * force;
+        of_pressures[node] += parts[a] * part;
+        sums[node] -= parts[a] * force;
       }
     });
   }

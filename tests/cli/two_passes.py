@@ -65,6 +65,16 @@ def _() -> None:
     near("area", row["pair.contact_area"], AREA, STATIC)
 
 
+@check("no pressure is negative where slaves slide over the edges of facets")
+def _() -> None:
+    ended = run(program, "glide.prm", "--output", "glided", "--force")
+    require(ended.code == 0, ended.output + ended.errors)
+    rows = history("glided")
+    largest = max(row["bed.largest_contact_pressure"] for row in rows)
+    least = min(row["bed.least_contact_pressure"] for row in rows)
+    require(largest > 0.1 and least >= 0, f"pressures from {least} to {largest}")
+
+
 @check("explicit")
 def _() -> None:
     check_pressures(last_row(1, *EXPLICIT, *RAMP), MOVING, True)
