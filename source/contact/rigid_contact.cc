@@ -24,7 +24,7 @@ void RigidContact::start_step(const ContactStep &step) {
   parts_.step.placement_n = step.tools_at_start[tool()];
   parts_.step.placement = step.tools_at_end[tool()];
   parts_.step.duration = step.duration;
-  parts_.step.allowed_part = parts_.pair.overlap.allowed_part(step.end);
+  parts_.step.allowed_part = parts_.allowed_part(step.end);
 }
 
 void RigidContact::set_friction_account(const double start_weight, const bool is_static) {

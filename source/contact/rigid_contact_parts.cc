@@ -114,7 +114,7 @@ void RigidContactParts::commit() {
 void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1, 3>> &displacements) {
   const Placement &placement = at.tools_at_start[pair.tool];
   step.placement_n = step.placement = placement;
-  step.allowed_part = pair.overlap.allowed_part(at.start);
+  step.allowed_part = allowed_part(at.start);
   for (auto &divided : slaves.divided)
     divided.may_touch = true;
   for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
@@ -139,6 +139,19 @@ void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1,
     facet.shallow_areas.fill(SpringEnergy::no_area);
     facet.friction_areas.fill(0.);
   }
+}
+
+void RigidContactParts::keep_gaps(const FadingGaps &gaps) {
+  if (has_inertia && !is_explicit) // a raised penalty allows depths there that must not fade
+    return;
+  constexpr double rounding = 1e-9; // of facets
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
+    ContactPoint &node = slaves.nodes[i];
+    const double gap = states[i].gap - node.multiplier_offset, excess = std::min(node.gap_n, 0.) - gap;
+    node.initial_penetration = excess > rounding * node.size ? excess : 0.;
+  }
+  fading_gaps = gaps;
+  step.allowed_part_n = step.allowed_part = gaps.part(gaps.begin);
 }
 
 void RigidContactParts::start_friction() {

@@ -86,6 +86,8 @@ void save_tool_contact(const RigidContactParts &parts, const ToolPenalties &pena
   const SlaveSurface &slaves = parts.slaves;
   writer.write("removed", {parts.step.is_removed ? 1. : 0.});
   writer.write("allowed part", {parts.step.allowed_part});
+  if (parts.fading_gaps)
+    writer.write("fading gaps", {parts.fading_gaps->begin, parts.fading_gaps->end});
   writer.write("stiffening", {penalties.stiffening(), penalties.tangential_stiffening()});
   save_nodes(parts, slaves.mesh_nodes(keys), writer);
   if (slaves.has_divided_facets)
@@ -103,6 +105,10 @@ void load_tool_contact(const StateReader &reader, const NodeKeys &keys, RigidCon
   if (reader.number("removed") != 0.)
     parts.remove_tool();
   parts.step.allowed_part = parts.step.allowed_part_n = reader.number("allowed part");
+  if (reader.has("fading gaps")) {
+    const std::vector<double> times = reader.read("fading gaps", 2);
+    parts.fading_gaps = FadingGaps{times.at(0), times.at(1)};
+  }
   if (parts.thin_tool)
     parts.thin_tool->forget();
   if (reader.has("stiffening")) {

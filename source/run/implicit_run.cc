@@ -41,10 +41,7 @@ ImplicitRun::ImplicitRun(const Scene &scene, const MPI_Comm communicator, Resump
 }
 
 double ImplicitRun::release_time(const Resumption &resumption) const {
-  if (parameters_.restart.release_time > 0. || !resumption.is_refinement())
-    return parameters_.restart.release_time;
-  constexpr double short_part = 0.1; // half as long takes more iterations, twice as long few less
-  return short_part * parameters_.time_stepping.end_time;
+  return resumption.is_refinement() ? refinement_release_time(parameters_) : parameters_.restart.release_time;
 }
 
 std::vector<double> ImplicitRun::load_problem(Resumption *resumption) {

@@ -90,7 +90,7 @@ void MeshChange::check(const std::string &scene_name, const double energy_change
     what << "penetrate what they touch. Contact springs would gain an energy of " << gained << "; allowed is "
          << max_gain * all << ", " << 100. * max_gain
          << " % of all energy. New nodes lie on the chords of faces, inside a curved surface";
-    refuse(what.str(), "gained", gained, "before the bodies touch curved surfaces");
+    refuse(what.str(), "gained", gained, "before the bodies touch curved surfaces, 'Passes = two'");
   }
   if (std::abs(energy_change) > max_change * all) {
     what << "resist strains that the coarse ones let pass. The energy would change by " << energy_change

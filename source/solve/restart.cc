@@ -181,6 +181,12 @@ bool is_refined(const StateReader &reader, const ContactInterface &contact) {
                                              [&](const std::size_t body) { return are_refined[body]; });
 }
 
+double refinement_release_time(const parameters::Scene &parameters) {
+  constexpr double short_part = 0.1; // half as long takes more iterations, twice as long few less
+  return parameters.restart.release_time > 0. ? parameters.restart.release_time
+                                              : short_part * parameters.time_stepping.end_time;
+}
+
 std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
                                      const Discretization &discretization) {
   std::vector<std::string> changed;

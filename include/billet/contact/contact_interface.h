@@ -71,6 +71,10 @@ public:
   std::size_t group_index() const { return group_index_; }
   virtual void save(StateWriter &writer, const NodeKeys &keys) const = 0;
   virtual void load(const StateReader &reader, const NodeKeys &keys) = 0;
+  /// After begin() and load() on a finer mesh: keeps the gaps that the coarser mesh had. New nodes lie on
+  /// chords of its faces, inside a curved surface, and come out of it from `begin` to `end` [time]. Pairs of
+  /// bodies have the gaps of the finer mesh at once.
+  virtual void keep_gaps(const double /*begin*/, const double /*end*/) {}
 
 protected:
   ContactInterface(const Scene &scene, const ContactPair &pair);

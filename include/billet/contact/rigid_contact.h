@@ -77,6 +77,7 @@ public:
 
   void save(StateWriter &writer, const NodeKeys &keys) const override;
   void load(const StateReader &reader, const NodeKeys &keys) override;
+  void keep_gaps(const double begin, const double end) override { parts_.keep_gaps({begin, end}); }
 
 private:
   RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization);

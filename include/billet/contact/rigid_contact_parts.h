@@ -46,6 +46,7 @@ struct RigidContactParts {
   PressureRecord pressures;                           ///< not known in explicit schemes
   std::optional<ToolFriction> friction;               ///< none without friction
   std::optional<ThinToolWatch> thin_tool;             ///< none unless the tool is thin on any rank
+  std::optional<FadingGaps> fading_gaps;              ///< none unless a mesh became finer in contact
   double tool_reach = 0.; ///< maximum radius of curvature, at most the tool's size [length]
   HeldMemory memory{Capability::contact};
 
@@ -64,6 +65,13 @@ struct RigidContactParts {
 
   /// Counts the changes of patch and status since the last iteration.
   void count_changes();
+  /// Returns the part of initial penetrations that counts as none at time t.
+  double allowed_part(const double t) const {
+    return fading_gaps ? fading_gaps->part(t) : pair.overlap.allowed_part(t);
+  }
+  /// Allows the nodes the depths by which they exceed the interpolated ones of a coarser mesh, (R7) of
+  /// doc/theory, while these fade.
+  void keep_gaps(const FadingGaps &gaps);
   /// Removes the tool: from now on no node touches it.
   void remove_tool();
   /// Makes the state of the last update() the start of the next step.

@@ -7,7 +7,19 @@
 #include "billet/geometry/rigid_surface.h"
 #include "billet/scene/scene.h"
 
+#include <algorithm>
+
 namespace billet {
+
+/// Time in which depths that a finer mesh has brought about fade.
+struct FadingGaps {
+  double begin, end; ///< [time]
+
+  /// Returns the part of these depths that counts as none at time t.
+  double part(const double t) const {
+    return end > begin ? std::clamp((end - t) / (end - begin), 0., 1.) : 0.;
+  }
+};
 
 /// A rigid tool in the step of a contact pair.
 struct ToolStep {

@@ -34,6 +34,9 @@ std::vector<bool> refined_bodies(const StateReader &reader);
 /// Returns whether a contact pair has such a body.
 bool is_refined(const StateReader &reader, const ContactInterface &contact);
 
+/// Returns the time over which unbalanced forces, and gaps of a coarser mesh, fade after a refinement.
+double refinement_release_time(const parameters::Scene &parameters);
+
 /// Saves the properties that must agree between the scenes before and after a restart: bodies, their meshes
 /// and the kinds of their materials.
 void save_scene(StateWriter &writer, const Scene &scene, const Discretization &discretization);

@@ -129,6 +129,8 @@ void ProblemCheckpoint::load_contacts(StateReader &reader, const NodeKeys &keys)
     });
     if (!is_known && !begins)
       contact.with_matrix().begin(at, state.displacements);
+    if (begins)
+      contact.keep_gaps(state.time, state.time + refinement_release_time(parts_.scene().parameters()));
   }
 }
 
