@@ -3,8 +3,8 @@
 """Usage: prose.py [--program BILLET] [FILE.md...]
        prose.py --self-check
 
-Checks the prose of README.md, CHANGELOG.md and doc/: no line has more than 100 columns, no sentence more
-than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
+sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
 
 FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
 """
@@ -186,7 +186,8 @@ def check_program(program: str) -> int:
 
 
 def pages() -> list[str]:
-    files = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "doc").rglob("*.md"))]
+    files = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / ".github").rglob("*.md"))]
+    files += sorted((ROOT / "doc").rglob("*.md"))
     names = [file.relative_to(ROOT).as_posix() for file in files if file.exists()]
     return [name for name in names if not name.startswith(LEFT_OUT)]
 

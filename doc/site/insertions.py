@@ -140,7 +140,17 @@ class Insertions:
         raise SystemExit("no table of safe ranges in results/extremes.md")
 
     def _insert_changes(self, page: str) -> str:
-        """Shows CHANGELOG.md, without its title, with links as from doc/."""
-        text = (self._root / "CHANGELOG.md").read_text(encoding="utf-8").split("\n", 1)[1]
-        text = text.replace("[doc/news/README.md](doc/news/README.md)", "`doc/news/README.md`")
-        return text.replace("](doc/", "](")
+        """Shows CHANGELOG.md."""
+        return self._from_root("CHANGELOG.md")
+
+    def _insert_contributing(self, page: str) -> str:
+        """Shows CONTRIBUTING.md, and CODE_OF_CONDUCT.md as its last chapter."""
+        conduct = re.sub(r"^##", "###", self._from_root("CODE_OF_CONDUCT.md"), flags=re.MULTILINE)
+        text = self._from_root("CONTRIBUTING.md").replace("](CODE_OF_CONDUCT.md)", "](#code-of-conduct)")
+        return f"{text}\n## Code of conduct\n{conduct}"
+
+    def _from_root(self, name: str) -> str:
+        """Returns a page that stands beside doc/, without its title, with links as from doc/."""
+        text = (self._root / name).read_text(encoding="utf-8").split("\n", 1)[1]
+        text = re.sub(r"\[[^\]]*\]\((doc/news/README\.md)\)", r"`\1`", text)  # no page of the site
+        return text.replace("](doc/", "](").replace("](LICENSE)", "](../LICENSE)")
