@@ -94,7 +94,7 @@ def faults_of_authors(authors: list[dict[str, Any]]) -> list[str]:
 
 
 def faults_of_citation(text: str) -> list[str]:
-    """Returns what version 1.2.0 of the Citation File Format forbids, and a version other than the program's."""
+    """Returns what the Citation File Format 1.2.0 forbids, and a version other than the program's."""
     data = yaml.safe_load(text)
     faults = lacks_of(data, "authors", "cff-version", "message", "title")
     faults += faults_of_authors(data.get("authors", []))
