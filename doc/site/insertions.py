@@ -11,7 +11,7 @@ from typing import Mapping, Optional
 import verification
 from pages import table
 from reference import Reference
-from results import tables_of
+from results import tables_of, values_of
 
 INSERTION = re.compile(r"^<!-- insert: (.+?) -->$", re.MULTILINE)
 TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
@@ -93,6 +93,11 @@ class Insertions:
         if not rows:
             raise SystemExit(f"{page}: no values of '{tutorial}'")
         return table(("quantity", "value"), [(row["quantity"], row["value"]) for row in rows])
+
+    def _insert_scene_values(self, page: str, scene: str) -> str:
+        """Shows the figures of a shipped scene beside their references."""
+        head = ("quantity", "run", "reference", "difference")
+        return table(head, [[row[name] for name in head] for row in values_of(self._root, scene)])
 
     def _insert_gallery(self, page: str) -> str:
         """Shows a table of all scenes that have a page."""
