@@ -16,6 +16,10 @@ from pathlib import Path
 from typing import Callable, Iterable, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/cli"))  # for theories, which tests compare with, too
+from membrane import Membrane  # noqa: E402
+from rolling_theory import force_and_torque  # noqa: E402
+
 VALUES = ROOT / "doc/scenes/values.csv"
 Row = dict[str, float]
 
@@ -75,6 +79,12 @@ def root(function: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
+def balloon(runs: Runs) -> Iterable[Value]:
+    last = runs.shipped("balloon")[-1]
+    force = Membrane(100.0, 2.0, 1.5 / (2 * 1.499)).force_on_plane(0.0115, 105.0, 1.1523, 0.298)
+    yield Value("force on the plate at 11.5 kPa, N", -last["plate.full_circle_force_z"], force, ".4g")
+
+
 def bracket(runs: Runs) -> Iterable[Value]:
     deck = (ROOT / "prm/bracket/bracket_ccx.inp").read_text(encoding="utf-8")
     total = re.search(r"set BOLTED and time +0\.1000000E\+01: +(\S+)", deck)
@@ -132,6 +142,19 @@ def pressurised_cylinder(runs: Runs) -> Iterable[Value]:
     yield Value("the same, with the radii by then", pressure, 2 * k * math.log(widened), ".4g")
 
 
+def slab_rolling(runs: Runs) -> Iterable[Value]:
+    force, torque = force_and_torque()
+    for name, scene, end in (("static", "slab_rolling", 1.0), ("explicit", "slab_rolling_explicit", 10.5e-3)):
+        rows = [row for row in runs.shipped(scene) if 0.5 * end <= row["time"] <= 0.9 * end]
+        spans = [after["time"] - before["time"] for before, after in zip(rows, rows[1:])]
+
+        def mean(column: str) -> float:
+            return sum(span * row[column] for span, row in zip(spans, rows[1:])) / sum(spans)
+
+        yield Value(f"{name}: force, N/mm", -mean("roll.force_y"), force, ".4g")
+        yield Value(f"{name}: torque, N", mean("roll.moment_z"), torque)
+
+
 def stack(runs: Runs) -> Iterable[Value]:
     last = runs.shipped("stack")[-1]
     weight = 0.0
@@ -156,7 +179,17 @@ def step_punch(runs: Runs) -> Iterable[Value]:
 
 
 SCENES: dict[str, Callable[[Runs], Iterable[Value]]] = {
-    scene.__name__: scene for scene in (bracket, cyclic_coupon, drop, pressurised_cylinder, stack, step_punch)
+    scene.__name__: scene
+    for scene in (
+        balloon,
+        bracket,
+        cyclic_coupon,
+        drop,
+        pressurised_cylinder,
+        slab_rolling,
+        stack,
+        step_punch,
+    )
 }
 
 

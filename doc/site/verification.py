@@ -107,8 +107,8 @@ CLOSED_FORMS = (
         "Slab rolling, static: force per width",
         "slab theory (von Kármán)",
         "scenes/slab_rolling",
-        {"mean over the steady part, 0.5 to 0.9 of the time": "static"},
-        "force, N/mm",
+        {"quantity": "static: force, N/mm"},
+        "difference",
         command="ctest -R contact_scenes",
     ),
     Case(
