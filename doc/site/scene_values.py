@@ -25,11 +25,11 @@ Row = dict[str, float]
 
 
 class Value(NamedTuple):
-    """A figure of a run and its reference, with the format of both."""
+    """A figure of a run and its reference, if there is one, with the format of both."""
 
     quantity: str
     run: float
-    reference: float
+    reference: float | None
     digits: str = ".5g"
 
 
@@ -142,6 +142,40 @@ def pressurised_cylinder(runs: Runs) -> Iterable[Value]:
     yield Value("the same, with the radii by then", pressure, 2 * k * math.log(widened), ".4g")
 
 
+def o_ring(runs: Runs) -> Iterable[Value]:
+    diameter, squeeze, young = 5.33, 0.2, 6 / (1 - 0.499**2)  # 6 (C10 + C01), in plane strain
+    lindley = diameter * young * (1.25 * squeeze**1.5 + 50 * squeeze**6)
+    for name, options in (("", ()), ("; `Refinements = 2`", ("--set", "Bodies/ring/Mesh/Refinements=2"))):
+        rows = runs.shipped("o_ring", *options)
+        squeezed, end = at(rows, 1), at(rows, 2)
+        pressure = "under lid.largest_contact_pressure"
+        yield Value(f"line load at 20 %, N/mm{name}", abs(squeezed["lid.force_per_width_y"]), lindley, ".3g")
+        yield Value(f"maximum pressure under the lid at 20 %, MPa{name}", squeezed[pressure], None, ".3g")
+        yield Value(f"the same under 3 MPa of oil, MPa{name}", end[pressure], None, ".3g")
+
+
+def seal(runs: Runs) -> Iterable[Value]:
+    # A thick ring under two opposite forces in plane strain (Roark, table 9.2, case 1); half is modelled.
+    thickness, radius, shear = 3.0, 4.0, 1.0
+    plane = 3 / (1 - 0.499**2)
+    offset = radius - thickness / math.log(5.5 / 2.5)
+    k2 = 1 - offset / radius
+    k1 = k2 + 1.2 * plane * offset / (shear * radius)
+    stiffness = plane * thickness * offset / (radius**2 * (math.pi * k1 / 4 - 2 * k2**2 / math.pi)) / 2
+    coarse = "Bodies/seal/Mesh/Arguments=3, 1, 24 : 2.5, 0, -90 : 5.5, 1, 90 : true"
+    for name, options in (("", ()), ("; 24 × 3 bricks", ("--set", coarse))):
+        rows = runs.shipped("seal", *options)
+        begin, closed, last = rows[1], at(rows, 1), rows[-1]
+        slope = abs(begin["upper plate.force_z"] / begin["upper plate.travel_z"])
+        approach = abs(begin["upper plate.travel_z"])
+        force = abs(closed["upper plate.force_z"])
+        friction = last["friction_dissipation"]
+        yield Value(f"force over approach at {approach:.3g} mm, N/mm²{name}", slope, stiffness, ".3g")
+        yield Value(f"force at half of the height, N/mm, of half the seal{name}", force, None, ".3g")
+        yield Value(f"friction work of squeeze and release, mJ/mm{name}", friction, None, ".3g")
+        yield Value(f"stored energy at the end, mJ/mm{name}", last["elastic_energy"], None, ".3g")
+
+
 def slab_rolling(runs: Runs) -> Iterable[Value]:
     force, torque = force_and_torque()
     for name, scene, end in (("static", "slab_rolling", 1.0), ("explicit", "slab_rolling_explicit", 10.5e-3)):
@@ -185,7 +219,9 @@ SCENES: dict[str, Callable[[Runs], Iterable[Value]]] = {
         bracket,
         cyclic_coupon,
         drop,
+        o_ring,
         pressurised_cylinder,
+        seal,
         slab_rolling,
         stack,
         step_punch,
@@ -195,6 +231,8 @@ SCENES: dict[str, Callable[[Runs], Iterable[Value]]] = {
 
 def difference(value: Value) -> str:
     """Returns the relative difference: per cent, or a power of ten where it is small."""
+    if value.reference is None:
+        return ""
     ratio = value.run / value.reference - 1
     if abs(ratio) < 1e-8:
         return "< 1e-8"
@@ -212,7 +250,8 @@ def main() -> None:
         kept = [row for row in kept if row[0] != name]
         for value in SCENES[name](Runs(program, folder)):
             run, reference = (
-                f"{number:#{value.digits}}".rstrip(".") for number in (value.run, value.reference)
+                "" if number is None else f"{number:#{value.digits}}".rstrip(".")
+                for number in (value.run, value.reference)
             )
             kept.append([name, value.quantity, run, reference, difference(value)])
             print(*kept[-1], sep=", ", flush=True)
