@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: figures.py [--write | --self-check]
 
-Checks figures in running text, above all of README.md, against the pages of doc/results that have them, or
-writes them anew.
+Checks figures in running text, above all of README.md, against the pages of doc/results that have them and
+against doc/scenes/costs.csv, or writes them anew.
 """
 
 from __future__ import annotations
 
+import csv
 import re
 import sys
 from pathlib import Path
@@ -66,6 +67,25 @@ def runs_within_target() -> tuple[str, ...]:
     return found("target-error.md", r"([0-9]+ of [0-9]+) runs are within their target")
 
 
+def cost_of(scene: str, *columns: str) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up the cost of a shipped scene."""
+
+    def values() -> tuple[str, ...]:
+        with (ROOT / "doc/scenes/costs.csv").open(encoding="utf-8", newline="") as file:
+            rows = {row["scene"]: row for row in csv.DictReader(file)}
+        return tuple(rows[scene][column] for column in columns)
+
+    return values
+
+
+def cheap_runs() -> tuple[str, ...]:
+    work = found("target-error.md", r"([0-9]+) of [0-9]+ take at most 1.5 times the work")
+    seconds = found("target-error.md", r"([0-9]+) of [0-9]+ take at most 1.5 times the CPU")
+    without_start = r"start takes ([0-9.]+) of these seconds; without it ([0-9]+) of [0-9]+ take so few"
+    return *work, *seconds, *found("target-error.md", without_start)
+
+
+EXAMPLES = "doc/guide/examples.md"
 FIGURES = (
     Figure("README.md", r"(\d+) Newton iterations in (\d+) steps", iterations_of_billet),
     Figure("README.md", r"a step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
@@ -78,6 +98,30 @@ FIGURES = (
         trade_of_billet,
     ),
     Figure("doc/guide/accuracy.md", r"(\d+ of \d+) runs are within their target", runs_within_target),
+    Figure(
+        "doc/guide/accuracy.md",
+        r"element updates \| (\d+) \| \| at most 1.5 times the CPU seconds, set-up included \| (\d+) \|"
+        r" \| at most 1.5 times the CPU seconds, without the program's start of ([\d.]+) s \| (\d+) \|",
+        cheap_runs,
+    ),
+    Figure(
+        EXAMPLES,
+        r"turned back, lifted: (\d+) steps, (\d+) iterations",
+        cost_of("twisted_hemisphere", "steps", "iterations"),
+    ),
+    Figure(
+        EXAMPLES, r"with μ = 0.3: (\d+) steps, (\d+) iterations", cost_of("ironing", "steps", "iterations")
+    ),
+    Figure(
+        EXAMPLES,
+        r"and opens again: (\d+) iterations in (\d+) steps",
+        cost_of("ring_crush", "iterations", "steps"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"onto the plates, too: (\d+) iterations in (\d+) steps",
+        cost_of("hollow_block", "iterations", "steps"),
+    ),
 )
 
 
