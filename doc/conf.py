@@ -17,7 +17,9 @@ from pygments.lexer import RegexLexer, bygroups
 from pygments.token import Comment, Keyword, Name, Operator, Punctuation, String, Text
 from sphinx.application import Sphinx
 from sphinx.domains.math import MathDomain
+from sphinx.util import logging
 
+logger = logging.getLogger(__name__)
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 sys.path.insert(0, str(ROOT / "tools"))  # for the options of billet-trade and billet-fit
@@ -68,6 +70,10 @@ mathjax_path = "katex/katex.min.js"
 mathjax_options = {"defer": "defer"}
 math_eqref_format = "({number})"
 
+SHOWN_ENVIRONMENTS = re.findall(
+    r"\\\\begin\{(.+?)\}", (HERE / "_static/formulas.js").read_text(encoding="utf-8")
+)
+
 man_pages = [
     ("reference/billet-trade", "billet-trade", "accuracy against cost of a scene", "", 1),
     ("reference/billet-fit", "billet-fit", "constants of laws of rubber", "", 1),
@@ -112,6 +118,9 @@ def remove_shown_tags(app: Sphinx, tree: nodes.document) -> None:
     blocks: Iterator[nodes.math_block] = tree.findall(nodes.math_block)
     for block in list(blocks):
         number = block.get("number")
+        environment = re.match(r"\s*\\begin\{([a-z]+\*?)\}", block.astext())
+        if block.get("nowrap") and environment and environment[1] not in SHOWN_ENVIRONMENTS:
+            logger.warning("formulas.js does not show '%s'", environment[1], location=block)
         if number is None:
             continue
         text = block.astext().replace(rf"\tag{{{number}}}", "").strip()

@@ -29,7 +29,7 @@ for group in "$@"; do
       ;;
     trade) packages+=(python3 python3-matplotlib python3-paraview python3-scipy) ;;
     benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
-    python) packages+=(black flake8 mypy python3-numpy) ;;
+    python) packages+=(black flake8 mypy python3-numpy python3-yaml) ;;
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     documentation)
       packages+=(python3-sphinx python3-myst-parser furo python3-sphinxcontrib.bibtex python3-sphinx-argparse

@@ -3,8 +3,10 @@
 """Usage: prose.py [--program BILLET] [FILE.md...]
        prose.py --self-check
 
-Checks the prose of README.md, CHANGELOG.md and doc/: no line has more than 100 columns, no sentence more
-than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
+sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+A sentence that goes on below a formula counts as one. Cells of tables have no more than 25 words between
+semicolons, but for tables of results, which have messages of the program.
 
 FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
 """
@@ -22,7 +24,8 @@ ROOT = Path(__file__).resolve().parents[1]
 MAX_COLUMNS = 100
 MAX_WORDS = 25
 MAX_SENTENCES = 5
-LEFT_OUT = ("doc/site/", "doc/news/")
+LEFT_OUT = ("doc/site/",)
+WITH_MESSAGES = ("doc/results/", "doc/messages.md")  # --program checks those
 
 FENCE = re.compile(r"\s*(`{3,}|~{3,}|\$\$)")
 ITEM = re.compile(r"(\s*)(?:[-*+]|\d+[.)])\s+(.*)")
@@ -38,6 +41,7 @@ class Paragraph(NamedTuple):
 
     line: int
     text: str
+    is_item: bool
 
 
 class Fault(NamedTuple):
@@ -110,22 +114,46 @@ def paragraphs_of(text: str) -> list[Paragraph]:
     found: list[Paragraph] = []
     lines: list[str] = []
     begin = 0
+    is_item = False
 
     def close() -> None:
         if lines:
-            found.append(Paragraph(begin, " ".join(lines)))
+            found.append(Paragraph(begin, " ".join(lines), is_item))
         lines.clear()
 
     for number, line in prose_lines(text):
         item = ITEM.match(line)
+        if lines and not is_item and re.match(r"\d", line) and not line.startswith("1."):
+            item = None  # a number at the start of a line
         if not line or item:
             close()
         if line:
             if not lines:
                 begin = number
+                is_item = bool(item)
             lines.append(item[2] if item else line.strip().lstrip("> "))
     close()
     return found
+
+
+def faults_of_cells(text: str) -> list[Fault]:
+    """Returns cells of tables with too many words between semicolons."""
+    faults = []
+    fence = ""
+    for number, line in enumerate(text.splitlines(), 1):
+        opened = FENCE.match(line)
+        if opened and (not fence or opened[1].startswith(fence)):
+            fence = "" if fence else opened[1]
+        if fence or not line.startswith("|"):
+            continue
+        for cell in plain(line).split("|"):
+            faults += [
+                Fault(number, f"{n_words(part)} words in a cell: {part[:60]}...")
+                for sentence in sentences_of(cell)
+                for part in sentence.split("; ")
+                if n_words(part) > MAX_WORDS
+            ]
+    return faults
 
 
 def faults_of(text: str) -> list[Fault]:
@@ -135,8 +163,15 @@ def faults_of(text: str) -> list[Fault]:
         for number, line in prose_lines(text)
         if len(line) > MAX_COLUMNS and " " in re.sub(r"\]\([^)]*\)", "]", line.strip())
     ]
+    before = ""
     for paragraph in paragraphs_of(text):
         sentences = sentences_of(paragraph.text)
+        goes_on = bool(before and not paragraph.is_item and re.match("[a-z]", paragraph.text))
+        if goes_on and sentences:
+            sentences[0] = f"{before} {sentences[0]}"
+        before = ""
+        if sentences and not paragraph.is_item and not re.search(r"[.!?]\W*$", sentences[-1]):
+            before = sentences[-1]
         faults += [
             Fault(paragraph.line, f"{n_words(sentence)} words: {sentence[:60]}...")
             for sentence in sentences
@@ -186,7 +221,8 @@ def check_program(program: str) -> int:
 
 
 def pages() -> list[str]:
-    files = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "doc").rglob("*.md"))]
+    files = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / ".github").rglob("*.md"))]
+    files += sorted((ROOT / "doc").rglob("*.md"))
     names = [file.relative_to(ROOT).as_posix() for file in files if file.exists()]
     return [name for name in names if not name.startswith(LEFT_OUT)]
 
@@ -195,7 +231,9 @@ def check_pages(names: list[str]) -> int:
     """Prints what is wrong; returns the number of errors."""
     n_errors = 0
     for name in names:
-        for fault in faults_of((ROOT / name).read_text(encoding="utf-8")):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        cells = [] if name.startswith(WITH_MESSAGES) else faults_of_cells(text)
+        for fault in sorted(faults_of(text) + cells):
             print(f"{name}:{fault.line}: {fault.what}")
             n_errors += 1
     return n_errors
@@ -213,6 +251,17 @@ SAMPLES: tuple[tuple[str, list[str]], ...] = (
     ("[link](" + "x" * 120 + ")\n", []),
     ("Formula\n\n$$\n" + "a " * 60 + "\n$$\n", []),
     ("- one\n\n    " + "text " * 26 + "\n", ["134 columns", "26 words"]),
+    ("The law " + "is " * 14 + "to\n10. " + "Word " * 12 + "\n", []),
+    ("The law " + "is " * 19 + "from 1 to\n10 or\n20. It ends.\n", ["27 words"]),
+    ("With\n\n$$\na\n$$\n\n" + "word " * 13 + "\n\n$$\nb\n$$\n\n" + "word " * 13 + "\n", ["27 words"]),
+    ("It is so.\n\n$$\na\n$$\n\n" + "word " * 25 + "\n", ["125 columns"]),
+    ("- " + "item " * 13 + "\n- " + "item " * 13 + "\n", []),
+)
+CELLS: tuple[tuple[str, int], ...] = (
+    ("| a | " + "word " * 26 + "|\n", 1),
+    ("| " + "word " * 20 + "| " + "word " * 20 + "|\n", 0),
+    ("| " + "word " * 20 + "one; two " + "word " * 20 + "|\n", 0),
+    ("```\n| " + "word " * 26 + "|\n```\n", 0),
 )
 
 
@@ -224,7 +273,11 @@ def self_check() -> int:
         if len(faults) != len(expected) or not all(f.startswith(e) for f, e in zip(faults, sorted(expected))):
             print(f"{text[:40]!r}: found {faults}, expected {expected}")
             n_errors += 1
-    print(f"{len(SAMPLES)} samples, {n_errors} errors")
+    for text, n_expected in CELLS:
+        if len(faults_of_cells(text)) != n_expected:
+            print(f"{text[:40]!r}: found {faults_of_cells(text)}, expected {n_expected}")
+            n_errors += 1
+    print(f"{len(SAMPLES) + len(CELLS)} samples, {n_errors} errors")
     return n_errors
 
 

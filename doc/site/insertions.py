@@ -11,7 +11,7 @@ from typing import Mapping, Optional
 import verification
 from pages import table
 from reference import Reference
-from results import tables_of
+from results import tables_of, values_of
 
 INSERTION = re.compile(r"^<!-- insert: (.+?) -->$", re.MULTILINE)
 TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
@@ -94,6 +94,11 @@ class Insertions:
             raise SystemExit(f"{page}: no values of '{tutorial}'")
         return table(("quantity", "value"), [(row["quantity"], row["value"]) for row in rows])
 
+    def _insert_scene_values(self, page: str, scene: str) -> str:
+        """Shows the figures of a shipped scene beside their references."""
+        head = ("quantity", "run", "reference", "difference")
+        return table(head, [[row[name] for name in head] for row in values_of(self._root, scene)])
+
     def _insert_gallery(self, page: str) -> str:
         """Shows a table of all scenes that have a page."""
         rows = []
@@ -140,7 +145,17 @@ class Insertions:
         raise SystemExit("no table of safe ranges in results/extremes.md")
 
     def _insert_changes(self, page: str) -> str:
-        """Shows CHANGELOG.md, without its title, with links as from doc/."""
-        text = (self._root / "CHANGELOG.md").read_text(encoding="utf-8").split("\n", 1)[1]
-        text = text.replace("[doc/news/README.md](doc/news/README.md)", "`doc/news/README.md`")
-        return text.replace("](doc/", "](")
+        """Shows CHANGELOG.md."""
+        return self._from_root("CHANGELOG.md")
+
+    def _insert_contributing(self, page: str) -> str:
+        """Shows CONTRIBUTING.md, and CODE_OF_CONDUCT.md as its last chapter."""
+        conduct = re.sub(r"^##", "###", self._from_root("CODE_OF_CONDUCT.md"), flags=re.MULTILINE)
+        text = self._from_root("CONTRIBUTING.md").replace("](CODE_OF_CONDUCT.md)", "](#code-of-conduct)")
+        return f"{text}\n## Code of conduct\n{conduct}"
+
+    def _from_root(self, name: str) -> str:
+        """Returns a page that stands beside doc/, without its title, with links as from doc/."""
+        text = (self._root / name).read_text(encoding="utf-8").split("\n", 1)[1]
+        text = re.sub(r"\[[^\]]*\]\((doc/news/README\.md)\)", r"`\1`", text)  # no page of the site
+        return text.replace("](doc/", "](").replace("](LICENSE)", "](../LICENSE)")

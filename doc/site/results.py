@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads the tables of doc/results, so that no page copies a number."""
+"""Reads the tables of doc/results and the figures of doc/scenes, so that no page copies a number."""
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 from typing import Mapping
 
@@ -53,3 +54,12 @@ def cell_of(page: Path, wanted: Mapping[str, str], column: str, heading: str = "
     if len(found) != 1:
         raise SystemExit(f"{page}: {len(found)} rows with {dict(wanted)} and '{column}' below '{heading}'")
     return found[0]
+
+
+def values_of(root: Path, scene: str) -> list[dict[str, str]]:
+    """Returns the figures of a shipped scene; raises SystemExit where there are none."""
+    with (root / "doc/scenes/values.csv").open(encoding="utf-8", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["scene"] == scene]
+    if not rows:
+        raise SystemExit(f"doc/scenes/values.csv has no figures of '{scene}'")
+    return rows

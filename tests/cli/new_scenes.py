@@ -263,4 +263,23 @@ def _() -> None:
     near("force of the table", last["pad.support table.force_y"], 41.5, 2e-3)
 
 
+@check("Getting started shows what the program prints")
+def _() -> None:
+    page = read_text(HERE.parents[1] / "doc/start.md")
+    parts = re.findall(r"^```(\w*)\n(.*?)^```$", page, re.S | re.M)
+    shown = [part for kind, part in parts if not kind and re.search("^(Gap|216 )", part, re.M)]
+    equal("parts of output", len(shown), 2)
+    write_text("first.prm", next(part for kind, part in parts if kind == "prm"))
+    printed = run(program, "--check", "first.prm").output + run(program, "first.prm").output
+
+    def settled(line: str) -> str:
+        """Returns a line without what differs from machine to machine: residual, memory, time."""
+        line = re.sub(r"\S*e-\d\d\b", "#", line)
+        return " ".join(re.sub(r"\b\d+ MB|\b\d+:\d\d\b", "#", line).split())
+
+    lines = {settled(line) for line in printed.splitlines()}
+    for line in "".join(shown).splitlines():
+        require(line.split() == ["..."] or settled(line) in lines, f"the program does not print '{line}'")
+
+
 sys.exit(check.finish())
