@@ -247,7 +247,8 @@ def _() -> None:
         says(pattern, complaints("bushing", edits))
     plane = (
         "face: Shape = plane & face: Point = 0, 0, 32 & face: - Centre & face: - Inner radius"
-        " & face: - Radius & punch / Motion: - Removal time & punch / Motion: - Release time & Time stepping: End time = 0.15"
+        " & face: - Radius & punch / Motion: - Removal time & punch / Motion: - Release time"
+        " & Time stepping: End time = 0.15"
     )
     ran = runner.run(scene("bushing"), plane)
     require(ran.ended.code == 0, f"exit code {ran.ended.code}: {ran.complained}")
