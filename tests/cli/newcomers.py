@@ -3,7 +3,7 @@
 """Usage: newcomers.py BILLET
 
 Runs, in an empty current folder, the scenes by first-time users in newcomers/, and compares them with
-balances and closed forms. Repeats what stopped their authors: each of these traps must have its message.
+balances and closed forms. Repeats what stopped these users: each of these traps must have its message.
 newcomers/notes.md has the story.
 """
 
@@ -149,6 +149,23 @@ def _() -> None:
     )
 
 
+TOO_EXACT = (
+    "General contact: Penetration tolerance = 1e-3 & + subsection Solver\\nset Force tolerance = 3e-4\\nend"
+    " & + subsection Contact pairs\\nsubsection strip on pad\\nset Body = strip\\nset Second body = pad\\n"
+    "set Friction coefficient = 0.1\\nset Penetration tolerance = 1e-3\\nend\\nend"
+    " & punch / Motion: Translation = 0 ; -10*press ; 0 & Time stepping: Minimum step = 0.015"
+)
+
+
+@check("a bent strip with tolerances that it cannot meet: the last message names the pairs that chatter")
+def _() -> None:
+    ran = runner.run(scene("bent_strip"), TOO_EXACT)
+    require(ran.ended.code == 3, f"exit code {ran.ended.code}")
+    # The last attempt itself fails before any node cycles.
+    says(r"^error\[solution-failed\]: .*in an earlier attempt.* contact pair 'strip on pad': \d+ nodes keep",
+         ran.complained)  # fmt: skip
+
+
 # --- the block ------------------------------------------------------------------------------------
 
 REBOUND = (
@@ -167,6 +184,24 @@ def _() -> None:
     momentum = ran.column("momentum_z")
     near("impulse of all supports", supports, momentum[-1] - momentum[0], 5e-3)
     near("rebound", ran.last("block.velocity_z"), REBOUND, 0.01)
+
+
+UPWARDS = "Bodies / block: Initial velocity = 0 ; 0 ; 60e3"
+GRAVITY = (
+    "subsection Loads\\nsubsection g\\nset Type = acceleration\\nset Acceleration = 0 ; 0 ; -1\\nend\\nend"
+)
+
+
+@check("a block that flies away from the plate: a warning, unless loads may bring it back")
+def _() -> None:
+    warning = (
+        r"^warning\[pair-never-touched\]: The initial velocity \(0, 0, 60000\) brings the body to no other"
+    )
+    says(warning, complaints("block_on_plate", UPWARDS))
+    for edits in ("", f"{UPWARDS} & Bodies / block: + {GRAVITY}"):
+        said = complaints("block_on_plate", edits)
+        says("^Gap +block on plate", said)
+        require("pair-never-touched" not in said, said)
 
 
 @check("a block hits a plate: traps")
@@ -255,6 +290,18 @@ def _() -> None:
     says(r"^warning\[missing-pair\]: Body 'pin' and tool 'punch' .*'Shape = rectangle' or 'disc'", ran.said)
 
 
+@check("a note tells of penalties that augmentation makes very stiff, once for a pair")
+def _() -> None:
+    block = read_text(HERE.parent / "scenes/confined_block.prm") + "subsection Output\nend\n"
+    static = "Time stepping: - Scheme & Material: - Density"
+    note = r"^note\[penalty-raised\]: Augmentation raises the penalty of the pair to \d{4,} E/h.*\(pair 'top'"
+    said = runner.run(block, static).said
+    says(note, said)
+    require(said.count("Augmentation raises the penalty") == 1, said)
+    said = runner.run(block, f"{static} & top: Normal penalty = 10").said
+    require("Augmentation raises" not in said, said)
+
+
 # --- words ----------------------------------------------------------------------------------------
 
 WORDS = (
@@ -263,7 +310,7 @@ WORDS = (
 ).split()
 
 
-@check("the manual has the words that they looked for")
+@check("the manual has the words that first-time users looked for")
 def _() -> None:
     pages = "".join(read_text(HERE.parents[1] / "doc" / page) for page in ("glossary.md", "guide/scenes.md"))
     missing = [word for word in WORDS if word not in pages]
