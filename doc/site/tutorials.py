@@ -173,13 +173,13 @@ TUTORIALS = {
         "time",
         "force, N/mm",
         (
-            Curve("punch", lambda r: r["time"], lambda r: abs(r["punch.force_z"])),
-            Curve("holder", lambda r: r["time"], lambda r: abs(r["holder.force_z"])),
+            Curve("punch", lambda r: r["time"], lambda r: abs(r["punch.force_y"])),
+            Curve("holder", lambda r: r["time"], lambda r: abs(r["holder.force_y"])),
         ),
         (
             (
                 "largest vertical force of the punch, N/mm",
-                lambda r: f"{largest(r, lambda x: x['punch.force_z']):.1f}",
+                lambda r: f"{largest(r, lambda x: x['punch.force_y']):.1f}",
             ),
             ("elastic energy when the punch leaves, mJ", lambda r: f"{at(r, 1)['elastic_energy']:.1f}"),
             ("elastic energy at the end, mJ", lambda r: f"{r[-1]['elastic_energy']:.1f}"),

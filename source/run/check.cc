@@ -54,6 +54,7 @@ DiagnosticList check_start(const Scene &scene, MPI_Comm communicator, SceneRepor
     report.run = forecast_run(scene, problem);
     report.pairs = report_pairs(scene, discretization, report.bodies);
   }
+  append(messages, check_flights(scene, report.bodies, report.pairs));
   append(messages, check_meshes(scene, discretization));
   return messages;
 }

@@ -2,6 +2,7 @@
 #include "billet/run/pair_report.h"
 
 #include "billet/algebra/gather.h"
+#include "billet/diagnostic_kinds.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/discretization/node_keys.h"
 #include "billet/errors.h"
@@ -17,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <sstream>
 
 namespace billet {
 
@@ -257,6 +259,15 @@ private:
   const std::vector<BodyCourse> courses_;
 };
 
+/// Whether the pair, counted as report_pairs() does, has this body.
+bool has_body(const Scene &scene, const std::size_t pair, const std::size_t body) {
+  const std::size_t n_of_tools = scene.pairs().size();
+  if (pair < n_of_tools)
+    return scene.pairs()[pair].body == body;
+  const auto &bodies = scene.body_pairs()[pair - n_of_tools].bodies;
+  return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+}
+
 } // namespace
 
 std::vector<PairReport> report_pairs(const Scene &scene, const Discretization &discretization,
@@ -268,6 +279,28 @@ std::vector<PairReport> report_pairs(const Scene &scene, const Discretization &d
   for (const BodyPair &pair : scene.body_pairs())
     reports.push_back(reporter.report(pair));
   return reports;
+}
+
+DiagnosticList check_flights(const Scene &scene, const std::vector<BodyReport> &bodies,
+                             const std::vector<PairReport> &pairs) {
+  DiagnosticList messages;
+  const std::vector<BodyCourse> courses = find_courses(scene, bodies);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::vector<std::size_t> own; // pairs of the body with tools and with other bodies
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      if (!pairs[p].is_self_contact && has_body(scene, p, b))
+        own.push_back(p);
+    const Tensor<1, 3> &velocity = courses[b].initial_velocity();
+    if (own.empty() || !(velocity.norm() > 0.) || std::any_of(own.begin(), own.end(), [&](const auto p) {
+          return pairs[p].meeting || pairs[p].depends_on_forces;
+        }))
+      continue;
+    std::ostringstream text;
+    text << "The initial velocity (" << velocity[0] << ", " << velocity[1] << ", " << velocity[2]
+         << ") brings the body to no other body and to no tool until the end";
+    messages.push_back(Diagnostic(diagnostic::pair_never_touched, text.str()).body(scene.bodies()[b].name));
+  }
+  return messages;
 }
 
 } // namespace billet

@@ -4,7 +4,7 @@
 
 Begins every scene of prm/ in an empty current folder, and stops it after a few lines of its history in which
 tools, supports or pairs bear forces. In each line the sum of reactions, contact, loads and inertia is that of
-the residuals.
+the residuals. Scenes, and the files that they include, must be short.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import sys
 import time
 
 from checks import SHIPPED, Checks, enter_folder, require, rows_of
+from shipped import require_short
 
 N_LINES = 2  # with forces
 LIMIT = 1e-12  # over the sum of the forces' sizes
@@ -54,6 +55,12 @@ def begin(scene: str, folder: str) -> list[dict[str, float]]:
                 break
         run.wait()
     return lines or lines_of(folder)
+
+
+@check("scenes and their parts are short")
+def _() -> None:
+    for file in sorted(SHIPPED.rglob("*.prm")):
+        require_short(str(file.relative_to(SHIPPED).with_suffix("")))
 
 
 for scene in sorted(SHIPPED.glob("*.prm")):

@@ -35,6 +35,12 @@ def read_text(name: str | Path) -> str:
     return Path(name).read_bytes().decode("utf-8", "surrogateescape")
 
 
+def read_scene(name: Path) -> str:
+    """Returns the text of a scene with the files that it includes in place of their names."""
+    included = re.compile(r"^ *include +(\S+).*\n", re.MULTILINE)
+    return included.sub(lambda found: read_scene(name.parent / found[1]), read_text(name))
+
+
 def write_text(name: str | Path, text: str) -> None:
     """Writes the contents as they are."""
     Path(name).write_bytes(text.encode("utf-8", "surrogateescape"))

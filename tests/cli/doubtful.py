@@ -22,14 +22,25 @@ from __future__ import annotations
 import re
 import sys
 
-from checks import HERE, SHIPPED, Checks, Fault, Program, Runner, enter_folder, read_text, require
+from checks import (
+    HERE,
+    SHIPPED,
+    Checks,
+    Fault,
+    Program,
+    Runner,
+    enter_folder,
+    read_scene,
+    read_text,
+    require,
+)
 
 
 def scene_text(name: str) -> str:
     """Returns the text of the scene of this name."""
     for folder in (HERE / "doubtful", HERE, HERE / "files", SHIPPED):
         if (folder / f"{name}.prm").exists():
-            return read_text(folder / f"{name}.prm")
+            return read_scene(folder / f"{name}.prm")
     raise ValueError(f"there is no scene '{name}'")
 
 

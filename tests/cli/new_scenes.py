@@ -12,7 +12,6 @@ from __future__ import annotations
 import json
 import re
 import sys
-from pathlib import Path
 
 from checks import (
     HERE,
@@ -32,7 +31,9 @@ from edits import edit
 
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
 PARTS = {"drawing": 0.1, "rolling": 0.1, "impact": 0.25}  # of the time
-MAX_LINES = 90
+MAX_LINES = 40
+# Longer ones: rolling has a support that moves and a roll that turns, the others have three tools.
+MAX_LINES_OF = {"rolling": 50, "bending": 60, "drawing": 60}
 LISTS = "primitives materials elements loads surfaces friction integrators probes fields history".split()
 
 program = sys.argv[1]
@@ -55,7 +56,8 @@ for template in TEMPLATES:
         equal("exit code", ended.code, 0)
         says(rf"^Wrote {kind}\.prm\.", ended.output)
         equal("scene", read_text(f"{kind}.prm"), read_text(template))
-        require(read_text(template).count("\n") <= MAX_LINES, f"more than {MAX_LINES} lines")
+        max_lines = MAX_LINES_OF.get(kind, MAX_LINES)
+        require(read_text(template).count("\n") <= max_lines, f"more than {max_lines} lines")
         write_text(f"{kind}.prm", "mine")
         ended = run(program, "--new", kind)
         equal("exit code", ended.code, 2)
@@ -70,12 +72,10 @@ for template in TEMPLATES:
 
     @check(f"{kind} runs")
     def _() -> None:
-        text = read_text(template)
-        end = re.search(r"set End time( *)= (\S+)", text)
-        require(end, "no end time")
-        part = float(end[2]) * PARTS.get(kind, 1.0) if end else 0.0
-        write_text("run.prm", re.sub(r"set End time *= \S+", f"set End time = {part}", text))
-        ended = run(program, "run.prm")
+        end = re.search(r"set End time *= (\S+)", read_text(template))
+        part = (float(end[1]) if end else 1.0) * PARTS.get(kind, 1.0)
+        options = ["--output", f"run_{kind}", "--set", f"Time stepping/End time={part}"]
+        ended = run(program, str(template), *options)
         equal("exit code", ended.code, 0)
         warned = re.findall(r"^warning.*", ended.output, re.MULTILINE)
         require(not warned or kind == "drawing", "\n".join(warned))
@@ -92,7 +92,7 @@ def _() -> None:
     # p = E d / (4 R^3) (R^2 - a^2) (b^2 - R^2) / (b^2 - a^2) / (1 - nu^2) 2 for equal materials, plane strain
     ended = run(program, str(SHIPPED / "templates/press-fit.prm"))
     equal("exit code", ended.code, 0)
-    rows = [line.split(",") for line in read_text("results/press-fit/history.csv").splitlines()]
+    rows = [line.split(",") for line in read_text("press-fit/history.csv").splitlines()]
     column = next(i for i, name in enumerate(rows[0]) if name.endswith(".force_x"))
     a, radius, b = 10.0, 20.0, 30.0
     pressure = (
@@ -112,10 +112,10 @@ def _() -> None:
     text = read_text(SHIPPED / "templates/press-fit.prm")
     moved = "set Rotation axis = 1, 0, 0\nset Rotation angle = 90\nset Translation = 1, 2, 3\nset Refinements"
     text = text.replace("set Refinements", moved).replace("planes = x = 0 ; y = 0", "planes = x = 1 ; z = 3")
-    write_text("moved.prm", text.replace("results/press-fit", "moved"))
+    write_text("moved.prm", text)
     equal("exit code", run(program, "moved.prm").code, 0)
     forces = []
-    for folder in ("results/press-fit", "moved"):
+    for folder in ("press-fit", "moved"):
         rows = [line.split(",") for line in read_text(f"{folder}/history.csv").splitlines()]
         column = next(i for i, name in enumerate(rows[0]) if name.endswith(".force_x"))
         forces.append(float(rows[-1][column]))
@@ -192,7 +192,7 @@ def _() -> None:
             known += columns["name"].split(", ")
     patterns = [re.sub(r"\b[A-Z]+\b", ".+", re.escape(name)) for name in known]
     for kind in PARTS:
-        header = read_text(next(Path("results").glob(f"{kind}*/history.csv"))).split("\n")[0]
+        header = read_text(f"run_{kind}/history.csv").split("\n")[0]
         for column in header.split(","):
             require(any(re.fullmatch(one, column) for one in patterns), f"{column} has no meaning")
 

@@ -19,6 +19,8 @@ public:
   /// Returns the displacement. Where supports deform the body, it counts as 0. Throws SolutionFailure if a
   /// value is undefined.
   dealii::Tensor<1, 3> displacement(double t) const;
+  /// Returns the initial velocity; 0 in static scenes [length/time].
+  const dealii::Tensor<1, 3> &initial_velocity() const { return velocity_; }
   /// Whether supports and velocities move the body without deformation, as far as known.
   bool is_rigid() const { return is_rigid_; }
 

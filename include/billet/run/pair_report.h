@@ -13,6 +13,11 @@ namespace billet {
 std::vector<PairReport> report_pairs(const Scene &scene, const Discretization &discretization,
                                      const std::vector<BodyReport> &bodies);
 
+/// Returns a warning about each body whose initial velocity brings it to no other body and to no tool until
+/// the end, unless forces may change that. `bodies`, `pairs`: their reports.
+DiagnosticList check_flights(const Scene &scene, const std::vector<BodyReport> &bodies,
+                             const std::vector<PairReport> &pairs);
+
 } // namespace billet
 
 #endif

@@ -63,6 +63,8 @@ struct Augmentation::Limits {
   static constexpr double min_held = 0.05, kept = 0.9;
   /// Change of the force, as part of the largest, up to which a pair is settled.
   static constexpr double settled = 5e-3;
+  /// Penalty above which the user is told of a raise [E/h].
+  static constexpr double notable_penalty = 1000.;
 };
 
 struct Augmentation::Series {
@@ -220,10 +222,14 @@ Augmentation::changes_of(const std::vector<ContactSprings> &before,
   return changes;
 }
 
-void Augmentation::give_up(const Series &series, const unsigned int n, const double error,
+void Augmentation::give_up(const Series &series, const unsigned int n, const Demands &demands,
                            NewtonReport &report) const {
+  const auto &errors = demands.of_contacts;
+  const auto worst =
+      static_cast<std::size_t>(std::max_element(errors.begin(), errors.end()) - errors.begin());
   std::ostringstream message;
-  message << "after " << n << " augmentations the penetration or elastic slip is still " << error
+  message << "after " << n << " augmentations the penetration or elastic slip of contact pair '"
+          << parts_.contacts()[worst].name() << "' is still " << demands.maximum
           << " times the 'Penetration tolerance' from its target";
   const unsigned int maximum = parts_.parameters().solver.max_augmentations;
   if (n < maximum && series.pace.ratio() < 1.)
@@ -262,7 +268,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
       break;
     if (n == maximum || series.pace.is_hopeless(maximum)) {
       if (!may_leave_penetration_)
-        give_up(series, n, error, report);
+        give_up(series, n, demands, report);
       break;
     }
     if (!solver_.is_probing())
@@ -304,9 +310,33 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
     report.hardest = std::max(series.hardest, again.hardest);
     return false;
   }
-  if (report.converged)
+  if (report.converged) {
     learn(series);
+    if (!solver_.is_probing())
+      note_stiff_contacts(series, report.diagnostics);
+  }
   return true;
+}
+
+void Augmentation::note_stiff_contacts(const Series &series, DiagnosticList &messages) {
+  ContactSet &contacts = parts_.contacts();
+  const std::vector<double> room = contacts.stiffening_left();
+  is_noted_.resize(room.size(), false);
+  for (std::size_t i = 0; i < room.size(); ++i) {
+    const double penalty = enough_penalty / room[i];
+    if (is_noted_[i] || !(series.stiffer[i] > 1.) || !(penalty > Limits::notable_penalty))
+      continue;
+    is_noted_[i] = true;
+    std::ostringstream text;
+    text << "Augmentation raises the penalty of the pair to " << penalty
+         << " E/h, since the forces rise by little each time";
+    messages.push_back(
+        Diagnostic(diagnostic::penalty_raised, text.str())
+            .pair(contacts[i].name())
+            .time(problem_.step().time)
+            .value("penalty [E/h]", penalty)
+            .advice("If steps are short from now on, 'Normal penalty = 10' keeps the penalty"));
+  }
 }
 
 void Augmentation::learn(Series &series) {

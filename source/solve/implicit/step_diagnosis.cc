@@ -11,6 +11,7 @@
 namespace billet {
 
 void StepDiagnosis::commit() {
+  restless_ = {};
   slipping_tools_.clear();
   for (const std::size_t tool : parts_.tools().unknown()) {
     const Tool &which = parts_.scene().tools()[tool];
@@ -47,10 +48,14 @@ Explanation StepDiagnosis::describe_slipping_tools() const {
   return all;
 }
 
-Explanation StepDiagnosis::describe_contacts() const {
+Explanation StepDiagnosis::describe_contacts() {
   Explanation all;
   for (const auto &contact : parts_.contacts())
     all += contact.checks().describe_restless();
+  if (!all.empty())
+    restless_ = all;
+  else if (!restless_.empty())
+    all = {"; in an earlier attempt" + restless_.what.substr(1), restless_.advice};
   all += describe_slipping_tools();
   return all;
 }

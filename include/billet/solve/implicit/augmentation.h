@@ -63,13 +63,16 @@ private:
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &before,
                                             const std::vector<double> &errors,
                                             const std::vector<double> &added);
-  /// Fails the step because augmentation does not converge to the pairs' tolerances.
-  void give_up(const Series &series, unsigned int n, double error, NewtonReport &report) const;
+  /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair that is
+  /// farthest from its own.
+  void give_up(const Series &series, unsigned int n, const Demands &demands, NewtonReport &report) const;
   /// Augments once and iterates. If that fails and only softness required it, restores the former state.
   /// Returns whether to continue.
   bool augment_once(Series &series, const Demands &demands, bool is_of_softness, NewtonReport &report,
                     std::vector<double> &offsets, Vector &displacements);
   void learn(Series &series);
+  /// Appends a note on each pair whose penalty augmentation has made very stiff, once. Collective.
+  void note_stiff_contacts(const Series &series, DiagnosticList &messages);
 
   ImplicitProblem &problem_;
   ImplicitParts &parts_ = problem_.parts();
@@ -78,6 +81,7 @@ private:
   SoftnessLimit softness_;
   double penetration_allowed_ = 1.;
   bool may_leave_penetration_ = false;
+  std::vector<bool> is_noted_; ///< contacts of note_stiff_contacts()
 };
 
 } // namespace billet

@@ -17,8 +17,9 @@ public:
   /// Finds tools whose load friction bears and that slip on nearly their whole contact, at the end of a step.
   /// Collective.
   void commit();
-  /// Returns reasons of a failed step: nodes that cycle, tools in full sliding. Collective.
-  Explanation describe_contacts() const;
+  /// Returns reasons of a failed step: nodes that cycle, now or in an earlier attempt since the last accepted
+  /// step, and tools in full sliding. Collective.
+  Explanation describe_contacts();
   /// Returns the location of the largest residual of a failed step. Collective.
   Explanation describe_residual();
   /// Returns the warning about a step that was accepted although its iterations stalled.
@@ -34,6 +35,7 @@ private:
   ImplicitProblem &problem_;
   ImplicitParts &parts_ = problem_.parts();
   std::vector<std::size_t> slipping_tools_; ///< at the end of the last accepted step
+  Explanation restless_;                    ///< nodes that cycled in the last attempt that had some
 };
 
 } // namespace billet
