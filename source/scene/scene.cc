@@ -2,6 +2,7 @@
 #include "billet/scene/scene.h"
 
 #include "billet/errors.h"
+#include "billet/material/law_type.h"
 #include "billet/material/state_fields.h"
 #include "billet/material/viscoelastic.h"
 #include "billet/parameters/reader.h"
@@ -97,8 +98,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   body.name = parameters.name;
   body.law = parameters.material.law;
   body.formulation = make_formulation(parameters);
-  body.young_modulus = parameters.material.elasticity->young_modulus();
   const ElasticModuli &moduli = body.law->elastic();
+  body.young_modulus = parameters.material.elasticity != nullptr
+                           ? parameters.material.elasticity->young_modulus()
+                           : 9. * moduli.bulk * moduli.shear / (3. * moduli.bulk + moduli.shear);
   body.max_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
   if (body.law->depends_on_temperature())
@@ -236,7 +239,10 @@ std::string describe_law(const parameters::Body &body) {
          (body.points_through.value > 2
               ? std::to_string(body.points_through.value) + " points through the thickness, "
               : "") +
-         body.material.law->name() + (body.material.law->has_plasticity() ? " plasticity" : " elasticity") +
+         body.material.law->name() +
+         (law_types().find(body.material.law->name()) != nullptr ? ""
+          : body.material.law->has_plasticity()                  ? " plasticity"
+                                                                 : " elasticity") +
          (is_viscous ? " with viscosity" : "") + (stability.empty() ? "" : ", " + stability);
 }
 
