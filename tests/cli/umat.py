@@ -312,4 +312,43 @@ def _() -> None:
     says(refusal(billet(OWN + "\n set Constants = 1, 2\n")), "'Constants'", "does not use it")
 
 
+def certify(name: str, *options: str) -> Ended:
+    """Certifies a UMAT."""
+    write_text("material.prm", umat(name))
+    return run(program.path, "--certify", *options, "material.prm")
+
+
+@check("the UMAT passes its certification, on a page of text or Markdown")
+def _() -> None:
+    ended = certify("J2")
+    require(ended.code == 0, ended.output + ended.errors)
+    says(ended.output, "UMAT 'J2' of library './libumat.so'", "tangent ", "The law passes", "uniaxial strain")
+    ended = certify("J2", "--markdown")
+    require(ended.code == 0, ended.output + ended.errors)
+    says(ended.output, "# Body 'material'", "| objectivity ", "|---")
+
+
+for name, words in {
+    "WRONG TANGENT": "tangent .* FAIL",
+    "STRESS": "steps of 1e-6 to 0.5 .* FAIL .*refuses a step of 0.1",
+    "CRASH": "UMAT 'CRASH' of library './libumat.so' crashed by a segmentation fault",
+}.items():
+
+    @check(f"{name} fails its certification")
+    def _() -> None:
+        ended = certify(name)
+        require(ended.code == 3, f"code {ended.code}: {ended.errors}")
+        require(re.search(words, ended.output) and "The law FAILS" in ended.output, ended.output)
+
+
+@check("certification of scenes, and of nothing")
+def _() -> None:
+    ended = run(program.path, "--certify", str(SHIPPED / "billet_deformable_dies.prm"))
+    require(ended.code == 0 and ended.output.count("The law passes") >= 2, ended.output + ended.errors)
+    ended = run(program.path, "--certify", "nowhere.prm")
+    require(ended.code == 2 and "nowhere.prm" in ended.errors, f"code {ended.code}: {ended.errors}")
+    ended = run(program.path, "--markdown", "scene.prm")
+    require(ended.code == 2 and "'--markdown' is not allowed here" in ended.errors, ended.errors)
+
+
 sys.exit(check.finish())
