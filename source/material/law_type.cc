@@ -4,9 +4,10 @@
 namespace billet {
 
 RegisteredType<SharedLaw> umat_type();
+RegisteredType<SharedLaw> vumat_type();
 
 TypeTable<SharedLaw> &law_types() {
-  static TypeTable<SharedLaw> types{umat_type()};
+  static TypeTable<SharedLaw> types{umat_type(), vumat_type()};
   return types;
 }
 

@@ -96,6 +96,7 @@ def says(text: str, *parts: str) -> None:
 
 
 compile_library("libumat.so", str(HERE / "umat" / "umat.f90"))
+compile_library("libvumat.so", str(HERE / "umat" / "vumat.f90"))
 
 
 @check("the billet has the forces of the hypoelastic law")
@@ -132,7 +133,8 @@ def _() -> None:
 @check("a run resumes from a checkpoint")
 def _() -> None:
     scene = billet(umat()).replace(
-        "subsection Output\n", "subsection Output\n  subsection Checkpoint\n    set Every steps = 10\n  end\n"
+        "subsection Output\n",
+        "subsection Output\n  subsection Checkpoint\n    set Step interval = 10\n  end\n",
     )
     finish(scene, "whole")
     files = sorted(Path("whole").glob("checkpoint*/*")) or sorted(Path("whole").glob("*checkpoint*"))
@@ -196,6 +198,51 @@ def _() -> None:
         require(largest > 650, f"{element}: no plastic force, {largest}")
         near(element, rows[-1][name], mine[-1][name], 0.01)
         near(f"{element}, plastic work", rows[-1]["plastic_work"], mine[-1]["plastic_work"], 0.01)
+
+
+def vumat(name: str = "J2") -> str:
+    """Returns the parameters of the VUMAT."""
+    parameters = umat(name).replace("= UMAT", "= VUMAT").replace("libumat", "libvumat")
+    return parameters + "      set Density = 7.8e-9\n"
+
+
+def without_density(scene: str) -> str:
+    """Returns a scene without the second of two densities."""
+    return scene.replace("\n      set Density = 7.8e-9\n    end", "\n    end")
+
+
+@check("a VUMAT has them, too, with its energies")
+def _() -> None:
+    for element in ("one point", "assumed strain"):
+        mine = finish(pulled_cube(element, OWN), "own_pull")[-1]
+        row = finish(without_density(pulled_cube(element, vumat())), "vumat_pull")[-1]
+        name = "cube.support top.force_z"
+        near(element, row[name], mine[name], 0.01)
+        near(f"{element}, plastic work", row["plastic_work"], mine["plastic_work"], 0.01)
+
+
+@check("a VUMAT runs in the static billet, its tangent by differences, on two ranks")
+def _() -> None:
+    rows = finish(billet(vumat(), 0.2), "vumat", ranks=2)
+    for mine, row in zip(history("own"), rows):
+        near("force", row["die.force_z"], mine["die.force_z"], 0.005)
+
+
+@check("a VUMAT that fails is named")
+def _() -> None:
+    ended = go(without_density(pulled_cube("one point", vumat("CRASH"))), "failed")
+    require(ended.code == 3, f"code {ended.code}: {ended.errors}")
+    says(ended.errors, "VUMAT 'CRASH' of library './libvumat.so' crashed by a segmentation fault")
+    ended = go(without_density(pulled_cube("one point", vumat("STRESS"))), "failed")
+    require(ended.code == 3, f"code {ended.code}: {ended.errors}")
+    says(ended.errors, "VUMAT 'STRESS' of library './libvumat.so' returned a stress that is not a number")
+
+
+@check("a VUMAT without density, and libraries of the other kind, are refused")
+def _() -> None:
+    says(refusal(billet(vumat().replace("set Density", "# set Density"))), "'Density'")
+    says(refusal(billet(vumat().replace("libvumat", "libumat"))), "symbol 'vumat_'")
+    says(refusal(billet(umat().replace("libumat", "libvumat"))), "symbol 'umat_'")
 
 
 @check("the UMAT's shorter step is taken")
@@ -339,6 +386,13 @@ for name, words in {
         ended = certify(name)
         require(ended.code == 3, f"code {ended.code}: {ended.errors}")
         require(re.search(words, ended.output) and "The law FAILS" in ended.output, ended.output)
+
+
+@check("the VUMAT passes its certification")
+def _() -> None:
+    write_text("material.prm", vumat())
+    ended = run(program.path, "--certify", "material.prm")
+    require(ended.code == 0, ended.output + ended.errors)
 
 
 @check("certification of scenes, and of nothing")

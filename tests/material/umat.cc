@@ -157,9 +157,8 @@ void plastic(double *stress, double *statev, double *ddsdde, double *, double *,
   go_wrong(stress, statev, ddsdde, pnewdt);
 }
 
-UmatSettings settings_of(UmatFunction *function) {
-  UmatSettings settings;
-  settings.function = function;
+UserLawSettings settings_of(UmatFunction *function) {
+  UserLawSettings settings;
   settings.library = "none";
   settings.name = "SOLID";
   settings.constants = {steel.bulk, steel.shear};
@@ -174,7 +173,7 @@ UmatSettings settings_of(UmatFunction *function) {
 constexpr double dt = 0.1;
 
 void test_against_own_laws() {
-  const UmatLaw umat(settings_of(&neo_hookean));
+  const UmatLaw umat(&neo_hookean, settings_of(&neo_hookean));
   check("bulk modulus", std::abs(umat.elastic().bulk / steel.bulk - 1.), 1e-12);
   check("shear modulus", std::abs(umat.elastic().shear / steel.shear - 1.), 1e-12);
   const SharedLaw own = make_neo_hookean_law(steel);
@@ -200,7 +199,7 @@ void test_against_own_laws() {
 }
 
 void test_rates() {
-  const UmatLaw umat(settings_of(&plastic));
+  const UmatLaw umat(&plastic, settings_of(&plastic));
   const SharedLaw own = make_hypoelastic_law(steel, make_hardening(LinearHardening{700., 300.}));
   LawPoint point(umat), other(*own);
   Random random;
@@ -236,7 +235,7 @@ void test_rates() {
 
 /// Work is stored or dissipated if the UMAT does not compute SSE.
 void test_dissipation() {
-  const UmatLaw umat(settings_of(&plastic));
+  const UmatLaw umat(&plastic, settings_of(&plastic));
   LawPoint point(umat);
   const SharedLaw own = make_hypoelastic_law(steel, make_hardening(LinearHardening{700., 300.}));
   LawPoint other(*own);
@@ -258,11 +257,11 @@ void test_dissipation() {
 }
 
 void test_arguments() {
-  UmatSettings settings = settings_of(&neo_hookean);
+  UserLawSettings settings = settings_of(&neo_hookean);
   settings.element_length = 2.5;
   settings.reads_temperature = true;
   settings.initial_state = {1., 2., 3.};
-  const UmatLaw umat(settings);
+  const UmatLaw umat(&neo_hookean, settings);
   check("number of own fields", umat.fields().size() == 6 && umat.n_state() == 31);
   std::vector<double> state_n(umat.n_state()), state(umat.n_state());
   umat.initialize(state_n.data());
@@ -303,7 +302,7 @@ void test_arguments() {
 bool has(const std::string &text, const std::string &part) { return text.find(part) != std::string::npos; }
 
 void test_refusals() {
-  const UmatLaw umat(settings_of(&plastic));
+  const UmatLaw umat(&plastic, settings_of(&plastic));
   LawPoint point(umat);
   Tensor<2, 3> F = unit;
   F[0][1] = 0.02;
@@ -322,7 +321,7 @@ void test_refusals() {
   fault = Fault::leave;
   check("XIT", !point.evaluate(F, dt) && umat.refusal().is_final && has(umat.refusal().what, "XIT"));
   fault = Fault::none;
-  const UmatLaw crashing(settings_of(&plastic));
+  const UmatLaw crashing(&plastic, settings_of(&plastic));
   LawPoint other(crashing);
   fault = Fault::crash;
   check("crash", !other.evaluate(F, dt) && crashing.refusal().is_final &&
@@ -332,16 +331,16 @@ void test_refusals() {
   fault = Fault::crash;
   std::string why;
   try {
-    const UmatLaw failing(settings_of(&plastic));
+    const UmatLaw failing(&plastic, settings_of(&plastic));
   } catch (const std::runtime_error &error) {
     why = error.what();
   }
   fault = Fault::none;
   check("crash in the first call", has(why, "segmentation fault") && has(why, "undeformed point"));
-  UmatSettings soft = settings_of(&neo_hookean);
+  UserLawSettings soft = settings_of(&neo_hookean);
   soft.constants[1] = -1.;
   try {
-    const UmatLaw failing(soft);
+    const UmatLaw failing(&neo_hookean, soft);
   } catch (const std::runtime_error &error) {
     why = error.what();
   }
@@ -349,7 +348,7 @@ void test_refusals() {
 }
 
 void test_given_stress() {
-  const UmatLaw umat(settings_of(&plastic));
+  const UmatLaw umat(&plastic, settings_of(&plastic));
   const SharedLaw own = make_hypoelastic_law(steel, make_hardening(LinearHardening{700., 300.}));
   Random random;
   const Tensor<2, 3> F = unit + random.tensor(0.2);
@@ -362,9 +361,10 @@ void test_given_stress() {
 }
 
 void test_tangent_errors() {
-  check("tangent check, J2", find_tangent_error(UmatLaw(settings_of(&plastic)), dt, 0.).error, 0.01);
-  check("tangent check, neo-Hookean", find_tangent_error(UmatLaw(settings_of(&neo_hookean)), dt, 0.).error,
-        1e-3);
+  check("tangent check, J2", find_tangent_error(UmatLaw(&plastic, settings_of(&plastic)), dt, 0.).error,
+        0.01);
+  check("tangent check, neo-Hookean",
+        find_tangent_error(UmatLaw(&neo_hookean, settings_of(&neo_hookean)), dt, 0.).error, 1e-3);
 }
 
 void test_utilities() {

@@ -54,7 +54,7 @@ struct CertificationSettings {
 ///   steps              from 1e-6 to 0.5 of strain: a finite stress that converges with the step
 ///   repeated stretches no drift of the stress in elastic cycles
 ///   checkpoint         the state of a point has all that the next steps need
-///   ellipticity        ranges of stretches, (U6)
+///   ellipticity        ranges of stretches, (U8)
 ///   cost               an update beside Hencky's law with J2 plasticity
 /// It takes some seconds.
 Certificate certify(const PointLaw &law, const CertificationSettings &settings);

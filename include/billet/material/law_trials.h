@@ -38,7 +38,7 @@ std::vector<Finding> try_checkpoint(const PointLaw &law, const CertificationSett
 std::vector<Finding> try_cost(const PointLaw &law, const CertificationSettings &settings);
 
 /// Returns the smallest eigenvalue, over directions n and amplitudes m, of the acoustic tensor
-///   Q m = δτ(m ⊗ n) n − (m · n) τ n                                                                 (U6)
+///   Q m = δτ(m ⊗ n) n − (m · n) τ n                                                                 (U8)
 /// [stress]. For moduli of the Lie derivative it is (M7).
 double min_acoustic_eigenvalue(const StressRates &rates, const dealii::SymmetricTensor<2, 3> &tau);
 /// Ranges of the stretch in tension, equibiaxial tension, plane strain, simple shear and change of volume.
