@@ -24,7 +24,7 @@ for group in "$@"; do
       # libdeal.ii-dev brings Trilinos, METIS, HDF5 and MUMPS with it, but recommends its compiler only.
       # libopenblas0-serial: the default BLAS is the reference one, four times slower in a factorisation.
       packages+=(g++ cmake ninja-build ccache lld git openmpi-bin libmumps-dev libopenblas0-serial
-        nlohmann-json3-dev numdiff python3 universal-ctags)
+        nlohmann-json3-dev numdiff python3 universal-ctags gfortran)
       [[ -n ${DEAL_II_DIR:-} ]] || packages+=(libdeal.ii-dev)
       ;;
     trade) packages+=(python3 python3-matplotlib python3-paraview python3-scipy) ;;

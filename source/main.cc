@@ -4,6 +4,7 @@
 #include "billet/nearest_name.h"
 #include "billet/output/console_log.h"
 #include "billet/parameters/scene_update.h"
+#include "billet/run/certify.h"
 #include "billet/run/check.h"
 #include "billet/run/launch.h"
 #include "billet/run/new_scene.h"
@@ -39,6 +40,7 @@ const char help[] =
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
        billet --preview SCENE.prm...    check scenes, write them undeformed for ParaView and as a picture, to
                                         the folder 'preview' in the output folder
+       billet --certify FILE.prm...     try out the laws of a scene's bodies, or a file of material parameters
        billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or print it
        billet --new KIND [FILE]         write a scene to begin with to KIND.prm or FILE: forging, drawing, ...
        billet --list [LIST [NAME...]]   what scenes can name: primitives, materials, surfaces, loads, ...
@@ -54,11 +56,12 @@ Options of runs, checks and previews:
                           a folder with the name of the scene
        --force            replace results of an earlier run; without it they are moved to FOLDER.1, FOLDER.2...
        --quiet            print warnings and errors only
+       --markdown         --certify prints its page in Markdown
        --json             --check prints one JSON object per scene and line, --print-parameters a JSON Schema
                           of scenes, --list and --print-diagnostics a JSON array
 
 Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
-in the output folder); 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint;
+in the output folder), or --certify has found a law that fails; 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint;
 6 completed with warnings, and the scene says 'Warnings = errors'; 7 completed, and the estimated error
 exceeds the 'Target error'.
 
@@ -105,6 +108,7 @@ enum class Task {
   run,
   check,
   preview,
+  certify,
   update_scene,
   new_scene,
   list,
@@ -120,6 +124,7 @@ struct CommandLine {
   std::vector<std::string> scenes;
   std::string restart_file;
   bool json = false;
+  bool markdown = false;
   std::vector<billet::SceneFile::Setting> settings;
   bool replaces_results = false;
   bool is_quiet = false;
@@ -127,23 +132,11 @@ struct CommandLine {
 };
 
 /// Options, the tasks among them, for advice on misspelt ones.
-const std::vector<std::string> options = {"--check",
-                                          "--force",
-                                          "--help",
-                                          "--json",
-                                          "--list",
-                                          "--manual",
-                                          "--new",
-                                          "--output",
-                                          "--preview",
-                                          "--print-diagnostics",
-                                          "--print-parameters",
-                                          "--quiet",
-                                          "--ranks",
-                                          "--restart",
-                                          "--set",
-                                          "--update-scene",
-                                          "--version"};
+const std::vector<std::string> options = {
+    "--certify",          "--check",    "--force", "--help",    "--json",    "--list",
+    "--manual",           "--markdown", "--new",   "--output",  "--preview", "--print-diagnostics",
+    "--print-parameters", "--quiet",    "--ranks", "--restart", "--set",     "--update-scene",
+    "--version"};
 
 [[noreturn]] void refuse(const std::string &argument) {
   const std::string advice = billet::did_you_mean(argument, options);
@@ -209,6 +202,7 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
   const std::vector<std::pair<std::string, Task>> tasks = {{"--print-parameters", Task::print_parameters},
                                                            {"--print-diagnostics", Task::print_diagnostics},
                                                            {"--check", Task::check},
+                                                           {"--certify", Task::certify},
                                                            {"--list", Task::list},
                                                            {"--preview", Task::preview},
                                                            {"--new", Task::new_scene},
@@ -224,6 +218,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
       }
     if (argument == "--json")
       command.json = true;
+    else if (argument == "--markdown")
+      command.markdown = true;
     else if (task != tasks.end())
       command.task = task->second;
     else if (argument.empty() ||
@@ -232,6 +228,8 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     else if (argument.front() != '-')
       command.scenes.push_back(argument);
   }
+  if (command.markdown && command.task != Task::certify)
+    refuse("--markdown");
   if (command.task == Task::print_parameters || command.task == Task::print_diagnostics ||
       command.task == Task::list)
     return command;
@@ -246,7 +244,7 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     return command;
   if (command.json)
     refuse("--json");
-  if (command.task == Task::preview) {
+  if (command.task == Task::preview || command.task == Task::certify) {
     if (!command.restart_file.empty()) // a resumed run begins deformed
       refuse("--restart");
     if (command.is_quiet)
@@ -335,6 +333,18 @@ void new_scene(const std::vector<std::string> &names) {
             << "\n";
 }
 
+/// Certifies the laws of all files. Returns whether they pass.
+bool certify(const CommandLine &command) {
+  bool have_passed = true;
+  for (const auto &file : command.scenes)
+    have_passed =
+        billet::certify_laws(billet::read_materials(file, command.settings),
+                             command.markdown ? billet::PageFormat::markdown : billet::PageFormat::text,
+                             std::cout) &&
+        have_passed;
+  return have_passed;
+}
+
 void print_diagnostic_kinds(std::ostream &stream) {
   stream
       << "# Messages\n\n"
@@ -406,6 +416,12 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
         print_errors(error.diagnostics(), is_first);
         code = ExitCode::bad_input;
       }
+    break;
+  case Task::certify:
+    billet::fail_together(MPI_COMM_WORLD, [&] {
+      if (is_first && !certify(command))
+        code = ExitCode::failed_solution;
+    });
     break;
   case Task::update_scene:
     billet::fail_together(MPI_COMM_WORLD, [&] {

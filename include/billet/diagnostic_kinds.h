@@ -356,6 +356,12 @@ inline const DiagnosticKind unstable_law(
     "The strains of an elastic body exceed the limit of ellipticity of its law; results depend on the mesh.",
     "Reduce the strains");
 
+inline const DiagnosticKind wrong_tangent(
+    "wrong-tangent", Severity::warning,
+    "The tangent that a law of a user's library returns differs from differences of its stress by more than "
+    "5 %. Newton's method then converges slowly, or fails.",
+    "Correct the tangent in the source of the library; 'billet --certify' shows where it is wrong");
+
 inline const DiagnosticKind flat_elements("flat-elements", Severity::warning,
                                           "An element is nearly flat, which makes explicit steps very short.",
                                           "Use larger elements there, or let the material harden");

@@ -21,7 +21,7 @@ _billet() {
   esac
   if [[ $current == -* ]]; then
     compopt +o filenames 2>/dev/null
-    COMPREPLY=($(compgen -W $'--check\n--force\n--help\n--json\n--list\n--manual\n--new\n--output\n--preview\n--print-diagnostics\n--print-parameters\n--quiet\n--ranks\n--restart\n--set\n--update-scene\n--version' -- "$current"))
+    COMPREPLY=($(compgen -W $'--certify\n--check\n--force\n--help\n--json\n--list\n--manual\n--markdown\n--new\n--output\n--preview\n--print-diagnostics\n--print-parameters\n--quiet\n--ranks\n--restart\n--set\n--update-scene\n--version' -- "$current"))
   else
     COMPREPLY=($(compgen -d -- "$current") $(compgen -f -X '!*.prm' -- "$current"))
   fi

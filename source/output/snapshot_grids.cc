@@ -2,6 +2,7 @@
 #include "billet/output/snapshot_grids.h"
 
 #include "billet/discretization/node_keys.h"
+#include "billet/material/law_type.h"
 #include "billet/output/element_fields.h"
 #include "billet/output/field_quantity.h"
 
@@ -246,7 +247,7 @@ std::vector<Grid> make_snapshot_grids(const Scene &scene, const Solution &soluti
   std::vector<Grid> grids;
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     grids.push_back(blocks.body(body, bodies[body].name));
-    grids.back().material = bodies[body].law->name() + ", " + bodies[body].law->description();
+    grids.back().material = describe_law(*bodies[body].law);
   }
   for (std::size_t body = 0; body < bodies.size(); ++body)
     grids.push_back(blocks.surface(body, {}, block_group::boundaries, bodies[body].name));

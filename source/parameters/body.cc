@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/material/flow_rule.h"
 #include "billet/material/hardening.h"
+#include "billet/material/law_type.h"
 #include "billet/material/rate_factor.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/named_values.h"
@@ -261,10 +262,15 @@ std::vector<TypeParameter> flow_rule_parameters() {
 } // namespace
 
 void Material::declare(ParameterHandler &prm) {
-  prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws)),
+  std::string of_types;
+  for (const auto &type : law_types())
+    of_types += "; " + type.name + ": " + type.meaning;
+  prm.declare_entry("Law", "automatic", Patterns::Selection(selection(laws) + "|" + law_types().names()),
                     "elastic: no plasticity; elastoplastic: plasticity (yield in Kirchhoff stress, exact "
                     "return map); automatic: elastoplastic if a parameter of hardening or rate factors is "
-                    "set, such as 'Yield stress', and elastic otherwise.");
+                    "set, such as 'Yield stress', and elastic otherwise" +
+                        of_types + ".");
+  join_parameters(law_types()).declare(prm);
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
   prm.declare_entry("Density", "0", Patterns::Double(),
@@ -309,16 +315,26 @@ bool wants_plasticity(const Reader &reader) {
   return chosen(laws, reader.text("Law")).value_or(is_any_set);
 }
 
-/// Refuses parameters that an elastic law does not use: a forgotten switch is the usual reason.
-void reject_plasticity(const Reader &reader) {
+/// Refuses parameters of plasticity. `reason` follows "no value: ".
+void reject_plasticity(const Reader &reader, const std::string &reason) {
   for_each_plastic_table([&](const auto &table, const char *key) {
     if (reader.is_set(key))
-      reader.reject(key, "no value: the law is elastic");
-    join_parameters(table).reject_unused(reader, {}, "the law is elastic");
+      reader.reject(key, "no value: " + reason);
+    join_parameters(table).reject_unused(reader, {}, reason);
   });
   for (const TypeParameter &parameter : flow_rule_parameters())
     if (reader.is_set(parameter.key))
-      reader.reject(parameter.key, "no value: the law is elastic");
+      reader.reject(parameter.key, "no value: " + reason);
+}
+
+/// Returns the law that 'Law' selects as a whole, without elasticity and hardening.
+SharedLaw read_whole_law(const Reader &reader) {
+  const std::string reason = "'Law = " + reader.text("Law") + "' does not use it";
+  if (reader.is_set("Elasticity"))
+    reader.reject("Elasticity", "no value: " + reason);
+  join_parameters(elasticity_types()).reject_unused(reader, {}, reason);
+  reject_plasticity(reader, reason);
+  return make_selected(reader, "Law", law_types());
 }
 
 FlowRule read_flow_rule(const Reader &reader, const double density) {
@@ -354,12 +370,19 @@ SharedLaw read_plastic_law(const Reader &reader, const Elasticity &elasticity, c
 
 void Material::parse(Reader &reader) {
   density = reader.located("Density", reader.not_negative("Density"));
-  elasticity = make_selected(reader, "Elasticity", elasticity_types());
-  if (!wants_plasticity(reader)) {
-    reject_plasticity(reader);
-    law = elasticity->make_elastic_law();
-  } else
-    law = read_plastic_law(reader, *elasticity, density.value);
+  if (law_types().find(reader.text("Law")) != nullptr)
+    law = read_whole_law(reader);
+  else {
+    join_parameters(law_types())
+        .reject_unused(reader, {}, "'Law = " + reader.text("Law") + "' does not use it");
+    elasticity = make_selected(reader, "Elasticity", elasticity_types());
+    // A forgotten switch is the usual reason for parameters of plasticity with an elastic law.
+    if (!wants_plasticity(reader)) {
+      reject_plasticity(reader, "the law is elastic");
+      law = elasticity->make_elastic_law();
+    } else
+      law = read_plastic_law(reader, *elasticity, density.value);
+  }
   if (law == nullptr)
     reader.reject("Law", "elastic, since '" + reader.text("Elasticity") +
                              "' with these parameters has no plasticity");

@@ -3,7 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/friction/friction_law.h"
-#include "billet/material/elasticity.h"
+#include "billet/material/law_type.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/parameters/body.h"
 #include "billet/parameters/control.h"
@@ -144,7 +144,8 @@ public:
     return std::any_of(bodies.begin(), bodies.end(), [this](const std::string &body) {
       const ElasticityType *type =
           elasticity_types().find(file_.value({"Bodies", body, "Material"}, "Elasticity", ""));
-      return is_plastic(body) || (type != nullptr && type->depends_on_path);
+      const bool is_whole = law_types().find(file_.value({"Bodies", body, "Material"}, "Law", "")) != nullptr;
+      return is_whole || is_plastic(body) || (type != nullptr && type->depends_on_path);
     });
   }
 

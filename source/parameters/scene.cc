@@ -4,6 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
+#include "billet/material/law_type.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/declaration.h"
@@ -356,8 +357,7 @@ private:
           file_.where({"Explicit dynamics"}, "Number type") +
           ": 'Number type' in 'Explicit dynamics' is 'float'; allowed is double, since no kernel "
           "computes body '" +
-          body.name + "' in float: " + body.element.value.name() + ", " + body.material.law->name() + ", " +
-          body.material.law->description());
+          body.name + "' in float: " + body.element.value.name() + ", " + describe_law(*body.material.law));
     if (!scene_.scheme().has_matrix)
       return;
     if (!scene_.scheme().has_inertia)

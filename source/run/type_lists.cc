@@ -10,6 +10,7 @@
 #include "billet/material/anisotropy.h"
 #include "billet/material/elasticity.h"
 #include "billet/material/hardening.h"
+#include "billet/material/law_type.h"
 #include "billet/material/rate_factor.h"
 #include "billet/material/thermal_factor.h"
 #include "billet/mechanics/element_type.h"
@@ -96,6 +97,7 @@ std::vector<Named> list_primitives() {
 
 std::vector<Named> list_materials() {
   std::vector<Named> all;
+  add_types(law_types(), "Law", all);
   add_types(elasticity_types(), "Elasticity", all);
   add_types(hardening_types(), "Hardening", all);
   add_types(rate_factor_types(), "Rate factor", all);
@@ -133,7 +135,7 @@ std::vector<Named> list_history() {
 const std::vector<TypeList> &type_lists() {
   static const std::vector<TypeList> lists = {
       {"primitives", "bodies that need no mesh file: 'Bodies / NAME / Mesh'", &list_primitives},
-      {"materials", "elasticity, hardening, factors and anisotropy: 'Bodies / NAME / Material'",
+      {"materials", "laws, elasticity, hardening, factors and anisotropy: 'Bodies / NAME / Material'",
        &list_materials},
       {"elements", "formulations of bricks: 'Bodies / NAME'", types_of(&element_types, "Element")},
       {"loads", "loads on bodies: 'Bodies / NAME / Loads / NAME'", types_of(&load_types, "Type")},

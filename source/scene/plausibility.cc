@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/scene/law_checks.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -374,6 +375,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   DiagnosticList diagnostics;
   for (const Body &body : scene.bodies())
     check_yield_stress(body, diagnostics);
+  append(diagnostics, check_user_laws(scene));
   if (scene.parameters().scheme().has_inertia)
     check_speeds(scene, start, diagnostics);
   if (!scene.parameters().scheme().has_matrix)

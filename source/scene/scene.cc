@@ -97,8 +97,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   body.name = parameters.name;
   body.law = parameters.material.law;
   body.formulation = make_formulation(parameters);
-  body.young_modulus = parameters.material.elasticity->young_modulus();
   const ElasticModuli &moduli = body.law->elastic();
+  body.young_modulus = parameters.material.elasticity != nullptr
+                           ? parameters.material.elasticity->young_modulus()
+                           : 9. * moduli.bulk * moduli.shear / (3. * moduli.bulk + moduli.shear);
   body.max_modulus = moduli.bulk + 4. / 3. * moduli.shear;
   body.density = parameters.material.density.value;
   if (body.law->depends_on_temperature())

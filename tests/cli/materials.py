@@ -47,6 +47,11 @@ for file in files:
     constants = constants_of(file)
     is_rubber = "Elasticity" in constants
 
+    @check(f"{file.stem} is certified")
+    def _() -> None:
+        ended = run(program, "--certify", str(file))
+        require(ended.code == 0 and "The law passes" in ended.output, ended.output + ended.errors)
+
     @check(file.stem)
     def _() -> None:
         if is_rubber:

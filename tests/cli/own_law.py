@@ -104,6 +104,12 @@ def _() -> None:
     require(len(rows) == 20, f"{len(rows)} rows")
 
 
+@check("its laws are certified")
+def _() -> None:
+    ended = run(program, "--certify", "own_law/pull.prm")
+    require(ended.code == 0 and ended.output.count("The law passes") == 2, ended.output + ended.errors)
+
+
 @check("without the library its names are unknown")
 def _() -> None:
     shutil.copy(here / "own_law/pull.prm", ".")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_elements.h"
 
+#include "billet/forces/law_refusals.h"
 #include "billet/solve/refined_reader.h"
 
 #include <algorithm>
@@ -133,11 +134,15 @@ SolutionFailure ExplicitElements::describe_inverted(const std::size_t body, cons
   why << "element " << nodes_.discretization().elements(body)[element].cell->global_active_cell_index()
       << " of body '" << scene_.bodies()[body].name << "', with its initial centre at (" << at_start
       << "), is ";
-  if (std::isfinite(centre.norm()))
+  const std::string refusal = describe_refusal(*scene_.bodies()[body].law);
+  if (!refusal.empty())
+    why << "without a stress: " << refusal;
+  else if (std::isfinite(centre.norm()))
     why << "inverted at (" << centre << ")";
   else
     why << "not finite in its coordinates";
-  return clock.failure({why.str(), std::isfinite(centre.norm())
+  return clock.failure({why.str(), !refusal.empty() ? "'billet --certify' tries the law out"
+                                   : std::isfinite(centre.norm())
                                        ? "Try a smaller 'Safety factor', more bulk viscosity, a lower "
                                          "penalty or a less distorted mesh there"
                                        : "Check the units of velocities, loads and penalties"});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/equilibrium_solver.h"
 
+#include "billet/forces/law_refusals.h"
+
 #include <algorithm>
 
 namespace billet {
@@ -17,6 +19,10 @@ NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &di
     report.failure = parts_.tools().failure();
   else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())
     report.failure = "the correction is not admissible: " + problem_.obstacle();
+  if (!report.converged)
+    if (const std::string refusal = find_law_refusal(parts_.parameters(), parts_.communicator());
+        !refusal.empty())
+      report.failure = refusal;
   problem_.set_trial(x);
   displacements = problem_.step().trial.displacements;
   offsets = parts_.tools().offsets();

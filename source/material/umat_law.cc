@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/material/umat_law.h"
+
+#include "billet/material/hypoelastic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace billet {
+
+using dealii::SymmetricTensor;
+using dealii::Tensor;
+
+namespace {
+
+constexpr unsigned int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
+
+/// Writes a strain with engineering shears.
+void write_strain(const SymmetricTensor<2, 3> &tensor, double *numbers) {
+  for (unsigned int i = 0; i < 6; ++i)
+    numbers[i] = (i < 3 ? 1. : 2.) * tensor.access_raw_entry(i);
+}
+
+void write_columns(const Tensor<2, 3> &A, double *numbers) {
+  for (unsigned int i = 0; i < 9; ++i)
+    numbers[i] = A[i % 3][i / 3];
+}
+
+} // namespace
+
+SpatialModuli moduli_of_jaumann(const SpatialModuli &C, const double J, const SymmetricTensor<2, 3> &tau) {
+  SpatialModuli c;
+  for (unsigned int r = 0; r < 6; ++r)
+    for (unsigned int s = 0; s < 6; ++s) {
+      const unsigned int i = rows[r], j = columns[r], k = rows[s], l = columns[s];
+      const double H = 0.5 * ((i == k ? tau[j][l] : 0.) + (i == l ? tau[j][k] : 0.) +
+                              (j == k ? tau[i][l] : 0.) + (j == l ? tau[i][k] : 0.));
+      c[r][s] = J * C[r][s] - H;
+    }
+  return c;
+}
+
+/// Arguments of a UMAT.
+struct UmatLaw::Call {
+  /// Input and output.
+  struct Response {
+    double stress[6], ddsdde[36] = {}, sse, spd, scd, pnewdt = 1.;
+  };
+  struct Motion {
+    double stran[6], dstran[6], drot[9], dfgrd0[9], dfgrd1[9];
+  };
+  struct Instant {
+    double time[2], dtime, temp, dtemp;
+    int kinc;
+  };
+  /// What this program has no use for.
+  struct Unused {
+    double rpl = 0., ddsddt[6] = {}, drplde[6] = {}, drpldt = 0., predef[1] = {}, dpred[1] = {},
+           coords[3] = {};
+    int one = 1, jstep[4] = {1, 1, 1, 0}; // JSTEP: a static step with NLGEOM
+  };
+
+  UmatFunction *function = nullptr;
+  double *constants = nullptr;
+  Response response;
+  Motion motion;
+  Instant instant;
+  Unused unused;
+  double *statev = nullptr;
+  double celent = 1.;
+  char cmname[80];
+  int nstatv = 0, nprops = 0;
+
+  /// Performs the call, for call_guarded().
+  static void perform(void *const data) {
+    Call &c = *static_cast<Call *>(data);
+    Response &r = c.response;
+    Motion &m = c.motion;
+    Instant &i = c.instant;
+    Unused &u = c.unused;
+    int ndi = 3, nshr = 3, ntens = 6;
+    c.function(r.stress, c.statev, r.ddsdde, &r.sse, &r.spd, &r.scd, &u.rpl, u.ddsddt, u.drplde, &u.drpldt,
+               m.stran, m.dstran, i.time, &i.dtime, &i.temp, &i.dtemp, u.predef, u.dpred, c.cmname, &ndi,
+               &nshr, &ntens, &c.nstatv, c.constants, &c.nprops, u.coords, m.drot, &r.pnewdt, &c.celent,
+               m.dfgrd0, m.dfgrd1, &u.one, &u.one, &u.one, &u.one, u.jstep, &i.kinc, sizeof c.cmname);
+  }
+
+  /// Sets what follows from the start of the step, and its end. `variables` is STATEV of the start.
+  void begin(const UmatLaw &law, const double *state_n, double *variables, const Tensor<2, 3> &F,
+             const MidpointIncrement &increment, const PointStep &step) {
+    function = law.function_;
+    constants = law.constants();
+    statev = variables;
+    nstatv = static_cast<int>(law.settings().initial_state.size());
+    nprops = static_cast<int>(law.settings().constants.size());
+    celent = law.settings().element_length;
+    law.write_name(cmname);
+    write_tensor(turn(increment.rotation, read_tensor(state_n + Place::stress)), response.stress);
+    response.sse = state_n[energies];
+    response.spd = state_n[energies + 1];
+    response.scd = state_n[energies + 2];
+    write_strain(turn(increment.rotation, read_tensor(state_n + Place::strain)), motion.stran);
+    write_strain(dealii::symmetrize(increment.gradient), motion.dstran);
+    write_columns(increment.rotation, motion.drot);
+    write_columns(read_gradient(state_n), motion.dfgrd0);
+    write_columns(F, motion.dfgrd1);
+    instant.time[0] = instant.time[1] = state_n[Place::time];
+    instant.dtime = step.dt;
+    instant.temp = state_n[increments] > 0. ? state_n[Place::temperature] : step.temperature;
+    instant.dtemp = step.temperature - instant.temp;
+    instant.kinc = 1 + static_cast<int>(std::min(state_n[increments], 2e9));
+  }
+
+  SpatialModuli tangent(const bool is_symmetric) const {
+    const double *const C = response.ddsdde;
+    SpatialModuli moduli;
+    for (unsigned int i = 0; i < 6; ++i)
+      for (unsigned int j = 0; j < 6; ++j)
+        moduli[i][j] = is_symmetric ? 0.5 * (C[6 * j + i] + C[6 * i + j]) : C[6 * j + i];
+    return moduli;
+  }
+};
+
+UmatLaw::UmatLaw(UmatFunction *const function, UserLawSettings settings)
+    : UserLaw(law_name, std::move(settings)), function_(function) {
+  std::vector<double> state_n(n_state()), state(n_state());
+  initialize(state_n.data());
+  const auto probe = [&](const double size) {
+    Tensor<2, 3> F = dealii::unit_symmetric_tensor<3>();
+    F[0][0] += size;
+    F[1][1] -= size;
+    MidpointIncrement increment;
+    compute_increment(read_gradient(state_n.data()), F, increment);
+    state = state_n;
+    PointStep step;
+    step.dt = probe_time;
+    Call call;
+    call.begin(*this, state_n.data(), state.data() + n_own_state, F, increment, step);
+    if (!perform(call))
+      throw std::runtime_error(refusal().what + " at the undeformed point");
+    return call;
+  };
+  set_initial(probe(0.).tangent(has_symmetric_moduli()), probe(probe_strain).response.sse != 0.);
+}
+
+bool UmatLaw::perform(Call &call) const {
+  if (!UserLaw::call(&Call::perform, &call))
+    return false;
+  if (!(call.response.pnewdt >= 1.))
+    return refuse("asks for a shorter step (PNEWDT = " + std::to_string(call.response.pnewdt) + ")");
+  if (!check(call.response.stress, 6, "a stress", "STRESS") ||
+      !check(call.response.ddsdde, 36, "a tangent", "DDSDDE") ||
+      !check(call.statev, static_cast<std::size_t>(call.nstatv), "a state variable", "STATEV"))
+    return false;
+  accept();
+  return true;
+}
+
+bool UmatLaw::update_at_rest(const Tensor<2, 3> &F, const double *state_n, double *state,
+                             SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const {
+  MidpointIncrement increment;
+  if (!compute_increment(read_gradient(state_n), F, increment))
+    return false;
+  const double J = dealii::determinant(F);
+  const SymmetricTensor<2, 3> change = multiply(initial_moduli(), dealii::symmetrize(increment.gradient)),
+                              sigma = turn(increment.rotation, read_tensor(state_n + Place::stress)) + change;
+  std::copy_n(state_n, n_state(), state);
+  write_gradient(F, state);
+  write_tensor(sigma, state + Place::stress);
+  tau = J * sigma;
+  if (moduli != nullptr)
+    *moduli = moduli_of_jaumann(initial_moduli(), J, tau);
+  return true;
+}
+
+bool UmatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, const double *state_n,
+                     double *state, SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const {
+  const double J = dealii::determinant(F);
+  if (!(J > 0.) || !std::isfinite(F.norm()))
+    return false;
+  if (step.dt == 0.)
+    return update_at_rest(F, state_n, state, tau, moduli);
+  MidpointIncrement increment;
+  if (!compute_increment(read_gradient(state_n), F, increment))
+    return false;
+  std::copy_n(state_n + n_own_state, settings().initial_state.size(), state + n_own_state);
+  Call call;
+  call.begin(*this, state_n, state + n_own_state, F, increment, step);
+  SymmetricTensor<2, 3> strain_n;
+  for (unsigned int i = 0; i < 6; ++i)
+    strain_n.access_raw_entry(i) = (i < 3 ? 1. : 0.5) * call.motion.stran[i];
+  const SymmetricTensor<2, 3> change = dealii::symmetrize(increment.gradient),
+                              turned = read_tensor(call.response.stress);
+  if (!perform(call))
+    return false;
+  const SymmetricTensor<2, 3> sigma = read_tensor(call.response.stress);
+  tau = J * sigma;
+  write_gradient(F, state);
+  write_tensor(sigma, state + Place::stress);
+  write_tensor(strain_n + change, state + Place::strain);
+  state[energies] = call.response.sse;
+  state[energies + 1] = call.response.spd;
+  state[energies + 2] = call.response.scd;
+  state[work] = state_n[work] + 0.5 * ((dealii::determinant(read_gradient(state_n)) * turned + tau) * change);
+  state[Place::time] = state_n[Place::time] + step.dt;
+  state[Place::temperature] = step.temperature;
+  state[increments] = state_n[increments] + 1.;
+  if (moduli != nullptr)
+    *moduli = moduli_of_jaumann(call.tangent(has_symmetric_moduli()), J, tau);
+  return true;
+}
+
+} // namespace billet
