@@ -11,6 +11,10 @@ TypeTable<SharedLaw> &law_types() {
   return types;
 }
 
+std::string describe_material(const PointLaw &law) {
+  return law_types().find(law.name()) != nullptr ? law.name() : law.description();
+}
+
 std::string describe_law(const PointLaw &law) {
   return law_types().find(law.name()) != nullptr ? law.name() : law.name() + ", " + law.description();
 }

@@ -3,7 +3,7 @@
 
 #include "billet/discretization/local_nodes.h"
 #include "billet/errors.h"
-#include "billet/material/elasticity.h"
+#include "billet/material/law_type.h"
 #include "billet/material/state_fields.h"
 
 #include <algorithm>
@@ -171,7 +171,7 @@ void save_scene(StateWriter &writer, const Scene &scene, const Discretization &d
   for (std::size_t b = 0; b < scene.bodies().size(); ++b)
     writer.in(group("body", b), [&] {
       writer.write_text("name", scene.bodies()[b].name);
-      writer.write_text("material", scene.bodies()[b].law->description());
+      writer.write_text("material", describe_material(*scene.bodies()[b].law));
       writer.write_text("material parameters",
                         join_lines(material_of(scene.parameters(), scene.bodies()[b].name)));
       writer.write("mesh", measure(discretization, b));
@@ -222,9 +222,9 @@ std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
       if (name != body.name)
         throw InputError("its body " + std::to_string(b + 1) + " is '" + name + "', but here it is '" +
                          body.name + "'");
-      if (material != body.law->description())
+      if (material != describe_material(*body.law))
         throw InputError("its body '" + name + "' is " + material + ", but here it is " +
-                         body.law->description());
+                         describe_material(*body.law));
       compare_materials(split_lines(reader.read_text("material parameters")),
                         material_of(scene.parameters(), name), name, changed);
       const std::vector<double> then = reader.read("mesh", 5), now = measure(discretization, b);

@@ -13,6 +13,8 @@ namespace billet {
 /// PointLaw::name() is the name of the type.
 TypeTable<SharedLaw> &law_types();
 
+/// Returns the description of a law for users; its name if 'Law' selects it as a whole.
+std::string describe_material(const PointLaw &law);
 /// Returns name and description of a law for users; the name alone if 'Law' selects it.
 std::string describe_law(const PointLaw &law);
 
