@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::array<int, 5> crashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr int left_early = -1;
+constexpr int exit_code = 3; // of a failed solution
 
 // Signal handlers reach nothing but static data.
 sigjmp_buf way_back;
@@ -49,6 +50,7 @@ void report_exit() {
   write_error("error[solution-failed]: ");
   write_error(const_cast<const char *>(running));
   write_error(" has ended the program, by STOP or by an error of its language's run-time library.\n");
+  _exit(exit_code); // not that of STOP, which is success
 }
 
 /// Installs the handlers, on a stack of their own: the code may have exhausted the usual one.

@@ -161,12 +161,16 @@ bool UmatLaw::perform(Call &call) const {
 
 bool UmatLaw::update_at_rest(const Tensor<2, 3> &F, const double *state_n, double *state,
                              SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const {
-  MidpointIncrement increment;
-  if (!compute_increment(read_gradient(state_n), F, increment))
-    return false;
   const double J = dealii::determinant(F);
-  const SymmetricTensor<2, 3> change = multiply(initial_moduli(), dealii::symmetrize(increment.gradient)),
-                              sigma = turn(increment.rotation, read_tensor(state_n + Place::stress)) + change;
+  const Tensor<2, 3> F_n = read_gradient(state_n);
+  SymmetricTensor<2, 3> sigma = read_tensor(state_n + Place::stress);
+  if (F != F_n) { // up to an elastic change
+    MidpointIncrement increment;
+    if (!compute_increment(F_n, F, increment))
+      return false;
+    sigma =
+        turn(increment.rotation, sigma) + multiply(initial_moduli(), dealii::symmetrize(increment.gradient));
+  }
   std::copy_n(state_n, n_state(), state);
   write_gradient(F, state);
   write_tensor(sigma, state + Place::stress);
@@ -208,8 +212,10 @@ bool UmatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, const
   state[Place::time] = state_n[Place::time] + step.dt;
   state[Place::temperature] = step.temperature;
   state[increments] = state_n[increments] + 1.;
+  const SpatialModuli tangent = call.tangent(has_symmetric_moduli());
+  raise_bound(tangent, J);
   if (moduli != nullptr)
-    *moduli = moduli_of_jaumann(call.tangent(has_symmetric_moduli()), J, tau);
+    *moduli = moduli_of_jaumann(tangent, J, tau);
   return true;
 }
 

@@ -78,12 +78,20 @@ void UserLaw::set_initial(const SpatialModuli &C, const bool has_stored_energy) 
     throw std::runtime_error(title_ + " has a bulk modulus of " + std::to_string(elastic_.bulk) +
                              " and a shear modulus of " + std::to_string(elastic_.shear) +
                              " at the undeformed point; both must be above 0");
+  raise_bound(C, 1.);
+}
+
+void UserLaw::raise_bound(const SpatialModuli &moduli, const double J) const {
+  constexpr double excess = 1.05, root = 1.4142135623730951;
+  double maximum = 0.;
   for (unsigned int i = 0; i < 6; ++i) { // Gershgorin's bound, in Kelvin's notation
     double sum = 0.;
     for (unsigned int j = 0; j < 6; ++j)
-      sum += std::abs(C[i][j]) * (i < 3 ? 1. : std::sqrt(2.)) * (j < 3 ? 1. : std::sqrt(2.));
-    stiffness_ = std::max(stiffness_, sum);
+      sum += std::abs(moduli[i][j]) * (i < 3 ? 1. : root) * (j < 3 ? 1. : root);
+    maximum = std::max(maximum, J * sum);
   }
+  if (maximum > excess * stiffness_)
+    stiffness_ = maximum;
 }
 
 double UserLaw::bound_stiffness(const SymmetricTensor<2, 3> &tau) const {

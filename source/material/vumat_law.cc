@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/vumat_law.h"
 
-#include "billet/material/log_map.h"
 #include "billet/material/umat_law.h"
 
 #include <algorithm>
@@ -23,32 +22,36 @@ constexpr unsigned int place_of[6] = {0, 1, 2, 3, 5, 4};
 /// Rows and columns of a VUMAT's deformation gradient.
 constexpr unsigned int rows[9] = {0, 1, 2, 0, 1, 2, 1, 2, 0}, columns[9] = {0, 1, 2, 1, 2, 0, 0, 1, 2};
 
-/// F = R U.
+/// F = R U, by Newton's method for the orthogonal factor (Higham 1986).
 struct Polar {
   Tensor<2, 3> R;
   SymmetricTensor<2, 3> U;
 
+  /// Returns false if F is singular or not finite.
   bool compute(const Tensor<2, 3> &F) {
-    Eigensystem squares;
-    if (!squares.compute(dealii::symmetrize(dealii::transpose(F) * F)) ||
-        !(*std::min_element(squares.values.begin(), squares.values.end()) > 0.))
-      return false;
-    std::array<double, 3> stretches{}, inverse{};
-    for (unsigned int a = 0; a < 3; ++a) {
-      stretches[a] = std::sqrt(squares.values[a]);
-      inverse[a] = 1. / stretches[a];
+    constexpr unsigned int max_iterations = 100;
+    constexpr double round_off = 1e-15;
+    R = F;
+    for (unsigned int i = 0; i < max_iterations; ++i) {
+      const double det = dealii::determinant(R);
+      if (!(det > 0.) || !std::isfinite(det))
+        return false;
+      const Tensor<2, 3> next = 0.5 * (R + dealii::transpose(dealii::invert(R)));
+      const double change = (next - R).norm();
+      R = next;
+      if (change * change <= round_off) // it converges quadratically: the next change is round-off
+        break;
     }
-    U = squares.compose(stretches);
-    R = F * static_cast<Tensor<2, 3>>(squares.compose(inverse));
+    U = dealii::symmetrize(dealii::transpose(R) * F);
     return true;
   }
 };
 
-/// F and its changes by small symmetric velocity gradients, forwards and backwards.
-std::array<Tensor<2, 3>, 13> change(const Tensor<2, 3> &F) {
+/// F and, if they are wanted, its changes by small symmetric velocity gradients, forwards and backwards.
+std::array<Tensor<2, 3>, 13> change(const Tensor<2, 3> &F, const bool has_changes) {
   std::array<Tensor<2, 3>, 13> result;
   result[0] = F;
-  for (unsigned int k = 0; k < 6; ++k) {
+  for (unsigned int k = 0; k < 6 && has_changes; ++k) {
     SymmetricTensor<2, 3> d;
     d.access_raw_entry(k) = k < 3 ? difference : 0.5 * difference;
     const Tensor<2, 3> increment = static_cast<Tensor<2, 3>>(d) * F;
@@ -200,7 +203,7 @@ VumatLaw::VumatLaw(VumatFunction *const function, UserLawSettings settings, cons
   step.dt = probe_time;
   Stresses tau;
   const auto probe = [&](Block &block, const Tensor<2, 3> &F) {
-    if (!evaluate(block, change(F), step, 0., state_n.data(), state.data(), tau))
+    if (!evaluate(block, change(F, block.size() > 1), step, 0., state_n.data(), state.data(), tau))
       throw std::runtime_error(refusal().what + " at the undeformed point");
   };
   const Tensor<2, 3> unit = dealii::unit_symmetric_tensor<3>();
@@ -265,11 +268,16 @@ bool VumatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, cons
   if (!(J > 0.) || !std::isfinite(F.norm()))
     return false;
   if (step.dt == 0.) { // a known state, up to an elastic change
+    const Tensor<2, 3> F_n = read_gradient(state_n);
     Polar polar_n, polar;
-    if (!polar_n.compute(read_gradient(state_n)) || !polar.compute(F))
+    if (!polar.compute(F))
       return false;
-    const SymmetricTensor<2, 3> stress =
-        read_tensor(state_n + Place::stress) + multiply(initial_moduli(), polar.U - polar_n.U);
+    SymmetricTensor<2, 3> stress = read_tensor(state_n + Place::stress);
+    if (F != F_n) {
+      if (!polar_n.compute(F_n))
+        return false;
+      stress += multiply(initial_moduli(), polar.U - polar_n.U);
+    }
     std::copy_n(state_n, n_state(), state);
     write_gradient(F, state);
     write_tensor(stress, state + Place::stress);
@@ -279,8 +287,8 @@ bool VumatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, cons
     return true;
   }
   Stresses stresses;
-  if (!evaluate(moduli != nullptr ? *many_ : *one_, change(F), step, state_n[Place::time] + step.dt, state_n,
-                state, stresses))
+  if (!evaluate(moduli != nullptr ? *many_ : *one_, change(F, moduli != nullptr), step,
+                state_n[Place::time] + step.dt, state_n, state, stresses))
     return false;
   tau = stresses[0];
   if (moduli != nullptr) {

@@ -137,10 +137,22 @@ def _() -> None:
         "subsection Output\n  subsection Checkpoint\n    set Step interval = 10\n  end\n",
     )
     finish(scene, "whole")
-    files = sorted(Path("whole").glob("checkpoint*/*")) or sorted(Path("whole").glob("*checkpoint*"))
-    finish(scene, "resumed", "--restart", str(files[0]))
+    finish(scene, "resumed", "--restart", str(sorted(Path("whole").glob("*checkpoint*"))[0]))
     for name in ("die.force_z", "die.force_x"):
         near(name, history("resumed")[-1][name], history("whole")[-1][name], 1e-9)
+
+
+@check("a run resumes with another element, but not with another law")
+def _() -> None:
+    file = str(sorted(Path("whole").glob("*checkpoint*"))[0])
+    other = finish(
+        billet(umat()), "other", "--restart", file, "--set", "Bodies/billet/Element=mean dilatation"
+    )
+    near("force", other[-1]["die.force_z"], history("whole")[-1]["die.force_z"], 0.05)
+    require(other[-1]["die.force_z"] != history("whole")[-1]["die.force_z"], "the same element")
+    ended = go(billet(OWN), "refused", "--restart", file)
+    require(ended.code == 2, f"code {ended.code}: {ended.errors}")
+    says(ended.errors, "its body 'billet' is UMAT, but here it is elastoplastic with linear hardening")
 
 
 @check("state variables are fields under their names")
@@ -279,6 +291,7 @@ for name, what in {"STRESS": "stress", "TANGENT": "tangent"}.items():
 @check("STOP is named")
 def _() -> None:
     ended = go(billet(umat("STOP")), "failed")
+    require(ended.code == 3, f"code {ended.code}: {ended.errors}")
     says(ended.errors, "UMAT 'STOP' of library './libumat.so' has ended the program")
 
 

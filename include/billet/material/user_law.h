@@ -30,6 +30,7 @@ struct UserLawSettings {
 class UserLaw : public SpatialLaw, public ExplainsRefusals {
 public:
   std::string name() const override { return kind_; }
+  std::string description() const override { return kind_; }
   std::string summary() const override { return kind_; }
   /// Returns the isotropic part of the tangent of the undeformed point, Voigt's average.
   const ElasticModuli &elastic() const override { return elastic_; }
@@ -85,6 +86,9 @@ protected:
   /// Arguments of the subroutine, which do not change them: Fortran has no const.
   double *constants() const { return const_cast<double *>(settings_.constants.data()); }
   const SpatialModuli &initial_moduli() const { return initial_; }
+  /// Raises the bound of the stiffness if J times these moduli exceed it by more than 5 %, as in rubber.
+  /// Smaller excesses do not count: steps of a resumed run are then those of the whole one.
+  void raise_bound(const SpatialModuli &moduli, double J) const;
   /// Sets the moduli of the undeformed point. Throws std::runtime_error if they are no stiffness.
   void set_initial(const SpatialModuli &C, bool has_stored_energy);
   /// Returns the rotation between the frame of the stress in the state and space at F.
@@ -107,7 +111,7 @@ private:
   std::string title_;
   SpatialModuli initial_{}; ///< C
   ElasticModuli elastic_{};
-  double stiffness_ = 0.; ///< bound of the eigenvalues of C [stress]
+  mutable double stiffness_ = 0.; ///< bound of the eigenvalues of C, and of all moduli since [stress]
   bool has_stored_energy_ = false;
   std::size_t plastic_strain_; ///< place in the state; n_state(): none
   mutable LawRefusal refusal_;
