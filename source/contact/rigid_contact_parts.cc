@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace billet {
@@ -91,6 +92,8 @@ void RigidContactParts::commit() {
     if (states[i].status == ContactStatus::open) { // it returns without an offset
       node.gap_n += node.multiplier_offset;
       node.multiplier_offset = 0.;
+      if (fading_gaps)
+        leave_depth(i);
     }
     node.multiplier_offset_n = node.multiplier_offset;
   }
@@ -141,17 +144,37 @@ void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1,
   }
 }
 
-void RigidContactParts::keep_gaps(const FadingGaps &gaps) {
-  if (has_inertia && !is_explicit) // a raised penalty allows depths there that must not fade
-    return;
+void RigidContactParts::keep_gaps() {
   constexpr double rounding = 1e-9; // of facets
   for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
     ContactPoint &node = slaves.nodes[i];
     const double gap = states[i].gap - node.multiplier_offset, excess = std::min(node.gap_n, 0.) - gap;
     node.initial_penetration = excess > rounding * node.size ? excess : 0.;
   }
-  fading_gaps = gaps;
-  step.allowed_part_n = step.allowed_part = gaps.part(gaps.begin);
+  step.allowed_part_n = step.allowed_part = 1.;
+}
+
+void RigidContactParts::fade_gaps(const FadingGaps &gaps, const bool is_finer) {
+  if (is_finer && has_inertia && !is_explicit) // a raised penalty allows depths there that must not fade
+    return;
+  if (is_finer)
+    keep_gaps();
+  else if (!fading_gaps || fading_gaps->fade() != has_inertia) // there are none, or they go on as before
+    return;
+  else
+    for (ContactPoint &node : slaves.nodes)
+      node.initial_penetration *= step.allowed_part;
+  step.allowed_part_n = step.allowed_part = 1.;
+  fading_gaps = {gaps.begin, has_inertia ? std::numeric_limits<double>::infinity() : gaps.end};
+}
+
+void RigidContactParts::leave_depth(const std::size_t i) {
+  ContactPoint &node = slaves.nodes[i];
+  const double part = step.allowed_part;
+  const double left = part > 0. ? std::min(node.initial_penetration, std::max(0., states[i].gap) / part)
+                                : node.initial_penetration;
+  node.initial_penetration -= left;
+  node.gap_n -= part * left;
 }
 
 void RigidContactParts::start_friction() {

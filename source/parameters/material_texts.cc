@@ -3,7 +3,10 @@
 
 #include "billet/parameters/scene_file.h"
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -11,12 +14,26 @@ namespace billet::parameters {
 
 namespace {
 
-bool is_same_value(const std::string &before, const std::string &after) {
+/// Returns the words of a value: lists and tables may be written with any blanks.
+std::vector<std::string> split_words(const std::string &value) {
+  std::string spaced;
+  for (const char c : value)
+    spaced += c == ',' || c == ':' || c == ';' ? std::string{' ', c, ' '} : std::string{c};
+  std::istringstream stream(spaced);
+  return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
+}
+
+bool is_same_word(const std::string &before, const std::string &after) {
   try {
     return parse_number(before) == parse_number(after);
-  } catch (const std::invalid_argument &) { // a name, a table or a file
+  } catch (const std::invalid_argument &) { // a name or a separator
     return before == after;
   }
+}
+
+bool is_same_value(const std::string &before, const std::string &after) {
+  const std::vector<std::string> then = split_words(before), now = split_words(after);
+  return std::equal(then.begin(), then.end(), now.begin(), now.end(), is_same_word);
 }
 
 } // namespace
@@ -34,14 +51,20 @@ MaterialTexts find_material_texts(const Scene &scene, const std::string &body) {
 std::vector<ChangedParameter> compare_materials(const MaterialTexts &before, const MaterialTexts &after) {
   MaterialTexts all = before;
   all.insert(after.begin(), after.end());
-  const auto find = [](const MaterialTexts &material, const std::string &key) -> std::string {
+  dealii::ParameterHandler defaults;
+  Material::declare(defaults);
+  const auto find = [&](const MaterialTexts &material, const std::string &key) -> std::string {
     const auto found = material.find(key);
-    return found == material.end() ? "default" : found->second;
+    return found != material.end() ? found->second : defaults.get(key);
+  };
+  const auto show = [](const MaterialTexts &material, const std::string &key) -> std::string {
+    const auto found = material.find(key);
+    return found != material.end() ? found->second : "default";
   };
   std::vector<ChangedParameter> changed;
   for (const auto &[key, unused] : all)
-    if (const std::string then = find(before, key), now = find(after, key); !is_same_value(then, now))
-      changed.push_back({key, then, now});
+    if (!is_same_value(find(before, key), find(after, key)))
+      changed.push_back({key, show(before, key), show(after, key)});
   return changed;
 }
 

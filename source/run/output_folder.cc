@@ -82,13 +82,15 @@ std::string move_aside(const parameters::Scene &parameters, const fs::path &fold
   }
 }
 
-/// Removes checkpoints and fields of an earlier run, of which a shorter one would not write over all.
-void remove_numbered_files(const fs::path &folder) {
-  const std::regex numbered("(checkpoint|fields)_[0-9]{5,10}\\..+");
+/// Removes checkpoints and fields of an earlier run, of which a shorter one would not write over all, and the
+/// lists of its fields.
+void remove_snapshots(const fs::path &folder) {
+  const std::regex snapshot("checkpoint_[0-9]{5,10}\\.h5|fields_[0-9]{5,10}(\\.[0-9]+)?\\.(vtm|vtu|pvtu|h5)|"
+                            "scene\\.pvd|fields\\.xdmf");
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto &entry : fs::directory_iterator(folder, error))
-    if (entry.is_regular_file(error) && std::regex_match(entry.path().filename().string(), numbered))
+    if (entry.is_regular_file(error) && std::regex_match(entry.path().filename().string(), snapshot))
       files.push_back(entry.path());
   for (const fs::path &file : files)
     fs::remove(file, error);
@@ -141,7 +143,7 @@ std::string prepare_output_folder(const parameters::Scene &parameters, const Ear
     moved = move_aside(parameters, folder);
   }
   if (earlier == EarlierResults::replaced && has_results(folder))
-    remove_numbered_files(folder);
+    remove_snapshots(folder);
   make_folder(parameters);
   return moved;
 }

@@ -94,13 +94,15 @@ for n_ranks in RANKS:
         name = f"cup{n_ranks}"
         write_text(f"{name}/mark", "fourth")
         stale = ("checkpoint_00042.h5", "fields_00042.vtm", "fields_00042.0.vtu")
-        for file in (*stale, "fields_of_mine.csv"):
+        mine = ("fields_of_mine.csv", "fields_00003.png", "checkpoint_00001.notes.txt")
+        for file in (*stale, *mine):
             write_text(f"{name}/{file}", "longer run")
         billet("--force", f"{name}.prm", ranks=n_ranks)
         equal("mark", read_text(f"{name}/mark"), "fourth")
         left = [file for file in stale if Path(name, file).exists()]
         require(not left, f"of a longer run before: {left}")
-        equal("another file", read_text(f"{name}/fields_of_mine.csv"), "longer run")
+        for file in mine:
+            equal(file, read_text(f"{name}/{file}"), "longer run")
         require(not Path(f"{name}.4").exists(), "they were moved")
 
 

@@ -274,6 +274,36 @@ def _() -> None:
     near("force", last["punch.force_z"], -297.3, 0.02)  # that of a mesh fine from the start
 
 
+PRESS = "refined_press.prm"
+FINE_FORCE = -297.8  # static, of a mesh fine from the start
+STATIC_PRESS = ("--set", "Time stepping/Scheme=static")
+
+
+@check("depths have faded at the end of a static press, however late its refinement")
+def _() -> None:
+    for time in ("6e-4", "9.7e-4"):
+        late = ("--set", f"Bodies/block/Refinement times={time}")
+        ended = run(*program.on(1, PRESS, "--output", f"late_{time}", *STATIC_PRESS, *late))
+        require(ended.code == 0, ended.errors)
+        near("force", history(f"late_{time}")[-1]["punch.force_z"], FINE_FORCE, 4e-3)  # coarse: 6e-3
+
+
+@check("a press goes on in the other scheme after its refinement")
+def _() -> None:
+    stored = ("--set", "Output/Checkpoint/Interval=1e-4", "--set", "Output/Checkpoint/Keep=50")
+    for name, first, second in (("moving", (), STATIC_PRESS), ("resting", STATIC_PRESS, ())):
+        ended = run(*program.on(1, PRESS, "--output", name, *stored, *first))
+        require(ended.code == 0, ended.errors)
+        before = [row for row in history(name) if row["time"] <= 7.05e-4][-1]["punch.force_z"]
+        checkpoint = sorted(glob(f"{name}/checkpoint_*.h5"))[6]
+        ended = run(*program.on(1, PRESS, "--restart", checkpoint, "--output", f"after_{name}", *second))
+        require(ended.code == 0, ended.errors)
+        rows = history(f"after_{name}")
+        first_row = next(row for row in rows if row["punch.force_z"] != 0)
+        near(f"force of {name}, then the other", first_row["punch.force_z"], before, 0.1)
+        near("force at the end", rows[-1]["punch.force_z"], FINE_FORCE, 0.03)
+
+
 for scheme in ("static", "explicit"):
 
     @check(f"finer elements that resist bending are refused, {scheme}")

@@ -33,12 +33,14 @@ int main(int argc, char *argv[]) {
       read(body("a", rubber + "      set C10 = 1\n      set C01 = 0\n") +
            body("b", rubber + "      set C10 = 0\n      set C01 = 1\n") + body("c", steel) +
            body("d", rubber + "      set C01 = 1.0\n      set C10 = 0e0\n") +
-           body("e", steel + "      set Backstress moduli = 1000\n") + body("f", steel));
+           body("e", steel + "      set Backstress moduli = 1000, 200\n      set Backstress rates = 1, 2\n") +
+           body("f", steel + "      set Elasticity = Hencky\n") +
+           body("g", steel + "      set Backstress rates = 1.0,2\n      set Backstress moduli = 1e3,200\n"));
   check("laws of equal moduli, and laws with and without backstress, differ",
-        parameters::number_materials(scene) == std::vector<std::size_t>{0, 1, 2, 1, 3, 2});
+        parameters::number_materials(scene) == std::vector<std::size_t>{0, 1, 2, 1, 3, 2, 3});
   const auto changed = parameters::compare_materials(parameters::find_material_texts(scene, "c"),
                                                      parameters::find_material_texts(scene, "e"));
-  check("what differs is named", changed.size() == 1 && changed[0].key == "Backstress moduli" &&
-                                     changed[0].before == "default" && changed[0].after == "1000");
+  check("what differs is named", changed.size() == 2 && changed[0].key == "Backstress moduli" &&
+                                     changed[0].before == "default" && changed[0].after == "1000, 200");
   return testing::exit_code();
 }

@@ -71,10 +71,11 @@ public:
   std::size_t group_index() const { return group_index_; }
   virtual void save(StateWriter &writer, const NodeKeys &keys) const = 0;
   virtual void load(const StateReader &reader, const NodeKeys &keys) = 0;
-  /// After begin() and load() on a finer mesh: keeps the gaps that the coarser mesh had. New nodes lie on
-  /// chords of its faces, inside a curved surface, and come out of it from `begin` to `end` [time]. Pairs of
-  /// bodies have the gaps of the finer mesh at once.
-  virtual void keep_gaps(const double /*begin*/, const double /*end*/) {}
+  /// After load(): tells how gaps of a coarser mesh fade. New nodes of a finer mesh lie on chords of its
+  /// faces, inside a curved tool. They keep the gaps that the coarser mesh had; in statics they come out of
+  /// the tool from `begin` to `end` [time]. `is_finer`: whether the mesh is finer than the one that load()
+  /// reads, after begin(). Pairs of bodies have the gaps of the finer mesh at once.
+  virtual void fade_gaps(const double /*begin*/, const double /*end*/, const bool /*is_finer*/) {}
 
 protected:
   ContactInterface(const Scene &scene, const ContactPair &pair);

@@ -77,7 +77,9 @@ public:
 
   void save(StateWriter &writer, const NodeKeys &keys) const override;
   void load(const StateReader &reader, const NodeKeys &keys) override;
-  void keep_gaps(const double begin, const double end) override { parts_.keep_gaps({begin, end}); }
+  void fade_gaps(const double begin, const double end, const bool is_finer) override {
+    parts_.fade_gaps({begin, end}, is_finer);
+  }
 
 private:
   RigidContact(const Scene &scene, std::size_t pair, const Discretization &discretization);

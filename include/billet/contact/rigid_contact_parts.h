@@ -69,9 +69,8 @@ struct RigidContactParts {
   double allowed_part(const double t) const {
     return fading_gaps ? fading_gaps->part(t) : pair.overlap.allowed_part(t);
   }
-  /// Allows the nodes the depths by which they exceed the interpolated ones of a coarser mesh, (R7) of
-  /// doc/theory, while these fade.
-  void keep_gaps(const FadingGaps &gaps);
+  /// Does what ContactInterface::fade_gaps() says, (R7) of doc/theory.
+  void fade_gaps(const FadingGaps &gaps, bool is_finer);
   /// Removes the tool: from now on no node touches it.
   void remove_tool();
   /// Makes the state of the last update() the start of the next step.
@@ -80,6 +79,10 @@ struct RigidContactParts {
   void begin(const ContactStep &at, const std::vector<dealii::Tensor<1, 3>> &displacements);
 
 private:
+  /// Allows the nodes the depths by which they exceed the interpolated ones of a coarser mesh.
+  void keep_gaps();
+  /// Takes from a node that is open the depth that it does not need any more.
+  void leave_depth(std::size_t i);
   /// Whether an initial gap counts as closed, or an initial penetration as allowed.
   bool allows(const RigidSurface::Projection &projection) const;
   /// Starts the histories of friction at the current positions.

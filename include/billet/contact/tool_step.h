@@ -8,16 +8,18 @@
 #include "billet/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace billet {
 
 /// Time in which depths that a finer mesh has brought about fade.
 struct FadingGaps {
-  double begin, end; ///< [time]
+  double begin, end; ///< [time]; an infinite end: they never fade
 
+  bool fade() const { return std::isfinite(end); }
   /// Returns the part of these depths that counts as none at time t.
   double part(const double t) const {
-    return end > begin ? std::clamp((end - t) / (end - begin), 0., 1.) : 0.;
+    return !fade() ? 1. : end > begin ? std::clamp((end - t) / (end - begin), 0., 1.) : 0.;
   }
 };
 

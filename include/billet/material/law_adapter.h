@@ -20,9 +20,7 @@ namespace billet {
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   depends_on_temperature         true, if it reads PointStep::temperature
-///   bound_stiffness(tau)           PointLaw::bound_stiffness(), if that of PointLaw is not the law's. An
-///   elastic
-///                                  law without it is bounded by its moduli.
+///   bound_stiffness(tau)           if PointLaw's is not the law's; without it, moduli bound elastic laws
 ///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:

@@ -21,7 +21,8 @@ struct ChangedParameter {
   std::string key, before, after;
 };
 
-/// Returns the parameters whose values differ. Numbers are compared as numbers.
+/// Returns the parameters whose values differ. Numbers are compared as numbers, also in lists and tables, and
+/// a parameter that is not set has its default.
 std::vector<ChangedParameter> compare_materials(const MaterialTexts &before, const MaterialTexts &after);
 
 /// Returns the number of each body's material, from 0 in the order of the bodies. Bodies whose materials have

@@ -175,8 +175,7 @@ void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) 
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
     if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }) && !begins)
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
-    if (begins)
-      contact.keep_gaps(time(), time() + refinement_release_time(parts_.scene.parameters()));
+    contact.fade_gaps(time(), time(), begins);
   }
 }
 

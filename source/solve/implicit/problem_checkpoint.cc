@@ -129,8 +129,11 @@ void ProblemCheckpoint::load_contacts(StateReader &reader, const NodeKeys &keys)
     });
     if (!is_known && !begins)
       contact.with_matrix().begin(at, state.displacements);
-    if (begins)
-      contact.keep_gaps(state.time, state.time + refinement_release_time(parts_.scene().parameters()));
+    const parameters::Scene &parameters = parts_.scene().parameters();
+    contact.fade_gaps(
+        state.time,
+        std::min(parameters.time_stepping.end_time, state.time + refinement_release_time(parameters)),
+        begins);
   }
 }
 
