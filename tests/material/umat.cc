@@ -178,8 +178,8 @@ void test_against_own_laws() {
   check("shear modulus", std::abs(umat.elastic().shear / steel.shear - 1.), 1e-12);
   const SharedLaw own = make_neo_hookean_law(steel);
   Random random;
-  check("bound of the stiffness of waves",
-        std::abs(umat.bound_stiffness({}) / own->bound_stiffness({}) - 1.), 1e-9);
+  check("bound of the stiffness of waves", std::abs(umat.bound_stiffness({}) / own->bound_stiffness({}) - 1.),
+        1e-9);
   WorstError stress, moduli, energy;
   for (unsigned int i = 0; i < 20; ++i) {
     const Tensor<2, 3> F = unit + random.tensor(0.3);

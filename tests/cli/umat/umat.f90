@@ -1,19 +1,21 @@
 ! SPDX-License-Identifier: LGPL-2.1-or-later
-! A UMAT for the tests: J2 plasticity with linear hardening, in Kirchhoff's stress, as the program's hypoelastic law.
-! PROPS: Young's modulus, Poisson's ratio, yield stress, hardening modulus. STATEV(1): equivalent plastic strain.
-! CMNAME tells what goes wrong: at a plastic strain above 1 %, the library crashes, calls XIT or STOP, or returns
-! numbers that are none.
+! A UMAT for the tests: J2 plasticity with linear hardening, in Kirchhoff's stress, as the program's
+! hypoelastic law. PROPS: Young's modulus, Poisson's ratio, yield stress, hardening modulus. STATEV(1):
+! equivalent plastic strain. CMNAME tells what goes wrong: at a plastic strain above 1 %, the library
+! crashes, calls XIT or STOP, or returns numbers that are none.
 
-subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, &
-                temp, dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props, nprops, coords, drot, pnewdt, &
-                celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, stran, dstran, time, &
+    dtime, temp, dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props, nprops, coords, drot, &
+    pnewdt, celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
   implicit none
   character(len=80) :: cmname
   integer :: ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
-  double precision :: stress(ntens), statev(nstatv), ddsdde(ntens, ntens), sse, spd, scd, rpl, ddsddt(ntens), &
-    drplde(ntens), drpldt, stran(ntens), dstran(ntens), time(2), dtime, temp, dtemp, predef(1), dpred(1), &
-    props(nprops), coords(3), drot(3, 3), pnewdt, celent, dfgrd0(3, 3), dfgrd1(3, 3)
-  double precision :: bulk, shear, before, after, pressure, s(6), mean, q, excess, beta, gamma, n(6), mises, invariant
+  double precision :: stress(ntens), statev(nstatv), ddsdde(ntens, ntens), sse, spd, scd, rpl, &
+      ddsddt(ntens), drplde(ntens), drpldt, stran(ntens), dstran(ntens), time(2), dtime, temp, dtemp, &
+      predef(1), dpred(1), props(nprops), coords(3), drot(3, 3), pnewdt, celent, dfgrd0(3, 3), dfgrd1(3, &
+      3)
+  double precision :: bulk, shear, before, after, pressure, s(6), mean, q, excess, beta, gamma, n(6), &
+      mises, invariant
   integer :: i, j
 
   if (nprops /= 4 .or. nstatv < 1 .or. ntens /= 6) call xit
@@ -62,8 +64,8 @@ contains
 
   double precision function determinant(a)
     double precision, intent(in) :: a(3, 3)
-    determinant = a(1, 1) * (a(2, 2) * a(3, 3) - a(2, 3) * a(3, 2)) - a(1, 2) * (a(2, 1) * a(3, 3) - a(2, 3) * a(3, 1)) &
-      + a(1, 3) * (a(2, 1) * a(3, 2) - a(2, 2) * a(3, 1))
+    determinant = a(1, 1) * (a(2, 2) * a(3, 3) - a(2, 3) * a(3, 2)) - a(1, 2) * (a(2, 1) * a(3, 3) - &
+        a(2, 3) * a(3, 1)) + a(1, 3) * (a(2, 1) * a(3, 2) - a(2, 2) * a(3, 1))
   end function
 
   subroutine go_wrong
