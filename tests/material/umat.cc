@@ -222,7 +222,7 @@ void test_rates() {
   check("J2 in rates, stress of the hypoelastic law", stress.value(), 1e-12);
   check("J2 in rates, plastic strain", strain.value(), 1e-14);
   check("it yields", umat.equivalent_plastic_strain(point.state().data()) > 0.05);
-  check("J2 in rates, moduli, symmetric velocity gradients", symmetric.value(), 5e-3);
+  check("J2 in rates, moduli, symmetric velocity gradients", symmetric.value(), 1e-2);
   check("J2 in rates, moduli, all velocity gradients", all.value(), 2e-2);
   // Evaluation of the known state.
   const auto at_rest = point.evaluate(F, 0.), at_end = other.evaluate(F, 0.);
@@ -233,15 +233,16 @@ void test_rates() {
   check("a rotation turns the stress", (*point.evaluate(Q * F, dt) - turned).norm() / turned.norm(), 1e-9);
 }
 
-/// Work is stored or dissipated if the UMAT does not compute SSE.
+/// All work is stored if the UMAT does not compute SSE.
 void test_dissipation() {
   const UmatLaw umat(&plastic, settings_of(&plastic));
   LawPoint point(umat);
   const SharedLaw own = make_hypoelastic_law(steel, make_hardening(LinearHardening{700., 300.}));
   LawPoint other(*own);
   WorstError tangent;
+  Tensor<2, 3> F;
   for (unsigned int i = 1; i <= 200; ++i) {
-    Tensor<2, 3> F = unit;
+    F = unit;
     F[0][0] += 5e-4 * i;
     F[1][2] = F[2][1] = 2e-4 * i;
     StressRates promised;
@@ -251,8 +252,9 @@ void test_dissipation() {
     point.commit();
     other.commit();
   }
-  check("dissipation is the plastic work",
-        std::abs(point.dissipated_energy() / other.dissipated_energy() - 1.), 0.02);
+  check("work without energies of its own is stored", point.dissipated_energy() == 0.);
+  check("and is all of the work",
+        std::abs(point.stored_energy(F) / (other.stored_energy(F) + other.dissipated_energy()) - 1.), 1e-3);
   check("J2 in rates, moduli in steps without spin", tangent.value(), 1e-4);
 }
 
