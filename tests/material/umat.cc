@@ -29,7 +29,7 @@ void xit_();
 
 namespace {
 
-enum class Fault { none, shorter, stress, tangent, state, leave, crash };
+enum class Fault { none, shorter, stress, tangent, state, leave, crash, beyond_state, beyond_stress };
 Fault fault = Fault::none;
 bool computes_energy = true;
 
@@ -85,6 +85,12 @@ void go_wrong(double *stress, double *statev, double *ddsdde, double *pnewdt) {
     return;
   case Fault::leave:
     xit_();
+    return;
+  case Fault::beyond_state:
+    statev[1] = 0.;
+    return;
+  case Fault::beyond_stress:
+    stress[-1] = 0.;
     return;
   case Fault::crash:
     std::raise(SIGSEGV);
@@ -339,6 +345,15 @@ void test_refusals() {
   }
   fault = Fault::none;
   check("crash in the first call", has(why, "segmentation fault") && has(why, "undeformed point"));
+  for (const auto &[of, array] :
+       {std::pair(Fault::beyond_state, "STATEV"), {Fault::beyond_stress, "STRESS"}}) {
+    const UmatLaw writing(&plastic, settings_of(&plastic));
+    LawPoint third(writing);
+    fault = of;
+    check(std::string("writing outside of ") + array,
+          !third.evaluate(F, dt) && writing.refusal().is_final && has(writing.refusal().what, array));
+    fault = Fault::none;
+  }
   UserLawSettings soft = settings_of(&neo_hookean);
   soft.constants[1] = -1.;
   try {
@@ -347,6 +362,21 @@ void test_refusals() {
     why = error.what();
   }
   check("no stiffness", has(why, "shear modulus"));
+}
+
+/// Writes are found in the array that they belong to, and once.
+void test_guards() {
+  GuardedArrays arrays({6, 0, 3}, 100);
+  check("guards are unchanged", !arrays.find_overrun());
+  for (unsigned int i = 0; i < 3; ++i)
+    arrays[2][i] = 7.;
+  check("arrays may be written", !arrays.find_overrun() && arrays.size(2) == 3);
+  arrays[0][6] = 0.;
+  check("behind the first array", arrays.find_overrun() == 0U && !arrays.find_overrun());
+  arrays[1][0] = 0.;
+  check("in an empty array", arrays.find_overrun() == 1U);
+  arrays[2][3 + 99] = 0.;
+  check("far behind the last array", arrays.find_overrun() == 2U && arrays[2][2] == 7.);
 }
 
 /// A rubber that stiffens raises the bound of explicit steps, small changes do not.
@@ -422,6 +452,7 @@ int main() {
   test_dissipation();
   test_arguments();
   test_refusals();
+  test_guards();
   test_bound();
   test_given_stress();
   test_tangent_errors();
