@@ -258,6 +258,48 @@ def _() -> None:
         )
 
 
+BEAM = """
+subsection Bodies
+  subsection beam
+    set Element = mean dilatation
+    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 8, 2, 2 : 0, 0, 0 : 8, 1, 1 : true
+    end
+    subsection Material
+MATERIAL
+    end
+    subsection Supports
+      subsection root
+        set Boundary ids = 0
+      end
+      subsection tip
+        set Boundary ids = 1
+        set Components = z
+        set Displacement = 0 ; 0 ; 3*t
+      end
+    end
+  end
+end
+subsection Time stepping
+  set Scheme = quasi-static
+  set End time = 1
+  set Initial step = 0.05
+  set Step control = fixed
+end
+subsection Output
+  set Format = none
+end
+"""
+
+
+@check("elements of a plastic beam have no lower bound of their stiffness")
+def _() -> None:
+    ended = go(BEAM.replace("MATERIAL", umat(constants="200e3, 0.3, 250, 500")), "beam")
+    require(ended.code == 0, ended.output + ended.errors)
+    require("at least this factor" not in ended.output + ended.errors, ended.output + ended.errors)
+
+
 @check("writing outside of an array is refused, with the material and the array")
 def _() -> None:
     for name, array in {"BEYOND STATEV": "STATEV", "FAR BEYOND STATEV": "STATEV"}.items():
