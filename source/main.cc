@@ -61,9 +61,9 @@ Options of runs, checks and previews:
                           of scenes, --list and --print-diagnostics a JSON array
 
 Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
-in the output folder), or --certify has found a law that fails; 4 internal error; 5 stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint;
-6 completed with warnings, and the scene says 'Warnings = errors'; 7 completed, and the estimated error
-exceeds the 'Target error'.
+in the output folder), or a law fails its certification; 4 internal error; 5 stopped by SIGTERM,
+SIGINT or SIGUSR1 after a checkpoint; 6 completed with warnings, and the scene says 'Warnings =
+errors'; 7 completed, and the estimated error exceeds the 'Target error'.
 
 )";
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/law_point.h"
 
+#include "billet/material/law_refusal.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,6 +41,21 @@ StressRates rates_of(const GradientModuli &A) {
   for (unsigned int r = 0; r < 3; ++r)
     for (unsigned int j = 0; j < 3; ++j)
       rates[r][4 * j] += A.volumetric;
+  return rates;
+}
+
+/// Returns the deviators of the rates for isochoric velocity gradients.
+StressRates isochoric(StressRates rates) {
+  for (auto &row : rates) {
+    const double mean = (row[0] + row[4] + row[8]) / 3.;
+    for (const unsigned int c : {0, 4, 8})
+      row[c] -= mean;
+  }
+  for (unsigned int c = 0; c < 9; ++c) {
+    const double mean = (rates[0][c] + rates[1][c] + rates[2][c]) / 3.;
+    for (unsigned int r = 0; r < 3; ++r)
+      rates[r][c] -= mean;
+  }
   return rates;
 }
 
@@ -117,7 +134,8 @@ double relative_difference(const StressRates &a, const StressRates &b, const boo
         if (is_symmetric)
           difference[r][c] = 0.5 * (difference[r][c] + a[r][transposed] - b[r][transposed]);
       }
-  return norm(difference) / norm(b);
+  const double whole = norm(difference) / norm(b), part = norm(isochoric(difference)) / norm(isochoric(b));
+  return part <= whole ? whole : part; // not a number: part
 }
 
 TangentError find_tangent_error(const PointLaw &law, const double dt, const double temperature) {
@@ -127,6 +145,7 @@ TangentError find_tangent_error(const PointLaw &law, const double dt, const doub
                                                                 {0.4, 0.3, -0.1, 0.1, -0.3, 0.4}}};
   constexpr std::array<double, 4> strains = {1e-5, 1e-4, 1e-3, 1e-2};
   constexpr double kink = 0.02, part = 1e-3; // of the strain, for differences
+  const auto *const user_law = dynamic_cast<const ExplainsRefusals *>(&law);
   TangentError maximum;
   for (const auto &direction : directions) {
     LawPoint point(law, temperature);
@@ -138,10 +157,14 @@ TangentError find_tangent_error(const PointLaw &law, const double dt, const doub
       StressRates promised;
       if (!point.evaluate(F, dt, &promised))
         break;
+      if (user_law != nullptr)
+        maximum.asymmetry = std::max(maximum.asymmetry, user_law->lost_asymmetry());
       if (const auto measured = point.differentiate(F, dt, part * strain, kink)) {
         const double error = relative_difference(promised, *measured, true);
-        if (!(error <= maximum.error))
-          maximum = {error, strain};
+        if (!(error <= maximum.error)) {
+          maximum.error = error;
+          maximum.strain = strain;
+        }
       }
       point.commit();
     }

@@ -4,6 +4,7 @@
 #include "billet/material/elasticity.h"
 #include "billet/material/hardening.h"
 #include "billet/material/hencky.h"
+#include "billet/material/law_refusal.h"
 
 #include <deal.II/physics/transformations.h>
 
@@ -28,6 +29,8 @@ struct Limits {
   /// In steps to `small_step`. Newton's method then gains nearly two digits per iteration.
   static constexpr double tangent = 0.02, small_step = 0.01;
   static constexpr double symmetry = 1e-8;
+  /// Of a subroutine's tangent whose symmetric part counts.
+  static constexpr double lost_symmetry = 0.02;
   /// Errors of the trapezoidal rule over the paths, as part of the work.
   static constexpr double dissipation = 1e-3, balance = 0.02;
   /// Between ten steps and a hundred.
@@ -181,6 +184,30 @@ std::array<Tensor<2, 3>, 3> make_path(const Way way, const double size, TrialNum
   return path;
 }
 
+/// Strains the point to some 10 % in small steps; returns F at their end.
+Tensor<2, 3> strain_before(LawPoint &point, TrialNumbers &random, const double dt) {
+  constexpr unsigned int n_steps = 10;
+  constexpr double size = 0.01;
+  const Tensor<2, 3> increment = unit + size * Tensor<2, 3>(dealii::deviator(random.strain()));
+  Tensor<2, 3> F = unit;
+  for (unsigned int step = 0; step < n_steps; ++step) {
+    if (!point.evaluate(increment * F, dt))
+      break;
+    F = increment * F;
+    point.commit();
+  }
+  return F;
+}
+
+/// Finding about the symmetry of a subroutine's tangent, whose symmetric part counts.
+Finding judge_lost_symmetry(const Worst &lost) {
+  return lost.judge(
+      "symmetry of the tangent", Limits::lost_symmetry,
+      !(lost.error <= Limits::lost_symmetry)
+          ? "only the symmetric part counts; if the rest is meant, set 'Unsymmetric tangent = true'"
+          : "as the subroutine returns it");
+}
+
 const char *name_of(const Way way) {
   constexpr const char *names[] = {"loading", "unloading", "reversal", "shear"};
   return names[static_cast<unsigned int>(way)];
@@ -191,14 +218,16 @@ const char *name_of(const Way way) {
 std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSettings &settings) {
   constexpr double difference = 1e-6, kink = 1e-3, largest_step = 0.3;
   TrialNumbers random;
-  Worst in_small_steps, asymmetric;
+  Worst in_small_steps, asymmetric, lost;
+  const auto *const user_law = dynamic_cast<const ExplainsRefusals *>(&law);
   std::size_t n_kinks = 0, n_refused = 0;
   double safe_step = largest_step;
   for (unsigned int path = 0; path < settings.n_paths; ++path) {
     const Way way = static_cast<Way>(path % 4);
     const double size = random.logarithmic(1e-5, largest_step);
     LawPoint point(law, settings.temperature);
-    Tensor<2, 3> F = unit;
+    const bool is_strained = path / 4 % 2 == 1;
+    Tensor<2, 3> F = is_strained ? strain_before(point, random, settings.dt) : unit;
     StressRates promised{};
     std::optional<SymmetricTensor<2, 3>> tau;
     std::array<Tensor<2, 3>, 3> increments = make_path(way, size, random);
@@ -214,6 +243,12 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
       ++n_refused;
       continue;
     }
+    const auto where = [&] {
+      return std::string(name_of(way)) + " by steps of " + number(size) +
+             (is_strained ? " after a strain of 0.1" : "");
+    };
+    if (user_law != nullptr && size <= Limits::small_step)
+      lost.add(user_law->lost_asymmetry(), where);
     if (law.has_symmetric_moduli())
       asymmetric.add(asymmetry(promised, *tau), [&] { return "in " + std::string(name_of(way)); });
     const auto measured = point.differentiate(F, settings.dt, std::min(difference, 0.01 * size), kink);
@@ -223,8 +258,7 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
     }
     const double error = relative_difference(promised, *measured, false);
     if (size <= Limits::small_step)
-      in_small_steps.add(
-          error, [&] { return std::string("largest in ") + name_of(way) + " by steps of " + number(size); });
+      in_small_steps.add(error, [&] { return "largest in " + where(); });
     if (!(error <= Limits::tangent))
       safe_step = std::min(safe_step, size);
   }
@@ -237,7 +271,9 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
   safe.value = in_small_steps.n > 0 ? safe_step : 0.;
   safe.remark = "strain of a step up to which the tangent is as good; 0.3 is the largest of the trial";
   findings.push_back(safe);
-  if (law.has_symmetric_moduli())
+  if (law.has_symmetric_moduli() && user_law != nullptr)
+    findings.push_back(judge_lost_symmetry(lost));
+  else if (law.has_symmetric_moduli())
     findings.push_back(asymmetric.judge("symmetry of the tangent", Limits::symmetry, "of the moduli"));
   return findings;
 }
@@ -288,6 +324,13 @@ std::vector<Finding> try_energies(const PointLaw &law, const CertificationSettin
   }
   const double allowed =
       law.is_rate_form() || !law.has_exact_dissipation() ? Limits::balance : Limits::dissipation;
+  const auto *const user_law = dynamic_cast<const ExplainsRefusals *>(&law);
+  if (user_law != nullptr && !user_law->computes_energies()) {
+    Finding skipped;
+    skipped.property = "dissipation >= 0";
+    skipped.remark = "not tried: the subroutine returns no stored energy, so all work counts as stored";
+    return {skipped};
+  }
   return {falls.judge("dissipation >= 0", allowed, "largest fall over the work"),
           imbalance.judge("balance of energies", Limits::balance, "work less stored and dissipated energy")};
 }

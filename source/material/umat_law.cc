@@ -47,7 +47,7 @@ SpatialModuli moduli_of_jaumann(const SpatialModuli &C, const double J, const Sy
 struct UmatLaw::Call {
   /// Input and output.
   struct Response {
-    double stress[6], ddsdde[36] = {}, sse, spd, scd, pnewdt = 1.;
+    double sse, spd, scd, pnewdt = 1.;
   };
   struct Motion {
     double stran[6], dstran[6], drot[9], dfgrd0[9], dfgrd1[9];
@@ -63,13 +63,21 @@ struct UmatLaw::Call {
     int one = 1, jstep[4] = {1, 1, 1, 0}; // JSTEP: a static step with NLGEOM
   };
 
+  /// Arrays of the law that the UMAT may write to.
+  enum Array { stress, ddsdde, props, statev };
+  static constexpr const char *names[] = {"STRESS (NTENS)", "DDSDDE (NTENS by NTENS)", "PROPS (NPROPS)",
+                                          "STATEV (NSTATV, 'State variables')"};
+  static std::vector<std::size_t> sizes(const UserLawSettings &settings) {
+    return {6, 36, settings.constants.size(), settings.initial_state.size()};
+  }
+  static constexpr std::size_t n_guards_behind = 512;
+
   UmatFunction *function = nullptr;
-  double *constants = nullptr;
+  GuardedArrays *arrays = nullptr;
   Response response;
   Motion motion;
   Instant instant;
   Unused unused;
-  double *statev = nullptr;
   double celent = 1.;
   char cmname[80];
   int nstatv = 0, nprops = 0;
@@ -81,24 +89,27 @@ struct UmatLaw::Call {
     Motion &m = c.motion;
     Instant &i = c.instant;
     Unused &u = c.unused;
+    GuardedArrays &a = *c.arrays;
     int ndi = 3, nshr = 3, ntens = 6;
-    c.function(r.stress, c.statev, r.ddsdde, &r.sse, &r.spd, &r.scd, &u.rpl, u.ddsddt, u.drplde, &u.drpldt,
+    c.function(a[stress], a[statev], a[ddsdde], &r.sse, &r.spd, &r.scd, &u.rpl, u.ddsddt, u.drplde, &u.drpldt,
                m.stran, m.dstran, i.time, &i.dtime, &i.temp, &i.dtemp, u.predef, u.dpred, c.cmname, &ndi,
-               &nshr, &ntens, &c.nstatv, c.constants, &c.nprops, u.coords, m.drot, &r.pnewdt, &c.celent,
+               &nshr, &ntens, &c.nstatv, a[props], &c.nprops, u.coords, m.drot, &r.pnewdt, &c.celent,
                m.dfgrd0, m.dfgrd1, &u.one, &u.one, &u.one, &u.one, u.jstep, &i.kinc, sizeof c.cmname);
   }
 
-  /// Sets what follows from the start of the step, and its end. `variables` is STATEV of the start.
-  void begin(const UmatLaw &law, const double *state_n, double *variables, const Tensor<2, 3> &F,
+  /// Sets what follows from the start of the step, and its end.
+  void begin(const UmatLaw &law, const double *state_n, const Tensor<2, 3> &F,
              const MidpointIncrement &increment, const PointStep &step) {
     function = law.function_;
-    constants = law.constants();
-    statev = variables;
+    arrays = law.arrays_.get();
+    std::copy(law.settings().constants.begin(), law.settings().constants.end(), (*arrays)[props]);
+    std::copy_n(state_n + n_own_state, arrays->size(statev), (*arrays)[statev]);
+    std::fill_n((*arrays)[ddsdde], 36, 0.);
     nstatv = static_cast<int>(law.settings().initial_state.size());
     nprops = static_cast<int>(law.settings().constants.size());
     celent = law.settings().element_length;
     law.write_name(cmname);
-    write_tensor(turn(increment.rotation, read_tensor(state_n + Place::stress)), response.stress);
+    write_tensor(turn(increment.rotation, read_tensor(state_n + Place::stress)), (*arrays)[stress]);
     response.sse = state_n[energies];
     response.spd = state_n[energies + 1];
     response.scd = state_n[energies + 2];
@@ -114,19 +125,21 @@ struct UmatLaw::Call {
     instant.kinc = 1 + static_cast<int>(std::min(state_n[increments], 2e9));
   }
 
-  SpatialModuli tangent(const bool is_symmetric) const {
-    const double *const C = response.ddsdde;
+  SpatialModuli tangent(const UmatLaw &law) const {
+    const double *const C = (*arrays)[ddsdde];
     SpatialModuli moduli;
     for (unsigned int i = 0; i < 6; ++i)
       for (unsigned int j = 0; j < 6; ++j)
-        moduli[i][j] = is_symmetric ? 0.5 * (C[6 * j + i] + C[6 * i + j]) : C[6 * j + i];
+        moduli[i][j] = C[6 * j + i];
+    law.symmetrise(moduli);
     return moduli;
   }
 };
 
 UmatLaw::UmatLaw(UmatFunction *const function, UserLawSettings settings)
-    : UserLaw(law_name, std::move(settings)), function_(function) {
-  std::vector<double> state_n(n_state()), state(n_state());
+    : UserLaw(law_name, std::move(settings)), function_(function),
+      arrays_(std::make_unique<GuardedArrays>(Call::sizes(this->settings()), Call::n_guards_behind)) {
+  std::vector<double> state_n(n_state());
   initialize(state_n.data());
   const auto probe = [&](const double size) {
     Tensor<2, 3> F = dealii::unit_symmetric_tensor<3>();
@@ -134,26 +147,27 @@ UmatLaw::UmatLaw(UmatFunction *const function, UserLawSettings settings)
     F[1][1] -= size;
     MidpointIncrement increment;
     compute_increment(read_gradient(state_n.data()), F, increment);
-    state = state_n;
     PointStep step;
     step.dt = probe_time;
     Call call;
-    call.begin(*this, state_n.data(), state.data() + n_own_state, F, increment, step);
+    call.begin(*this, state_n.data(), F, increment, step);
     if (!perform(call))
       throw std::runtime_error(refusal().what + " at the undeformed point");
     return call;
   };
-  set_initial(probe(0.).tangent(has_symmetric_moduli()), probe(probe_strain).response.sse != 0.);
+  const SpatialModuli C = probe(0.).tangent(*this);
+  set_initial(C, probe(probe_strain).response.sse != 0.);
 }
 
 bool UmatLaw::perform(Call &call) const {
-  if (!UserLaw::call(&Call::perform, &call))
+  if (!UserLaw::call(&Call::perform, &call) || !check_guards(*arrays_, Call::names))
     return false;
   if (!(call.response.pnewdt >= 1.))
     return refuse("asks for a shorter step (PNEWDT = " + std::to_string(call.response.pnewdt) + ")");
-  if (!check(call.response.stress, 6, "a stress", "STRESS") ||
-      !check(call.response.ddsdde, 36, "a tangent", "DDSDDE") ||
-      !check(call.statev, static_cast<std::size_t>(call.nstatv), "a state variable", "STATEV"))
+  const GuardedArrays &arrays = *arrays_;
+  if (!check(arrays[Call::stress], 6, "a stress", "STRESS") ||
+      !check(arrays[Call::ddsdde], 36, "a tangent", "DDSDDE") ||
+      !check(arrays[Call::statev], arrays.size(Call::statev), "a state variable", "STATEV"))
     return false;
   accept();
   return true;
@@ -190,17 +204,16 @@ bool UmatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, const
   MidpointIncrement increment;
   if (!compute_increment(read_gradient(state_n), F, increment))
     return false;
-  std::copy_n(state_n + n_own_state, settings().initial_state.size(), state + n_own_state);
   Call call;
-  call.begin(*this, state_n, state + n_own_state, F, increment, step);
+  call.begin(*this, state_n, F, increment, step);
   SymmetricTensor<2, 3> strain_n;
   for (unsigned int i = 0; i < 6; ++i)
     strain_n.access_raw_entry(i) = (i < 3 ? 1. : 0.5) * call.motion.stran[i];
   const SymmetricTensor<2, 3> change = dealii::symmetrize(increment.gradient),
-                              turned = read_tensor(call.response.stress);
+                              turned = read_tensor((*arrays_)[Call::stress]);
   if (!perform(call))
     return false;
-  const SymmetricTensor<2, 3> sigma = read_tensor(call.response.stress);
+  const SymmetricTensor<2, 3> sigma = read_tensor((*arrays_)[Call::stress]);
   tau = J * sigma;
   write_gradient(F, state);
   write_tensor(sigma, state + Place::stress);
@@ -212,7 +225,8 @@ bool UmatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, const
   state[Place::time] = state_n[Place::time] + step.dt;
   state[Place::temperature] = step.temperature;
   state[increments] = state_n[increments] + 1.;
-  const SpatialModuli tangent = call.tangent(has_symmetric_moduli());
+  std::copy_n((*arrays_)[Call::statev], arrays_->size(Call::statev), state + n_own_state);
+  const SpatialModuli tangent = call.tangent(*this);
   raise_bound(tangent, J);
   if (moduli != nullptr)
     *moduli = moduli_of_jaumann(tangent, J, tau);

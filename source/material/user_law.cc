@@ -81,6 +81,21 @@ void UserLaw::set_initial(const SpatialModuli &C, const bool has_stored_energy) 
   raise_bound(C, 1.);
 }
 
+void UserLaw::symmetrise(SpatialModuli &C) const {
+  if (!settings_.has_symmetric_tangent)
+    return;
+  double lost = 0., size = 0.;
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int j = 0; j < 6; ++j) {
+      lost += (C[i][j] - C[j][i]) * (C[i][j] - C[j][i]);
+      size += C[i][j] * C[i][j];
+    }
+  lost_asymmetry_ = lost > 0. ? std::sqrt(lost / size) : 0.;
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int j = 0; j < i; ++j)
+      C[i][j] = C[j][i] = 0.5 * (C[i][j] + C[j][i]);
+}
+
 void UserLaw::raise_bound(const SpatialModuli &moduli, const double J) const {
   constexpr double excess = 1.05, root = 1.4142135623730951;
   double maximum = 0.;
@@ -118,9 +133,8 @@ void UserLaw::initialize(double *state) const {
   std::copy(settings_.initial_state.begin(), settings_.initial_state.end(), state + n_own_state);
 }
 
-double UserLaw::stored_energy(const double *state) const {
-  if (has_stored_energy_)
-    return state[energies];
+/// Returns ½ τ : C⁻¹ τ with the initial moduli.
+double UserLaw::elastic_energy(const double *state) const {
   const Tensor<2, 3> F = read_gradient(state);
   const SymmetricTensor<2, 3> tau =
       dealii::determinant(F) * turn(frame(F), read_tensor(state + Place::stress));
@@ -133,12 +147,12 @@ double UserLaw::stored_energy(const double *state) const {
 }
 
 double UserLaw::stored_energy(const Tensor<2, 3> &, double, const double *state) const {
-  return stored_energy(state);
+  return has_stored_energy_ ? state[energies] : state[work] - dissipated_energy(state);
 }
 
 double UserLaw::dissipated_energy(const double *state) const {
   const double computed = state[energies + 1] + state[energies + 2];
-  return has_stored_energy_ && computed != 0. ? computed : state[work] - stored_energy(state);
+  return computed != 0. || !has_stored_energy_ ? computed : state[work] - state[energies];
 }
 
 double UserLaw::equivalent_plastic_strain(const double *state) const {
@@ -162,7 +176,9 @@ void UserLaw::set_stress(const Tensor<2, 3> &F, const SymmetricTensor<2, 3> &dev
   write_tensor(turn(to_frame, log_strain), state + Place::strain);
   if (plastic_strain_ < n_state())
     state[plastic_strain_] = equivalent_plastic_strain;
-  state[work] = stored_energy(state);
+  state[work] = elastic_energy(state);
+  if (has_stored_energy_)
+    state[energies] = state[work];
 }
 
 Tensor<2, 3> UserLaw::frame(const Tensor<2, 3> &) const { return dealii::unit_symmetric_tensor<3>(); }
@@ -188,6 +204,13 @@ bool UserLaw::check(const double *const numbers, const std::size_t n, const std:
                     const std::string &name) const {
   return std::all_of(numbers, numbers + n, [](const double x) { return std::isfinite(x); }) ||
          refuse("returned " + what + " that is not a number (" + name + ")");
+}
+
+bool UserLaw::check_guards(GuardedArrays &arrays, const char *const *const names) const {
+  const auto overrun = arrays.find_overrun();
+  return !overrun || refuse(std::string("wrote outside of the array ") + names[*overrun] + ", which has " +
+                                std::to_string(arrays.size(*overrun)) + " numbers",
+                            true);
 }
 
 void UserLaw::accept() const {

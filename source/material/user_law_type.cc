@@ -4,6 +4,7 @@
 #include "billet/material/vumat_law.h"
 
 #include <algorithm>
+#include <cctype>
 #include <dlfcn.h>
 #include <filesystem>
 #include <set>
@@ -25,6 +26,13 @@ constexpr const char *library_key = "Library", *constants_key = "Constants",
                      *symmetry_key = "Unsymmetric tangent", *length_key = "Element length",
                      *temperature_key = "Reads temperature";
 constexpr std::size_t max_variables = 10000;
+/// A library's own functions come before those of the program with the same name, such as BLAS. Sanitizers
+/// do not allow this.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int own_symbols_first = 0;
+#else
+constexpr int own_symbols_first = RTLD_DEEPBIND;
+#endif
 
 std::vector<TypeParameter> user_law_parameters() {
   using Kind = TypeParameter::Kind;
@@ -75,9 +83,9 @@ void read_state(const TypeInput &input, UserLawSettings &settings) {
 }
 
 /// Returns a subroutine of the library, which stays loaded. `name`: in Fortran, in lower case.
-void *load_function(const TypeInput &input, const std::string &name) {
+void *load_function(const TypeInput &input, const std::string &name, UserLawSettings &settings) {
   const std::string path = std::filesystem::canonical(input.file(library_key)).string();
-  void *const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void *const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | own_symbols_first);
   if (library == nullptr) {
     const char *const reason = dlerror();
     input.reject(library_key,
@@ -90,6 +98,12 @@ void *load_function(const TypeInput &input, const std::string &name) {
     input.reject(library_key, "a library with the symbol '" + name + "_', a Fortran subroutine " + name +
                                   " or a C function '" + name +
                                   "_' (extern \"C\" in C++); 'nm -D' lists the symbols of a library");
+  for (const char *idle : {"sdvini", "uexternaldb", "vexternaldb"})
+    if (dlsym(library, (std::string(idle) + "_").c_str()) != nullptr)
+      settings.idle_subroutines += (settings.idle_subroutines.empty() ? "" : ", ") + std::string(idle);
+  std::transform(settings.idle_subroutines.begin(), settings.idle_subroutines.end(),
+                 settings.idle_subroutines.begin(),
+                 [](const unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
   return symbol;
 }
 
@@ -124,14 +138,15 @@ SharedLaw make_law(const TypeInput &input, Arguments &&...arguments) {
 
 SharedLaw make_umat(const TypeInput &input) {
   UserLawSettings settings = read_settings(input);
-  auto *const function = reinterpret_cast<UmatFunction *>(load_function(input, "umat")); // POSIX allows this
+  auto *const function =
+      reinterpret_cast<UmatFunction *>(load_function(input, "umat", settings)); // POSIX allows this
   return make_law<UmatLaw>(input, function, std::move(settings));
 }
 
 SharedLaw make_vumat(const TypeInput &input) {
   UserLawSettings settings = read_settings(input);
   const double density = input.positive("Density"); // its energies are those of a mass
-  auto *const function = reinterpret_cast<VumatFunction *>(load_function(input, "vumat"));
+  auto *const function = reinterpret_cast<VumatFunction *>(load_function(input, "vumat", settings));
   return make_law<VumatLaw>(input, function, std::move(settings), density);
 }
 

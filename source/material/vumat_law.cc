@@ -70,21 +70,14 @@ SpatialModuli differentiate(const std::array<SymmetricTensor<2, 3>, 13> &tau) {
   return M;
 }
 
-void symmetrise_moduli(SpatialModuli &C) {
-  for (unsigned int i = 0; i < 6; ++i)
-    for (unsigned int j = 0; j < i; ++j)
-      C[i][j] = C[j][i] = 0.5 * (C[i][j] + C[j][i]);
-}
-
 } // namespace
 
 /// Arguments of a VUMAT for a block of points.
 class VumatLaw::Block {
 public:
   Block(const VumatLaw &law, const std::size_t n)
-      : law_(law), n_(n), n_variables_(law.settings().initial_state.size()) {
-    for (const std::size_t size : {6UL, 3UL, 6UL, 9UL, 6UL, n_variables_, 6UL, 9UL, 6UL, n_variables_})
-      arrays_.emplace_back(std::max<std::size_t>(1, n * size), 0.);
+      : law_(law), n_(n), n_variables_(law.settings().initial_state.size()),
+        arrays_(sizes(law, n), n * n_guards_behind) {
     for (auto *numbers : {&density_, &length_, &temperature_n_, &temperature_, &intern_n_, &inelastic_n_,
                           &intern_, &inelastic_, &field_})
       numbers->assign(n, 0.);
@@ -102,6 +95,7 @@ public:
   void begin(const PointStep &step, const double time, const double *state_n) {
     time_ = time;
     dt_ = step.dt;
+    std::copy(law_.settings().constants.begin(), law_.settings().constants.end(), arrays_[constants]);
     const double at_start = state_n[increments] > 0. ? state_n[Place::temperature] : step.temperature;
     const double inelastic = state_n[energies + 1] / law_.density_,
                  intern = state_n[energies] / law_.density_ + inelastic;
@@ -141,10 +135,10 @@ public:
     Block &b = *static_cast<Block *>(data);
     int ndir = 3, nshr = 3, n_variables = static_cast<int>(b.n_variables_), n_fields = 0,
         n_constants = static_cast<int>(b.law_.settings().constants.size()), annealing = 0;
-    const auto at = [&b](const Array array) { return b.arrays_[array].data(); };
+    const auto at = [&b](const Array array) { return b.arrays_[array]; };
     b.law_.function_(b.points_.data(), &ndir, &nshr, &n_variables, &n_fields, &n_constants, &annealing,
                      &b.time_, &b.time_, &b.dt_, b.name_, b.coordinates_.data(), b.length_.data(),
-                     b.law_.constants(), b.density_.data(), at(strain_increment), at(spin_increment),
+                     at(constants), b.density_.data(), at(strain_increment), at(spin_increment),
                      b.temperature_n_.data(), at(stretch_old), at(gradient_old), b.field_.data(),
                      at(stress_old), at(state_old), b.intern_n_.data(), b.inelastic_n_.data(),
                      b.temperature_.data(), at(stretch_new), at(gradient_new), b.field_.data(),
@@ -154,8 +148,22 @@ public:
   SymmetricTensor<2, 3> stress(const std::size_t p) const { return read(stress_new, p); }
   SymmetricTensor<2, 3> strain(const std::size_t p) const { return read(strain_increment, p); }
   double variable(const std::size_t p, const std::size_t i) const { return arrays_[state_new][i * n_ + p]; }
-  const std::vector<double> &stresses() const { return arrays_[stress_new]; }
-  const std::vector<double> &variables() const { return arrays_[state_new]; }
+  const double *stresses() const { return arrays_[stress_new]; }
+  const double *variables() const { return arrays_[state_new]; }
+  std::size_t n_variables() const { return arrays_.size(state_new); }
+  GuardedArrays &arrays() { return arrays_; }
+  /// Of the arrays, for messages.
+  static constexpr const char *names[] = {"strainInc",
+                                          "relSpinInc",
+                                          "stretchOld",
+                                          "defgradOld",
+                                          "stressOld",
+                                          "stateOld",
+                                          "stretchNew",
+                                          "defgradNew",
+                                          "stressNew",
+                                          "props (nprops)",
+                                          "stateNew (nblock by nstatev, 'State variables')"};
   double inelastic_energy() const { return law_.density_ * inelastic_[0]; }
   double stored_energy() const { return law_.density_ * (intern_[0] - inelastic_[0]); }
 
@@ -170,8 +178,17 @@ private:
     stretch_new,
     gradient_new,
     stress_new,
+    constants,
     state_new
   };
+  static std::vector<std::size_t> sizes(const VumatLaw &law, const std::size_t n) {
+    const std::size_t n_variables = n * law.settings().initial_state.size();
+    return {6 * n,       3 * n, 6 * n, 9 * n, 6 * n,
+            n_variables, 6 * n, 9 * n, 6 * n, law.settings().constants.size(),
+            n_variables};
+  }
+  /// For a point: indices of wrong variables stride over all points.
+  static constexpr std::size_t n_guards_behind = 512;
 
   void write(const Array array, const std::size_t p, const SymmetricTensor<2, 3> &tensor) {
     for (unsigned int i = 0; i < 6; ++i)
@@ -186,7 +203,7 @@ private:
 
   const VumatLaw &law_;
   std::size_t n_, n_variables_;
-  std::vector<std::vector<double>> arrays_; // by Array
+  GuardedArrays arrays_; // by Array
   std::vector<double> density_, length_, temperature_n_, temperature_, intern_n_, inelastic_n_, intern_,
       inelastic_, field_, coordinates_;
   std::vector<int> points_;
@@ -209,7 +226,7 @@ VumatLaw::VumatLaw(VumatFunction *const function, UserLawSettings settings, cons
   const Tensor<2, 3> unit = dealii::unit_symmetric_tensor<3>();
   probe(*many_, unit);
   SpatialModuli C = differentiate(tau);
-  symmetrise_moduli(C);
+  symmetrise(C);
   Tensor<2, 3> F = unit;
   F[0][0] += probe_strain;
   probe(*one_, F);
@@ -238,9 +255,9 @@ bool VumatLaw::evaluate(Block &block, const std::array<Tensor<2, 3>, n_differenc
     R[p] = polar.R;
     block.set(p, F_n, polar_n, F[p], polar, stress_n);
   }
-  if (!call(&Block::perform, &block) ||
-      !check(block.stresses().data(), block.stresses().size(), "a stress", "stressNew") ||
-      !check(block.variables().data(), block.variables().size(), "a state variable", "stateNew"))
+  if (!call(&Block::perform, &block) || !check_guards(block.arrays(), Block::names) ||
+      !check(block.stresses(), 6 * block.size(), "a stress", "stressNew") ||
+      !check(block.variables(), block.n_variables(), "a state variable", "stateNew"))
     return false;
   accept();
   for (std::size_t p = 0; p < block.size(); ++p)
@@ -293,8 +310,7 @@ bool VumatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, cons
   tau = stresses[0];
   if (moduli != nullptr) {
     *moduli = moduli_of_jaumann(differentiate(stresses), 1., tau);
-    if (has_symmetric_moduli())
-      symmetrise_moduli(*moduli);
+    symmetrise(*moduli);
   }
   return true;
 }

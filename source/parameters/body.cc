@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/material/flow_rule.h"
 #include "billet/material/hardening.h"
+#include "billet/material/law_refusal.h"
 #include "billet/material/law_type.h"
 #include "billet/material/rate_factor.h"
 #include "billet/nearest_name.h"
@@ -623,6 +624,9 @@ std::string name_layered_elements() {
   return names;
 }
 
+/// Whether the law is a subroutine of a user's library.
+bool is_of_user(const SharedLaw &law) { return dynamic_cast<const ExplainsRefusals *>(law.get()) != nullptr; }
+
 } // namespace
 
 void Body::parse(Reader &reader) {
@@ -646,6 +650,10 @@ void Body::parse(Reader &reader) {
       });
   });
   element = reader.located("Element", make_selected(reader, "Element", element_types()));
+  if (element.value == BrickElement::one_point && is_of_user(material.law))
+    reader.reject("Element", "'assumed strain' or 'mean dilatation', since the law is a subroutine: 'one "
+                             "point' stabilises a body by its yield stress, which a subroutine does not "
+                             "tell, and forces would be several times too large");
   points_through =
       reader.located("Points through thickness",
                      static_cast<unsigned int>(reader.text("Points through thickness")[0] - '0'));

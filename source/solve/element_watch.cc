@@ -2,6 +2,7 @@
 #include "billet/solve/element_watch.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/material/law_refusal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,11 @@ namespace {
 bool is_of_taper(const ElementEnergies &energies) {
   constexpr double much = 0.5;
   return energies.tapered > much * (energies.used + energies.tapered - energies.accurate);
+}
+
+/// Subroutines of users do not tell whether they have plasticity.
+bool may_yield(const PointLaw &law) {
+  return law.has_plasticity() || dynamic_cast<const ExplainsRefusals *>(&law) != nullptr;
 }
 
 /// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
@@ -84,7 +90,7 @@ bool ElementWatch::counts(const std::size_t body) const {
 double ElementWatch::factor_of(const std::size_t body) const {
   // The deformation theory is an estimate once a body yields: there the stiffer of both references counts.
   ElementEnergies energies = energies_[body];
-  if (scene_.bodies()[body].law->has_plasticity())
+  if (may_yield(*scene_.bodies()[body].law))
     energies.accurate = std::max(energies.accurate, energies.one_point);
   return energies.used > 0. ? energies.factor() : 1.;
 }
@@ -105,7 +111,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
     if (!is_doubtful(b))
       continue;
     // Plastic hinges and inertia reduce the effect of this factor.
-    const bool has_yield = scene_.bodies()[b].law->has_plasticity();
+    const bool has_yield = may_yield(*scene_.bodies()[b].law);
     std::ostringstream text;
     text.precision(3);
     text << "Elements 'Element = " << formulation.element.name() << "' ";

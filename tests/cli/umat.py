@@ -202,7 +202,7 @@ end
 
 @check("an explicit pull has the forces of the hypoelastic law")
 def _() -> None:
-    for element in ("one point", "assumed strain", "mean dilatation"):
+    for element in ("assumed strain", "mean dilatation"):
         mine = finish(pulled_cube(element, OWN), "own_pull")
         rows = finish(pulled_cube(element, umat()), "umat_pull")
         name = "cube.support top.force_z"
@@ -225,7 +225,7 @@ def without_density(scene: str) -> str:
 
 @check("a VUMAT has them, too, with its energies")
 def _() -> None:
-    for element in ("one point", "assumed strain"):
+    for element in ("assumed strain", "mean dilatation"):
         mine = finish(pulled_cube(element, OWN), "own_pull")[-1]
         row = finish(without_density(pulled_cube(element, vumat())), "vumat_pull")[-1]
         name = "cube.support top.force_z"
@@ -240,12 +240,125 @@ def _() -> None:
         near("force", row["die.force_z"], mine["die.force_z"], 0.005)
 
 
+def certify(name: str, *options: str) -> Ended:
+    """Certifies a UMAT."""
+    write_text("material.prm", umat(name))
+    return run(program.path, "--certify", *options, "material.prm")
+
+
+@check("elements with one point are refused: their stabilisation would not yield")
+def _() -> None:
+    explicit = pulled_cube("one point", umat()), without_density(pulled_cube("one point", vumat()))
+    for scene in explicit:
+        says(
+            refusal(scene),
+            "'Element'",
+            "'one point'",
+            "'assumed strain' or 'mean dilatation', since the law is a subroutine",
+        )
+
+
+BEAM = """
+subsection Bodies
+  subsection beam
+    set Element = mean dilatation
+    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 8, 2, 2 : 0, 0, 0 : 8, 1, 1 : true
+    end
+    subsection Material
+MATERIAL
+    end
+    subsection Supports
+      subsection root
+        set Boundary ids = 0
+      end
+      subsection tip
+        set Boundary ids = 1
+        set Components = z
+        set Displacement = 0 ; 0 ; 3*t
+      end
+    end
+  end
+end
+subsection Time stepping
+  set Scheme = quasi-static
+  set End time = 1
+  set Initial step = 0.05
+  set Step control = fixed
+end
+subsection Output
+  set Format = none
+end
+"""
+
+
+@check("elements of a plastic beam have no lower bound of their stiffness")
+def _() -> None:
+    ended = go(BEAM.replace("MATERIAL", umat(constants="200e3, 0.3, 250, 500")), "beam")
+    require(ended.code == 0, ended.output + ended.errors)
+    require("at least this factor" not in ended.output + ended.errors, ended.output + ended.errors)
+
+
+@check("writing outside of an array is refused, with the material and the array")
+def _() -> None:
+    for name, array in {"BEYOND STATEV": "STATEV", "FAR BEYOND STATEV": "STATEV"}.items():
+        says(refusal(billet(umat(name))), f"UMAT '{name}'", f"wrote outside of the array {array}", "NSTATV")
+    says(refusal(billet(umat("BEYOND STRESS"))), "wrote outside of the array STRESS")
+    for name in ("BEYOND STATENEW", "FAR BEYOND STATENEW"):
+        says(refusal(billet(vumat(name))), f"VUMAT '{name}'", "wrote outside of the array stateNew")
+
+
+@check("a UMAT that changes PROPS changes them for itself alone")
+def _() -> None:
+    for one, two in zip(finish(billet(umat(), 0.1), "umat"), finish(billet(umat("PROPS"), 0.1), "props")):
+        near("force", two["die.force_z"], one["die.force_z"], 1e-12)
+
+
+@check("without energies of its own, the work of its stresses is stored energy")
+def _() -> None:
+    scene = billet(umat("NO ENERGY"), 0.1)
+    ended = go(scene, "no_energy")
+    require(ended.code == 0, ended.output + ended.errors)
+    says(ended.output + ended.errors, "note[energies-not-separated]", "UMAT 'NO ENERGY'")
+    pulled = finish(pulled_cube("assumed strain", umat("NO ENERGY")), "no_energy_pull")
+    for row in history("no_energy")[-1], pulled[-1]:
+        near("elastic energy", row["elastic_energy"], row["external_work"], 0.01)
+        require(row["plastic_work"] == 0 and row["elastic_energy"] > 1, f"energies {row}")
+    ended = certify("NO ENERGY")
+    require(ended.code == 0, ended.output + ended.errors)
+    says(ended.output, "not tried: the subroutine returns no stored energy")
+
+
+@check("a library's own DDOT is called, and its SDVINI is named as not called")
+def _() -> None:
+    write_text(
+        "ddot.f90",
+        """
+double precision function ddot(n)
+  integer :: n
+  ddot = n
+end function
+subroutine sdvini
+end subroutine
+""",
+    )
+    source = read_text(HERE / "umat" / "umat.f90")
+    source = source.replace("  implicit none\n", "  implicit none\n  double precision, external :: ddot\n", 1)
+    source = source.replace("  bulk = props(1)", "  if (ddot(7) /= 7) call xit\n  bulk = props(1)", 1)
+    write_text("with_ddot.f90", source)
+    compile_library("libddot.so", "with_ddot.f90", "ddot.f90")
+    ended = go(billet(umat(), 0.1).replace("libumat", "libddot"), "ddot")
+    require(ended.code == 0, ended.output + ended.errors)
+    says(ended.output + ended.errors, "warning[idle-subroutines]", "SDVINI, which the program does not call")
+
+
 @check("a VUMAT that fails is named")
 def _() -> None:
-    ended = go(without_density(pulled_cube("one point", vumat("CRASH"))), "failed")
+    ended = go(without_density(pulled_cube("assumed strain", vumat("CRASH"))), "failed")
     require(ended.code == 3, f"code {ended.code}: {ended.errors}")
     says(ended.errors, "VUMAT 'CRASH' of library './libvumat.so' crashed by a segmentation fault")
-    ended = go(without_density(pulled_cube("one point", vumat("STRESS"))), "failed")
+    ended = go(without_density(pulled_cube("assumed strain", vumat("STRESS"))), "failed")
     require(ended.code == 3, f"code {ended.code}: {ended.errors}")
     says(ended.errors, "VUMAT 'STRESS' of library './libvumat.so' returned a stress that is not a number")
 
@@ -297,7 +410,7 @@ def _() -> None:
 
 @check("a crash in an explicit run is named")
 def _() -> None:
-    ended = go(pulled_cube("one point", umat("CRASH")), "failed")
+    ended = go(pulled_cube("assumed strain", umat("CRASH")), "failed")
     require(ended.code == 3, f"code {ended.code}: {ended.errors}")
     says(ended.errors, "UMAT 'CRASH' of library './libumat.so' crashed by a segmentation fault")
 
@@ -310,6 +423,11 @@ def _() -> None:
         "warning[wrong-tangent]",
         "UMAT 'WRONG TANGENT' of library './libumat.so'",
     )
+    nearly_incompressible = umat("SOFT SHEAR", "200e3, 0.4999, 700, 300")
+    ended = go(billet(nearly_incompressible), "failed", "--set", "Time stepping/End time=0.02")
+    says(ended.output + ended.errors, "warning[wrong-tangent]", "UMAT 'SOFT SHEAR'")
+    ended = go(billet(umat("UNSYMMETRIC")), "failed", "--set", "Time stepping/End time=0.02")
+    says(ended.output + ended.errors, "it is unsymmetric by", "Set 'Unsymmetric tangent = true'")
     ended = go(billet(umat()), "failed", "--set", "Time stepping/End time=0.02")
     require("wrong-tangent" not in ended.output + ended.errors, ended.output + ended.errors)
 
@@ -372,12 +490,6 @@ def _() -> None:
     says(refusal(billet(OWN + "\n set Constants = 1, 2\n")), "'Constants'", "does not use it")
 
 
-def certify(name: str, *options: str) -> Ended:
-    """Certifies a UMAT."""
-    write_text("material.prm", umat(name))
-    return run(program.path, "--certify", *options, "material.prm")
-
-
 @check("the UMAT passes its certification, on a page of text or Markdown")
 def _() -> None:
     ended = certify("J2")
@@ -390,6 +502,8 @@ def _() -> None:
 
 for name, words in {
     "WRONG TANGENT": "tangent .* FAIL",
+    "ELASTIC BEYOND 5 %": "tangent .* FAIL .*after a strain of 0.1",
+    "UNSYMMETRIC": "symmetry of the tangent .* FAIL .*'Unsymmetric tangent = true'",
     "STRESS": "steps of 1e-6 to 0.5 .* FAIL .*refuses a step of 0.1",
     "CRASH": "UMAT 'CRASH' of library './libumat.so' crashed by a segmentation fault",
 }.items():

@@ -48,13 +48,15 @@ private:
 };
 
 /// Returns the norm of the difference of `a` and `b` over that of `b`; for symmetric velocity gradients alone
-/// if `is_symmetric`.
+/// if `is_symmetric`. The deviators of the stress by isochoric velocity gradients count by their own norm, so
+/// that a large bulk modulus hides no error of theirs: the result is the larger of both.
 double relative_difference(const StressRates &a, const StressRates &b, bool is_symmetric);
 
 /// Largest difference between the moduli of a law and differences of its stress.
 struct TangentError {
-  double error = 0.;  ///< relative to the norm of the derivatives
-  double strain = 0.; ///< at this strain
+  double error = 0.;     ///< relative to the norm of the derivatives
+  double strain = 0.;    ///< at this strain
+  double asymmetry = 0.; ///< largest ExplainsRefusals::lost_asymmetry()
 };
 
 /// Pulls points of the law along straight paths up to a strain of 1 %, in steps of length dt, and compares

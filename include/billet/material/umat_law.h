@@ -5,6 +5,7 @@
 #include "billet/material/user_law.h"
 
 #include <cstddef>
+#include <memory>
 
 namespace billet {
 
@@ -47,6 +48,7 @@ private:
                       dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli) const;
 
   UmatFunction *function_;
+  std::unique_ptr<GuardedArrays> arrays_; ///< of the call
 };
 
 /// Returns the moduli of the Lie derivative for those of the Jaumann rate, c = J C − H, (U4):

@@ -2,6 +2,7 @@
 #ifndef BILLET_MATERIAL_USER_LAW_H
 #define BILLET_MATERIAL_USER_LAW_H
 
+#include "billet/material/guarded_arrays.h"
 #include "billet/material/law_refusal.h"
 #include "billet/material/point_law.h"
 
@@ -20,7 +21,8 @@ struct UserLawSettings {
   std::vector<std::string> state_names; ///< of the state variables; empty: they have numbers
   bool has_symmetric_tangent = true;    ///< only the symmetric part of the tangent counts
   bool reads_temperature = false;
-  double element_length = 1.; ///< characteristic length of an element [length]
+  double element_length = 1.;   ///< characteristic length of an element [length]
+  std::string idle_subroutines; ///< names of subroutines in the library that are not called
 };
 
 /// Base of the laws of material subroutines. The state of a point has the deformation gradient, the stress,
@@ -45,10 +47,11 @@ public:
   std::size_t n_state() const override { return n_own_state + settings_.initial_state.size(); }
   void initialize(double *state) const override;
 
-  /// Returns what the subroutine computes, or ½ τ : C⁻¹ τ with the initial moduli C if it does not [stress].
+  /// Returns what the subroutine computes. If it does not, nothing tells which part of the work is elastic:
+  /// returns all of it, less the dissipated energy [stress].
   double stored_energy(const dealii::Tensor<2, 3> &F, double J, const double *state) const override;
-  /// Returns what the subroutine computes if it has both energies, else the work of the stresses less the
-  /// stored energy [stress].
+  /// Returns what the subroutine computes, or the work of the stresses less the stored energy if it computes
+  /// that one alone [stress].
   double dissipated_energy(const double *state) const override;
   /// Returns the state variable with the name 'equivalent plastic strain'; 0 without one.
   double equivalent_plastic_strain(const double *state) const override;
@@ -59,6 +62,9 @@ public:
 
   const LawRefusal &refusal() const override { return refusal_; }
   std::string title() const override { return title_; }
+  bool computes_energies() const override { return has_stored_energy_; }
+  double lost_asymmetry() const override { return lost_asymmetry_; }
+  std::string idle_subroutines() const override { return settings_.idle_subroutines; }
 
   /// Length of the step at whose end the initial moduli hold: any rate has its instantaneous response [time].
   static constexpr double probe_time = 1e-9;
@@ -83,14 +89,14 @@ protected:
   UserLaw(const char *kind, UserLawSettings settings);
 
   const UserLawSettings &settings() const { return settings_; }
-  /// Arguments of the subroutine, which do not change them: Fortran has no const.
-  double *constants() const { return const_cast<double *>(settings_.constants.data()); }
   const SpatialModuli &initial_moduli() const { return initial_; }
   /// Raises the bound of the stiffness if J times these moduli exceed it by more than 5 %, as in rubber.
   /// Smaller excesses do not count: steps of a resumed run are then those of the whole one.
   void raise_bound(const SpatialModuli &moduli, double J) const;
   /// Sets the moduli of the undeformed point. Throws std::runtime_error if they are no stiffness.
   void set_initial(const SpatialModuli &C, bool has_stored_energy);
+  /// Makes C symmetric unless the scene says that it is not; remembers what is lost.
+  void symmetrise(SpatialModuli &C) const;
   /// Returns the rotation between the frame of the stress in the state and space at F.
   virtual dealii::Tensor<2, 3> frame(const dealii::Tensor<2, 3> &F) const;
   /// Writes name and padding of the material.
@@ -101,10 +107,12 @@ protected:
   bool refuse(const std::string &what, bool is_final = false) const;
   /// Refuses numbers that are not finite, of which `name` is the argument.
   bool check(const double *numbers, std::size_t n, const std::string &what, const std::string &name) const;
+  /// Refuses for good if the subroutine has written outside of an array. `names`: one for each array.
+  bool check_guards(GuardedArrays &arrays, const char *const *names) const;
   void accept() const;
 
 private:
-  double stored_energy(const double *state) const;
+  double elastic_energy(const double *state) const;
 
   const char *kind_;
   UserLawSettings settings_;
@@ -112,6 +120,7 @@ private:
   SpatialModuli initial_{}; ///< C
   ElasticModuli elastic_{};
   mutable double stiffness_ = 0.; ///< bound of the eigenvalues of C, and of all moduli since [stress]
+  mutable double lost_asymmetry_ = 0.;
   bool has_stored_energy_ = false;
   std::size_t plastic_strain_; ///< place in the state; n_state(): none
   mutable LawRefusal refusal_;

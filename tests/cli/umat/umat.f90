@@ -1,19 +1,22 @@
 ! SPDX-License-Identifier: LGPL-2.1-or-later
-! A UMAT for the tests: J2 plasticity with linear hardening, in Kirchhoff's stress, as the program's hypoelastic law.
-! PROPS: Young's modulus, Poisson's ratio, yield stress, hardening modulus. STATEV(1): equivalent plastic strain.
-! CMNAME tells what goes wrong: at a plastic strain above 1 %, the library crashes, calls XIT or STOP, or returns
-! numbers that are none.
+! A UMAT for the tests: J2 plasticity with linear hardening, in Kirchhoff's stress, as the program's
+! hypoelastic law. PROPS: Young's modulus, Poisson's ratio, yield stress, hardening modulus. STATEV(1):
+! equivalent plastic strain. CMNAME tells what goes wrong: at a plastic strain above 1 %, the library
+! crashes, calls XIT or STOP, or returns numbers that are none. Others have wrong tangents or no energies,
+! or write where they must not.
 
-subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, &
-                temp, dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props, nprops, coords, drot, pnewdt, &
-                celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
+subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, stran, dstran, time, &
+    dtime, temp, dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props, nprops, coords, drot, &
+    pnewdt, celent, dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
   implicit none
   character(len=80) :: cmname
   integer :: ndi, nshr, ntens, nstatv, nprops, noel, npt, layer, kspt, jstep(4), kinc
-  double precision :: stress(ntens), statev(nstatv), ddsdde(ntens, ntens), sse, spd, scd, rpl, ddsddt(ntens), &
-    drplde(ntens), drpldt, stran(ntens), dstran(ntens), time(2), dtime, temp, dtemp, predef(1), dpred(1), &
-    props(nprops), coords(3), drot(3, 3), pnewdt, celent, dfgrd0(3, 3), dfgrd1(3, 3)
-  double precision :: bulk, shear, before, after, pressure, s(6), mean, q, excess, beta, gamma, n(6), mises, invariant
+  double precision :: stress(ntens), statev(nstatv), ddsdde(ntens, ntens), sse, spd, scd, rpl, &
+      ddsddt(ntens), drplde(ntens), drpldt, stran(ntens), dstran(ntens), time(2), dtime, temp, dtemp, &
+      predef(1), dpred(1), props(nprops), coords(3), drot(3, 3), pnewdt, celent, dfgrd0(3, 3), dfgrd1(3, &
+      3)
+  double precision :: bulk, shear, before, after, pressure, s(6), mean, q, excess, beta, gamma, n(6), &
+      mises, invariant
   integer :: i, j
 
   if (nprops /= 4 .or. nstatv < 1 .or. ntens /= 6) call xit
@@ -55,15 +58,38 @@ subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpl
   end do
   ddsdde = ddsdde / after
   if (cmname == 'WRONG TANGENT' .and. gamma > 0) ddsdde(4:6, 4:6) = 3 * ddsdde(4:6, 4:6)
+  if (cmname == 'SOFT SHEAR' .and. gamma > 0) ddsdde(4:6, 4:6) = 2 * ddsdde(4:6, 4:6)
+  if (cmname == 'UNSYMMETRIC') ddsdde(1, 2:3) = 1.8d0 * ddsdde(1, 2:3)
+  if (cmname == 'ELASTIC BEYOND 5 %' .and. statev(1) > 0.05d0) call make_elastic
+  if (cmname == 'NO ENERGY') sse = 0
+  if (cmname == 'NO ENERGY') spd = 0
+  if (cmname == 'BEYOND STATEV') call write_to(statev, nstatv + 1)
+  if (cmname == 'FAR BEYOND STATEV') call write_to(statev, nstatv + 500)
+  if (cmname == 'BEYOND STRESS') call write_to(stress, 7)
+  if (cmname == 'PROPS') props = 0
   if (statev(1) > 0.01d0 .and. time(2) > 0) call go_wrong
   if (cmname == 'CRASH AT ONCE') call crash
 
 contains
 
+  subroutine write_to(array, place)
+    integer, intent(in) :: place
+    double precision, intent(inout) :: array(*)
+    array(place) = 7
+  end subroutine
+
+  subroutine make_elastic
+    ddsdde = 0
+    ddsdde(1:3, 1:3) = (bulk - 2 * shear / 3) / after
+    do i = 1, 6
+      ddsdde(i, i) = ddsdde(i, i) + merge(2, 1, i <= 3) * shear / after
+    end do
+  end subroutine
+
   double precision function determinant(a)
     double precision, intent(in) :: a(3, 3)
-    determinant = a(1, 1) * (a(2, 2) * a(3, 3) - a(2, 3) * a(3, 2)) - a(1, 2) * (a(2, 1) * a(3, 3) - a(2, 3) * a(3, 1)) &
-      + a(1, 3) * (a(2, 1) * a(3, 2) - a(2, 2) * a(3, 1))
+    determinant = a(1, 1) * (a(2, 2) * a(3, 3) - a(2, 3) * a(3, 2)) - a(1, 2) * (a(2, 1) * a(3, 3) - &
+        a(2, 3) * a(3, 1)) + a(1, 3) * (a(2, 1) * a(3, 2) - a(2, 2) * a(3, 1))
   end function
 
   subroutine go_wrong
