@@ -3,6 +3,7 @@
 
 #include "billet/contact/facet_contact.h"
 #include "billet/contact/overlap.h"
+#include "billet/friction/friction_of_pass.h"
 
 #include <algorithm>
 
@@ -18,8 +19,10 @@ BodyContactParts::BodyContactParts(const Scene &scene, const BodyPair &of_pair, 
       surfaces(pair, nodes, NodeKeys(nodes.discretization())), positions(surfaces.local_nodes.size()) {
   FacetContactSettings settings;
   settings.method = pair.facets;
-  settings.friction = pair.friction;
   settings.two_pass = pair.two_passes || pair.is_self_contact;
+  settings.friction = settings.two_pass && pair.has_friction()
+                          ? std::make_shared<const FrictionOfPass>(pair.friction)
+                          : pair.friction;
   settings.edges = pair.edges;
   settings.partners = partners_of(pair);
   settings.search_margin =

@@ -75,6 +75,16 @@ def _() -> None:
     require(largest > 0.1 and least >= 0, f"pressures from {least} to {largest}")
 
 
+@check("the shear stress of both passes together is limited")
+def _() -> None:
+    law = ("Friction law=shear limited", "Maximum shear stress=0.05")
+    options = [part for change in law for part in ("--set", f"Contact pairs/foot/{change}")]
+    ended = run(program, "glide.prm", "--output", "limited", "--force", *options)
+    require(ended.code == 0, ended.output + ended.errors)
+    largest = max(abs(row["pair foot.force_x"]) for row in history("limited"))
+    near("force of the block's face of 1", largest, 0.05, 0.02)
+
+
 @check("explicit")
 def _() -> None:
     check_pressures(last_row(1, *EXPLICIT, *RAMP), MOVING, True)
