@@ -12,10 +12,12 @@ from __future__ import annotations
 import math
 import sys
 
+import checks
 from checks import HERE, Checks, Program, Run, Runner, near, read_text, require, says, write_text
 from checks import run as run_command
 from edits import edit
 
+checks.TIME_LIMIT = max(checks.TIME_LIMIT, 300)  # one rank waits for no other; busy machines are slow
 check, program = Checks(), Program(sys.argv[1:])
 runner = Runner(program)
 
