@@ -151,7 +151,6 @@ void RigidContactParts::keep_gaps() {
     const double gap = states[i].gap - node.multiplier_offset, excess = std::min(node.gap_n, 0.) - gap;
     node.initial_penetration = excess > rounding * node.size ? excess : 0.;
   }
-  step.allowed_part_n = step.allowed_part = 1.;
 }
 
 void RigidContactParts::fade_gaps(const FadingGaps &gaps, const bool is_finer) {

@@ -84,6 +84,22 @@ inline CubeEnergies pull_explicitly(const std::string &element, const std::strin
   return {run.state().energies.elastic, run.state().energies.plastic, 0};
 }
 
+/// Returns the stored energy of uniaxial tension along z; the lateral stretch by bisection of the lateral
+/// stress.
+template <class Law> double energy_of_tension(const Law &law, const double stretch) {
+  double low = 0.3, high = 1.5;
+  dealii::Tensor<2, 3> F;
+  F[2][2] = stretch;
+  typename Law::History none;
+  dealii::SymmetricTensor<2, 3> tau;
+  for (unsigned int i = 0; i < 100; ++i) {
+    F[0][0] = F[1][1] = 0.5 * (low + high);
+    law.update(F, none, none, tau, nullptr);
+    (tau[0][0] > 0. ? high : low) = F[0][0];
+  }
+  return law.elastic_energy(F, none);
+}
+
 /// Returns the message of the InputError that a function throws; empty if it throws none.
 inline std::string refusal(const std::function<void()> &function) {
   try {
