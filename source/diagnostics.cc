@@ -102,7 +102,7 @@ std::string Diagnostic::identity() const {
   std::string identity = kind_->key;
   for (const auto &[what, name] : parts_)
     identity += "\n" + what + "\n" + name;
-  return identity;
+  return topic_.empty() ? identity : identity + "\n\n" + topic_;
 }
 
 std::string Diagnostic::text() const {
@@ -166,6 +166,7 @@ std::string Diagnostic::serialize() const {
   object["key"] = kind_->key;
   object["message"] = what_;
   object["advice"] = advice_;
+  object["topic"] = topic_;
   object["parts"] = Json::array();
   for (const auto &[what, name] : parts_)
     object["parts"].push_back(Json::array({what, name}));
@@ -187,6 +188,7 @@ Diagnostic Diagnostic::deserialize(const std::string &bytes) {
   Diagnostic diagnostic(diagnostic_kind(object.at("key").get<std::string>()),
                         object.at("message").get<std::string>());
   diagnostic.advice_ = object.at("advice").get<std::string>();
+  diagnostic.topic_ = object.value("topic", ""); // checkpoints of older programs have none
   for (const Json &part : object.at("parts"))
     diagnostic.parts_.emplace_back(part.at(0).get<std::string>(), part.at(1).get<std::string>());
   for (const Json &value : object.at("values"))

@@ -77,6 +77,11 @@ public:
     advice_ = std::move(text);
     return *this;
   }
+  /// Distinguishes messages of one kind about the same parts; not printed.
+  Diagnostic &topic(std::string text) {
+    topic_ = std::move(text);
+    return *this;
+  }
   /// Replaces the kind; the rest stays.
   Diagnostic &change_kind(const DiagnosticKind &kind) {
     kind_ = &kind;
@@ -91,7 +96,7 @@ public:
   /// Returns the name of a part, such as the pair; empty if none is given.
   std::string part(const std::string &what) const;
   std::string advice() const;
-  /// Returns key and names of parts, which identify repetitions of the message.
+  /// Returns key, names of parts and topic, which identify repetitions of the message.
   std::string identity() const;
 
   /// Returns "warning[key]: What happened (pair 'top', time 0.3). What to do."
@@ -105,7 +110,7 @@ public:
 
 private:
   const DiagnosticKind *kind_;
-  std::string what_, advice_;
+  std::string what_, advice_, topic_;
   std::vector<std::pair<std::string, std::string>> parts_;
   std::vector<std::pair<std::string, double>> values_;
   std::optional<dealii::Tensor<1, 3>> position_;

@@ -227,7 +227,7 @@ bool UmatLaw::update(const Tensor<2, 3> &F, double, const PointStep &step, const
   state[increments] = state_n[increments] + 1.;
   std::copy_n((*arrays_)[Call::statev], arrays_->size(Call::statev), state + n_own_state);
   const SpatialModuli tangent = call.tangent(*this);
-  raise_bound(tangent, J);
+  state[bound] = bound_moduli(tangent, J);
   if (moduli != nullptr)
     *moduli = moduli_of_jaumann(tangent, J, tau);
   return true;

@@ -4,6 +4,7 @@
 // engineering shears.
 
 #include "billet/material/guarded_call.h"
+#include "billet/material/subroutine_messages.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <iostream>
 #include <sstream>
 #include <string>
 
@@ -65,6 +65,12 @@ std::string fill_in(const std::string &text, const int *integers, const double *
   return result.str();
 }
 
+// Apart from XIT, which leaves without destructors.
+void keep_message(const int level, const std::string &format, const int *integers, const double *numbers,
+                  const char *texts) {
+  billet::keep_subroutine_message(level, format, fill_in(format, integers, numbers, texts));
+}
+
 } // namespace
 
 extern "C" {
@@ -78,6 +84,9 @@ void rotsig_(const double *s, const double *rotation, double *turned, const int 
              const int *nshr);
 void stdb_abqerr_(const int *level, const char *text, const int *integers, const double *numbers,
                   const char *texts, std::size_t length, std::size_t texts_length);
+void xplb_abqerr_(const int *level, const char *text, const int *integers, const double *numbers,
+                  const char *texts, std::size_t length, std::size_t texts_length);
+void xplb_exit_();
 void getoutdir_(char *folder, int *length, std::size_t room);
 void getjobname_(char *name, int *length, std::size_t room);
 
@@ -126,14 +135,22 @@ void rotsig_(const double *s, const double *rotation, double *turned, const int 
     turned[*ndi + i] = (*lstr == 2 ? 2. : 1.) * result.access_raw_entry(static_cast<unsigned int>(3 + i));
 }
 
-/// Prints a message: LOP 1 is a note, -1 a warning, -2 an error, -3 an error that ends the analysis.
+/// Keeps a message for the run. An error of level -3 ends the analysis.
 void stdb_abqerr_(const int *level, const char *text, const int *integers, const double *numbers,
                   const char *texts, const std::size_t length, std::size_t) {
-  const char *const severity = *level == 1 ? "note" : *level == -1 ? "warning" : "error";
-  std::cerr << severity << "[UMAT]: " << fill_in(trim(text, length), integers, numbers, texts) << std::endl;
+  keep_message(*level, trim(text, length), integers, numbers, texts);
   if (*level == -3)
     xit_();
 }
+
+/// The same for a VUMAT.
+void xplb_abqerr_(const int *level, const char *text, const int *integers, const double *numbers,
+                  const char *texts, const std::size_t length, const std::size_t texts_length) {
+  stdb_abqerr_(level, text, integers, numbers, texts, length, texts_length);
+}
+
+/// Ends the analysis for a VUMAT.
+void xplb_exit_() { xit_(); }
 
 /// Returns the current folder: scenes name their own output folders.
 void getoutdir_(char *folder, int *length, const std::size_t room) {

@@ -78,7 +78,7 @@ void UserLaw::set_initial(const SpatialModuli &C, const bool has_stored_energy) 
     throw std::runtime_error(title_ + " has a bulk modulus of " + std::to_string(elastic_.bulk) +
                              " and a shear modulus of " + std::to_string(elastic_.shear) +
                              " at the undeformed point; both must be above 0");
-  raise_bound(C, 1.);
+  stiffness_ = bound_by_moduli(C, {});
 }
 
 void UserLaw::symmetrise(SpatialModuli &C) const {
@@ -96,17 +96,8 @@ void UserLaw::symmetrise(SpatialModuli &C) const {
       C[i][j] = C[j][i] = 0.5 * (C[i][j] + C[j][i]);
 }
 
-void UserLaw::raise_bound(const SpatialModuli &moduli, const double J) const {
-  constexpr double excess = 1.05, root = 1.4142135623730951;
-  double maximum = 0.;
-  for (unsigned int i = 0; i < 6; ++i) { // Gershgorin's bound, in Kelvin's notation
-    double sum = 0.;
-    for (unsigned int j = 0; j < 6; ++j)
-      sum += std::abs(moduli[i][j]) * (i < 3 ? 1. : root) * (j < 3 ? 1. : root);
-    maximum = std::max(maximum, J * sum);
-  }
-  if (maximum > excess * stiffness_)
-    stiffness_ = maximum;
+double UserLaw::bound_moduli(const SpatialModuli &moduli, const double J) const {
+  return std::max(stiffness_, J * bound_by_moduli(moduli, {}));
 }
 
 double UserLaw::bound_stiffness(const SymmetricTensor<2, 3> &tau) const {
@@ -114,12 +105,17 @@ double UserLaw::bound_stiffness(const SymmetricTensor<2, 3> &tau) const {
   return PointLaw::bound_stiffness(tau) + std::max(0., stiffness_ - of_moduli);
 }
 
+double UserLaw::bound_stiffness_at(const double *const state, const SymmetricTensor<2, 3> &tau) const {
+  return bound_stiffness(tau) + state[bound] - stiffness_;
+}
+
 std::vector<StateField> UserLaw::fields() const {
   std::vector<StateField> result = {tensor_field("deformation gradient"),
                                     symmetric_field("stress"),
                                     symmetric_field("strain"),
                                     {"energies", 4, {"elastic", "plastic", "creep", "work"}},
-                                    {"clock", 3, {"time", "temperature", "increments"}}};
+                                    {"clock", 3, {"time", "temperature", "increments"}},
+                                    {"bound of moduli", 1}};
   for (const std::string &name : settings_.state_names)
     result.push_back({name, 1});
   if (settings_.state_names.empty() && !settings_.initial_state.empty())
@@ -130,6 +126,7 @@ std::vector<StateField> UserLaw::fields() const {
 void UserLaw::initialize(double *state) const {
   std::fill_n(state, n_own_state, 0.);
   write_gradient(dealii::unit_symmetric_tensor<3>(), state);
+  state[bound] = stiffness_;
   std::copy(settings_.initial_state.begin(), settings_.initial_state.end(), state + n_own_state);
 }
 

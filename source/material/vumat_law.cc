@@ -274,6 +274,7 @@ bool VumatLaw::evaluate(Block &block, const std::array<Tensor<2, 3>, n_differenc
   state[Place::time] = time;
   state[Place::temperature] = step.temperature;
   state[increments] = state_n[increments] + 1.;
+  state[bound] = state_n[bound]; // nobody knows later moduli
   for (std::size_t i = 0; i < settings().initial_state.size(); ++i)
     state[n_own_state + i] = block.variable(0, i);
   return true;

@@ -3,6 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/material/law_refusal.h"
+#include "billet/material/subroutine_messages.h"
 #include "billet/scene/expression.h"
 
 #include <algorithm>
@@ -157,6 +158,8 @@ bool certify_laws(const parameters::Scene &scene, const PageFormat format, std::
           stream);
     if (user_law != nullptr && user_law->refusal().is_final)
       stream << user_law->refusal().what << ".\n\n";
+    for (const SubroutineMessage &message : take_subroutine_messages())
+      stream << "Said " << message.n << (message.n == 1 ? " time: " : " times: ") << message.text << "\n\n";
     have_passed = have_passed && certificate.has_passed();
   }
   return have_passed;

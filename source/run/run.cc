@@ -5,6 +5,7 @@
 #include "billet/run/check.h"
 #include "billet/run/explicit_run.h"
 #include "billet/run/implicit_run.h"
+#include "billet/run/law_messages.h"
 
 #include <filesystem>
 #include <utility>
@@ -131,6 +132,21 @@ std::unique_ptr<Run> refine(std::unique_ptr<Run> run, const Scene &scene, RunOut
   return run;
 }
 
+/// Tries a step, and reports what material subroutines say in it.
+bool try_step(Run &run, const Scene &scene, RunOutput &output) {
+  const auto report = [&] {
+    output.report(gather_law_messages(scene, run.discretization().communicator(), run.time()));
+  };
+  try {
+    const bool is_accepted = run.step(output);
+    report();
+    return is_accepted;
+  } catch (const SolutionFailure &) { // on all ranks
+    report();
+    throw;
+  }
+}
+
 } // namespace
 
 ExitCode run_to_end(std::unique_ptr<Run> run, const Scene &scene, RunOutput &output,
@@ -141,7 +157,7 @@ ExitCode run_to_end(std::unique_ptr<Run> run, const Scene &scene, RunOutput &out
       run = refine(std::move(run), scene, output, *change);
       continue;
     }
-    if (!run->step(output))
+    if (!try_step(*run, scene, output))
       continue;
     run->after_step(output);
     bool has_checkpoint = false;

@@ -6,6 +6,8 @@
 #include "billet/material/law_point.h"
 #include "billet/material/law_refusal.h"
 
+#include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace billet {
@@ -25,6 +27,51 @@ const DiagnosticKind energies_not_separated(
     "A material subroutine returns no stored energy. All work of its stresses counts as elastic energy, also "
     "the plastic one.",
     "Compute SSE, and SPD or SCD, in a UMAT; enerInternNew and enerInelasNew in a VUMAT");
+
+const DiagnosticKind subroutine_note("subroutine-note", Severity::note,
+                                     "A material subroutine gives a note by STDB_ABQERR or XPLB_ABQERR.", "");
+
+const DiagnosticKind
+    subroutine_warning("subroutine-warning", Severity::warning,
+                       "A material subroutine gives a warning by STDB_ABQERR or XPLB_ABQERR.",
+                       "See the source or the manual of the library");
+
+const DiagnosticKind subroutine_error(
+    "subroutine-error", Severity::warning,
+    "A material subroutine gives an error by STDB_ABQERR or XPLB_ABQERR with level -2, after "
+    "which the analysis goes on. Level -3 ends the run.",
+    "See the source or the manual of the library; results may be wrong");
+
+const DiagnosticKind implausible_heating(
+    "implausible-heating", Severity::warning,
+    "Plastic work heats the material by more than 20,000 or less than 0.05 degrees per strain of 1. Metals "
+    "warm by 5 to 1,000 degrees. Usually the specific heat has other units than stress and density.",
+    "Give 'Specific heat' in energy per mass and degree: steel has 460 in J/(kg K), and 4.6e8 where lengths "
+    "are in mm, masses in t and times in s");
+
+/// Returns the rise of the temperature per plastic strain; nothing if the law does not heat or flow.
+std::optional<double> measure_heating(const PointLaw &law, const double temperature, const double dt) {
+  constexpr double plastic_strain = 0.01;
+  std::size_t place = 0;
+  bool is_found = false;
+  for (const StateField &field : law.fields()) {
+    is_found = field.name == "temperature rise";
+    if (is_found)
+      break;
+    place += field.n_components;
+  }
+  if (!is_found || !law.has_plasticity())
+    return {};
+  const double strain = plastic_strain + law.flow_stress()->stress(0.) / (3. * law.elastic().shear);
+  dealii::Tensor<2, 3> F;
+  F[0][0] = std::exp(strain);
+  F[1][1] = F[2][2] = std::exp(-0.5 * strain);
+  LawPoint point(law, temperature);
+  if (!point.evaluate(F, dt))
+    return {};
+  const double flown = law.equivalent_plastic_strain(point.state().data());
+  return flown > 0. ? std::optional<double>(point.state()[place] / flown) : std::nullopt;
+}
 
 Diagnostic describe_tangent(const ExplainsRefusals &law, const TangentError &found) {
   std::ostringstream text;
@@ -78,6 +125,38 @@ DiagnosticList check_user_laws(const Scene &scene) {
     if (scene.parameters().scheme().has_matrix)
       check_tangent(scene, body, *law, diagnostics);
   }
+  append(diagnostics, describe(take_subroutine_messages()));
+  return diagnostics;
+}
+
+DiagnosticList check_heating(const Scene &scene) {
+  constexpr double least = 0.05, most = 2e4;
+  constexpr double part = 0.01; // of the end time, and of strain
+  DiagnosticList diagnostics;
+  for (const Body &body : scene.bodies()) {
+    if (body.temperature == nullptr)
+      continue;
+    const auto rise = measure_heating(*body.law, body.temperature->value(0.),
+                                      part * scene.parameters().time_stepping.end_time);
+    if (!rise || *rise == 0. || (*rise > least && *rise < most))
+      continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "The material warms by " << part * *rise << " degrees at a plastic strain of " << part;
+    diagnostics.push_back(
+        Diagnostic(implausible_heating, text.str()).body(body.name).measure("rise per strain", *rise));
+  }
+  return diagnostics;
+}
+
+DiagnosticList describe(const std::vector<SubroutineMessage> &messages) {
+  DiagnosticList diagnostics;
+  for (const SubroutineMessage &message : messages)
+    diagnostics.push_back(Diagnostic(message.level == 1    ? subroutine_note
+                                     : message.level == -1 ? subroutine_warning
+                                                           : subroutine_error,
+                                     message.text)
+                              .topic(message.format));
   return diagnostics;
 }
 

@@ -376,6 +376,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   for (const Body &body : scene.bodies())
     check_yield_stress(body, diagnostics);
   append(diagnostics, check_user_laws(scene));
+  append(diagnostics, check_heating(scene));
   if (scene.parameters().scheme().has_inertia)
     check_speeds(scene, start, diagnostics);
   if (!scene.parameters().scheme().has_matrix)

@@ -315,6 +315,21 @@ def _() -> None:
         near("force", two["die.force_z"], one["die.force_z"], 1e-12)
 
 
+@check("messages of STDB_ABQERR are the program's, on two ranks, too")
+def _() -> None:
+    for ranks in 1, 2:
+        ended = go(billet(umat("WARNS"), 0.1), "warns", ranks=ranks)
+        require(ended.code == 0, ended.output + ended.errors)
+        says(ended.output + ended.errors, "warning[subroutine-warning]: strain 0.0", "of TEST (time")
+        require((ended.output + ended.errors).count("strain 0.0") == 1, ended.output + ended.errors)
+        says(read_text("warns/diagnostics.jsonl"), '"subroutine-warning"')
+    ended = go(billet(umat("WARNS"), 0.1), "warns", "--set", "Warnings=errors")
+    require(ended.code == 6, f"code {ended.code}: {ended.errors}")
+    ended = go(billet(umat("ENDS"), 0.1), "ends")
+    require(ended.code == 3, f"code {ended.code}: {ended.errors}")
+    says(ended.output + ended.errors, "subroutine-error", "is too large", "ended the analysis by XIT")
+
+
 @check("without energies of its own, the work of its stresses is stored energy")
 def _() -> None:
     scene = billet(umat("NO ENERGY"), 0.1)

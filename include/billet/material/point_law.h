@@ -69,6 +69,11 @@ public:
   /// Returns an upper bound of the stiffness of waves at a point, per squared velocity gradient [stress]. It
   /// has terms beyond the moduli, since stresses rotate and stretch with the body.
   virtual double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const;
+  /// Returns the bound for a point in this state, to which `tau` belongs.
+  virtual double bound_stiffness_at(const double * /*state*/,
+                                    const dealii::SymmetricTensor<2, 3> &tau) const {
+    return bound_stiffness(tau);
+  }
   /// Whether bound_stiffness() holds for all deformations. For a law that stiffens without a bound by its
   /// stress, callers take it from the moduli, bound_by_moduli().
   virtual bool has_bound_of_stiffness() const { return true; }

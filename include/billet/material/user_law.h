@@ -26,9 +26,9 @@ struct UserLawSettings {
 };
 
 /// Base of the laws of material subroutines. The state of a point has the deformation gradient, the stress,
-/// the strain, energies, the work and the clock of the last step, and then the state variables. Energies are
-/// (U5) of doc/theory.md. A shorter step follows if the subroutine returns numbers that are not finite. After
-/// a crash the law refuses every update: refusal() says so.
+/// the strain, energies, the work, the clock of the last step and a bound of the moduli, and then the state
+/// variables. Energies are (U5) of doc/theory.md. A shorter step follows if the subroutine returns numbers
+/// that are not finite. After a crash the law refuses every update: refusal() says so.
 class UserLaw : public SpatialLaw, public ExplainsRefusals {
 public:
   std::string name() const override { return kind_; }
@@ -37,6 +37,7 @@ public:
   /// Returns the isotropic part of the tangent of the undeformed point, Voigt's average.
   const ElasticModuli &elastic() const override { return elastic_; }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override;
+  double bound_stiffness_at(const double *state, const dealii::SymmetricTensor<2, 3> &tau) const override;
   std::shared_ptr<const FlowStress> shared_flow_stress() const override { return nullptr; }
   bool depends_on_temperature() const override { return settings_.reads_temperature; }
   bool has_symmetric_moduli() const override { return settings_.has_symmetric_tangent; }
@@ -81,18 +82,19 @@ protected:
     work = 24,
     time = 25,
     temperature = 26,
-    increments = 27
+    increments = 27,
+    bound = 28 ///< of the eigenvalues of J times the moduli [stress]
   };
-  static constexpr std::size_t n_own_state = 28;
+  static constexpr std::size_t n_own_state = 29;
 
   /// `kind`: name of the law in scenes.
   UserLaw(const char *kind, UserLawSettings settings);
 
   const UserLawSettings &settings() const { return settings_; }
   const SpatialModuli &initial_moduli() const { return initial_; }
-  /// Raises the bound of the stiffness if J times these moduli exceed it by more than 5 %, as in rubber.
-  /// Smaller excesses do not count: steps of a resumed run are then those of the whole one.
-  void raise_bound(const SpatialModuli &moduli, double J) const;
+  /// Returns the bound for the state of a point with these moduli: rubber stiffens, and metal has its initial
+  /// moduli again when it unloads.
+  double bound_moduli(const SpatialModuli &moduli, double J) const;
   /// Sets the moduli of the undeformed point. Throws std::runtime_error if they are no stiffness.
   void set_initial(const SpatialModuli &C, bool has_stored_energy);
   /// Makes C symmetric unless the scene says that it is not; remembers what is lost.
@@ -119,7 +121,7 @@ private:
   std::string title_;
   SpatialModuli initial_{}; ///< C
   ElasticModuli elastic_{};
-  mutable double stiffness_ = 0.; ///< bound of the eigenvalues of C, and of all moduli since [stress]
+  double stiffness_ = 0.; ///< bound of the eigenvalues of C [stress]
   mutable double lost_asymmetry_ = 0.;
   bool has_stored_energy_ = false;
   std::size_t plastic_strain_; ///< place in the state; n_state(): none

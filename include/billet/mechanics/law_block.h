@@ -150,8 +150,9 @@ public:
                   has_bound ? nullptr : &moduli))
         continue;
       summary.cauchy_stress += w * tau; // σ J w = τ w
-      summary.stiffness_bound = std::max(summary.stiffness_bound, has_bound ? law_.bound_stiffness(tau)
-                                                                            : bound_by_moduli(moduli, tau));
+      summary.stiffness_bound =
+          std::max(summary.stiffness_bound,
+                   has_bound ? law_.bound_stiffness_at(state, tau) : bound_by_moduli(moduli, tau));
       summary.equivalent_plastic_strain += w * law_.equivalent_plastic_strain(state);
       summary.plastic_work += w * law_.dissipated_energy(state);
       summary.elastic_energy +=

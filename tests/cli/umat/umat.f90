@@ -112,6 +112,10 @@ contains
       call xit
     case ('STOP')
       stop
+    case ('WARNS')
+      call stdb_abqerr(-1, 'strain %R at point %I of %S', [npt], statev(1:1), ['TEST    '])
+    case ('ENDS')
+      call stdb_abqerr(-3, 'strain %R is too large', [npt], statev(1:1), ['TEST    '])
     end select
   end subroutine
 
