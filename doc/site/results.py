@@ -56,6 +56,38 @@ def cell_of(page: Path, wanted: Mapping[str, str], column: str, heading: str = "
     return found[0]
 
 
+def selected(root: Path, words: str) -> Table:
+    """Returns a part of a table by 'PATH [HEADING] [| COLUMN; ... [| COLUMN = VALUE / VALUE...; ...]]'.
+
+    PATH is that of a page in doc/, without .md. Without columns all are taken, without values all rows. Raises
+    SystemExit if there is no such table, column or value.
+    """
+    where, columns, values = (*(part.strip() for part in words.split(" | ")), "", "")[:3]
+    path, _, heading = where.partition(" ")
+    wanted = {
+        name.strip(): [value.strip() for value in choices.split(" / ")]
+        for name, _, choices in (choice.rpartition(" = ") for choice in values.split(";") if choice.strip())
+    }
+    names = [name.strip() for name in columns.split(";") if name.strip()]
+    for table in tables_of(root / f"doc/{path}.md"):
+        if (heading and table.heading != heading) or not {*names, *wanted} <= set(table.head):
+            continue
+        places = [table.head.index(name) for name in names or table.head]
+        kept = Table(table.heading, [table.head[place] for place in places])
+        for name, choices in wanted.items():
+            found = {row[table.head.index(name)].strip("`") for row in table.rows}
+            if not set(choices) <= found:
+                raise SystemExit(f"doc/{path}.md: no row with {name} = {sorted(set(choices) - found)}")
+        kept.rows = [
+            [row[place] for place in places]
+            for row in table.rows
+            if all(row[table.head.index(name)].strip("`") in choices for name, choices in wanted.items())
+        ]
+        if kept.rows:
+            return kept
+    raise SystemExit(f"doc/{path}.md: no table for '{words}'")
+
+
 def values_of(root: Path, scene: str) -> list[dict[str, str]]:
     """Returns the figures of a shipped scene; raises SystemExit where there are none."""
     with (root / "doc/scenes/values.csv").open(encoding="utf-8", newline="") as file:
