@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: figures.py [--write | --self-check]
 
-Checks figures in running text, above all of README.md, against the pages of doc/results that have them and
-against doc/scenes/costs.csv, or writes them anew.
+Checks figures in running text of README.md and doc/ against the pages of doc/results that have them, and
+against doc/scenes/costs.csv and values.csv, or writes them anew. Checks that the tables that pages insert are
+there. Checks that the user guide has no other measured figure: each number with a unit of measurement is in
+FIGURES, in an example of code, or in doc/site/constants.txt, which lists limits, defaults and data.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ import sys
 from pathlib import Path
 from typing import Callable, NamedTuple
 
-from results import cell_of, tables_of
+from results import cell_of, tables_of, values_of
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "doc/results"
@@ -85,7 +87,38 @@ def cheap_runs() -> tuple[str, ...]:
     return *work, *seconds, *found("target-error.md", without_start)
 
 
+def cell(page: str, row: dict[str, str], column: str, heading: str = "") -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up a cell of a page of results."""
+    return lambda: (cell_of(RESULTS / page, row, column, heading),)
+
+
+def number_of(*cells: Callable[[], tuple[str, ...]]) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up the numbers of cells without sign."""
+    return lambda: tuple(text.lstrip("+-") for value in cells for text in value())
+
+
+def differences(scene: str, *quantities: str) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up how far figures of a shipped scene are from their references."""
+
+    def values() -> tuple[str, ...]:
+        found = {row["quantity"]: row["difference"] for row in values_of(ROOT, scene)}
+        return tuple(found[quantity] for quantity in quantities)
+
+    return values
+
+
+def thousands(value: Callable[[], tuple[str, ...]]) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up whole numbers with separators."""
+    return lambda: tuple(f"{int(text):,}" for text in value())
+
+
 EXAMPLES = "doc/guide/examples.md"
+ACCURACY = "doc/guide/accuracy.md"
+MATERIALS = "doc/guide/materials.md"
+SKEWED = {"brick, long : high": "5 : 1"}
+HINGE = {"strip": "60", "bricks through": "2", "brick, long : high": "10 : 1"}
+STRIP = {"bricks through": "1", "brick, long : high": "5 : 1"}
+STIFF_DIES = {"die / billet": "100"}
 FIGURES = (
     Figure("README.md", r"(\d+) Newton iterations in (\d+) steps", iterations_of_billet),
     Figure("README.md", r"a step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
@@ -121,6 +154,88 @@ FIGURES = (
         EXAMPLES,
         r"onto the plates, too: (\d+) iterations in (\d+) steps",
         cost_of("hollow_block", "iterations", "steps"),
+    ),
+    Figure(EXAMPLES, r"plane strain, ([\d,]+) bricks", thousands(cost_of("hertz_cylinders", "elements"))),
+    Figure(
+        EXAMPLES,
+        r"The torque comes to ([\d.]+) of",
+        cell("elastic-contact.md", {"time": "2.00"}, "torque / full sliding", "A round punch, twisted"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"is the same within ([\d.]+ %), whatever the slide",
+        cell("ironing.md", {"slide in a step / facet": "largest less smallest"}, "overlap, one pass"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"the final force differs by (\S+ %) from that of rigid ones",
+        cell("deformable-dies.md", STIFF_DIES, "final force against the rigid die's"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"force at any time by (\S+ %) at most",
+        cell("deformable-dies.md", STIFF_DIES, "largest difference of the force"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"the force differs by (\S+ %) from that of a beam",
+        cell("snap-fit.md", {"elements": "82 × 4", "largest step": "0.02"}, "in: beam"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"force (\S+ %), torque (\S+ %)",
+        differences("slab_rolling", "static: force, N/mm", "static: torque, N"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"the measured mean by (\S+ %)",
+        cell("square-cup.md", {"bricks of the quarter": "24 × 24"}, "beside measured after 40 mm: DX, mm"),
+    ),
+    Figure(
+        ACCURACY,
+        r"they are ([\d.]+) to ([\d.]+) times the error, and too small in (\d+ of \d+) runs",
+        lambda: found(
+            "target-error.md",
+            r"error is ([0-9.]+) to ([0-9.]+) times the error. In ([0-9]+ of [0-9]+) runs it is too small",
+        ),
+    ),
+    Figure(
+        ACCURACY,
+        r"this changes the force by (\S+) %",
+        cell(
+            "billet-frictionless.md",
+            {"bricks": "60", "steps": "48", "penalty / 3.5e5": "1"},
+            "64 %: error [%]",
+            "Penalty",
+        ),
+    ),
+    Figure(
+        ACCURACY,
+        r"the observed order is ([\d.]+)\.",
+        lambda: found("billet-mesh.md", r"then [0-9.]+ %: order ([0-9.]+)\."),
+    ),
+    Figure(
+        MATERIALS,
+        r"bricks of 5 : 1 are ([\d.]+) % too stiff instead of ([\d.]+) %",
+        number_of(
+            cell("brick-accuracy.md", SKEWED, "one point", "Strip with skewed bricks"),
+            cell("brick-accuracy.md", SKEWED, "assumed strain", "Strip with skewed bricks"),
+        ),
+    ),
+    Figure(
+        MATERIALS,
+        r"too stiff, by ([\d.]+) % with bricks of 10 : 1",
+        number_of(cell("brick-accuracy.md", HINGE, "one point", "Plastic hinge")),
+    ),
+    Figure(
+        MATERIALS,
+        r"a strip of bricks of 5 : 1 is ([\d.]+) % too stiff",
+        number_of(cell("brick-accuracy.md", STRIP, "mean dilatation", "Strip in bending, elastic")),
+    ),
+    Figure(
+        "doc/guide/impact.md",
+        r"`prm/tube_impact.prm`, ([\d,]+) bricks, ([\d,]+) steps",
+        thousands(cost_of("tube_impact", "elements", "steps")),
     ),
 )
 

@@ -79,10 +79,10 @@ class Insertions:
         head = [name for name in rows[0] if name != "program" and any(row[name] for row in rows)]
         return table(head, [[row[name] for name in head] for row in rows])
 
-    def _insert_error_estimate(self, page: str) -> str:
-        """Shows what a run with a target error printed at its end."""
-        text = (self._root / "doc/tutorials/error_estimate.txt").read_text(encoding="utf-8")
-        return f"```\n{text}```\n"
+    def _insert_printed(self, page: str, name: str) -> str:
+        """Shows messages of a run, which doc/site/tutorials.py keeps."""
+        text = (self._root / f"doc/tutorials/{name}.txt").read_text(encoding="utf-8")
+        return f"```text\n{text}```\n"
 
     def _insert_values(self, page: str, tutorial: str) -> str:
         """Shows the figures of a tutorial's run."""
