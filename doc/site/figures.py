@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: figures.py [--write | --self-check]
+"""Usage: figures.py [--write | --accept | --self-check]
 
 Checks figures in running text of README.md and doc/ against the pages of doc/results that have them, and
 against doc/scenes/costs.csv and values.csv, or writes them anew. Checks that the tables that pages insert are
 there. Checks that the user guide has no other measured figure: each number with a unit of measurement is in
 FIGURES, in an example of code, or in doc/site/constants.txt, which lists limits, defaults and data.
+
+--write corrects figures. --accept writes constants.txt anew: look at what it adds. --self-check tests this test.
 """
 
 from __future__ import annotations
@@ -15,10 +17,22 @@ import sys
 from pathlib import Path
 from typing import Callable, NamedTuple
 
-from results import cell_of, tables_of, values_of
+from insertions import Insertions
+from results import cell_of, selected, tables_of, values_of
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "doc/results"
+CONSTANTS = ROOT / "doc/site/constants.txt"
+PAGES = ("start", "index", "comparison", "extremes", "trade", "verification")  # of doc/, beside its folders
+
+NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
+UNIT = (
+    r"(?:%|(?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|°|dofs|bricks"
+    r"|elements|instructions|runs|scenes)\b)"
+)
+MEASURED = re.compile(
+    rf"(?:{NUMBER}(?: to {NUMBER})? {UNIT}|(?<![\w.])\d[\d.]*e-\d+)(?: [a-zµ]+\b){{0,2}}"
+)
 
 
 class Figure(NamedTuple):
@@ -264,9 +278,93 @@ def written(figure: Figure, text: str) -> str:
     return text
 
 
+def plain_text(page: str, text: str) -> str:
+    """Returns the text of a page without code, links, what it inserts and the figures of FIGURES."""
+    for figure in FIGURES:
+        match = pattern_of(figure).search(text) if figure.page == page else None
+        for group in reversed(range(1, len(match.groups()) + 1)) if match else ():
+            assert match
+            text = text[: match.start(group)] + "F" + text[match.end(group) :]
+    text = re.sub(r"^( *)```.*?^ *```$|<!--.*?-->|^    .*?$", "", text, flags=re.DOTALL | re.MULTILINE)
+    return " ".join(re.sub(r"`[^`]*`|\]\([^)]*\)|[|*]", " ", text).split())
+
+
+def strays_of(page: str, text: str) -> list[str]:
+    """Returns numbers with a unit of measurement that no script writes, each with the words behind it."""
+    return [" ".join(match[0].split()) for match in MEASURED.finditer(plain_text(page, text))]
+
+
+def pages_without_strays() -> list[str]:
+    folders = ("doc/guide", "doc/scenes", "doc/tutorials")
+    files = [file for folder in folders for file in sorted((ROOT / folder).glob("*.md"))]
+    names = ("README.md", *(f"doc/{name}.md" for name in PAGES))
+    return [*names, *(file.relative_to(ROOT).as_posix() for file in files)]
+
+
+def check_strays() -> int:
+    """Prints figures that neither a script writes nor CONSTANTS has, and lines of it without a figure."""
+    lines = CONSTANTS.read_text(encoding="utf-8").splitlines()
+    known = {tuple(line.split(": ", 1)) for line in lines if not line.startswith("#")}
+    found = {
+        (page, stray)
+        for page in pages_without_strays()
+        for stray in strays_of(page, (ROOT / page).read_text(encoding="utf-8"))
+    }
+    if "--accept" in sys.argv[1:]:
+        comments = [line for line in lines if line.startswith("#")]
+        CONSTANTS.write_text(
+            "\n".join([*comments, *(": ".join(entry) for entry in sorted(found))]) + "\n", encoding="utf-8"
+        )
+        return 0
+    for page, stray in sorted(found - known):
+        print(f"{page}: no script writes '{stray}': add it to FIGURES, insert it, or say it in words")
+    for page, stray in sorted(known - found):
+        print(f"{CONSTANTS.relative_to(ROOT)}: {page} no longer says '{stray}'")
+    return len(found ^ known)
+
+
+def check_insertions() -> int:
+    """Prints what pages insert that is not there; returns the number of errors."""
+    pages = {
+        file.relative_to(ROOT / "doc").as_posix(): file.read_text(encoding="utf-8")
+        for file in sorted((ROOT / "doc").rglob("*.md"))
+    }
+    n_errors = 0
+    for page, text in pages.items():
+        try:
+            Insertions(ROOT, pages, None).replace(page, text)
+        except SystemExit as error:
+            print(f"doc/{page}: {error}")
+            n_errors += 1
+    return n_errors
+
+
+def check_itself() -> int:
+    """Tests the tests; returns the number of errors."""
+    n_errors = 0
+    for text, expected in (
+        ("It is off by 3.1 % of the force.", ["3.1 % of the"]),
+        ("It takes 12\niterations.", ["12 iterations"]),
+        ("It has `5 %` and\n```\n6 %\n```\n<!-- insert: 7 % -->\n", []),
+        ("to 1e-12 of the size, in 5 ways", ["1e-12 of the"]),
+    ):
+        if strays_of("", text) != expected:
+            print(f"'{text}' has {strays_of('', text)}, not {expected}")
+            n_errors += 1
+    try:
+        selected(ROOT, "results/ironing | facets | facets = none")
+        print("a table without a row is taken")
+        n_errors += 1
+    except SystemExit:
+        pass
+    return n_errors
+
+
 def main() -> int:
     """Returns the exit code."""
-    n_errors = 0
+    n_errors = check_insertions() + check_strays()
+    if "--self-check" in sys.argv[1:]:
+        n_errors += check_itself()
     for figure in FIGURES:
         page = ROOT / figure.page
         text = page.read_text(encoding="utf-8")

@@ -241,8 +241,9 @@ def axisymmetric(runs: Runs) -> Iterable[Value]:
 
 
 def drop_hammer(runs: Runs) -> Iterable[Value]:
-    scheme = ("--set", "Time stepping/Scheme=explicit")
-    implicit, explicit = runs.shipped("drop_hammer"), runs.shipped("drop_hammer", *scheme)
+    steps = [f"{name} step=" for name in ("Initial", "Minimum", "Maximum")]
+    options = [word for value in ("Scheme=explicit", *steps) for word in ("--set", f"Time stepping/{value}")]
+    implicit, explicit = runs.shipped("drop_hammer"), runs.shipped("drop_hammer", *options)
     energy = implicit[0]["kinetic_energy"]
 
     def largest(rows: list[Row], column: str) -> float:
@@ -254,7 +255,7 @@ def drop_hammer(runs: Runs) -> Iterable[Value]:
     ):
         runs_of = (factor * largest(rows, column) for rows in (implicit, explicit))
         yield Value(f"{name}; reference: `Scheme = explicit`", *runs_of)
-    yield Value("steps; reference: `Scheme = explicit`", implicit[-1]["step"], explicit[-1]["step"], ".6g")
+    yield Value("steps; reference: `Scheme = explicit`", implicit[-1]["step"], explicit[-1]["step"], ".0f")
     for name in ("numerical_dissipation", "energy_drift"):
         part = 100 * abs(implicit[-1][name]) / energy
         yield Value(f"`{name}` at the end, % of the energy", part, None, ".1g")
@@ -281,7 +282,7 @@ def flow_rules(runs: Runs) -> Iterable[Value]:
         material = [f"Bodies/billet/Material/{key}={value}" for key, value in settings.items()]
         options = [word for setting in material for word in ("--set", setting)]
         last = runs.shipped("billet_upsetting", *options)[-1]
-        yield Value(f"iterations: {name}; reference: none", last["total_iterations"], without, ".3g")
+        yield Value(f"iterations: {name}; reference: none", last["total_iterations"], without, ".0f")
 
 
 def pin_in_lug(runs: Runs) -> Iterable[Value]:
@@ -333,7 +334,7 @@ def difference(value: Value) -> str:
     ratio = value.run / value.reference - 1
     if abs(ratio) < 1e-8:
         return "< 1e-8"
-    text = f"{100 * ratio:+.2g} %" if abs(ratio) >= 1e-4 else f"{ratio:+.0e}"
+    text = f"{100 * ratio:+.{3 if abs(ratio) >= 0.95 else 2}g} %" if abs(ratio) >= 1e-4 else f"{ratio:+.0e}"
     return text.replace("-", "−", 1) if ratio < 0 else text
 
 
@@ -347,7 +348,7 @@ def main() -> None:
         kept = [row for row in kept if row[0] != name]
         for value in SCENES[name](Runs(program, folder)):
             run, reference = (
-                "" if number is None else f"{number:#{value.digits}}".rstrip(".")
+                "" if number is None else re.sub(r"\.(?=e|$)", "", f"{number:#{value.digits}}")
                 for number in (value.run, value.reference)
             )
             kept.append([name, value.quantity, run, reference, difference(value)])
