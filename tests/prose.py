@@ -5,9 +5,11 @@
 
 Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
 sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
-Words are what stands between blanks, symbols such as % and the words of code within a line among them; a formula
-counts as one. A sentence that goes on below a formula counts as one. Cells of tables, also of those in lists,
-have no more than 25 words between semicolons, but for tables of results, which have messages of the program.
+
+Words are what stands between blanks, per cent and the words of code within a line among them, but no operators.
+A formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
+one. Cells of tables, also of those in lists, have no more than 25 words between semicolons, but for tables of
+results, which have messages of the program.
 
 FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
 """
@@ -85,8 +87,8 @@ def sentences_of(text: str) -> list[str]:
 
 
 def n_words(sentence: str) -> int:
-    """Returns the number of words, without marks that stand alone."""
-    return sum(1 for word in re.split(rf"[\s{BLANK_IN_CODE}]+", sentence) if re.search(r"\w|[%=<>+±×·−]", word))
+    """Returns the number of words, without signs and operators that stand alone, but for per cent."""
+    return sum(1 for word in re.split(rf"[\s{BLANK_IN_CODE}]+", sentence) if re.search(r"[\w%]", word))
 
 
 def prose_lines(text: str) -> Iterator[tuple[int, str]]:
@@ -175,11 +177,13 @@ def faults_of(text: str) -> list[Fault]:
     before = ""
     for paragraph in paragraphs_of(text):
         sentences = sentences_of(paragraph.text)
-        goes_on = bool(before and not paragraph.is_item and re.match("[a-z]", paragraph.text))
+        is_next = paragraph.is_item and before.endswith((";", ","))
+        goes_on = bool(before and (is_next or not paragraph.is_item and re.match("[a-z]", paragraph.text)))
         if goes_on and sentences:
             sentences[0] = f"{before} {sentences[0]}"
         before = ""
-        if sentences and not paragraph.is_item and not re.search(r"[.!?]\W*$", sentences[-1]):
+        end = r"[^;,]$" if paragraph.is_item else r"[.!?]\W*$"
+        if sentences and not re.search(end, sentences[-1]):
             before = sentences[-1]
         faults += [
             Fault(paragraph.line, f"{n_words(sentence)} words: {sentence[:60]}...")
@@ -265,7 +269,8 @@ SAMPLES: tuple[tuple[str, list[str]], ...] = (
     ("With\n\n$$\na\n$$\n\n" + "word " * 13 + "\n\n$$\nb\n$$\n\n" + "word " * 13 + "\n", ["27 words"]),
     ("It is so.\n\n$$\na\n$$\n\n" + "word " * 25 + "\n", ["125 columns"]),
     ("- " + "item " * 13 + "\n- " + "item " * 13 + "\n", []),
-    ("It is `" + "code " * 13 + "`\nand 2 % and " + "word " * 9 + "\n", ["27 words"]),
+    ("- " + "item " * 13 + ";\n- " + "item " * 13 + ";\n", ["26 words"]),
+    ("It is `" + "code " * 13 + "`\nand 2 % = " + "word " * 9 + "\n", ["27 words"]),
     ("It is `code. code` of 2 %. Then it is `a | b`.\n", []),
 )
 CELLS: tuple[tuple[str, int], ...] = (

@@ -78,8 +78,8 @@ def cell_of(page: Path, wanted: Mapping[str, str], column: str, heading: str = "
 def selected(root: Path, words: str) -> Table:
     """Returns a part of a table by 'PATH [HEADING] [| COLUMN; ... [| COLUMN = VALUE / VALUE...; ...]]'.
 
-    PATH is that of a page in doc/, without .md. Without columns all are taken, without values all rows. Raises
-    SystemExit if there is no such table, column or value.
+    PATH is that of a page in doc/, without .md. Without columns all are taken, without values all rows.
+    Columns are named as in Table.place(). Raises SystemExit if there is no such table, column or value.
     """
     where, columns, values = (*(part.strip() for part in words.split(" | ")), "", "")[:3]
     path, _, heading = where.partition(" ")

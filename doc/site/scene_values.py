@@ -253,8 +253,8 @@ def drop_hammer(runs: Runs) -> Iterable[Value]:
         ("largest travel of the hammer, mm", "hammer.travel_z", 1),
         ("largest force of the hammer, of a quarter, kN", "hammer.force_z", 1e-3),
     ):
-        runs_of = (factor * largest(rows, column) for rows in (implicit, explicit))
-        yield Value(f"{name}; reference: `Scheme = explicit`", *runs_of)
+        found, reference = (factor * largest(rows, column) for rows in (implicit, explicit))
+        yield Value(f"{name}; reference: `Scheme = explicit`", found, reference)
     yield Value("steps; reference: `Scheme = explicit`", implicit[-1]["step"], explicit[-1]["step"], ".0f")
     for name in ("numerical_dissipation", "energy_drift"):
         part = 100 * abs(implicit[-1][name]) / energy
