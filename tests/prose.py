@@ -6,8 +6,8 @@
 Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
 sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
 
-Words are what stands between blanks, per cent and the words of code within a line among them, but no operators.
-A formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
+Words are what stands between blanks, per cent and words of code within a line among them, but no operators. A
+formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
 one. Cells of tables, also of those in lists, have no more than 25 words between semicolons, but for tables of
 results, which have messages of the program.
 

@@ -28,10 +28,10 @@ PAGES = ("start", "index", "comparison", "extremes", "trade", "verification")  #
 
 NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
 UNIT = (
-    r"(?:%|(?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|°|dofs|bricks"
-    r"|elements|instructions|runs|scenes)\b)"
+    r"(?: ?[%°]| (?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|mm|µm|mJ|J"
+    r"|dofs|bricks|elements|instructions|runs|scenes)\b)"
 )
-MEASURED = re.compile(rf"(?:{NUMBER}(?: to {NUMBER})? {UNIT}|(?<![\w.])\d[\d.]*e-\d+)(?: [a-zµ]+\b){{0,2}}")
+MEASURED = re.compile(rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+)(?: [a-zµ]+\b){{0,2}}")
 
 
 class Figure(NamedTuple):
