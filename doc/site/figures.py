@@ -24,7 +24,17 @@ from results import cell_of, selected, tables_of, values_of
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "doc/results"
 CONSTANTS = ROOT / "doc/site/constants.txt"
-PAGES = ("start", "index", "comparison", "extremes", "trade", "verification")  # of doc/, beside its folders
+PAGES = (  # of doc/, beside its folders
+    "comparison",
+    "developing",
+    "extremes",
+    "glossary",
+    "index",
+    "start",
+    "theory",
+    "trade",
+    "verification",
+)
 
 NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
 UNIT = (
@@ -294,7 +304,7 @@ def strays_of(page: str, text: str) -> list[str]:
 
 
 def pages_without_strays() -> list[str]:
-    folders = ("doc/guide", "doc/scenes", "doc/tutorials")
+    folders = ("doc/guide", "doc/scenes", "doc/theory", "doc/tutorials")
     files = [file for folder in folders for file in sorted((ROOT / folder).glob("*.md"))]
     names = ("README.md", *(f"doc/{name}.md" for name in PAGES))
     return [*names, *(file.relative_to(ROOT).as_posix() for file in files)]
