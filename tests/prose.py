@@ -5,8 +5,11 @@
 
 Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
 sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
-A sentence that goes on below a formula counts as one. Cells of tables have no more than 25 words between
-semicolons, but for tables of results, which have messages of the program.
+
+Words are what stands between blanks, per cent and words of code within a line among them, but no operators. A
+formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
+one. Cells of tables, also of those in lists, have no more than 25 words between semicolons, but for tables of
+results, which have messages of the program.
 
 FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
 """
@@ -33,6 +36,7 @@ SKIPPED = re.compile(r"\s*(?:#|\||<!--|:::|\(\S+\)=$|\[\S+\]: |-{3,}$)")
 ABBREVIATION = re.compile(
     r"\b(?:e\.g|i\.e|cf|ch|vol|no|pp?|eds?|eqs?|figs?|sec|vs|al|st|approx)\.$", re.IGNORECASE
 )
+BLANK_IN_CODE = "\ue000"
 END = re.compile(r"[.!?][)\"'»”*_]*(?=\s+[^a-zµ]|\s*$)")
 
 
@@ -51,12 +55,18 @@ class Fault(NamedTuple):
     what: str
 
 
+def code_as_word(match: re.Match[str]) -> str:
+    """Returns code within a line as one word without an end of a sentence, which n_words() takes apart."""
+    words = re.sub(r"[.!?|<>\[\]()*_$]", "", match[2]).split()
+    return "C" + "".join(BLANK_IN_CODE + word for word in words[1:])
+
+
 def plain(text: str) -> str:
-    """Returns Markdown without what is no word: code and formulas count as one word, links as their text."""
+    """Returns Markdown without what is no word: formulas count as one word, links as their text."""
     text = re.sub(r"<!--.*?-->", " ", text)
     text = re.sub(r"!\[[^\]]*\]\([^)]*\)", " ", text)
     text = re.sub(r"\{[\w:.-]+\}`[^`]*`", "R", text)
-    text = re.sub(r"(`+)[^`].*?\1", "C", text)
+    text = re.sub(r"(`+)([^`].*?)\1", code_as_word, text)
     text = re.sub(r"\$[^$]+\$", "F", text)
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
     return re.sub(r"<[^>]+>", " ", text)
@@ -77,7 +87,8 @@ def sentences_of(text: str) -> list[str]:
 
 
 def n_words(sentence: str) -> int:
-    return sum(1 for word in sentence.split() if re.search(r"\w", word))
+    """Returns the number of words, without signs and operators that stand alone, but for per cent."""
+    return sum(1 for word in re.split(rf"[\s{BLANK_IN_CODE}]+", sentence) if re.search(r"[\w%]", word))
 
 
 def prose_lines(text: str) -> Iterator[tuple[int, str]]:
@@ -144,7 +155,7 @@ def faults_of_cells(text: str) -> list[Fault]:
         opened = FENCE.match(line)
         if opened and (not fence or opened[1].startswith(fence)):
             fence = "" if fence else opened[1]
-        if fence or not line.startswith("|"):
+        if fence or not line.lstrip().startswith("|"):
             continue
         for cell in plain(line).split("|"):
             faults += [
@@ -166,11 +177,13 @@ def faults_of(text: str) -> list[Fault]:
     before = ""
     for paragraph in paragraphs_of(text):
         sentences = sentences_of(paragraph.text)
-        goes_on = bool(before and not paragraph.is_item and re.match("[a-z]", paragraph.text))
+        is_next = paragraph.is_item and before.endswith((";", ","))
+        goes_on = bool(before and (is_next or not paragraph.is_item and re.match("[a-z]", paragraph.text)))
         if goes_on and sentences:
             sentences[0] = f"{before} {sentences[0]}"
         before = ""
-        if sentences and not paragraph.is_item and not re.search(r"[.!?]\W*$", sentences[-1]):
+        end = r"[^;,]$" if paragraph.is_item else r"[.!?]\W*$"
+        if sentences and not re.search(end, sentences[-1]):
             before = sentences[-1]
         faults += [
             Fault(paragraph.line, f"{n_words(sentence)} words: {sentence[:60]}...")
@@ -256,8 +269,13 @@ SAMPLES: tuple[tuple[str, list[str]], ...] = (
     ("With\n\n$$\na\n$$\n\n" + "word " * 13 + "\n\n$$\nb\n$$\n\n" + "word " * 13 + "\n", ["27 words"]),
     ("It is so.\n\n$$\na\n$$\n\n" + "word " * 25 + "\n", ["125 columns"]),
     ("- " + "item " * 13 + "\n- " + "item " * 13 + "\n", []),
+    ("- " + "item " * 13 + ";\n- " + "item " * 13 + ";\n", ["26 words"]),
+    ("It is `" + "code " * 13 + "`\nand 2 % = " + "word " * 9 + "\n", ["27 words"]),
+    ("It is `code. code` of 2 %. Then it is `a | b`.\n", []),
 )
 CELLS: tuple[tuple[str, int], ...] = (
+    ("- item\n\n  | a | " + "word " * 26 + "|\n", 1),
+    ("| `" + "code " * 14 + "` " + "word " * 12 + "|\n", 1),
     ("| a | " + "word " * 26 + "|\n", 1),
     ("| " + "word " * 20 + "| " + "word " * 20 + "|\n", 0),
     ("| " + "word " * 20 + "one; two " + "word " * 20 + "|\n", 0),

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: figures.py [--write | --self-check]
+"""Usage: figures.py [--write | --accept | --self-check]
 
-Checks figures in running text, above all of README.md, against the pages of doc/results that have them and
-against doc/scenes/costs.csv, or writes them anew.
+Checks figures in running text of README.md and doc/ against the pages of doc/results that have them, and
+against doc/scenes/costs.csv and values.csv. Checks that the tables that pages insert are there.
+
+Checks that pages have no other measured figure: each number with a unit is in FIGURES, in an example of code,
+or in doc/site/constants.txt, which lists limits, defaults and data.
+
+--write corrects figures. --accept writes constants.txt anew: look at what it adds. --self-check tests this.
 """
 
 from __future__ import annotations
@@ -13,10 +18,30 @@ import sys
 from pathlib import Path
 from typing import Callable, NamedTuple
 
-from results import cell_of, tables_of
+from insertions import Insertions
+from results import cell_of, selected, tables_of, values_of
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "doc/results"
+CONSTANTS = ROOT / "doc/site/constants.txt"
+PAGES = (  # of doc/, beside its folders
+    "comparison",
+    "developing",
+    "extremes",
+    "glossary",
+    "index",
+    "start",
+    "theory",
+    "trade",
+    "verification",
+)
+
+NUMBER = r"(?<![\w.])[−+-]?\d[\d,.]*(?:e[-+]?\d+)?"
+UNIT = (
+    r"(?: ?[%°]| (?:times|iterations|steps|cuts|seconds|minutes|hours|s|ms|µs|ns|MB|GB|kN|MN|N|MPa|mm|µm|mJ|J"
+    r"|dofs|bricks|elements|instructions|runs|scenes)\b)"
+)
+MEASURED = re.compile(rf"(?:{NUMBER}(?: to {NUMBER})?{UNIT}|(?<![\w.])\d[\d.]*e-\d+)(?: [a-zµ]+\b){{0,2}}")
 
 
 class Figure(NamedTuple):
@@ -85,7 +110,38 @@ def cheap_runs() -> tuple[str, ...]:
     return *work, *seconds, *found("target-error.md", without_start)
 
 
+def cell(page: str, row: dict[str, str], column: str, heading: str = "") -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up a cell of a page of results."""
+    return lambda: (cell_of(RESULTS / page, row, column, heading),)
+
+
+def number_of(*cells: Callable[[], tuple[str, ...]]) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up the numbers of cells without sign."""
+    return lambda: tuple(text.lstrip("+-") for value in cells for text in value())
+
+
+def differences(scene: str, *quantities: str) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up how far figures of a shipped scene are from their references."""
+
+    def values() -> tuple[str, ...]:
+        found = {row["quantity"]: row["difference"] for row in values_of(ROOT, scene)}
+        return tuple(found[quantity] for quantity in quantities)
+
+    return values
+
+
+def thousands(value: Callable[[], tuple[str, ...]]) -> Callable[[], tuple[str, ...]]:
+    """Returns what looks up whole numbers with separators."""
+    return lambda: tuple(f"{int(text):,}" for text in value())
+
+
 EXAMPLES = "doc/guide/examples.md"
+ACCURACY = "doc/guide/accuracy.md"
+MATERIALS = "doc/guide/materials.md"
+SKEWED = {"brick, long : high": "5 : 1"}
+HINGE = {"strip": "60", "bricks through": "2", "brick, long : high": "10 : 1"}
+STRIP = {"bricks through": "1", "brick, long : high": "5 : 1"}
+STIFF_DIES = {"die / billet": "100"}
 FIGURES = (
     Figure("README.md", r"(\d+) Newton iterations in (\d+) steps", iterations_of_billet),
     Figure("README.md", r"a step takes 1/(\d+) of CalculiX's time", gain_of_tube_impact),
@@ -94,7 +150,7 @@ FIGURES = (
     Figure("README.md", r"([\d,]+) scenes vary every parameter", n_extreme_scenes),
     Figure(
         "README.md",
-        r"on the billet, ([\d.]+ %) instead of ([\d.]+ %) for ([\d.]+) of the work",
+        r"it errs by ([\d.]+ %) instead of ([\d.]+ %), for ([\d.]+) of the work",
         trade_of_billet,
     ),
     Figure("doc/guide/accuracy.md", r"(\d+ of \d+) runs are within their target", runs_within_target),
@@ -121,6 +177,88 @@ FIGURES = (
         EXAMPLES,
         r"onto the plates, too: (\d+) iterations in (\d+) steps",
         cost_of("hollow_block", "iterations", "steps"),
+    ),
+    Figure(EXAMPLES, r"plane strain, ([\d,]+) bricks", thousands(cost_of("hertz_cylinders", "elements"))),
+    Figure(
+        EXAMPLES,
+        r"The torque comes to ([\d.]+) of",
+        cell("elastic-contact.md", {"time": "2.00"}, "torque / full sliding", "A round punch, twisted"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"is the same within ([\d.]+ %), whatever the slide",
+        cell("ironing.md", {"slide in a step / facet": "largest less smallest"}, "overlap, one pass"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"the final force differs by (\S+ %) from that of rigid ones",
+        cell("deformable-dies.md", STIFF_DIES, "final force against the rigid die's"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"force at any time by (\S+ %) at most",
+        cell("deformable-dies.md", STIFF_DIES, "largest difference of the force"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"the force differs by (\S+ %) from that of a beam",
+        cell("snap-fit.md", {"elements": "82 × 4", "largest step": "0.02"}, "in: beam"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"force (\S+ %), torque (\S+ %)",
+        differences("slab_rolling", "static: force, N/mm", "static: torque, N"),
+    ),
+    Figure(
+        EXAMPLES,
+        r"the measured mean by (\S+ %)",
+        cell("square-cup.md", {"bricks of the quarter": "24 × 24"}, "beside measured after 40 mm: DX, mm"),
+    ),
+    Figure(
+        ACCURACY,
+        r"they are ([\d.]+) to ([\d.]+) times the error, and too small in (\d+ of \d+) runs",
+        lambda: found(
+            "target-error.md",
+            r"error is ([0-9.]+) to ([0-9.]+) times the error. In ([0-9]+ of [0-9]+) runs it is too small",
+        ),
+    ),
+    Figure(
+        ACCURACY,
+        r"this changes the force by (\S+) %",
+        cell(
+            "billet-frictionless.md",
+            {"bricks": "60", "steps": "48", "penalty / 3.5e5": "1"},
+            "64 %: error [%]",
+            "Penalty",
+        ),
+    ),
+    Figure(
+        ACCURACY,
+        r"the observed order is ([\d.]+)\.",
+        lambda: found("billet-mesh.md", r"then [0-9.]+ %: order ([0-9.]+)\."),
+    ),
+    Figure(
+        MATERIALS,
+        r"bricks of 5 : 1 are ([\d.]+) % too stiff instead of ([\d.]+) %",
+        number_of(
+            cell("brick-accuracy.md", SKEWED, "one point", "Strip with skewed bricks"),
+            cell("brick-accuracy.md", SKEWED, "assumed strain", "Strip with skewed bricks"),
+        ),
+    ),
+    Figure(
+        MATERIALS,
+        r"too stiff, by ([\d.]+) % with bricks of 10 : 1",
+        number_of(cell("brick-accuracy.md", HINGE, "one point", "Plastic hinge")),
+    ),
+    Figure(
+        MATERIALS,
+        r"a strip of bricks of 5 : 1 is ([\d.]+) % too stiff",
+        number_of(cell("brick-accuracy.md", STRIP, "mean dilatation", "Strip in bending, elastic")),
+    ),
+    Figure(
+        "doc/guide/impact.md",
+        r"`prm/tube_impact.prm`, ([\d,]+) bricks, ([\d,]+) steps",
+        thousands(cost_of("tube_impact", "elements", "steps")),
     ),
 )
 
@@ -149,9 +287,93 @@ def written(figure: Figure, text: str) -> str:
     return text
 
 
+def plain_text(page: str, text: str) -> str:
+    """Returns the text of a page without code, links, what it inserts and the figures of FIGURES."""
+    for figure in FIGURES:
+        match = pattern_of(figure).search(text) if figure.page == page else None
+        for group in reversed(range(1, len(match.groups()) + 1)) if match else ():
+            assert match
+            text = text[: match.start(group)] + "F" + text[match.end(group) :]
+    text = re.sub(r"^( *)```.*?^ *```$|<!--.*?-->|^    .*?$", "", text, flags=re.DOTALL | re.MULTILINE)
+    return " ".join(re.sub(r"`[^`]*`|\]\([^)]*\)|[|*]", " ", text).split())
+
+
+def strays_of(page: str, text: str) -> list[str]:
+    """Returns numbers with a unit of measurement that no script writes, each with the words behind it."""
+    return [" ".join(match[0].split()) for match in MEASURED.finditer(plain_text(page, text))]
+
+
+def pages_without_strays() -> list[str]:
+    folders = ("doc/guide", "doc/scenes", "doc/theory", "doc/tutorials")
+    files = [file for folder in folders for file in sorted((ROOT / folder).glob("*.md"))]
+    names = ("README.md", *(f"doc/{name}.md" for name in PAGES))
+    return [*names, *(file.relative_to(ROOT).as_posix() for file in files)]
+
+
+def check_strays() -> int:
+    """Prints figures that neither a script writes nor CONSTANTS has, and lines of it without a figure."""
+    lines = CONSTANTS.read_text(encoding="utf-8").splitlines()
+    known = {line.partition(": ")[::2] for line in lines if not line.startswith("#")}
+    found = {
+        (page, stray)
+        for page in pages_without_strays()
+        for stray in strays_of(page, (ROOT / page).read_text(encoding="utf-8"))
+    }
+    if "--accept" in sys.argv[1:]:
+        comments = [line for line in lines if line.startswith("#")]
+        CONSTANTS.write_text(
+            "\n".join([*comments, *(": ".join(entry) for entry in sorted(found))]) + "\n", encoding="utf-8"
+        )
+        return 0
+    for page, stray in sorted(found - known):
+        print(f"{page}: no script writes '{stray}': add it to FIGURES, insert it, or say it in words")
+    for page, stray in sorted(known - found):
+        print(f"{CONSTANTS.relative_to(ROOT)}: {page} no longer says '{stray}'")
+    return len(found ^ known)
+
+
+def check_insertions() -> int:
+    """Prints what pages insert that is not there; returns the number of errors."""
+    pages = {
+        file.relative_to(ROOT / "doc").as_posix(): file.read_text(encoding="utf-8")
+        for file in sorted((ROOT / "doc").rglob("*.md"))
+    }
+    n_errors = 0
+    for page, text in pages.items():
+        try:
+            Insertions(ROOT, pages, None).replace(page, text)
+        except SystemExit as error:
+            print(f"doc/{page}: {error}")
+            n_errors += 1
+    return n_errors
+
+
+def check_itself() -> int:
+    """Tests the tests; returns the number of errors."""
+    n_errors = 0
+    for text, expected in (
+        ("It is off by 3.1 % of the force.", ["3.1 % of the"]),
+        ("It takes 12\niterations.", ["12 iterations"]),
+        ("It has `5 %` and\n```\n6 %\n```\n<!-- insert: 7 % -->\n", []),
+        ("to 1e-12 of the size, in 5 ways", ["1e-12 of the"]),
+    ):
+        if strays_of("", text) != expected:
+            print(f"'{text}' has {strays_of('', text)}, not {expected}")
+            n_errors += 1
+    try:
+        selected(ROOT, "results/ironing | facets | facets = none")
+        print("a table without a row is taken")
+        n_errors += 1
+    except SystemExit:
+        pass
+    return n_errors
+
+
 def main() -> int:
     """Returns the exit code."""
-    n_errors = 0
+    n_errors = check_insertions() + check_strays()
+    if "--self-check" in sys.argv[1:]:
+        n_errors += check_itself()
     for figure in FIGURES:
         page = ROOT / figure.page
         text = page.read_text(encoding="utf-8")

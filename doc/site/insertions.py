@@ -6,12 +6,12 @@ from __future__ import annotations
 import csv
 import re
 from pathlib import Path
-from typing import Mapping, Optional
+from typing import Iterator, Mapping, Optional
 
 import verification
 from pages import table
 from reference import Reference
-from results import tables_of, values_of
+from results import selected, tables_of, values_of
 
 INSERTION = re.compile(r"^<!-- insert: (.+?) -->$", re.MULTILINE)
 TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
@@ -65,13 +65,11 @@ class Insertions:
         cases = [case for case in verification.BENCHMARKS if case.page.endswith(name)]
         return verification.make_table(self._root, page, cases)
 
-    def _insert_table(self, page: str, path: str, *heading: str) -> str:
-        """Shows the first table below a heading of a page, with a link to that page."""
-        for found in tables_of(self._root / f"doc/{path}.md"):
-            if not heading or found.heading == " ".join(heading):
-                up = "../" * page.count("/")
-                return table(found.head, found.rows) + f"From [{Path(path).name}]({up}{path}.md)."
-        raise SystemExit(f"{page}: no table below '{' '.join(heading)}' in {path}.md")
+    def _insert_table(self, page: str, *words: str) -> str:
+        """Shows a table of a page, or a part of it, with a link to that page: see results.selected()."""
+        found = selected(self._root, " ".join(words))
+        up = "../" * page.count("/")
+        return table(found.head, found.rows) + f"From [{Path(words[0]).name}]({up}{words[0]}.md)."
 
     def _insert_cost(self, page: str, *scenes: str) -> str:
         """Shows what scenes cost."""
@@ -81,10 +79,10 @@ class Insertions:
         head = [name for name in rows[0] if name != "program" and any(row[name] for row in rows)]
         return table(head, [[row[name] for name in head] for row in rows])
 
-    def _insert_error_estimate(self, page: str) -> str:
-        """Shows what a run with a target error printed at its end."""
-        text = (self._root / "doc/tutorials/error_estimate.txt").read_text(encoding="utf-8")
-        return f"```\n{text}```\n"
+    def _insert_printed(self, page: str, name: str) -> str:
+        """Shows messages of a run, which doc/site/tutorials.py keeps."""
+        text = (self._root / f"doc/tutorials/{name}.txt").read_text(encoding="utf-8")
+        return f"```text\n{text}```\n"
 
     def _insert_values(self, page: str, tutorial: str) -> str:
         """Shows the figures of a tutorial's run."""
@@ -127,13 +125,41 @@ class Insertions:
     def _insert_trades(self, page: str) -> str:
         """Shows what the pages of results/trade say of their scenes as they are written."""
         rows = []
+        for name, title, text in self._trades():
+            as_it_is = re.search(r"has an error of (.+?); it takes (.+?) core-seconds", text)
+            known = re.search(r"(\S+ %) for the weighted mean", text)
+            outputs = re.search(r"--outputs (\S+)", text)
+            if not (as_it_is and known and outputs):
+                raise SystemExit(f"{page}: no error, uncertainty and outputs in {name}")
+            words = (outputs[1].replace(",", ", "), known[1], as_it_is[1], as_it_is[2])
+            rows.append((self._link(page, title, name), *words))
+        head = ("scene", "output", "reference known to", "error as it is written", "core-seconds")
+        return table(head, rows)
+
+    def _insert_choices(self, page: str) -> str:
+        """Shows what the pages of results/trade say of the parameters that reduce error and cost most."""
+        rows = []
+        for name, title, text in self._trades():
+            found = []
+            for what in (r"Most accuracy is bought by", r"Most speed is bought[^`]* by"):
+                match = re.search(rf" - {what} (.+?)(?:\. |\.$)", text)
+                found.append(match[1] if match else "no parameter alone")
+            rows.append((self._link(page, title, name), *found))
+        return table(("scene", "reduces the error most", "reduces the cost most"), rows)
+
+    def _trades(self) -> Iterator[tuple[str, str, str]]:
+        """Returns the pages of results/trade: path, name of the scene and text without line ends."""
         for name, text in sorted(self._pages.items()):
-            one_line = " ".join(text.split())
-            found = re.search(r"has an error of (.+?); it takes (.+?) core-seconds", one_line)
             title = TITLE.search(text)
-            if name.startswith("results/trade/") and found and title:
-                rows.append((f"[{title[1].split(': ', 1)[-1]}]({name})", found[1], found[2]))
-        return table(("scene", "error as it is written", "core-seconds"), rows)
+            if name.startswith("results/trade/") and title:
+                text = " ".join(text.split())
+                given = ", mesh as given" * ("--reference-mesh given" in text)
+                yield name, title[1].split(": ", 1)[-1] + given, text
+
+    @staticmethod
+    def _link(page: str, text: str, name: str) -> str:
+        """Returns a link from one page to another."""
+        return f"[{text}]({'../' * page.count('/')}{name})"
 
     def _insert_safe_ranges(self, page: str) -> str:
         """Shows the safe ranges of parameters of scripts/extremes."""

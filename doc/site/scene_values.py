@@ -21,6 +21,15 @@ from membrane import Membrane  # noqa: E402
 from rolling_theory import force_and_torque  # noqa: E402
 
 VALUES = ROOT / "doc/scenes/values.csv"
+LOCAL_AXES = {"Axes": "local", "First axis": "1, 0, 0", "Second axis": "0, 1, 0"}
+HEAT = {
+    "Temperature": "293",
+    "Thermal factor": "Johnson-Cook",
+    "Melting temperature": "1793",
+    "Taylor-Quinney fraction": "0.9",
+    "Specific heat": "477e6",
+    "Density": "7.85e-9",
+}
 Row = dict[str, float]
 
 
@@ -54,12 +63,13 @@ class Runs:
         scene = ROOT / f"prm/{name}.prm"
         return self.history(scene, name + "_changed" * bool(options), *options, exit_code=exit_code)
 
-    def edited(self, name: str, pattern: str, replacement: str) -> list[Row]:
-        """Runs a copy of a scene in which a piece of text is another."""
+    def edited(self, name: str, *changes: tuple[str, str]) -> list[Row]:
+        """Runs a copy of a scene in which pieces of text, by regular expressions, are others."""
         text = (ROOT / f"prm/{name}.prm").read_text(encoding="utf-8")
-        text, n_places = re.subn(pattern, replacement, text)
-        if n_places != 1:
-            raise SystemExit(f"prm/{name}.prm has '{pattern}' {n_places} times")
+        for pattern, replacement in changes:
+            text, n_places = re.subn(pattern, replacement, text, flags=re.DOTALL)
+            if n_places != 1:
+                raise SystemExit(f"prm/{name}.prm has '{pattern}' {n_places} times")
         copy = self._folder / f"{name}_edited.prm"
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_text(text, encoding="utf-8")
@@ -205,26 +215,114 @@ def step_punch(runs: Runs) -> Iterable[Value]:
     part = r"set Shape += CAD\n +set File .*\n +set Faces .*\n +set Translation .*\n"
     sphere = "set Shape = sphere\n set Centre = 0, 0, 30\n set Radius = 10\n"
     force = -4 * runs.shipped("step_punch")[-1]["punch.force_z"]
-    of_sphere = -4 * runs.edited("step_punch", part, sphere)[-1]["punch.force_z"]
+    of_sphere = -4 * runs.edited("step_punch", (part, sphere))[-1]["punch.force_z"]
     hertz = 4 / 3 * 1000 / (1 - 0.3**2) * math.sqrt(10) * 0.1**1.5
     name = "force on the whole punch, N"
     yield Value(f"{name}; reference: `Shape = sphere` on the same mesh", force, of_sphere, ".6g")
     yield Value(f"{name}; reference: Hertz, half-space", force, hertz, ".4g")
 
 
+def axisymmetric(runs: Runs) -> Iterable[Value]:
+    section = (
+        "set Primitive = subdivided_hyper_rectangle\n"
+        "set Arguments = 8, 12 : 0, 0 : 10, 15 : true\nset Section = axisymmetric\n"
+    )
+    wedge = runs.edited(
+        "billet_upsetting",
+        (r"set Source +=.*?set Layers[^\n]*\n", section),
+        (r"set Symmetry planes = [^\n]*", "set Symmetry planes = z = 0"),
+        (r"set Boundary ids         = 0, 3", "set Boundary ids = 1, 3"),
+    )[-1]
+    finer = ("--set", "Bodies/billet/Mesh/Refinements=2", "--set", "Bodies/billet/Mesh/Layers=12")
+    quarter = runs.shipped("billet_upsetting", *finer)[-1]
+    name = "force on the billet at the end, kN, 96 bricks; reference: 576 bricks of the quarter"
+    force = -1e-3 * wedge["die.full_circle_force_z"]
+    yield Value(name, force, -4e-3 * quarter["die.force_z"], ".4g")
+
+
+def drop_hammer(runs: Runs) -> Iterable[Value]:
+    steps = [f"{name} step=" for name in ("Initial", "Minimum", "Maximum")]
+    options = [word for value in ("Scheme=explicit", *steps) for word in ("--set", f"Time stepping/{value}")]
+    implicit, explicit = runs.shipped("drop_hammer"), runs.shipped("drop_hammer", *options)
+    energy = implicit[0]["kinetic_energy"]
+
+    def largest(rows: list[Row], column: str) -> float:
+        return max(abs(row[column]) for row in rows)
+
+    for name, column, factor in (
+        ("largest travel of the hammer, mm", "hammer.travel_z", 1),
+        ("largest force of the hammer, of a quarter, kN", "hammer.force_z", 1e-3),
+    ):
+        found, reference = (factor * largest(rows, column) for rows in (implicit, explicit))
+        yield Value(f"{name}; reference: `Scheme = explicit`", found, reference)
+    yield Value("steps; reference: `Scheme = explicit`", implicit[-1]["step"], explicit[-1]["step"], ".0f")
+    for name in ("numerical_dissipation", "energy_drift"):
+        part = 100 * abs(implicit[-1][name]) / energy
+        yield Value(f"`{name}` at the end, % of the energy", part, None, ".1g")
+
+
+def tube_impact(runs: Runs) -> Iterable[Value]:
+    rows = runs.shipped("tube_impact")
+    energy, mass = rows[0]["kinetic_energy"], 2 * rows[0]["kinetic_energy"] / 50**2
+    momentum = max(abs(row[f"momentum_{axis}"]) for row in rows for axis in "xyz")
+    drift = max(abs(row["energy_drift"]) for row in rows)
+    depth = max(row["tubes.deepest_penetration"] for row in rows)
+    yield Value("largest penetration of a node, % of the wall", 100 * depth / 0.01, None, ".2g")
+    yield Value("largest energy drift, % of the energy", 100 * drift / energy, None, ".1g")
+    yield Value("largest momentum, of that of one tube", momentum / (mass / 2 * 50), None, ".0e")
+
+
+def flow_rules(runs: Runs) -> Iterable[Value]:
+    without = runs.shipped("billet_upsetting")[-1]["total_iterations"]
+    for name, settings in (
+        ("two terms of backstress", {"Backstress moduli": "20000, 2000", "Backstress rates": "200, 0"}),
+        ("Hill", {"Anisotropy": "Hill", "r-values": "1.79, 1.51, 2.27", **LOCAL_AXES}),
+        ("thermal softening with heat", HEAT),
+    ):
+        material = [f"Bodies/billet/Material/{key}={value}" for key, value in settings.items()]
+        options = [word for setting in material for word in ("--set", setting)]
+        last = runs.shipped("billet_upsetting", *options)[-1]
+        yield Value(f"iterations: {name}; reference: none", last["total_iterations"], without, ".0f")
+
+
+def pin_in_lug(runs: Runs) -> Iterable[Value]:
+    scene = ROOT / "tests/cli/pin.prm"
+    shift = "Contact pairs/fit/Initial penetration=shift"
+    corrected = "Contact pairs/fit/Surface correction=cylinder : 0, 0, 0 ; 0, 0, 1"
+
+    def force(n_lug: int, n_pin: int, contact: str) -> float:
+        """Returns the force for so many facets around half of the lug and half of the pin."""
+        lug = f"Bodies/lug/Mesh/Arguments=3, {n_lug}, 1 : 10, 0, 0 : 20, 180, 1 : true"
+        pin = f"Bodies/pin/Mesh/Arguments=3, {n_pin}, 1 : 3, 0, 0 : 10, 180, 1 : true"
+        settings = [word for setting in (lug, pin, contact) for word in ("--set", setting)]
+        return abs(runs.history(scene, "pin_in_lug", *settings)[-1]["fit.force_x"])
+
+    matching = force(48, 48, shift)
+    for name, contact in (("chords, `Initial penetration = shift`", shift), ("corrected", corrected)):
+        for n in (20, 24, 48):
+            if contact == shift or n < 48:
+                around = f"{name}: force with {n} facets around the lug, N"
+                yield Value(around, force(n // 2, n // 2 + 1, contact), matching, ".4g")
+
+
 SCENES: dict[str, Callable[[Runs], Iterable[Value]]] = {
     scene.__name__: scene
     for scene in (
+        axisymmetric,
         balloon,
         bracket,
         cyclic_coupon,
         drop,
+        drop_hammer,
+        flow_rules,
         o_ring,
+        pin_in_lug,
         pressurised_cylinder,
         seal,
         slab_rolling,
         stack,
         step_punch,
+        tube_impact,
     )
 }
 
@@ -236,7 +334,7 @@ def difference(value: Value) -> str:
     ratio = value.run / value.reference - 1
     if abs(ratio) < 1e-8:
         return "< 1e-8"
-    text = f"{100 * ratio:+.2g} %" if abs(ratio) >= 1e-4 else f"{ratio:+.0e}"
+    text = f"{100 * ratio:+.{3 if abs(ratio) >= 0.95 else 2}g} %" if abs(ratio) >= 1e-4 else f"{ratio:+.0e}"
     return text.replace("-", "−", 1) if ratio < 0 else text
 
 
@@ -250,7 +348,7 @@ def main() -> None:
         kept = [row for row in kept if row[0] != name]
         for value in SCENES[name](Runs(program, folder)):
             run, reference = (
-                "" if number is None else f"{number:#{value.digits}}".rstrip(".")
+                "" if number is None else re.sub(r"\.(?=e|$)", "", f"{number:#{value.digits}}")
                 for number in (value.run, value.reference)
             )
             kept.append([name, value.quantity, run, reference, difference(value)])

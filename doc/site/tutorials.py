@@ -2,7 +2,8 @@
 """Usage: tutorials.py PROGRAM FOLDER [NAME...]
 
 Runs the scenes of the tutorials, all or those named, as their pages say. Draws doc/images/tutorial_NAME.png
-and writes the figures that the pages insert to doc/tutorials/values.csv. Results go to FOLDER/NAME.
+and writes the figures that the pages insert to doc/tutorials/values.csv. Writes messages that pages insert
+to doc/tutorials/NAME.txt. Results go to FOLDER/NAME.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 from typing import Callable, NamedTuple
 
@@ -188,6 +190,23 @@ TUTORIALS = {
 }
 
 
+class Printed(NamedTuple):
+    """What is set in the scene of the billet, and the keys of the messages that a page shows."""
+
+    settings: tuple[str, ...]
+    keys: str
+
+
+PRINTED = {
+    "error_estimate": Printed(("Target error=1 percent",), "error-estimate|mesh-.*"),
+    "mesh_levels": Printed(
+        ("Target error=3 percent", "Target error of=everything", "Finest mesh level=1"), "mesh-levels"
+    ),
+    "mesh_error": Printed((), "mesh-error"),
+    "penalty_too_low": Printed(("Contact pairs/billet on die/Normal penalty=1e3",), "penalty-too-low"),
+}
+
+
 def run(program: str, name: str, folder: Path) -> tuple[Rows, list[tuple[str, str]]]:
     """Runs a tutorial; returns its history and what it cost."""
     tutorial = TUTORIALS[name]
@@ -228,21 +247,30 @@ def draw(name: str, rows: Rows) -> None:
     pyplot.close(figure)
 
 
-def show_estimate(program: str, folder: Path) -> None:
-    """Keeps what a run with a target error prints at its end."""
-    command = [program, str(ROOT / "prm/billet_upsetting.prm"), "--set", "Target error=1 percent"]
-    command += ["--output", str(folder / "accuracy"), "--force"]
-    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    lines = [line for line in output.splitlines() if re.match(r"note\[(error-estimate|mesh-)", line)]
-    (ROOT / "doc/tutorials/error_estimate.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+def keep_printed(program: str, name: str, folder: Path) -> None:
+    """Keeps the messages that a variant of the billet prints, which pages show, in lines of 100 columns."""
+    printed = PRINTED[name]
+    command = [program, str(ROOT / "prm/billet_upsetting.prm"), "--output", str(folder / name), "--force"]
+    command += [word for setting in printed.settings for word in ("--set", setting)]
+    output = subprocess.run(command, capture_output=True, text=True, check=True)
+    lines = (output.stdout + output.stderr).splitlines()
+    found = [line for line in lines if re.match(rf"(note|warning)\[({printed.keys})\]", line)]
+    if not found:
+        raise SystemExit(f"{name}: the run printed no {printed.keys}")
+    text = "\n".join(
+        textwrap.fill(line.replace(" %", "\0%"), 100, break_on_hyphens=False).replace("\0%", " %")
+        for line in found
+    )
+    (ROOT / f"doc/tutorials/{name}.txt").write_text(text + "\n", encoding="utf-8")
 
 
 def main() -> None:
     program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
-    names = sys.argv[3:] or [*TUTORIALS, "accuracy"]
-    if "accuracy" in names:
-        names.remove("accuracy")
-        show_estimate(program, folder)
+    names = sys.argv[3:] or [*TUTORIALS, *PRINTED]
+    for name in PRINTED:
+        if name in names:
+            names.remove(name)
+            keep_printed(program, name, folder)
     kept: list[list[str]] = []
     if VALUES.exists():
         with VALUES.open(encoding="utf-8", newline="") as file:

@@ -159,7 +159,7 @@ BENCHMARKS = (
         "measured mean, at second hand",
         "results/square-cup",
         {"bricks of the quarter": "30 × 30"},
-        "beside measured",
+        "beside measured after 40 mm: DX, mm",
     ),
     Case(
         "Billet with friction, 60 bricks: force curve",

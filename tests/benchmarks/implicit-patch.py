@@ -80,9 +80,9 @@ publish(
     options,
     (
         "This page shows which facets pass a uniform stress on exactly, and with which penalties. Two parts"
-        " of a block meet, 4 elements across on 3. All vertices within them and on the interface are moved,"
-        " by 22 % of an element of the lower part and 30 % of the upper. The nodal elements, which hold"
-        " nodes out of facets, cannot be exact, whatever their penalty.\n\n"
+        " of a block meet, 4 elements across on 3. All vertices within them and on the interface are"
+        " moved. They move by 22 % of an element in the lower part, and by 30 % in the upper. The nodal"
+        " elements, which hold nodes out of facets, cannot be exact, whatever their penalty.\n\n"
         "The table has the largest deviation of an element's stress from the mean of all, relative to that."
         " Newton iterations of two steps stand in parentheses. Field output holds single precision: what is"
         " below 1e-7 is uniform to that. The test `implicit_patch` asserts 1e-8. A dash: no solution,"

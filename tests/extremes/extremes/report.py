@@ -412,7 +412,7 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         " same",
         "Each scene has one outcome:\n\n"
         "- *right*: all of that holds.\n"
-        "- *told*: all of that holds, and a warning says that penetration takes more than 4 % of the energy"
+        "- *told*: all of that holds. A warning says that penetration takes more than 4 % of the energy"
         " along a load path, and how much.\n"
         f"- *soft*: all of that holds. A node goes deeper than {DEEP:g} facet sizes, though, or a warning"
         " says that the penalty is low for the facets. Forces are then too small, by any factor: what is in"

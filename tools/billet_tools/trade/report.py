@@ -478,8 +478,8 @@ class Sweep:
         if self.chosen:
             return (
                 f"**Within {percent(target)}, the reference's uncertainty included, the cheapest is"
-                f" {self.say(self.chosen)}**"
-                f" ({number(self.chosen.seconds)} core-seconds).{self.may_cancel(self.chosen)}"
+                f" {self.say(self.chosen)}.** It takes {number(self.chosen.seconds)} core-seconds."
+                f"{self.may_cancel(self.chosen)}"
             )
         if self.is_blind:
             return f"**No choice within {percent(target)}.**"

@@ -13,7 +13,7 @@ from typing import Callable, Mapping, Sequence
 from .. import UserError
 from ..program import Stopped
 from ..scene import Scene
-from ..text import number, percent, table, wrapped, written_by
+from ..text import items, number, percent, table, wrapped, written_by
 from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
 from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
@@ -388,8 +388,9 @@ def remarks_of(options: Options, runner: Runner) -> list[str]:
     if options.until or options.mesh or options.set:
         told = [f"until {options.until:g} of the end time"] if options.until else []
         told += [f"{options.mesh} times the elements along each edge"] if options.mesh else []
-        told += [f"`{entry}`" for entry in options.set]
-        remarks.append(f"Pilot form: {', '.join(told)}.")
+        values = "\n\n" + items(f"`{entry}`" for entry in options.set)
+        told += [f"with these values:{values}"] if options.set else []
+        remarks.append(f"Pilot form: {', '.join(told)}" + "." * (not options.set))
     return remarks
 
 
