@@ -36,6 +36,10 @@ EXAMPLES = {
     "Step interval": "20",
     "Table": "0 : 250, 0.1 : 310, 0.5 : 380",
     "Table file": "curve.csv",
+    "Curves file": "curves.csv",
+    "Curve rates": "0.001, 1, 1000",
+    "Rate table file": "rates.csv",
+    "Thermal table file": "softening.csv",
     "Temperature": "20",
 }
 BEGINS_WITH_RANGE = re.compile(r"^([^.:]{0,24}?[<>]=? ?-?[\w./]+(?: \+ \w+)?(?:, [^.:]{1,20})?)\. ")

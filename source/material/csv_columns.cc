@@ -35,9 +35,8 @@ std::vector<std::string> split(std::string line) {
 
 } // namespace
 
-std::vector<std::array<double, 2>> read_columns(std::istream &text,
-                                                const std::array<unsigned int, 2> columns) {
-  std::vector<std::array<double, 2>> rows;
+std::vector<std::vector<double>> read_table(std::istream &text, const std::vector<unsigned int> &columns) {
+  std::vector<std::vector<double>> rows;
   std::string line;
   for (unsigned int number = 1; std::getline(text, line); ++number) {
     const std::vector<std::string> cells = split(number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0 // a mark
@@ -45,38 +44,43 @@ std::vector<std::array<double, 2>> read_columns(std::istream &text,
                                                      : line);
     if (cells.empty())
       continue;
-    std::array<double, 2> row{};
-    for (unsigned int i = 0; i < 2; ++i)
+    std::vector<double> row;
+    for (const unsigned int column : columns)
       try {
-        if (columns[i] > cells.size())
-          throw std::invalid_argument("has no column " + std::to_string(columns[i]));
-        row[i] = parse_number(cells[columns[i] - 1]);
+        if (column > cells.size())
+          throw std::invalid_argument("has no column " + std::to_string(column));
+        row.push_back(parse_number(cells[column - 1]));
       } catch (const std::invalid_argument &) {
-        if (rows.empty()) { // a head
-          row[0] = NAN;
+        if (rows.empty()) // a head
           break;
-        }
         throw std::invalid_argument("line " + std::to_string(number) + " has no number in column " +
-                                    std::to_string(columns[i]));
+                                    std::to_string(column));
       }
-    if (!std::isnan(row[0]))
-      rows.push_back(row);
+    if (row.size() == columns.size())
+      rows.push_back(std::move(row));
   }
   return rows;
 }
 
-std::vector<std::array<double, 2>> read_columns(const TypeInput &input, const std::string &file_key,
-                                                const std::string &columns_key) {
+std::vector<std::array<double, 2>> read_columns(std::istream &text,
+                                                const std::array<unsigned int, 2> columns) {
+  std::vector<std::array<double, 2>> rows;
+  for (const auto &row : read_table(text, {columns[0], columns[1]}))
+    rows.push_back({row[0], row[1]});
+  return rows;
+}
+
+std::vector<std::vector<double>> read_table(const TypeInput &input, const std::string &file_key,
+                                            const std::string &columns_key, const std::string &allowed) {
   const auto numbers = input.numbers(columns_key);
-  if (numbers.size() != 2 || std::any_of(numbers.begin(), numbers.end(), [](const double number) {
+  if (numbers.size() < 2 || std::any_of(numbers.begin(), numbers.end(), [](const double number) {
         return !(number >= 1. && number <= 1000. && number == std::floor(number));
       }))
-    input.reject(columns_key, "two whole numbers from 1 to 1000, separated by a comma");
+    input.reject(columns_key, allowed);
   std::ifstream stream(input.file(file_key));
-  std::vector<std::array<double, 2>> rows;
+  std::vector<std::vector<double>> rows;
   try {
-    rows =
-        read_columns(stream, {static_cast<unsigned int>(numbers[0]), static_cast<unsigned int>(numbers[1])});
+    rows = read_table(stream, std::vector<unsigned int>(numbers.begin(), numbers.end()));
   } catch (const std::invalid_argument &error) {
     input.reject(file_key, std::string("a table of numbers; ") + error.what());
   }
@@ -85,6 +89,20 @@ std::vector<std::array<double, 2>> read_columns(const TypeInput &input, const st
   return rows;
 }
 
+std::vector<std::array<double, 2>> read_columns(const TypeInput &input, const std::string &file_key,
+                                                const std::string &columns_key) {
+  const std::string allowed = "two whole numbers from 1 to 1000, separated by a comma";
+  if (input.numbers(columns_key).size() != 2)
+    input.reject(columns_key, allowed);
+  std::vector<std::array<double, 2>> rows;
+  for (const auto &row : read_table(input, file_key, columns_key, allowed))
+    rows.push_back({row[0], row[1]});
+  return rows;
+}
+
+namespace {
+
+/// Reads the pairs of numbers of a parameter: 'FIRST : SECOND' between commas.
 std::vector<std::array<double, 2>> read_pairs(const TypeInput &input, const std::string &key,
                                               const std::string &names) {
   std::vector<std::array<double, 2>> pairs;
@@ -99,6 +117,32 @@ std::vector<std::array<double, 2>> read_pairs(const TypeInput &input, const std:
     }
   }
   return pairs;
+}
+
+} // namespace
+
+std::vector<TypeParameter> PointTable::parameters() const {
+  using Kind = TypeParameter::Kind;
+  return {{key, "", Kind::text, "Points '" + names + "', separated by commas. " + rules},
+          {key + " file", "", Kind::text,
+           "CSV file of these points, relative to the scene file, instead of '" + key +
+               "'. Lines before the first number and comments after '#' are skipped."},
+          {key + " columns", "1, 2", Kind::text,
+           "Columns of that file with " + std::string(names).replace(names.find(" : "), 3, " and ") +
+               ", from 1."}};
+}
+
+std::vector<std::array<double, 2>> PointTable::read(const TypeInput &input, std::string &used_key) const {
+  const std::string file = key + " file", columns = key + " columns";
+  used_key = input.text(file).empty() ? key : file;
+  if (used_key == file) {
+    if (input.is_set(key))
+      input.reject(key, "no value: the points come from '" + file + "'");
+    return read_columns(input, file, columns);
+  }
+  if (input.is_set(columns))
+    input.reject(columns, "no value: there is no '" + file + "'");
+  return read_pairs(input, key, names);
 }
 
 } // namespace billet

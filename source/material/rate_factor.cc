@@ -8,13 +8,15 @@ namespace billet {
 RateFactorType cowper_symonds_type();
 RateFactorType johnson_cook_rate_type();
 RateFactorType tabulated_rate_type();
+RateFactorType rate_curves_type();
 
 TypeTable<std::shared_ptr<const RateFactor>> &rate_factor_types() {
   static TypeTable<std::shared_ptr<const RateFactor>> types{
       {"none", "1", {}, [](const TypeInput &) { return nullptr; }},
       cowper_symonds_type(),
       johnson_cook_rate_type(),
-      tabulated_rate_type()};
+      tabulated_rate_type(),
+      rate_curves_type()};
   return types;
 }
 
@@ -35,11 +37,13 @@ struct FlowOfStep {
   double alpha_n, dt;
 
   double stress(const double delta) const {
-    return hardening.stress(alpha_n + delta) * factor.value(delta / dt);
+    return hardening.stress(alpha_n + delta) * factor.value_at(alpha_n + delta, delta / dt);
   }
   double slope(const double delta) const {
-    return hardening.slope(alpha_n + delta) * factor.value(delta / dt) +
-           hardening.stress(alpha_n + delta) * factor.slope(delta / dt) / dt;
+    const double alpha = alpha_n + delta;
+    const auto [by_rate, by_strain] = factor.slopes_at(alpha, delta / dt);
+    return hardening.slope(alpha) * factor.value_at(alpha, delta / dt) +
+           hardening.stress(alpha) * (by_rate / dt + by_strain);
   }
 };
 
@@ -80,7 +84,7 @@ PlasticIncrement RateDependentFlow::solve(const double q, const double m, const 
 
 void RateDependentFlow::advance(const double alpha_n, const double delta_alpha, const double dt,
                                 const State &state_n, State &state) const {
-  state[0] = state_n[0] + factor_->value(delta_alpha / dt) *
+  state[0] = state_n[0] + factor_->value_at(alpha_n + delta_alpha, delta_alpha / dt) *
                               (hardening_->work(alpha_n + delta_alpha) - hardening_->work(alpha_n));
 }
 

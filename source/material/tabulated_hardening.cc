@@ -3,7 +3,6 @@
 #include "billet/material/hardening.h"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
 namespace billet {
@@ -40,17 +39,11 @@ double TabulatedHardening::slope_of(const std::size_t i) const {
 
 namespace {
 
-using Points = std::vector<std::array<double, 2>>;
-
-Points read_points(const TypeInput &input) {
-  if (!input.text("Table file").empty()) {
-    if (input.is_set("Table"))
-      input.reject("Table", "no value: the points come from 'Table file'");
-    return read_columns(input, "Table file", "Table columns");
-  }
-  if (input.is_set("Table columns"))
-    input.reject("Table columns", "no value: there is no 'Table file'");
-  return read_pairs(input, "Table", "strain : stress");
+/// Not a constant of the file: other files may ask for the type before it is made.
+PointTable table() {
+  return {"Table", "strain : stress",
+          "Plastic strains increase strictly from 0; yield stresses > 0 do not decrease. The "
+          "stress is constant beyond the last point. [- : stress]"};
 }
 
 std::string print(const double number) {
@@ -60,9 +53,9 @@ std::string print(const double number) {
 }
 
 std::shared_ptr<const HardeningLaw> make_table(const TypeInput &input) {
-  const std::string key = input.text("Table file").empty() ? "Table" : "Table file";
+  std::string key;
   std::vector<double> strains, stresses;
-  for (const auto &[strain, stress] : read_points(input)) {
+  for (const auto &[strain, stress] : table().read(input, key)) {
     if (strains.empty() && strain != 0.)
       input.reject(key, "a curve that starts at plastic strain 0");
     if (!(stress > 0.))
@@ -84,18 +77,7 @@ std::shared_ptr<const HardeningLaw> make_table(const TypeInput &input) {
 } // namespace
 
 HardeningType tabulated_hardening_type() {
-  return {
-      "table",
-      "linear interpolation between points",
-      {{"Table", "", TypeParameter::Kind::text,
-        "Points 'strain : stress', separated by commas. Plastic strains increase strictly from 0; yield "
-        "stresses > 0 do not decrease. The stress is constant beyond the last point. [- : stress]"},
-       {"Table file", "", TypeParameter::Kind::text,
-        "CSV file of these points, relative to the scene file, instead of 'Table'. Lines before the first "
-        "number and comments after '#' are skipped."},
-       {"Table columns", "1, 2", TypeParameter::Kind::text,
-        "Columns of that file with plastic strain and yield stress, from 1."}},
-      &make_table};
+  return {"table", "linear interpolation between points", table().parameters(), &make_table};
 }
 
 } // namespace billet

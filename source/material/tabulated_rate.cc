@@ -41,28 +41,32 @@ private:
   std::vector<std::pair<double, double>> points_;
 };
 
+/// Not a constant of the file: other files may ask for the type before it is made.
+PointTable table() {
+  return {"Rate table", "rate : factor",
+          "Rates > 0 increase strictly; factors >= 1 do not decrease. The factor is 1 at rest, "
+          "and constant beyond the last point. [1/time : -]"};
+}
+
+std::shared_ptr<const RateFactor> make_table(const TypeInput &input) {
+  std::string key;
+  std::vector<std::pair<double, double>> points = {{0., 1.}};
+  for (const auto &[rate, factor] : table().read(input, key)) {
+    if (!(rate > points.back().first))
+      input.reject(key, "rates > 0 that increase strictly");
+    if (!(factor >= points.back().second))
+      input.reject(key, "factors >= 1 that do not decrease");
+    points.emplace_back(rate, factor);
+  }
+  if (points.size() == 1)
+    input.reject(key, "at least one 'rate : factor' pair");
+  return std::make_shared<const TabulatedRate>(std::move(points));
+}
+
 } // namespace
 
 RateFactorType tabulated_rate_type() {
-  constexpr const char *key = "Rate table";
-  return {"table",
-          "linear interpolation between points, from 1 at rest",
-          {{key, "", TypeParameter::Kind::text,
-            "Points 'rate : factor', separated by commas. Rates > 0 increase strictly; factors >= 1 do not "
-            "decrease. The factor is 1 at rest, and constant beyond the last point. [1/time : -]"}},
-          [](const TypeInput &input) -> std::shared_ptr<const RateFactor> {
-            std::vector<std::pair<double, double>> points = {{0., 1.}};
-            for (const auto &[rate, factor] : read_pairs(input, key, "rate : factor")) {
-              if (!(rate > points.back().first))
-                input.reject(key, "rates > 0 that increase strictly");
-              if (!(factor >= points.back().second))
-                input.reject(key, "factors >= 1 that do not decrease");
-              points.emplace_back(rate, factor);
-            }
-            if (points.size() == 1)
-              input.reject(key, "at least one 'rate : factor' pair");
-            return std::make_shared<const TabulatedRate>(std::move(points));
-          }};
+  return {"table", "linear interpolation between points, from 1 at rest", table().parameters(), &make_table};
 }
 
 } // namespace billet

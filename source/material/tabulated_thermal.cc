@@ -46,28 +46,32 @@ private:
   std::vector<std::pair<double, double>> points_;
 };
 
+/// Not a constant of the file: other files may ask for the type before it is made.
+PointTable table() {
+  return {"Thermal table", "temperature : factor",
+          "Temperatures increase strictly; factors are > 0. The factor is constant beyond both "
+          "ends. [temperature : -]"};
+}
+
+std::shared_ptr<const ThermalFactor> make_table(const TypeInput &input) {
+  std::string key;
+  std::vector<std::pair<double, double>> points;
+  for (const auto &[temperature, factor] : table().read(input, key)) {
+    if (!(factor > 0.))
+      input.reject(key, "factors > 0");
+    if (!points.empty() && !(temperature > points.back().first))
+      input.reject(key, "temperatures that increase strictly");
+    points.emplace_back(temperature, factor);
+  }
+  if (points.empty())
+    input.reject(key, "at least one 'temperature : factor' pair");
+  return std::make_shared<const TabulatedThermal>(std::move(points));
+}
+
 } // namespace
 
 ThermalFactorType tabulated_thermal_type() {
-  constexpr const char *key = "Thermal table";
-  return {"table",
-          "linear interpolation between points",
-          {{key, "", TypeParameter::Kind::text,
-            "Points 'temperature : factor', separated by commas. Temperatures increase strictly; factors are "
-            "> 0. The factor is constant beyond both ends. [temperature : -]"}},
-          [](const TypeInput &input) -> std::shared_ptr<const ThermalFactor> {
-            std::vector<std::pair<double, double>> points;
-            for (const auto &[temperature, factor] : read_pairs(input, key, "temperature : factor")) {
-              if (!(factor > 0.))
-                input.reject(key, "factors > 0");
-              if (!points.empty() && !(temperature > points.back().first))
-                input.reject(key, "temperatures that increase strictly");
-              points.emplace_back(temperature, factor);
-            }
-            if (points.empty())
-              input.reject(key, "at least one 'temperature : factor' pair");
-            return std::make_shared<const TabulatedThermal>(std::move(points));
-          }};
+  return {"table", "linear interpolation between points", table().parameters(), &make_table};
 }
 
 } // namespace billet

@@ -282,4 +282,18 @@ def _() -> None:
     require(billet(BLOCK, "").last("die.force_z") != inside.last("die.force_z"), "the table does nothing")
 
 
+@check("above the rates of measured curves, the last one is the hardening")
+def _() -> None:
+    write_text("curves.csv", "strain,slow,fast\n0,8,10\n0.0123,9,12.3456789\n0.5,20,35\n")
+    table = "Material: - Yield stress & Material: - Hardening modulus & Material: Hardening = table & "
+    table += "Material: Table file = curves.csv & "
+    last = billet(BLOCK, table + "Material: Table columns = 1, 3")
+    curves = billet(
+        BLOCK,
+        table
+        + "Material: + set Rate factor = curves\nset Curve rates = 1e-9, 1e-8\nset Curves file = curves.csv",
+    )
+    near("the force", curves.last("die.force_z"), last.last("die.force_z"), 1e-9)
+
+
 sys.exit(check.finish())

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace billet {
 
@@ -21,6 +22,12 @@ public:
   virtual double value(double rate) const = 0;
   /// Returns the derivative of value(); it may be infinite at rest [time].
   virtual double slope(double rate) const = 0;
+  /// Returns the factor at an equivalent plastic strain, for factors that depend on it, too.
+  virtual double value_at(double /*alpha*/, const double rate) const { return value(rate); }
+  /// Returns the derivatives of value_at() by the rate [time] and by the plastic strain.
+  virtual std::pair<double, double> slopes_at(double /*alpha*/, const double rate) const {
+    return {slope(rate), 0.};
+  }
   /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
   /// time.
   virtual LaneRate lane_form() const { return {}; }
@@ -32,7 +39,7 @@ using RateFactorType = RegisteredType<std::shared_ptr<const RateFactor>>;
 TypeTable<std::shared_ptr<const RateFactor>> &rate_factor_types();
 
 /// Hardening times a factor of the rate: the flow stress of a step is σ_y(α_n + Δα) R(Δα/Δt), (M15) of
-/// doc/theory.md. Its state is the plastic work.
+/// doc/theory.md. Its state is the plastic work, with the factor at the end of the step.
 class RateDependentFlow final : public FlowStress {
 public:
   RateDependentFlow(std::shared_ptr<const HardeningLaw> hardening, std::shared_ptr<const RateFactor> factor);
