@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Callable, Mapping, NamedTuple, Sequence
 
 from edits import edit, lines_of
+from fork_server import ForkServer
 
 HERE = Path(__file__).resolve().parent
 SHIPPED = HERE.parents[1] / "prm"
@@ -147,33 +148,52 @@ class Ended(NamedTuple):
     errors: str  # without mpirun's remarks
 
 
+def limit_memory() -> None:
+    """Limits this process and its children."""
+    if not IS_SANITIZED:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
+
+
+@functools.cache
+def fork_server(program: str) -> ForkServer | None:
+    """Returns the server beside a program; none if it has none, or where sanitizers want processes of their
+    own."""
+    path = Path(program).parent / "billet-fork-server"
+    return ForkServer(path, limit_memory) if path.is_file() and not IS_SANITIZED else None
+
+
 def run(*command: str, file_limit: int | None = None, environment: Mapping[str, str] | None = None) -> Ended:
     """Runs a command within limits of time and memory; where files may not become longer than `file_limit`
     bytes, writing fails as it does on a full disk."""
 
     def restrict() -> None:
-        if not IS_SANITIZED:
-            resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
+        limit_memory()
         if file_limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (file_limit, file_limit))
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
+    # Runs on several ranks are children of mpirun.
+    is_plain = file_limit is None and environment is None and "--ranks" not in command
+    server = fork_server(command[0]) if is_plain else None
     # Not pipes: what a process that is killed leaves behind would keep them open.
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
-        done = subprocess.run(
-            ["timeout", "--kill-after=5", str(TIME_LIMIT), *command],
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=errors,
-            preexec_fn=restrict,
-            env={**os.environ, **(environment or {})},
-        )
+        if server is not None:
+            returned = server.run(command, output, errors, TIME_LIMIT)
+        else:
+            returned = subprocess.run(
+                ["timeout", "--kill-after=5", str(TIME_LIMIT), *command],
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=errors,
+                preexec_fn=restrict,
+                env={**os.environ, **(environment or {})},
+            ).returncode
         texts = []
         for stream in (output, errors):
             stream.seek(0)
             texts.append(stream.read().decode("utf-8", "surrogateescape"))
     without_remarks = re.sub(r"^-{40,}\n.*?^-{40,}\n", "", texts[1], flags=re.MULTILINE | re.DOTALL)
-    return Ended(exit_code(done.returncode), texts[0], without_remarks)
+    return Ended(exit_code(returned), texts[0], without_remarks)
 
 
 def exit_code(returned: int) -> int:
