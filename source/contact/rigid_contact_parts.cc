@@ -154,17 +154,18 @@ void RigidContactParts::keep_gaps() {
 }
 
 void RigidContactParts::fade_gaps(const FadingGaps &gaps, const bool is_finer) {
-  if (is_finer && has_inertia && !is_explicit) // a raised penalty allows depths there that must not fade
+  const bool fades = !has_inertia || is_explicit;
+  if (is_finer && !fades) // a raised penalty allows depths there that must not fade
     return;
   if (is_finer)
     keep_gaps();
-  else if (!fading_gaps || fading_gaps->fade() != has_inertia) // there are none, or they go on as before
+  else if (!fading_gaps || fading_gaps->fade() == fades) // there are none, or they go on as before
     return;
   else
     for (ContactPoint &node : slaves.nodes)
       node.initial_penetration *= step.allowed_part;
   step.allowed_part_n = step.allowed_part = 1.;
-  fading_gaps = {gaps.begin, has_inertia ? std::numeric_limits<double>::infinity() : gaps.end};
+  fading_gaps = {gaps.begin, fades ? gaps.end : std::numeric_limits<double>::infinity()};
 }
 
 void RigidContactParts::leave_depth(const std::size_t i) {

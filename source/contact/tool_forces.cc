@@ -85,6 +85,8 @@ void ToolForces::add_facet(ContactFacet &facet, NodalVectors &forces, NodalVecto
       if (facet.shallow_areas[b] == SpringEnergy::no_area)
         facet.shallow_areas[b] = corners.areas[b];
       force += works_.add_corner(springs_, facet, b, corners.areas[b], load);
+      load.ramp_work += (parts_.step.allowed_part_n - parts_.step.allowed_part) * node.initial_penetration *
+                        states[b]->pressure * corners.areas[b];
       add_bound(
           springs_.of(i).max_area(corners.areas[b], facet.shallow_areas[b]) *
           (std::max(bounds_.stiffness_ahead(i), node.stiffness.tangential) + states[b]->fading_stiffness));

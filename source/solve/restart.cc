@@ -187,6 +187,10 @@ double refinement_release_time(const parameters::Scene &parameters) {
                                               : short_part * parameters.time_stepping.end_time;
 }
 
+double end_of_fading(const parameters::Scene &parameters, const double time) {
+  return std::min(parameters.time_stepping.end_time, time + refinement_release_time(parameters));
+}
+
 std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
                                      const Discretization &discretization) {
   std::vector<std::string> changed;

@@ -72,9 +72,9 @@ public:
   virtual void save(StateWriter &writer, const NodeKeys &keys) const = 0;
   virtual void load(const StateReader &reader, const NodeKeys &keys) = 0;
   /// After load(): tells how gaps of a coarser mesh fade. New nodes of a finer mesh lie on chords of its
-  /// faces, inside a curved tool. They keep the gaps that the coarser mesh had; in statics they come out of
-  /// the tool from `begin` to `end` [time]. `is_finer`: whether the mesh is finer than the one that load()
-  /// reads, after begin(). Pairs of bodies have the gaps of the finer mesh at once.
+  /// faces, inside a curved tool. They keep the gaps that the coarser mesh had, and come out of the tool
+  /// from `begin` to `end` [time]. Pairs of bodies, and implicit dynamics, have the gaps of the finer mesh at
+  /// once. `is_finer`: whether the mesh is finer than the one that load() reads, after begin().
   virtual void fade_gaps(const double /*begin*/, const double /*end*/, const bool /*is_finer*/) {}
 
 protected:

@@ -21,6 +21,7 @@ struct ContactLoad {
   double stored_energy = 0.; ///< in the penalty springs [energy]
   double dissipation = 0.;   ///< by friction in this step [energy]
   double damping = 0.;       ///< by the tangential springs in this step, see FrictionAccount [energy]
+  double ramp_work = 0.;     ///< on the springs, by gap offsets that fade in this explicit step [energy]
   double deepest = 0.;       ///< maximum penetration [length]
 
   ContactLoad &operator+=(const ContactLoad &other);

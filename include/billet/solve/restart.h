@@ -36,6 +36,9 @@ bool is_refined(const StateReader &reader, const ContactInterface &contact);
 
 /// Returns the time over which unbalanced forces, and gaps of a coarser mesh, fade after a refinement.
 double refinement_release_time(const parameters::Scene &parameters);
+/// Returns when gaps of a coarser mesh have faded that a refinement at this time makes finer, (R7) of
+/// doc/theory.
+double end_of_fading(const parameters::Scene &parameters, double time);
 
 /// Saves the properties that must agree between the scenes before and after a restart: bodies, their meshes
 /// and the kinds of their materials.

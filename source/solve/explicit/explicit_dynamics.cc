@@ -175,7 +175,7 @@ void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) 
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
     if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }) && !begins)
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
-    contact.fade_gaps(time(), time(), begins);
+    contact.fade_gaps(time(), end_of_fading(parts_.scene.parameters(), time()), begins);
   }
 }
 

@@ -74,8 +74,8 @@ Explanation ExplicitForces::add_contact_forces(const ExplicitClock &clock, const
   Explanation passage;
   tools.clear_loads();
   const std::vector<Placement> before = tools.placements_before(), now = tools.placements_now();
-  // Allowed overlaps do not fade in explicit scenes: they use the times of the start.
-  const ContactStep step{0., 0., clock.since_forces(), before, now};
+  const double t = clock.time(), duration = clock.since_forces();
+  const ContactStep step{t - duration, t, duration, before, now};
   for (auto &contact : contacts) {
     contact.start_step(step);
     contact.without_matrix().update(motion.displacements());
@@ -85,6 +85,7 @@ Explanation ExplicitForces::add_contact_forces(const ExplicitClock &clock, const
     if (const auto &tool = contact.rigid_tool())
       tools.add_load(contact, *tool, load);
     works.friction += load.dissipation;
+    works.external += load.ramp_work;
     contact.without_matrix().add_crossings(crossings_);
     contact.commit();
   }

@@ -129,11 +129,7 @@ void ProblemCheckpoint::load_contacts(StateReader &reader, const NodeKeys &keys)
     });
     if (!is_known && !begins)
       contact.with_matrix().begin(at, state.displacements);
-    const parameters::Scene &parameters = parts_.scene().parameters();
-    contact.fade_gaps(
-        state.time,
-        std::min(parameters.time_stepping.end_time, state.time + refinement_release_time(parameters)),
-        begins);
+    contact.fade_gaps(state.time, end_of_fading(parts_.scene().parameters(), state.time), begins);
   }
 }
 
