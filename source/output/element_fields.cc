@@ -38,6 +38,8 @@ public:
   BodyAverages(const Solution &solution, const Scene &scene, const std::size_t body,
                const WrittenQuantities &written, const bool has_layers)
       : body_(body), material_(scene.bodies()[body].material), solution_(solution),
+        has_sheet_strains_(scene.parameters().output.sheet_strains),
+        forming_limit_(scene.parameters().bodies[body].material.forming_limit),
         summaries_(solution.discretization().elements(body).size()) {
     if (!written.of_layers.empty())
       summaries_ = solution.summarize(body);
@@ -68,13 +70,20 @@ private:
     if (!states_.empty())
       result.state = {fields_, states_[element][place]};
     const Element &brick = solution_.discretization().elements(body_)[element];
-    result.deformation_gradient = mean_deformation_gradient(
-        nodal_positions(brick.cell), gather(solution_.state().displacements, brick.dofs));
+    const ElementVectors positions = nodal_positions(brick.cell);
+    result.deformation_gradient =
+        mean_deformation_gradient(positions, gather(solution_.state().displacements, brick.dofs));
+    if (has_sheet_strains_)
+      result.sheet = compute_sheet_strains(result.deformation_gradient, find_sheet_normal(positions));
+    if (has_sheet_strains_ && forming_limit_ != nullptr)
+      result.forming_limit = forming_limit_->major_strain(result.sheet.minor);
     return result;
   }
 
   std::size_t body_, material_;
   const Solution &solution_;
+  bool has_sheet_strains_;
+  std::shared_ptr<const FormingLimit> forming_limit_;
   std::vector<ElementSummary> summaries_;
   std::vector<LayerSummaries> layers_;
   std::vector<StateField> fields_;

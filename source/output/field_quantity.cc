@@ -12,15 +12,17 @@ NodalQuantity contact_quantity();
 ElementQuantity stress_quantity();
 ElementQuantity strain_quantity();
 ElementQuantity plastic_strain_quantity();
+ElementQuantity sheet_strains_quantity();
+ElementQuantity forming_limit_quantity();
 ElementQuantity mesh_error_quantity_of_elements();
 ElementQuantity body_quantity();
 ElementQuantity material_quantity();
 
 FieldQuantities &field_quantities() {
-  static FieldQuantities quantities{{displacement_quantity(), velocity_quantity(), contact_quantity()},
-                                    {stress_quantity(), strain_quantity(), plastic_strain_quantity(),
-                                     mesh_error_quantity_of_elements(), body_quantity(),
-                                     material_quantity()}};
+  static FieldQuantities quantities{
+      {displacement_quantity(), velocity_quantity(), contact_quantity()},
+      {stress_quantity(), strain_quantity(), plastic_strain_quantity(), sheet_strains_quantity(),
+       forming_limit_quantity(), mesh_error_quantity_of_elements(), body_quantity(), material_quantity()}};
   return quantities;
 }
 

@@ -292,6 +292,8 @@ void Material::declare(ParameterHandler &prm) {
                     "Yield function. 'Elasticity = Hencky' alone takes others than von Mises'.");
   for (const TypeParameter &parameter : flow_rule_parameters())
     declare_parameter(prm, parameter, parameter.meaning);
+  for (const TypeParameter &parameter : FormingLimit::parameters())
+    declare_parameter(prm, parameter, parameter.meaning);
 }
 
 namespace {
@@ -387,6 +389,7 @@ void Material::parse(Reader &reader) {
   if (law == nullptr)
     reader.reject("Law", "elastic, since '" + reader.text("Elasticity") +
                              "' with these parameters has no plasticity");
+  forming_limit = FormingLimit::read(reader);
   temperature = reader.located("Temperature", reader.text("Temperature"));
   if (law->depends_on_temperature() && temperature.value.empty())
     reader.reject("Temperature", "an expression of t, since the law '" + law->name() + "' depends on it");

@@ -409,6 +409,11 @@ void Output::declare(ParameterHandler &prm) {
                     "Write Cauchy stress, von Mises stress and pressure.");
   prm.declare_entry("Strain", "true", Patterns::Bool(),
                     "Write the logarithmic strain ln V of the mean deformation gradient of an element.");
+  prm.declare_entry(
+      "Sheet strains", "false", Patterns::Bool(),
+      "Write the major and minor logarithmic strain in the plane of a sheet, and its thinning. "
+      "With a 'Forming limit' of a material also the major strain over that limit. The plane is "
+      "that of the two longer edges of an undeformed brick.");
   prm.declare_entry("Plastic strain", "true", Patterns::Bool(),
                     "Write the equivalent plastic strain, if a body is plastic.");
   prm.declare_entry(
@@ -449,6 +454,7 @@ void Output::parse(Reader &reader) {
     reader.reject("Step interval", "no value, or 0: fields are written by the 'Interval'");
   stress = reader.flag("Stress");
   strain = reader.flag("Strain");
+  sheet_strains = reader.flag("Sheet strains");
   plastic_strain = reader.flag("Plastic strain");
   state_fields = reader.located("State fields", reader.parts("State fields", ','));
   const auto &names = state_fields.value;

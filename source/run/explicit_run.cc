@@ -5,6 +5,7 @@
 #include "billet/output/element_means.h"
 #include "billet/run/error_estimates.h"
 #include "billet/run/failure.h"
+#include "billet/run/forming_limits.h"
 #include "billet/run/unneeded_costs.h"
 #include "billet/scene/plausibility.h"
 
@@ -273,6 +274,7 @@ void ExplicitRun::end(RunOutput &output) {
                               stopwatch_.seconds(), stopwatch_.processor_seconds());
   problem_.update_state();
   output.report(describe_mesh_errors(mesh_errors_, parameters_));
+  output.report(check_forming_limits(scene_, problem_));
   output.report(find_unneeded_costs(collect_costs(problem_, review_)));
   output.report(find_checkerboard(problem_, discretization_).check());
 }

@@ -5,6 +5,7 @@
 #include "billet/output/element_means.h"
 #include "billet/run/error_estimates.h"
 #include "billet/run/failure.h"
+#include "billet/run/forming_limits.h"
 #include "billet/run/unneeded_costs.h"
 
 #include <algorithm>
@@ -219,6 +220,7 @@ void ImplicitRun::end(RunOutput &output) {
   }
   output.report(find_unneeded_costs(costs));
   output.report(find_checkerboard(problem_, discretization_).check());
+  output.report(check_forming_limits(scene_, problem_));
 }
 
 } // namespace billet

@@ -3,6 +3,7 @@
 #define BILLET_OUTPUT_FIELD_QUANTITY_H
 
 #include "billet/material/state_fields.h"
+#include "billet/mechanics/sheet_strains.h"
 #include "billet/solve/solution.h"
 
 #include <array>
@@ -21,6 +22,8 @@ struct ElementAverage {
   dealii::Tensor<2, 3> deformation_gradient = {}; ///< mean over the undeformed element
   std::size_t material = 0;                       ///< number of the body's material
   double mesh_error = 0.;                         ///< from MeshErrors::of_element()
+  SheetStrains sheet = {};                        ///< 0 unless the scene writes them
+  double forming_limit = 0.;                      ///< major strain at its minor one; 0: the material has none
 };
 
 /// Quantity that is constant in an element: a scalar, or the components of a vector or tensor. Six components

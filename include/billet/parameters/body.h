@@ -5,6 +5,7 @@
 #include "billet/geometry/axes.h"
 #include "billet/loads/load.h"
 #include "billet/material/elasticity.h"
+#include "billet/material/forming_limit.h"
 #include "billet/mechanics/element_type.h"
 #include "billet/parameters/node_selection.h"
 #include "billet/parameters/reader.h"
@@ -60,6 +61,7 @@ struct Material {
   Located<std::string> temperature; ///< expression of t; empty if the law does not depend on it
   std::shared_ptr<const Elasticity> elasticity;
   std::shared_ptr<const PointLaw> law;
+  std::shared_ptr<const FormingLimit> forming_limit; ///< null: none
 
   static void declare(dealii::ParameterHandler &prm);
   void parse(Reader &reader);

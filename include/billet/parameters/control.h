@@ -132,7 +132,7 @@ struct Output {
   unsigned int every_steps;
   double interval;
   double history_interval; ///< for explicit scenes; 0: 1/200 of the end time
-  bool stress, plastic_strain, contact, strain;
+  bool stress, plastic_strain, contact, strain, sheet_strains;
   bool averages;                                  ///< whether element fields are also averaged to nodes
   Located<std::vector<std::string>> state_fields; ///< names among PointLaw::fields()
   Verbosity verbosity;
