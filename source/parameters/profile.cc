@@ -240,6 +240,9 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const BodyDra
     return file.value({"Time stepping"}, "Step control", "automatic") == "automatic";
   if (key == "Normal penalty")
     return file.value(path, "Penalty unit", "factor") == "factor";
+  if (key == "Penetration tolerance") // `fast` keeps to a penalty of the scene, as `balanced` does
+    return target > 0. || file.value({}, profile_key, "balanced") == "accurate" ||
+           !file.is_set(path, "Normal penalty");
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
   if (key == "Elasticity") // hypoelastic laws do not conserve elastic energy
