@@ -11,7 +11,7 @@ from billet_runs import number, percent, table
 PROFILES = ("fast", "balanced", "accurate")
 LIMITS = {"fast": 0.05, "balanced": 0.02, "accurate": 0.002}  # maximum errors that are wanted
 MAX_RATIO = 3.0  # times the work of the cheapest run by hand that is as good
-AS_GOOD = 1.05  # times the error
+AS_GOOD = 1.25  # times the error
 MIN_ERROR = 2e-4  # smaller errors are near those of the references, and count as this one
 
 
@@ -29,7 +29,7 @@ Errors = Mapping[str, Mapping[str, Point]]  # by scene and profile
 def cheapest(hand: Sequence[Point], error: float) -> Point | None:
     """Returns the cheapest of the runs by hand whose error is as small as this one; none if there is none."""
     good = [point for point in hand if point.error <= AS_GOOD * max(error, MIN_ERROR)]
-    return min(good, key=lambda point: point.work, default=None)
+    return min(good, key=lambda point: point.work) if good else None
 
 
 def is_beaten(point: Point, others: Sequence[Point]) -> bool:
