@@ -47,6 +47,29 @@ def names(scenes: Sequence[str]) -> str:
     return ", ".join(scenes) or "none"
 
 
+def missed_by(points: Errors, hand: Mapping[str, Sequence[Point]]) -> dict[str, list[str]]:
+    """Returns, for each scene that misses an error or a ratio, which profiles do."""
+    missed: dict[str, list[str]] = {}
+    for name, by in points.items():
+        for profile, point in by.items():
+            best = cheapest(hand[name], point.error)
+            if point.error > LIMITS[profile]:
+                missed.setdefault(name, []).append(f"{profile}: error")
+            if best is not None and point.work > MAX_RATIO * best.work:
+                missed.setdefault(name, []).append(f"{profile}: work")
+    return missed
+
+
+def reasons(missed: Mapping[str, Sequence[str]], why: Mapping[str, str]) -> str:
+    """Returns the table of scenes that miss a line, with the reasons that are known."""
+    if not missed:
+        return ""
+    return table(
+        ["scene", "missed", "why"],
+        [[name, ", ".join(which), why.get(name, "not known")] for name, which in missed.items()],
+    )
+
+
 def within_limits(points: Errors) -> str:
     """Counts, for each profile, the scenes within the error that is wanted, and names the others."""
     rows = []

@@ -18,6 +18,7 @@ from profile_runs import (
     LEFT_OUT,
     REFERENCE_STEPS,
     TIGHT,
+    WHY,
     before,
     by_hand,
     left_to_profiles,
@@ -30,7 +31,9 @@ from profile_words import (
     Point,
     beside_hand,
     cheapest,
+    missed_by,
     on_front,
+    reasons,
     with_looser,
     within_limits,
     without_errors,
@@ -168,8 +171,8 @@ publish(
         f"- Statics: {REFERENCE_STEPS} equal steps, augmented to {TIGHT[0][0]:g} of a facet, residuals below"
         f" {TIGHT[0][1]:g}. The number of steps is another where forces depend little on them, where the"
         f" scene takes long, or where it has cycles: {steps_of}.\n"
-        "- The patch tests have penalties of 1000 E/h instead: repeated augmentation shears facets that do not"
-        " match.\n"
+        "- The patch tests have penalties of 1000 E/h instead: repeated augmentation shears facets that do"
+        " not match.\n"
         "- Implicit dynamics: an error tolerance of 1e-6 instead.\n"
         "- Explicit: assumed strains, the scene's law, a safety factor of 0.3, a contact resolution of 4 and"
         " a penalty factor of 100."
@@ -183,6 +186,7 @@ publish(
     f" {', '.join(off_as_shipped) or 'none'}.",
     "## Beside settings by hand\n\n" + beside_hand(points, hand),
     on_front(points),
+    "## What is missed, and why\n\n" + reasons(missed_by(points, hand), WHY),
     "## References\n\n"
     + "\n\n".join(
         part

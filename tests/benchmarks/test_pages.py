@@ -16,7 +16,9 @@ from profile_words import (
     beside_hand,
     cheapest,
     is_beaten,
+    missed_by,
     on_front,
+    reasons,
     with_looser,
     within_limits,
     without_errors,
@@ -92,6 +94,16 @@ class Profiles(unittest.TestCase):
         said = beside_hand(self.POINTS, {"a": hand, "b": hand, "c": []})
         self.assertIn("| fast | 2 of 2 | 0 | none |", said)
         self.assertIn("| accurate | 0 of 2 | 1 | a (4.5), b (4) |", said)
+
+    def test_missed(self) -> None:
+        hand = [Point(5, 0.1), Point(8, 0.02), Point(20, 0.001)]
+        missed = missed_by(self.POINTS, {"a": hand, "b": hand, "c": []})
+        self.assertEqual(missed["a"], ["fast: error", "accurate: error", "accurate: work"])
+        self.assertEqual(missed["c"], ["balanced: error"])
+        said = reasons(missed, {"a": "long steps"})
+        self.assertIn("| a | fast: error, accurate: error, accurate: work | long steps |", said)
+        self.assertIn("| c | balanced: error | not known |", said)
+        self.assertEqual(reasons({}, {}), "")
 
     def test_front(self) -> None:
         self.assertTrue(is_beaten(Point(20, 0.01), [Point(10, 0.01)]))
