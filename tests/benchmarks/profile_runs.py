@@ -127,12 +127,18 @@ def with_changes(entries: Mapping[str, str], changes: Changes) -> dict[str, str]
 
 
 def left_to_profiles(path: Path) -> dict[str, object]:
-    """{key: None} for all that the scene sets and a profile would. In implicit dynamics steps stay."""
+    """{key: None} for all that the scene sets and a profile would. In implicit dynamics steps stay. Profiles
+    choose elements and the law of rates in explicit dynamics alone."""
     entries = read_entries(path)
+    scheme = scheme_of(entries)
     found: dict[str, object] = {}
-    for key in entries:
+    for key, value in entries.items():
         section, name = key.split("/")[0], key.split("/")[-1]
-        stays = scheme_of(entries) == "implicit dynamics" and section == "Time stepping"
+        stays = (
+            (section == "Time stepping" and scheme == "implicit dynamics")
+            or (section == "Bodies" and scheme != "explicit")
+            or (name == "Elasticity" and value != "hypoelastic")
+        )
         if name in PROFILED.get(section, ()) and not stays:
             found[key] = None
     return found
