@@ -33,64 +33,66 @@ constexpr unsigned int statics_with_path = 1, statics_with_slip = 8, statics_wit
                        statics_elastic = statics_with_slip | statics_with_folds | statics_without_path,
                        statics = statics_with_path | statics_elastic, implicit = statics | implicit_dynamics;
 
-/// Values of a parameter for the profiles and the target error; empty: the default. T is the end time, E the
-/// target error. "0.2 T" and "0.5 E" are products, "0.3 E 1e-3" is a product with a maximum, and "0.03 / E"
-/// is a quotient.
+/// Values of a parameter for the profiles and the target error; empty: the parameter's default. T is the end
+/// time, E the target error. "0.2 T" and "0.5 E" are products, "0.3 E 1e-3" is a product with a maximum, and
+/// "0.03 / E" is a quotient.
 struct Row {
   unsigned int schemes;
   const char *section; ///< subsection; each one for "Contact pairs", "Bodies", "Materials"
   const char *key;
-  const char *fast, *accurate, *target;
+  const char *fast, *balanced, *accurate, *target;
 };
 
-// Table of presets. 'balanced' is the default of every parameter. Costs and errors of each profile:
+// Table of presets. 'balanced' is the default of nearly every parameter. Costs and errors of each profile:
 // scripts/benchmarks profiles; of the target error: doc/results/target-error.md.
 constexpr std::array<Row, 34> rows = {{
     // Steps. Iterations alone control the steps of `fast`; their maximum is such that a step does not need
-    // more iterations than two of half the length. Error estimates control the steps of `accurate`.
-    {statics_with_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.04 T"},
-    {statics_with_slip, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.1 T"},
-    {statics_with_folds, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.02 T"},
-    {statics_without_path, "Time stepping", "Initial step", "0.05 T", "0.005 T", "0.3 T"},
-    {statics, "Time stepping", "Minimum step", "1e-6 T", "1e-6 T", "1e-6 T"},
-    {statics_with_path, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.1 T"},
-    {statics_with_slip, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.2 T"},
-    {statics_with_folds, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.05 T"},
-    {statics_without_path, "Time stepping", "Maximum step", "0.1 T", "0.02 T", "0.5 T"},
-    {statics, "Time stepping", "Error tolerance", "", "1e-3", "0.4 E"},
-    {implicit_dynamics, "Time stepping", "Initial step", "", "", "0.01 T"},
-    {implicit_dynamics, "Time stepping", "Minimum step", "", "", "1e-7 T"},
-    {implicit_dynamics, "Time stepping", "Maximum step", "", "", "0.1 T"},
-    {implicit_dynamics, "Implicit dynamics", "Error tolerance", "2e-2", "1e-4", "0.2 E 2e-2"},
-    {implicit_dynamics, "Time stepping", "Growth iterations", "8", "", "8"},
-    {implicit_dynamics, "Time stepping", "Shrink iterations", "14", "", "14"},
-    {implicit_dynamics, "Time stepping", "Growth factor", "2", "", "2"},
-    {statics, "Time stepping", "Growth iterations", "", "", "8"},
-    {statics, "Time stepping", "Shrink iterations", "", "", "14"},
-    {statics, "Time stepping", "Growth factor", "", "", "2"},
+    // more iterations than two of half the length. Steps of `balanced` are half as long where the forces
+    // depend on them, which halves their error and costs a fifth more. Error estimates control the steps of
+    // `accurate`.
+    {statics_with_path, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.04 T"},
+    {statics_with_slip, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.1 T"},
+    {statics_with_folds, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.02 T"},
+    {statics_without_path, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.3 T"},
+    {statics, "Time stepping", "Minimum step", "1e-6 T", "", "1e-6 T", "1e-6 T"},
+    {statics_with_path, "Time stepping", "Maximum step", "0.1 T", "0.05 T", "0.02 T", "0.1 T"},
+    {statics_with_slip, "Time stepping", "Maximum step", "0.1 T", "0.05 T", "0.02 T", "0.2 T"},
+    {statics_with_folds, "Time stepping", "Maximum step", "0.1 T", "0.05 T", "0.02 T", "0.05 T"},
+    {statics_without_path, "Time stepping", "Maximum step", "0.1 T", "", "0.02 T", "0.5 T"},
+    {statics, "Time stepping", "Error tolerance", "", "", "1e-3", "0.4 E"},
+    {implicit_dynamics, "Time stepping", "Initial step", "", "", "", "0.01 T"},
+    {implicit_dynamics, "Time stepping", "Minimum step", "", "", "", "1e-7 T"},
+    {implicit_dynamics, "Time stepping", "Maximum step", "", "", "", "0.1 T"},
+    {implicit_dynamics, "Implicit dynamics", "Error tolerance", "2e-2", "", "1e-4", "0.2 E 2e-2"},
+    {implicit_dynamics, "Time stepping", "Growth iterations", "8", "", "", "8"},
+    {implicit_dynamics, "Time stepping", "Shrink iterations", "14", "", "", "14"},
+    {implicit_dynamics, "Time stepping", "Growth factor", "2", "", "", "2"},
+    {statics, "Time stepping", "Growth iterations", "", "", "", "8"},
+    {statics, "Time stepping", "Shrink iterations", "", "", "", "14"},
+    {statics, "Time stepping", "Growth factor", "", "", "", "2"},
     // Equilibrium.
-    {statics, "Solver", "Force tolerance", "", "1e-8", "0.3 E 5e-3"},
-    {statics, "Solver", "Energy tolerance", "", "1e-12", "3e-3 E 5e-5"},
-    {implicit_dynamics, "Solver", "Force tolerance", "", "1e-8", "0.3 E 3e-3"},
-    {implicit_dynamics, "Solver", "Energy tolerance", "", "1e-12", "3e-3 E 3e-5"},
-    {implicit, "Solver", "Displacement tolerance", "", "1e-4", "1 E 1e-2"},
-    {implicit, "Solver", "Linear tolerance", "1e-4", "", "0.03 E 1e-3"},
-    // Contact. `accurate` and the target error augment in statics. They do not in dynamics, since penetrating
-    // nodes would have to stop within a step. In explicit scenes they raise the penalty or the resolution in
-    // time.
-    {statics, "Contact pairs", "Penetration tolerance", "0", "automatic", "1e-5"},
+    {statics, "Solver", "Force tolerance", "", "", "1e-8", "0.3 E 5e-3"},
+    {statics, "Solver", "Energy tolerance", "", "", "1e-12", "3e-3 E 5e-5"},
+    {implicit_dynamics, "Solver", "Force tolerance", "", "", "1e-8", "0.3 E 3e-3"},
+    {implicit_dynamics, "Solver", "Energy tolerance", "", "", "1e-12", "3e-3 E 3e-5"},
+    {implicit, "Solver", "Displacement tolerance", "", "", "1e-4", "1 E 1e-2"},
+    {implicit, "Solver", "Linear tolerance", "1e-4", "", "", "0.03 E 1e-3"},
+    // Contact. All augment in statics: `fast` only in soft bodies, since a tenth of Young's modulus makes a
+    // penetration of 0.01. They do not in dynamics, since penetrating nodes would have to stop within a step.
+    // In explicit scenes `accurate` and the target error raise the penalty or the resolution in time.
+    {statics, "Contact pairs", "Penetration tolerance", "0.01", "", "automatic", "1e-5"},
     // Only for self-contact, which occurs in few places and late.
-    {statics, "Contact pairs", "Facets", "planed", "", ""},
-    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "40", "0.09 / E"},
-    {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "4", ""},
-    {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "0.4", "0.9"},
+    {statics, "Contact pairs", "Facets", "planed", "", "", ""},
+    {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "", "40", "0.09 / E"},
+    {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "", "4", ""},
+    {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "", "0.4", "0.9"},
     // Elements and laws. A target error changes neither elements nor the mesh. The law with the final
     // instantaneous rotation differs from the multiplicative law by less than a thousandth for small elastic
     // strains.
-    {explicit_dynamics, "Bodies", "Element", "one point", "", ""},
-    {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "hypoelastic"},
+    {explicit_dynamics, "Bodies", "Element", "one point", "", "", ""},
+    {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "", "hypoelastic"},
     // After elements and laws, which must have kernels in float.
-    {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", ""},
+    {explicit_dynamics, "Explicit dynamics", "Number type", "float", "", "", ""},
 }};
 
 constexpr const char *profile_key = "Profile", *target_key = "Target error",
@@ -238,6 +240,9 @@ bool fits(const Row &row, const Path &path, const SceneFile &file, const BodyDra
     return file.value({"Time stepping"}, "Step control", "automatic") == "automatic";
   if (key == "Normal penalty")
     return file.value(path, "Penalty unit", "factor") == "factor";
+  if (key == "Penetration tolerance") // `fast` keeps to a penalty of the scene, as `balanced` does
+    return target > 0. || file.value({}, profile_key, "balanced") == "accurate" ||
+           !file.is_set(path, "Normal penalty");
   if (key == "Facets")
     return file.value(path, "Second body", "") == file.value(path, "Body", "");
   if (key == "Elasticity") // hypoelastic laws do not conserve elastic energy
@@ -349,10 +354,11 @@ void check_what_is_estimated(const SceneFile &file, const double target) {
 } // namespace
 
 void declare_presets(dealii::ParameterHandler &prm) {
-  prm.declare_entry(profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
-                    "Choice between speed and accuracy: it sets the defaults of steps, solver, contact and "
-                    "elements. Values in the scene take precedence; --check lists the values of the profile. "
-                    "balanced: the defaults of this list.");
+  prm.declare_entry(
+      profile_key, "balanced", dealii::Patterns::Selection("fast|balanced|accurate"),
+      "Choice between speed and accuracy: it sets the defaults of steps, solver, contact and "
+      "elements. Values in the scene take precedence; --check lists the values of the profile. "
+      "balanced: the defaults of this list, with shorter static steps where the forces depend on them.");
   prm.declare_entry(target_key, "", dealii::Patterns::Anything(),
                     "Maximum error of the force curves, such as '1 percent', '1 %' or '0.01'. Error "
                     "estimates control steps, tolerances and augmentation during the run. The run prints the "
@@ -437,7 +443,7 @@ std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile
     const std::string text = target > 0.             ? row.target
                              : profile == "fast"     ? row.fast
                              : profile == "accurate" ? row.accurate
-                                                     : "";
+                                                     : row.balanced;
     if (text.empty() || (row.schemes & scheme) == 0)
       continue;
     const std::vector<Path> paths = paths_of(row.section, file);

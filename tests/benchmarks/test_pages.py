@@ -11,7 +11,18 @@ from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
 from hand_set import beside_hand_set
-from profile_words import no_better, with_looser, without_errors
+from profile_words import (
+    Point,
+    beside_hand,
+    cheapest,
+    is_beaten,
+    missed_by,
+    on_front,
+    reasons,
+    with_looser,
+    within_limits,
+    without_errors,
+)
 from silent_errors_runs import OF_THE_MESH, Case, Kept, Reference, Runner, Sections, force_curve
 from billet_tools.scene import scene_text
 
@@ -63,17 +74,45 @@ class Counting(unittest.TestCase):
 
 
 class Profiles(unittest.TestCase):
-    def test_no_better(self) -> None:
-        errors = {
-            "a": {"fast": 0.02, "balanced": 0.019, "accurate": 0.001},
-            "b": {"fast": 0.02, "balanced": 0.002, "accurate": 0.001},
-            "c": {"fast": 0.01, "balanced": 0.01, "accurate": 0.009},
-            "d": {"fast": math.nan, "balanced": 0.01, "accurate": 0.01},
-        }
-        self.assertIn("In 2 of 3 scenes whose errors are known", no_better(errors))
-        self.assertIn("These are a, c.", no_better(errors))
-        self.assertIn("In 1 of these accurate, which augments, has at most half", no_better(errors))
-        self.assertEqual(no_better({"b": errors["b"]}), "")
+    POINTS = {
+        "a": {"fast": Point(10, 0.06), "balanced": Point(20, 0.01), "accurate": Point(90, 0.003)},
+        "b": {"fast": Point(10, 0.01), "balanced": Point(20, 0.01), "accurate": Point(80, 0.001)},
+        "c": {"fast": Point(10, math.nan), "balanced": Point(20, 0.03), "accurate": Point(80, 0.001)},
+    }
+
+    def test_limits(self) -> None:
+        said = within_limits(self.POINTS)
+        self.assertIn("| fast | 5 % | 1 of 2 | 6 % | a (6 %) |", said)
+        self.assertIn("| balanced | 2 % | 2 of 3 | 1 % | c (3 %) |", said)
+        self.assertIn("| accurate | 0.2 % | 2 of 3 | 0.1 % | a (0.3 %) |", said)
+
+    def test_cheapest(self) -> None:
+        hand = [Point(5, 0.1), Point(8, 0.02, "some"), Point(20, 0.001), Point(3, math.nan)]
+        best = cheapest(hand, 0.0195)
+        self.assertEqual(best and best.words, "some")
+        self.assertIsNone(cheapest(hand, 1e-5))
+        said = beside_hand(self.POINTS, {"a": hand, "b": hand, "c": []})
+        self.assertIn("| fast | 2 of 2 | 0 | none |", said)
+        self.assertIn("| accurate | 0 of 2 | 1 | a (4.5), b (4) |", said)
+
+    def test_missed(self) -> None:
+        hand = [Point(5, 0.1), Point(8, 0.02), Point(20, 0.001)]
+        missed = missed_by(self.POINTS, {"a": hand, "b": hand, "c": []})
+        self.assertEqual(missed["a"], ["fast: error", "accurate: error", "accurate: work"])
+        self.assertEqual(missed["c"], ["balanced: error"])
+        said = reasons(missed, {"a": "long steps"})
+        self.assertIn("| a | fast: error, accurate: error, accurate: work | long steps |", said)
+        self.assertIn("| c | balanced: error | not known |", said)
+        self.assertEqual(reasons({}, {}), "")
+
+    def test_front(self) -> None:
+        self.assertTrue(is_beaten(Point(20, 0.01), [Point(10, 0.01)]))
+        self.assertTrue(is_beaten(Point(10, 0.02), [Point(10, 0.01)]))
+        self.assertFalse(is_beaten(Point(10, 0.01), [Point(10, 0.01), Point(20, 0.001), Point(5, 0.1)]))
+        said = on_front(self.POINTS)
+        self.assertIn("In 1 of 2 scenes whose errors are known", said)
+        self.assertIn("- balanced is beaten in b.", said)
+        self.assertNotIn("fast is beaten", said)
 
     def test_reasons(self) -> None:
         self.assertEqual(without_errors({}), "")

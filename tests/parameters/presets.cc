@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Presets that depend on the laws of bodies: the same flow curve gets the same ones, whatever names its
-// parameters have; and float is for laws and elements that the kernels have.
+// parameters have; the default profile shortens static steps where stresses depend on the path; and float is
+// for laws and elements that the kernels have.
 #include "billet/parameters/scene.h"
 
 #include "../testing.h"
@@ -63,6 +64,17 @@ void check_flow_curves() {
         presets_of(target, young + line, "quasi-static") != presets_of(target, young, "quasi-static"));
 }
 
+void check_default_steps() {
+  const std::string step = "Time stepping / Maximum step = 5e-06",
+                    set = "subsection Time stepping\n  set Maximum step = 2e-5\nend\n";
+  check("balanced: shorter steps where stresses depend on the path",
+        presets_of("", young + line, "quasi-static") == std::vector<std::string>{step});
+  check("balanced: not in elastic bodies", presets_of("", young, "quasi-static").empty());
+  check("balanced: not where the scene sets them", presets_of(set, young + line, "quasi-static").empty());
+  check("balanced: not in dynamics",
+        presets_of("", young + line, "implicit dynamics").empty() && presets_of("", young + line).empty());
+}
+
 void check_number_types() {
   for (const std::string &law : {line, table, power})
     check("fast: float where kernels have the law", has(presets_of(fast, young + law), in_float));
@@ -81,6 +93,7 @@ void check_number_types() {
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_flow_curves();
+  check_default_steps();
   check_number_types();
   return testing::exit_code();
 }
