@@ -4,16 +4,15 @@
 #include "billet/algebra/gather.h"
 #include "billet/contact/overlap.h"
 #include "billet/diagnostic_kinds.h"
+#include "billet/discretization/smooth_facets.h"
 #include "billet/errors.h"
 #include "billet/geometry/bilinear_facet.h"
 #include "billet/geometry/box_tree.h"
-#include "billet/geometry/facet_bulge.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
-#include <unordered_map>
 
 namespace billet {
 
@@ -21,83 +20,22 @@ using dealii::Tensor;
 
 namespace {
 
-/// A facet with the smooth surface that it represents.
-struct CurvedFacet {
-  FacetCorners corners;
-  std::array<DofIndex, 4> nodes; ///< the first dof of each
-  Tensor<1, 3> normal;           ///< unit
-  double size;                   ///< [length]
-  FacetBulge bulge{};
-  double curvature = 0.; ///< maximum of 8 b/L² over the edges [1/length]; > 0: convex
-};
-
-/// Collects the facets of all ranks, or those of this rank with the normals of all; those of this rank come
-/// first.
-std::vector<CurvedFacet> collect_facets(const Discretization &discretization, const std::size_t body,
+/// Collects the facets of all ranks with these boundary ids, those of this rank first.
+std::vector<SmoothFacet> collect_facets(const Discretization &discretization, const std::size_t body,
                                         const std::vector<unsigned int> &boundary_ids,
                                         const Vector *displacements, std::size_t &n_own_facets) {
-  std::vector<std::array<double, 16>> own;
-  for (const auto &facet : collect_boundary_facets(discretization, body, boundary_ids)) {
-    std::array<double, 16> numbers{};
-    for (unsigned int a = 0; a < 4; ++a) {
-      for (unsigned int i = 0; i < 3; ++i)
-        numbers[4 * a + i] =
-            facet.corners[a][i] + (displacements != nullptr ? (*displacements)(facet.dofs[a][i]) : 0.);
-      numbers[4 * a + 3] = static_cast<double>(facet.dofs[a][0]);
-    }
-    own.push_back(numbers);
-  }
+  const auto own = collect_boundary_facets(discretization, body, boundary_ids);
   n_own_facets = own.size();
-  const MPI_Comm communicator = discretization.communicator();
-  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-  auto parts = all_gather(communicator, own);
-  std::swap(parts[0], parts[rank]); // own ones first
-  std::vector<CurvedFacet> facets;
-  for (const auto &part : parts)
-    for (const auto &numbers : part) {
-      CurvedFacet facet{};
-      for (std::size_t a = 0; a < 4; ++a) {
-        facet.corners[a] = Tensor<1, 3>({numbers[4 * a], numbers[4 * a + 1], numbers[4 * a + 2]});
-        facet.nodes[a] = static_cast<DofIndex>(numbers[4 * a + 3]);
-      }
-      const Tensor<1, 3> area = 4. * facet::Expansion(facet.corners).mean_area_vector();
-      facet.size = std::sqrt(area.norm());
-      if (facet.size > 0.)
-        facet.normal = area / area.norm();
-      facets.push_back(facet);
-    }
-  std::unordered_map<DofIndex, std::vector<Tensor<1, 3>>> normals_at;
-  for (const auto &facet : facets)
-    for (const DofIndex node : facet.nodes)
-      normals_at[node].push_back(facet.normal);
-  for (auto &facet : facets) {
-    constexpr double cosine_of_edge = 0.64; // of 50 degrees: eight facets still form a circle
-    FacetCorners normals;
-    for (unsigned int a = 0; a < 4; ++a) {
-      for (const auto &normal : normals_at[facet.nodes[a]])
-        if (normal * facet.normal > cosine_of_edge)
-          normals[a] += normal;
-      if (normals[a].norm() > 0.)
-        normals[a] /= normals[a].norm();
-    }
-    facet.bulge = facet::bulge_from_normals(facet.corners, normals);
-    for (unsigned int i = 0; i < 4; ++i) {
-      const Tensor<1, 3> edge = facet.corners[facet::around[(i + 1) % 4]] - facet.corners[facet::around[i]];
-      const double curvature = edge.norm() > 0. ? 8. * facet.bulge[i] / edge.norm_square() : 0.;
-      if (std::abs(curvature) > std::abs(facet.curvature))
-        facet.curvature = curvature;
-    }
-  }
-  return facets;
+  return make_smooth_facets(discretization, own, displacements);
 }
 
 /// Search for the facets near a point.
 class NearFacets {
 public:
-  explicit NearFacets(const std::vector<CurvedFacet> &facets) : facets_(facets), tree_(make_boxes(facets)) {}
+  explicit NearFacets(const std::vector<SmoothFacet> &facets) : facets_(facets), tree_(make_boxes(facets)) {}
 
   struct Found {
-    const CurvedFacet *facet = nullptr;
+    const SmoothFacet *facet = nullptr;
     FacetProjection projection;
   };
   /// Finds the nearest facet that faces this normal, at most at the distance `reach`.
@@ -106,7 +44,7 @@ public:
     Found found;
     double square = reach * reach;
     tree_.visit_near(x, square, [&](const unsigned int f) {
-      const CurvedFacet &facet = facets_[f];
+      const SmoothFacet &facet = facets_[f];
       if (!(facet.normal * normal < cosine_of_facing))
         return;
       const FacetProjection projection = BilinearFacet(facet.corners).project(x, {});
@@ -119,7 +57,7 @@ public:
   }
 
 private:
-  static std::vector<BoundingBox> make_boxes(const std::vector<CurvedFacet> &facets) {
+  static std::vector<BoundingBox> make_boxes(const std::vector<SmoothFacet> &facets) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(facets.size());
     for (const auto &facet : facets) {
@@ -130,11 +68,11 @@ private:
     return boxes;
   }
 
-  const std::vector<CurvedFacet> &facets_;
+  const std::vector<SmoothFacet> &facets_;
   BoxTree tree_;
 };
 
-bool fit(const CurvedFacet &facet, const CurvedFacet &other) {
+bool fit(const SmoothFacet &facet, const SmoothFacet &other) {
   constexpr double difference = 0.25;
   return facet.curvature * other.curvature < 0. &&
          std::abs(facet.curvature + other.curvature) <=
@@ -159,7 +97,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
   std::array<double, 6> worst{}; // relative, gap, clearance, position
   bool fits = false;
   for (std::size_t f = 0; f < n_own_facets; ++f) {
-    const CurvedFacet &facet = facets[f];
+    const SmoothFacet &facet = facets[f];
     if (!(std::abs(facet.curvature) * facet.size > 1e-6)) // flat
       continue;
     for (const double xi : along)

@@ -33,6 +33,10 @@ double mesh_error_of(const Solution &solution) {
   return solution.mesh_errors() != nullptr ? solution.mesh_errors()->error() : 0.;
 }
 
+double geometry_error_of(const Solution &solution) {
+  return solution.mesh_errors() != nullptr ? solution.mesh_errors()->geometry_error() : 0.;
+}
+
 } // namespace
 
 HistoryFile::HistoryFile(const Scene &scene, const std::string &folder)
@@ -82,13 +86,13 @@ HistoryFile::Mark HistoryFile::mark() { return {columns_, static_cast<std::uintm
 void HistoryFile::write(const StepReport &report, const Solution &solution,
                         const std::vector<double> &probes) {
   write({solution.state(), report.step, report.length, &report, solution.reactions(), probes, whole_,
-         mesh_error_of(solution)});
+         mesh_error_of(solution), geometry_error_of(solution)});
 }
 
 void HistoryFile::write(const unsigned int step, const double length, const Solution &solution,
                         const std::vector<double> &probes) {
   write({solution.state(), step, length, nullptr, solution.reactions(), probes, whole_,
-         mesh_error_of(solution)});
+         mesh_error_of(solution), geometry_error_of(solution)});
 }
 
 void HistoryFile::write(const HistorySample &sample) {

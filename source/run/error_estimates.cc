@@ -74,9 +74,12 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Sc
   for (std::size_t body = 0; parts.size() > 1 && body < parts.size(); ++body)
     text << (body == 0 ? ": " : ", ") << "body '" << parameters.bodies[body].name << "' "
          << 100. * parts[body] << " %";
-  text << ". Curved surfaces that elements cut short, contact between nodes, and folds are not in it";
+  const double geometry = mesh.geometry_error();
+  if (geometry > rounding)
+    text << ". Flat facets in place of curved surfaces may make another " << 100. * geometry << " %";
+  text << ". Contact between nodes and folds are not in it";
   Diagnostic message(diagnostic::mesh_error, text.str());
-  message.value("error", mesh.error());
+  message.value("error", mesh.error()).value("geometry", geometry);
   return {message};
 }
 

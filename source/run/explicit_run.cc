@@ -18,6 +18,8 @@ namespace billet {
 namespace {
 
 constexpr unsigned int steps_between_checks = ExplicitDynamics::steps_between_checks;
+/// States in an interval of (W4), of some 200 of a run: waves pass the bodies meanwhile.
+constexpr unsigned int states_in_interval = 10;
 
 struct Limits {
   /// Number of checks of stability in a run: each costs one to a few steps.
@@ -155,7 +157,7 @@ void ExplicitRun::after_step(RunOutput &output) {
   const bool is_check_due = problem_.n_steps() % steps_between_checks == 0;
   if (is_watch_due) {
     problem_.update_state();
-    mesh_errors_.add(problem_);
+    mesh_errors_.add(problem_, is_finished_ || mesh_errors_.n_states() + 1 >= states_in_interval);
   }
   if (is_row_due)
     write_row(output);

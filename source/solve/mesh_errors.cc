@@ -3,6 +3,7 @@
 
 #include "billet/discretization/element_key.h"
 #include "billet/discretization/node_keys.h"
+#include "billet/discretization/smooth_facets.h"
 #include "billet/solve/refined_reader.h"
 #include "billet/solve/restart.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace billet {
 
@@ -20,7 +22,7 @@ using dealii::Tensor;
 namespace {
 
 constexpr unsigned int n_stresses = 6;
-constexpr std::size_t row_width = n_stresses + n_element_dofs + 1;
+constexpr std::size_t row_width = 2 * n_stresses + n_element_dofs + 1;
 
 /// Factors of (W4).
 struct Factors {
@@ -75,35 +77,49 @@ MeshErrors::MeshErrors(const Discretization &discretization)
       volume_ += element.cell->measure();
   }
   volume_ = dealii::Utilities::MPI::sum(volume_, discretization.communicator());
+  measure_facets();
 }
 
-MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const OwnedElement &before,
-                                         const Stress &stress, const ElementVectors &displacements) {
+void MeshErrors::measure_facets() {
+  for (std::size_t body = 0; body < elements_.size(); ++body) {
+    const std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization_, body);
+    const std::vector<SmoothFacet> smooth = make_smooth_facets(discretization_, facets);
+    std::map<std::uint64_t, double> outside; // by element
+    for (std::size_t f = 0; f < facets.size(); ++f)
+      outside[facets[f].key / dealii::GeometryInfo<3>::faces_per_cell] +=
+          mean_distance(smooth[f].bulge) / facets[f].thickness;
+    for (std::size_t e = 0; e < elements_[body].size(); ++e)
+      if (const auto found = outside.find(element_key(discretization_.elements(body)[e].cell));
+          found != outside.end())
+        elements_[body][e].outside = found->second;
+  }
+}
+
+MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const OwnedElement &element,
+                                         const ElementVectors &displacements) const {
   ElementVectors increment = displacements;
   for (unsigned int i = 0; i < n_element_dofs; ++i)
-    increment[i] -= before.displacements[i];
+    increment[i] -= element.displacements[i];
   const auto [gradient, volume] =
-      centre_gradient(middle_of(positions, before.displacements, displacements), increment);
+      centre_gradient(middle_of(positions, element.displacements, displacements), increment);
   const Stress strain = dealii::symmetrize(gradient);
   Interval interval;
-  interval.stress = 0.5 * (before.stress + stress);
+  interval.stress = element.stress_sum / static_cast<double>(n_states_);
   interval.volume = volume;
   interval.strain = std::sqrt(2. / 3.) * equivalent_of(strain);
   interval.work = volume * (interval.stress * strain);
   return interval;
 }
 
-std::vector<MeshErrors::Interval> MeshErrors::compare_all(const Solution &solution,
-                                                          const std::vector<std::vector<Stress>> &stresses) {
+std::vector<MeshErrors::Interval> MeshErrors::compare_all(const Solution &solution) {
   const auto &dof_handler = discretization_.dof_handler();
   std::vector<Interval> intervals(dof_handler.get_triangulation().n_active_cells());
   const SolutionState &state = solution.state();
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
       const Element &element = discretization_.elements(body)[e];
-      intervals[element.cell->active_cell_index()] =
-          compare(nodal_positions(element.cell), elements_[body][e], stresses[body][e],
-                  gather(state.displacements, element.dofs));
+      intervals[element.cell->active_cell_index()] = compare(
+          nodal_positions(element.cell), elements_[body][e], gather(state.displacements, element.dofs));
     }
   using Shown = std::array<double, n_stresses + 1>;
   dealii::GridTools::exchange_cell_data_to_ghosts<Shown, dealii::DoFHandler<3>>(
@@ -153,36 +169,52 @@ double MeshErrors::saved_work(const CellIterator &cell, const ElementVectors &po
   return saved;
 }
 
-void MeshErrors::add(const Solution &solution) {
-  std::vector<std::vector<Stress>> stresses(elements_.size());
-  for (std::size_t body = 0; body < elements_.size(); ++body)
-    for (const ElementSummary &summary : solution.summarize(body))
-      stresses[body].push_back(summary.cauchy_stress);
-  std::vector<Interval> intervals;
-  if (has_begun_)
-    intervals = compare_all(solution, stresses);
-  std::vector<double> sums(elements_.size() + 1); // by body, and the work
+void MeshErrors::add(const Solution &solution, const bool ends_interval) {
+  for (std::size_t body = 0; body < elements_.size(); ++body) {
+    const std::vector<ElementSummary> summaries = solution.summarize(body);
+    for (std::size_t e = 0; e < elements_[body].size(); ++e) {
+      OwnedElement &own = elements_[body][e];
+      const Stress stress = summaries[e].cauchy_stress;
+      if (has_begun_)
+        own.stress_sum += 0.5 * (own.stress + stress);
+      else
+        own.displacements = gather(solution.state().displacements, discretization_.elements(body)[e].dofs);
+      own.stress = stress;
+    }
+  }
+  if (has_begun_) {
+    ++n_states_;
+    if (ends_interval)
+      add_interval(solution);
+  }
+  has_begun_ = true;
+}
+
+void MeshErrors::add_interval(const Solution &solution) {
+  const std::vector<Interval> intervals = compare_all(solution);
+  std::vector<double> sums(elements_.size() + 2); // by body, and the work, of elements and outside
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
       const Element &element = discretization_.elements(body)[e];
       OwnedElement &own = elements_[body][e];
       const ElementVectors displacements = gather(solution.state().displacements, element.dofs);
-      if (has_begun_) {
-        const double saved =
-            saved_work(element.cell,
-                       middle_of(nodal_positions(element.cell), own.displacements, displacements), intervals);
-        own.error += saved;
-        sums[body] += saved;
-        sums.back() += std::abs(intervals[element.cell->active_cell_index()].work);
-      }
-      own.stress = stresses[body][e];
+      const double saved =
+          saved_work(element.cell, middle_of(nodal_positions(element.cell), own.displacements, displacements),
+                     intervals);
+      own.error += saved;
+      sums[body] += saved;
+      const double work = std::abs(intervals[element.cell->active_cell_index()].work);
+      sums[elements_.size()] += work;
+      sums.back() += own.outside * work;
+      own.stress_sum = 0.;
       own.displacements = displacements;
     }
+  n_states_ = 0;
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
   for (std::size_t body = 0; body < elements_.size(); ++body)
     errors_[body] += sums[body];
-  work_ += sums.back();
-  has_begun_ = true;
+  work_ += sums[elements_.size()];
+  work_outside_ += sums.back();
 }
 
 double MeshErrors::error() const {
@@ -198,6 +230,8 @@ std::vector<double> MeshErrors::of_bodies() const {
     parts[body] = errors_[body] / work_;
   return parts;
 }
+
+double MeshErrors::geometry_error() const { return is_known() ? work_outside_ / work_ : 0.; }
 
 double MeshErrors::of_element(const std::size_t body, const std::size_t element) const {
   if (!is_known())
@@ -216,33 +250,41 @@ void MeshErrors::save(StateWriter &writer) const {
       keys.push_back(element_key(discretization_.elements(body)[e].cell));
       for (unsigned int c = 0; c < n_stresses; ++c)
         row.number(own.stress.access_raw_entry(c));
+      for (unsigned int c = 0; c < n_stresses; ++c)
+        row.number(own.stress_sum.access_raw_entry(c));
       rows.insert(rows.end(), own.displacements.begin(), own.displacements.end());
       row.number(own.error);
     }
   std::vector<double> sums = errors_;
   sums.push_back(work_);
+  sums.push_back(work_outside_);
+  sums.push_back(n_states_);
   sums.push_back(has_begun_ ? 1. : 0.);
-  writer.write("mesh errors", sums);
-  writer.write_rows("mesh errors of elements", row_width, keys, rows);
+  writer.write("mesh errors of intervals", sums);
+  writer.write_rows("mesh errors of elements by intervals", row_width, keys, rows);
 }
 
 void MeshErrors::load(const StateReader &reader) {
-  if (!reader.has("mesh errors"))
+  if (!reader.has("mesh errors of intervals"))
     return; // of an earlier version: the estimate begins here
-  const std::vector<double> sums = reader.read("mesh errors", errors_.size() + 2);
+  const std::vector<double> sums = reader.read("mesh errors of intervals", errors_.size() + 4);
   std::copy_n(sums.begin(), errors_.size(), errors_.begin());
   work_ = sums[errors_.size()];
+  work_outside_ = sums[errors_.size() + 1];
+  n_states_ = static_cast<unsigned int>(sums[errors_.size() + 2]);
   has_begun_ = sums.back() > 0.;
   std::vector<std::uint64_t> keys;
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (const Element &element : discretization_.elements(body))
       keys.push_back(element_key(element.cell));
-  const std::vector<double> rows = reader.read_rows("mesh errors of elements", row_width, keys);
+  const std::vector<double> rows = reader.read_rows("mesh errors of elements by intervals", row_width, keys);
   RowReader row(rows);
   for (auto &of_body : elements_)
     for (OwnedElement &own : of_body) {
       for (unsigned int c = 0; c < n_stresses; ++c)
         own.stress.access_raw_entry(c) = row.number();
+      for (unsigned int c = 0; c < n_stresses; ++c)
+        own.stress_sum.access_raw_entry(c) = row.number();
       for (double &displacement : own.displacements)
         displacement = row.number();
       own.error = row.number();

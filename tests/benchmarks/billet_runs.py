@@ -113,13 +113,14 @@ class Run:
         return interpolate(self.times, self.forces, time)
 
 
-def count_instructions(folder: str | Path) -> int:
-    """Of a run of scene.prm in this folder by callgrind, without what libraries do before it."""
+def count_instructions(folder: str | Path, function: str = "billet::run_simulation(*") -> int:
+    """Of a function in a run of scene.prm in this folder by callgrind; of the run, without what libraries do
+    before it."""
     done = subprocess.run(
         [
             "valgrind",
             "--tool=callgrind",
-            "--toggle-collect=billet::run_simulation(*",
+            f"--toggle-collect={function}",
             "--callgrind-out-file=/dev/null",
             PROGRAM,
             "scene.prm",

@@ -75,6 +75,7 @@ class CurveRun:
             rows = read_rows(place / "results/history.csv")
             self.believed = read_estimates(place / "results")
         self.mesh_error = float(rows[-1]["mesh_error"]) if rows else float("nan")
+        self.geometry_error = float(rows[-1]["geometry_error"]) if rows else float("nan")
         self.seconds, self.said = done.seconds, done.stdout
         self.finished, self.failure = done.code != FAILED, done.stderr.strip()
         self.is_explicit = bool(rows) and "total_iterations" not in rows[0]

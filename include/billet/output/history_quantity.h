@@ -29,7 +29,8 @@ struct HistorySample {
   const Reactions &reactions;
   const std::vector<double> &probes; ///< values of probe_columns()
   const WholeSection &whole;
-  double mesh_error = 0.; ///< from MeshErrors::error()
+  double mesh_error = 0.;     ///< from MeshErrors::error()
+  double geometry_error = 0.; ///< from MeshErrors::geometry_error()
 };
 
 /// Columns of the history by their names, in which NAME and the like stand for names of the scene, and what

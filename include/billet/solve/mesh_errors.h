@@ -13,22 +13,29 @@ namespace billet {
 /// the exact solution tractions pass from element to element without a jump. The jumps, and how easily the
 /// elements deform, yield the work that finer elements would save; over the work of deformation, this is the
 /// relative error of the forces that do it, ∫|F − F*| ds over ∫|F| ds. It is no bound: elements much larger
-/// than what they resolve hide their error, and the error of curved boundaries is not in it.
+/// than what they resolve hide their error. The error of flat facets in place of curved surfaces is apart,
+/// (W7).
 class MeshErrors {
 public:
   explicit MeshErrors(const Discretization &discretization);
 
-  /// Adds the deformation since the last call; the first one begins. Collective.
-  void add(const Solution &solution);
+  /// Adds a state; the first one begins. An interval of (W4) reaches over the states until one that ends it,
+  /// with their mean stresses, so that waves to and fro in it cancel. Collective.
+  void add(const Solution &solution, bool ends_interval = true);
 
   /// Whether add() has been called.
   bool has_begun() const { return has_begun_; }
+  /// Returns the number of states in the interval so far, without that at its start.
+  unsigned int n_states() const { return n_states_; }
   /// Whether there has been any work of deformation to normalise errors by.
   bool is_known() const { return work_ > 0.; }
   /// Returns the relative error so far; 0 if it is unknown.
   double error() const;
   /// Returns the part of it that each body makes.
   std::vector<double> of_bodies() const;
+  /// Returns the part of the work of deformation that the space between the facets and the smooth surfaces
+  /// would do if it deformed as the elements at the facets do, (W7): the relative error of the geometry.
+  double geometry_error() const;
   /// Returns an owned element's error so far, per volume, over the work per volume of all bodies: its mean
   /// over the undeformed volume is the relative error.
   double of_element(std::size_t body, std::size_t element) const;
@@ -40,9 +47,11 @@ private:
   using Stress = dealii::SymmetricTensor<2, 3>;
   /// Owned element, from interval to interval.
   struct OwnedElement {
-    Stress stress{};                ///< at the end of the last interval [stress]
-    ElementVectors displacements{}; ///< at that time [length]
+    Stress stress{};                ///< of the last state [stress]
+    Stress stress_sum{};            ///< over the states of the interval, its ends by half [stress]
+    ElementVectors displacements{}; ///< at the start of the interval [length]
     double error = 0.;              ///< work that finer elements would save so far [energy]
+    double outside = 0.;            ///< volume between its facets and the smooth surface, over its own
   };
   /// Element in an interval.
   struct Interval {
@@ -54,20 +63,25 @@ private:
 
   /// Returns one of the eight parts of an element.
   static OwnedElement part_of(const OwnedElement &element, unsigned int child);
-  static Interval compare(const ElementVectors &positions, const OwnedElement &before, const Stress &stress,
-                          const ElementVectors &displacements);
+  Interval compare(const ElementVectors &positions, const OwnedElement &element,
+                   const ElementVectors &displacements) const;
   /// Computes the interval of the owned elements, and gets that of the ghost elements. By active cell index.
-  std::vector<Interval> compare_all(const Solution &solution,
-                                    const std::vector<std::vector<Stress>> &stresses);
+  std::vector<Interval> compare_all(const Solution &solution);
+  /// Compares the facets of each element with the smooth surface.
+  void measure_facets();
+  /// Adds the errors of the interval that ends.
+  void add_interval(const Solution &solution);
   /// Returns the work that finer elements would save at an owned element in an interval, (W4).
   static double saved_work(const CellIterator &cell, const ElementVectors &positions,
                            const std::vector<Interval> &intervals);
 
   const Discretization &discretization_;
   bool has_begun_ = false;
+  unsigned int n_states_ = 0;                       ///< in the interval so far, without that at its start
   std::vector<std::vector<OwnedElement>> elements_; ///< by body
   std::vector<double> errors_;                      ///< by body, of all ranks [energy]
   double work_ = 0.;                                ///< ∫|dW| of all elements of all ranks [energy]
+  double work_outside_ = 0.;                        ///< the same of the space beyond the facets [energy]
   double volume_ = 0.;                              ///< of all undeformed bodies [length³]
 };
 
