@@ -37,6 +37,8 @@ EXAMPLES = {
     "Table": "0 : 250, 0.1 : 310, 0.5 : 380",
     "Table file": "curve.csv",
     "Curves file": "curves.csv",
+    "Forming limit": "-0.2 : 0.5, 0 : 0.3, 0.3 : 0.4",
+    "Forming limit file": "limit.csv",
     "Curve rates": "0.001, 1, 1000",
     "Rate table file": "rates.csv",
     "Thermal table file": "softening.csv",
