@@ -62,7 +62,8 @@ void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretizat
   output.write_estimate(report);
 }
 
-DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Scene &parameters) {
+DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &review,
+                                    const parameters::Scene &parameters) {
   constexpr double rounding = 1e-6;
   if (!(mesh.error() > rounding))
     return {};
@@ -78,6 +79,8 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Sc
   if (geometry > rounding)
     text << ". Flat facets in place of curved surfaces may make another " << 100. * geometry << " %";
   text << ". Contact between nodes and folds are not in it";
+  if (!review.resolves_contact())
+    text << ". The whole error is unknown, since the mesh does not resolve the contact that warnings name";
   Diagnostic message(diagnostic::mesh_error, text.str());
   message.value("error", mesh.error()).value("geometry", geometry);
   return {message};

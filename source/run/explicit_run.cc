@@ -275,7 +275,7 @@ void ExplicitRun::end(RunOutput &output) {
   output.progress().show_pace(problem_.n_steps() - first_step_, discretization_.n_global_elements(),
                               stopwatch_.seconds(), stopwatch_.processor_seconds());
   problem_.update_state();
-  output.report(describe_mesh_errors(mesh_errors_, parameters_));
+  output.report(describe_mesh_errors(mesh_errors_, review_, parameters_));
   output.report(check_forming_limits(scene_, problem_));
   output.report(find_unneeded_costs(collect_costs(problem_, review_)));
   output.report(find_checkerboard(problem_, discretization_).check());

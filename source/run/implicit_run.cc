@@ -212,7 +212,7 @@ void ImplicitRun::end(RunOutput &output) {
     estimate.costs = {{"steps taken", report_.step}, {"Newton iterations", report_.total_iterations}};
     report_errors(std::move(estimate), mesh_errors_, discretization_, parameters_, review_, output);
   }
-  output.report(describe_mesh_errors(mesh_errors_, parameters_));
+  output.report(describe_mesh_errors(mesh_errors_, review_, parameters_));
   RunCosts costs = collect_costs(problem_, review_);
   if (watch_) {
     costs.steps_error = watch_->estimated_error().estimate.steps;

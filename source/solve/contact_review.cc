@@ -214,6 +214,12 @@ double ContactReview::penalty_error() const {
   return worst > notable_softness ? worst : 0.;
 }
 
+bool ContactReview::is_resolved() const {
+  return std::none_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) {
+    return pair.is_spread_reported || pair.spread.has_few_nodes() || pair.spread.is_coarse_on_curves();
+  });
+}
+
 void ContactReview::judge_paths(DiagnosticList &diagnostics) const {
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     const double part = softness_[i].part();

@@ -24,8 +24,10 @@ ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_s
 void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretization &discretization,
                    const parameters::Scene &parameters, const RunReview &review, RunOutput &output);
 
-/// Returns the message on the errors of the mesh at the end of a run; none if nothing has deformed.
-DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const parameters::Scene &parameters);
+/// Returns the message on the errors of the mesh at the end of a run; none if nothing has deformed. If the
+/// mesh does not resolve the contact, the message says that the error is unknown.
+DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &review,
+                                    const parameters::Scene &parameters);
 
 } // namespace billet
 

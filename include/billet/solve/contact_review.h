@@ -53,6 +53,9 @@ public:
   /// is below the limit of the warning.
   double penalty_error() const;
 
+  /// Whether no pair has facets that are too coarse for its tool's curves, or too few nodes that bear force.
+  bool is_resolved() const;
+
   /// Whether any surface has touched itself.
   bool self_contact_touches() const;
 
