@@ -11,6 +11,9 @@ struct Limits {
   /// Thickness below which a tool is watched [facet sizes]: exceeds the travel of a node in a step, and its
   /// penetration.
   static constexpr double far = 2.;
+  /// Thickness over size up to which a tool is one flat surface: boxes of CAD faces reach a tolerance beyond
+  /// them.
+  static constexpr double flat = 1e-6;
   /// Parts of the thickness. Paths that enter less than `deep` only graze the tool; the path is looked at in
   /// increments of `fine` where the tool is near; above `middle` the other side is about as near.
   static constexpr double deep = 0.1, fine = 0.125, middle = 0.45;
@@ -27,7 +30,8 @@ std::optional<ThinToolWatch> ThinToolWatch::make(const RigidSurface &surface, co
   double thickness = box.high[0] - box.low[0];
   for (unsigned int i = 1; i < 3; ++i)
     thickness = std::min(thickness, box.high[i] - box.low[i]);
-  if (!(thickness > 0. && thickness < Limits::far * max_facet_size))
+  const double size = (box.high - box.low).norm();
+  if (!(thickness > Limits::flat * size && thickness < Limits::far * max_facet_size))
     return {};
   return ThinToolWatch(surface, thickness);
 }

@@ -18,8 +18,10 @@ namespace billet {
 namespace {
 
 constexpr unsigned int steps_between_checks = ExplicitDynamics::steps_between_checks;
-/// States in an interval of (W4), of some 200 of a run: waves pass the bodies meanwhile.
-constexpr unsigned int states_in_interval = 10;
+/// Steps between two states of (W4), each of which costs eleven steps.
+constexpr unsigned int steps_between_estimates = 400;
+/// Number of intervals of (W4) in a run: waves pass the bodies meanwhile.
+constexpr double n_intervals = 20.;
 
 struct Limits {
   /// Number of checks of stability in a run: each costs one to a few steps.
@@ -76,7 +78,11 @@ void ExplicitRun::load(Resumption &resumption) {
       history_times_.begin_after(reader.number("last"));
     if (reader.number("interval of checks") == watch_times_.interval())
       watch_times_.begin_after(reader.number("last check"));
-    balanced_step_ = reader.count("balanced step");
+    last_.balanced_step = reader.count("balanced step");
+    if (reader.has("estimated step")) { // checkpoints of older programs lack it
+      last_.estimated_step = reader.count("estimated step");
+      last_.interval_start = reader.number("interval start");
+    }
     review_.load(reader);
     mesh_errors_.load(reader);
     if (errors_ && reader.has("errors")) {
@@ -93,7 +99,9 @@ void ExplicitRun::save_method(StateWriter &writer) const {
     writer.write("last", {history_times_.last()});
     writer.write("interval of checks", {watch_times_.interval()});
     writer.write("last check", {watch_times_.last()});
-    writer.write("balanced step", {static_cast<double>(balanced_step_)});
+    writer.write("balanced step", {static_cast<double>(last_.balanced_step)});
+    writer.write("estimated step", {static_cast<double>(last_.estimated_step)});
+    writer.write("interval start", {last_.interval_start});
     review_.save(writer);
     mesh_errors_.save(writer);
     if (errors_)
@@ -155,10 +163,8 @@ void ExplicitRun::after_step(RunOutput &output) {
   const bool is_row_due = history_times_.is_due(problem_.time()) || is_start;
   const bool is_watch_due = watch_times_.is_due(problem_.time()) || is_start;
   const bool is_check_due = problem_.n_steps() % steps_between_checks == 0;
-  if (is_watch_due) {
-    problem_.update_state();
-    mesh_errors_.add(problem_, is_finished_ || mesh_errors_.n_states() + 1 >= states_in_interval);
-  }
+  if (is_watch_due)
+    estimate_mesh_error();
   if (is_row_due)
     write_row(output);
   if (is_watch_due)
@@ -177,6 +183,20 @@ void ExplicitRun::after_step(RunOutput &output) {
     attempt(output, [&] { problem_.finish_step(); });
     is_between_steps_ = true;
   }
+}
+
+void ExplicitRun::estimate_mesh_error() {
+  if (mesh_errors_.has_begun() && !is_finished_ &&
+      problem_.n_steps() < last_.estimated_step + steps_between_estimates)
+    return;
+  problem_.update_state();
+  const double rounding = 1e-9, interval = stops_.end() / n_intervals;
+  const bool ends_interval =
+      is_finished_ || problem_.time() >= last_.interval_start + (1. - rounding) * interval;
+  mesh_errors_.add(problem_, ends_interval);
+  last_.estimated_step = problem_.n_steps();
+  if (ends_interval)
+    last_.interval_start = problem_.time();
 }
 
 void ExplicitRun::show_number_of_steps(RunOutput &output) const {
@@ -222,11 +242,11 @@ void ExplicitRun::write_fields(RunOutput &output) {
 }
 
 void ExplicitRun::check_stability(RunOutput &output) {
-  if (problem_.time() < next_check_ || !std::isfinite(problem_.relative_drift()))
+  if (problem_.time() < last_.next_check || !std::isfinite(problem_.relative_drift()))
     return;
   problem_.update_state();
   output.report(stability_.check(problem_.time(), problem_.state().displacements));
-  next_check_ = problem_.time() + stops_.end() / Limits::n_checks;
+  last_.next_check = problem_.time() + stops_.end() / Limits::n_checks;
 }
 
 std::string ExplicitRun::advise_on_law(RunOutput &output) {
@@ -243,8 +263,8 @@ std::string ExplicitRun::advise_on_law(RunOutput &output) {
 void ExplicitRun::check_drift(RunOutput &output) {
   const bool is_finite = std::isfinite(problem_.relative_drift());
   if (std::abs(problem_.relative_drift()) <= parameters_.explicit_dynamics.max_drift)
-    balanced_step_ = problem_.n_steps();
-  if (is_finite && problem_.n_steps() < balanced_step_ + (is_finished_ ? 1 : steps_between_checks))
+    last_.balanced_step = problem_.n_steps();
+  if (is_finite && problem_.n_steps() < last_.balanced_step + (is_finished_ ? 1 : steps_between_checks))
     return;
   problem_.update_state();
   output.snapshots().write(problem_);
@@ -277,7 +297,7 @@ void ExplicitRun::end(RunOutput &output) {
   problem_.update_state();
   output.report(describe_mesh_errors(mesh_errors_, review_, parameters_));
   output.report(check_forming_limits(scene_, problem_));
-  output.report(find_unneeded_costs(collect_costs(problem_, review_)));
+  output.report(find_unneeded_costs(collect_costs(scene_, problem_, review_)));
   output.report(find_checkerboard(problem_, discretization_).check());
 }
 

@@ -213,7 +213,7 @@ void ImplicitRun::end(RunOutput &output) {
     report_errors(std::move(estimate), mesh_errors_, discretization_, parameters_, review_, output);
   }
   output.report(describe_mesh_errors(mesh_errors_, review_, parameters_));
-  RunCosts costs = collect_costs(problem_, review_);
+  RunCosts costs = collect_costs(scene_, problem_, review_);
   if (watch_) {
     costs.steps_error = watch_->estimated_error().estimate.steps;
     costs.target = parameters_.target_error;

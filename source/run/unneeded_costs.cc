@@ -42,12 +42,16 @@ std::vector<Unneeded> list_unneeded(const RunCosts &costs) {
 
 } // namespace
 
-RunCosts collect_costs(const Solution &solution, const RunReview &review) {
+RunCosts collect_costs(const Scene &scene, const Solution &solution, const RunReview &review) {
   constexpr double rounding = 1e-9;
   const EnergyLedger &energies = solution.state().energies;
   RunCosts costs;
   costs.all = SpentTime::on_all();
-  costs.unsymmetric_matrix = SpentTime::on(Work::unsymmetric_matrix);
+  const auto any = [](const auto &pairs) {
+    return std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) { return pair.has_friction(); });
+  };
+  if (any(scene.pairs()) || any(scene.body_pairs()))
+    costs.unsymmetric_matrix = SpentTime::on(Work::unsymmetric_matrix);
   costs.self_contact = SpentTime::on(Work::self_contact);
   costs.fields = SpentTime::on(Work::fields);
   costs.error_control = SpentTime::on(Work::error_control);

@@ -29,7 +29,8 @@ const DiagnosticKind energies_not_separated(
     "Compute SSE, and SPD or SCD, in a UMAT; enerInternNew and enerInelasNew in a VUMAT");
 
 const DiagnosticKind subroutine_note("subroutine-note", Severity::note,
-                                     "A material subroutine gives a note by STDB_ABQERR or XPLB_ABQERR.", "");
+                                     "A material subroutine gives a note by STDB_ABQERR or XPLB_ABQERR.",
+                                     "See the source or the manual of the library");
 
 const DiagnosticKind
     subroutine_warning("subroutine-warning", Severity::warning,

@@ -6,7 +6,10 @@
 #include "../geometry/make_surface.h"
 #include "../testing.h"
 
+#include <deal.II/base/config.h>
+
 #include <cmath>
+#include <string>
 
 using namespace billet;
 using billet::testing::check;
@@ -48,6 +51,12 @@ int main() {
   check("less deep, to the other side of a right angle", turns(92., 0.045) && !turns(88., 0.045));
   check("pressed nearly to the middle", passes(at(-0.1, 0.), at(-0.1, 0.), 0.046));
   check("pressed less deep", !passes(at(-0.1, 0.), at(-0.1, 0.), 0.044));
+#ifdef DEAL_II_WITH_OPENCASCADE
+  const auto flat = billet::testing::make_surface(
+      "CAD", "set File = " + std::string(SOURCE_DIR) + "/../../prm/step_punch/punch.step\nset Faces = 2");
+  check("a flat face of a CAD file is not thin, though its box has a tolerance",
+        !ThinToolWatch::make(*flat, 1.));
+#endif
   watch->forget();
   check("positions are dropped", !watch->knows_positions());
   return billet::testing::exit_code();

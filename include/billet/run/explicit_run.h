@@ -34,11 +34,21 @@ protected:
   void save_method(StateWriter &writer) const override;
 
 private:
+  /// Steps and times of what does not happen in each step.
+  struct LastTimes {
+    unsigned int balanced_step = 0;  ///< last step with a balance of energies
+    unsigned int estimated_step = 0; ///< that of the last estimate_mesh_error()
+    double interval_start = 0.;      ///< of (W4) [time]
+    double next_check = 0.;          ///< time of the next check_stability() [time]
+  };
+
   void load(Resumption &resumption);
   /// Runs and times a part of a step. On failure, writes the state and throws an explanation.
   template <class Part> void attempt(RunOutput &output, const Part &part);
   /// Reports the refinement with which the run began, after its first forces.
   void report_change(RunOutput &output);
+  /// Adds a state to the error of the mesh, unless the last one is too near.
+  void estimate_mesh_error();
   void show_number_of_steps(RunOutput &output) const;
   void write_row(RunOutput &output);
   /// Reports what the state shows of contact, elements and energies.
@@ -59,10 +69,9 @@ private:
   std::unique_ptr<EnergyErrors> errors_;                ///< only for scenes that control their errors
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
   Stopwatch stopwatch_;                                 ///< for the steps, without output
-  unsigned int balanced_step_ = 0;                      ///< last step with a balance of energies
-  unsigned int first_step_ = 0;                         ///< of this run, after those that it continues
-  std::optional<MeshChange> change_;                    ///< until it is reported
-  double next_check_ = 0.;                              ///< time of the next check_stability() [time]
+  LastTimes last_;
+  unsigned int first_step_ = 0;      ///< of this run, after those that it continues
+  std::optional<MeshChange> change_; ///< until it is reported
   bool is_finished_ = false, is_between_steps_ = true;
 };
 

@@ -16,8 +16,9 @@ struct RunCosts {
   double steps_error = 0., target = 0.; ///< estimated error of the steps, and the target for all errors
 };
 
-/// Returns the costs of this process so far, without error and target.
-RunCosts collect_costs(const Solution &solution, const RunReview &review);
+/// Returns the costs of this process so far, without error and target. An unsymmetric matrix counts only in
+/// scenes with friction: loads and laws that make it so have no remedy.
+RunCosts collect_costs(const Scene &scene, const Solution &solution, const RunReview &review);
 
 /// Returns a note that lists, in seconds, what the scene paid for and did not need, if that is more than a
 /// tenth of the time and a second: an unsymmetric matrix where nothing slides, of whose factorisation a
