@@ -142,7 +142,6 @@ earlier = {
     }
     for profile in ("fast", "balanced")
 }
-steps_of = ", ".join(f"{name} {n}" for name, n in sorted(OTHER_STEPS.items()))
 n_hand = [len(of.hand) for of in scenes.values()]
 seconds = sum(
     run.seconds
@@ -176,7 +175,7 @@ publish(
         "The reference F* is a run on the same mesh.\n\n"
         f"- Statics: {REFERENCE_STEPS} equal steps, augmented to {TIGHT[0][0]:g} of a facet, residuals below"
         f" {TIGHT[0][1]:g}. The number of steps is another where forces depend little on them, where the"
-        f" scene takes long, or where it has cycles: {steps_of}.\n"
+        " scene takes long, or where it has cycles. A table below has these scenes.\n"
         "- The patch tests have penalties of 1000 E/h instead: repeated augmentation shears facets that do"
         " not match.\n"
         "- Implicit dynamics: an error tolerance of 1e-6 instead.\n"
@@ -195,7 +194,9 @@ publish(
     "## Beside settings by hand\n\n" + beside_hand(points, hand),
     on_front(points),
     "## What is missed, and why\n\n" + reasons(missed_by(points, hand), WHY),
-    "## References\n\n"
+    "## References\n\nThese scenes have another number of steps:\n\n"
+    + table(["scene", "steps"], [item for item in sorted(OTHER_STEPS.items()) if item[0] in scenes])
+    + "\n\n"
     + "\n\n".join(
         part
         for part in (
