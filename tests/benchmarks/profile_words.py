@@ -70,6 +70,11 @@ def reasons(missed: Mapping[str, Sequence[str]], why: Mapping[str, str]) -> str:
     )
 
 
+def above(errors: Mapping[str, float], limit: float) -> str:
+    """Names the scenes whose error is above a limit or unknown, with the error."""
+    return names([f"{name} ({percent(off)})" for name, off in errors.items() if not off <= limit])
+
+
 def within_limits(points: Errors) -> str:
     """Counts, for each profile, the scenes within the error that is wanted, and names the others."""
     rows = []
@@ -114,8 +119,8 @@ def on_front(points: Errors) -> str:
     }
     whole = [name for name in known if not any(name in scenes for scenes in beaten.values())]
     return (
-        f"In {len(whole)} of {len(known)} scenes whose errors are known no profile is beaten by another one,"
-        " which costs less and is no worse, or is better and costs no more. The others are:\n\n"
+        f"In {len(whole)} of {len(known)} scenes whose errors are known no profile is beaten by another one."
+        " One that costs less and is no worse beats it, and so does one that is better and costs no more.\n\n"
         + "\n".join(
             f"- {profile} is beaten in {names(scenes)}." for profile, scenes in beaten.items() if scenes
         )

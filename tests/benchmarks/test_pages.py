@@ -13,6 +13,7 @@ from typing import Iterable, Iterator, Sequence
 from hand_set import beside_hand_set
 from profile_words import (
     Point,
+    above,
     beside_hand,
     cheapest,
     is_beaten,
@@ -85,6 +86,10 @@ class Profiles(unittest.TestCase):
         self.assertIn("| fast | 5 % | 1 of 2 | 6 % | a (6 %) |", said)
         self.assertIn("| balanced | 2 % | 2 of 3 | 1 % | c (3 %) |", said)
         self.assertIn("| accurate | 0.2 % | 2 of 3 | 0.1 % | a (0.3 %) |", said)
+
+    def test_above(self) -> None:
+        self.assertEqual(above({"a": 0.03, "b": 0.02, "c": math.nan}, 0.02), "a (3 %), c (–)")
+        self.assertEqual(above({"b": 0.02}, 0.02), "none")
 
     def test_cheapest(self) -> None:
         hand = [Point(5, 0.1), Point(8, 0.02, "some"), Point(20, 0.001), Point(3, math.nan)]
