@@ -4,24 +4,20 @@
 from __future__ import annotations
 
 import math
-import tempfile
 from bisect import bisect_right
-from pathlib import Path
 from typing import Callable, NamedTuple, Sequence
 
 from billet_runs import (
     ROOT,
     Changes,
     arguments,
-    count_instructions,
     number,
     percent,
     publish,
     read_scene,
     table,
-    variant,
 )
-from billet_tools.scene import entries, with_absolute_files
+from billet_tools.scene import entries
 from curve_runs import CurveRun
 
 options = arguments("mesh-error")
@@ -418,28 +414,7 @@ def count(ratios: list[float]) -> str:
     )
 
 
-def price() -> list[list[object]]:
-    """Instructions of estimates, as parts of those of runs."""
-    rows: list[list[object]] = []
-    for case, changes in (
-        (CASES[0], refined("billet", (1,), (6,))[0]),
-        (CASES[1], hertz(20)),
-        (CASES[9], refined("bar", (1,), (24,))[0]),
-    ):
-        with tempfile.TemporaryDirectory() as folder:
-            text = variant(
-                with_absolute_files(read_scene(ROOT / f"{case.scene}.prm"), ROOT / "prm"),
-                {"Output/Format": "none", "Output/Folder": "results", **changes},
-            )
-            Path(folder, "scene.prm").write_text(text)
-            of_run = count_instructions(folder)
-            of_estimate = count_instructions(folder, "billet::MeshErrors::add(*")
-        rows.append([case.scene.split("/")[-1], of_run, of_estimate, percent(of_estimate / of_run)])
-    return rows
-
-
 lines = [line for case in CASES for line in lines_of(case)]
-costs = price()
 with_levels = [line for line in lines if not math.isnan(line.levels)]
 more = [line.seconds_of_levels / line.seconds for line in with_levels]
 publish(
@@ -490,6 +465,4 @@ publish(
         ],
         [line.cells() for line in lines],
     ),
-    "## Price of the estimate\n\nInstructions of the whole run and of the estimate, by callgrind.",
-    table(["scene", "run", "estimate", "part"], costs),
 )
