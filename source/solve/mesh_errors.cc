@@ -261,7 +261,7 @@ void MeshErrors::save(StateWriter &writer) const {
   sums.push_back(n_states_);
   sums.push_back(has_begun_ ? 1. : 0.);
   writer.write("mesh errors of intervals", sums);
-  writer.write_rows("mesh errors of elements by intervals", row_width, keys, rows);
+  writer.write_rows("mesh errors of elements", row_width, keys, rows);
 }
 
 void MeshErrors::load(const StateReader &reader) {
@@ -277,7 +277,7 @@ void MeshErrors::load(const StateReader &reader) {
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (const Element &element : discretization_.elements(body))
       keys.push_back(element_key(element.cell));
-  const std::vector<double> rows = reader.read_rows("mesh errors of elements by intervals", row_width, keys);
+  const std::vector<double> rows = reader.read_rows("mesh errors of elements", row_width, keys);
   RowReader row(rows);
   for (auto &of_body : elements_)
     for (OwnedElement &own : of_body) {
