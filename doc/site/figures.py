@@ -36,6 +36,11 @@ def found(page: str, pattern: str) -> tuple[str, ...]:
     return match.groups()
 
 
+def cheaper_scenes() -> tuple[str, ...]:
+    text = r"fewer CPU seconds in ([0-9]+) of ([0-9]+) scenes, and CalculiX in ([0-9]+)"
+    return found("work-precision.md", text)
+
+
 def iterations_of_billet() -> tuple[str, ...]:
     cell = cell_of(RESULTS / "billet-tangents.md", {"tangent": "exact"}, "5e-3: iterations / steps")
     return tuple(cell.split(" / "))
@@ -85,6 +90,7 @@ def cheap_runs() -> tuple[str, ...]:
     return *work, *seconds, *found("target-error.md", without_start)
 
 
+BESIDE_CALCULIX = r"fewer CPU seconds than CalculiX in (\d+) of (\d+) scenes, and CalculiX in (\d+)"
 EXAMPLES = "doc/guide/examples.md"
 FIGURES = (
     Figure("README.md", r"(\d+) Newton iterations in (\d+) steps", iterations_of_billet),
@@ -97,6 +103,8 @@ FIGURES = (
         r"on the billet, ([\d.]+ %) instead of ([\d.]+ %) for ([\d.]+) of the work",
         trade_of_billet,
     ),
+    Figure("README.md", BESIDE_CALCULIX, cheaper_scenes),
+    Figure("doc/index.md", BESIDE_CALCULIX, cheaper_scenes),
     Figure("doc/guide/accuracy.md", r"(\d+ of \d+) runs are within their target", runs_within_target),
     Figure(
         "doc/guide/accuracy.md",
