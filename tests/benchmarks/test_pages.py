@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
 from hand_set import beside_hand_set
-from precision_picture import Point, front_of
+from precision_picture import Point, front_of, without_luck
 from precision_references import Ring, beam_deflection, press_fit_force, pressurised_bore
 from precision_scenes import difference, on_arc
 from profile_words import no_better, with_looser, without_errors
@@ -185,6 +185,12 @@ class Precision(unittest.TestCase):
         ]
         self.assertEqual([p.seconds for p in front_of(points)], [1, 3, 4])
         self.assertEqual([p.seconds for p in front_of(points, 0.02)], [1, 3])
+
+    def test_luck(self) -> None:
+        """A coarse mesh that is better than a finer one of its setting counts no more than that."""
+        runs = ((1, 0.1), (2, 0.01), (4, 0.05), (8, math.nan))
+        points = [Point("a", "b", n, n, error) for n, error in runs] + [Point("a", "c", 1, 1, 0.001)]
+        self.assertEqual([p.error for p in without_luck(points)], [0.1, 0.05, 0.05, 0.001])
 
     def test_midpoints(self) -> None:
         middle = on_arc((10.0, 0.0, 1.0), (0.0, 10.0, 2.0))
