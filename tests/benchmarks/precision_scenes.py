@@ -256,7 +256,14 @@ class Hertz(Scene):
     file = ROOT / "prm/hertz_cylinders.prm"
     always = {"Contact pairs/faces/Penetration tolerance": None, "Time stepping/Initial step": None}
     settings = with_penalties("faces")
-    jobs = with_contact("C3D8", "C3D8I", QUADRATIC)
+    jobs = [
+        Job("C3D8, node to surface", "C3D8", NODES),
+        Job("C3D8, surface to surface", "C3D8", FACES_CONTACT),
+        *(
+            Job(f"{element}, surface to surface, penalty × 10", element, FACES_CONTACT, 10.0)
+            for element in ("C3D8", "C3D8I", "C3D20R")
+        ),
+    ]
 
     levels = [hertz_mesh(n) for n in (10, 20, 40)]
 

@@ -264,15 +264,15 @@ def main() -> None:
             f" all {sum(len(found) - 1 for found in rows.values())} runs."
         ),
         (
-            "- CPU seconds: user and system, one process at a time, on a busy machine. Runs that take less"
+            "- CPU seconds: user and system of each run, on one core of a busy machine. Runs that take less"
             f" than {SHORT:g} s are the median of three. Read seconds as ratios.\n"
             "- billet: the three profiles, and other penalties or steps where they matter."
             f" {start:.2g} s of each run are its start.\n"
-            "- CalculiX: elements C3D8, C3D8R, C3D8I and C3D20R, both kinds of penalty contact, and its"
+            "- CalculiX: elements C3D8, C3D8R, C3D8I and C3D20R, two kinds of penalty contact, and its"
             " default tolerances and solver. C3D20R gets nodes between those of the mesh, on the arcs of"
             f" round bodies. It gets at most {LIMIT} s.\n"
             "- Penalties of CalculiX are those that billet chooses, ten times E/h of both sides in series,"
-            " and 10 and 100 times that. The billet has the penalty of its scene.\n"
+            " or 10 or 100 times that. The billet has the penalty of its scene.\n"
             "- Error: the relative difference from the reference at the end. For the billet it is ∫|F − F*| /"
             " ∫|F*| over the travel.\n"
             "- In tables and wide lines a run counts with the largest error of its setting on its mesh and"
