@@ -272,7 +272,9 @@ class Hertz(Scene):
             "Contact pairs/faces/Penetration tolerance": 1e-3,
             "Time stepping/Initial step": 0.1,
         }
-        return self.converged([hertz_mesh(48), hertz_mesh(96)], settings)
+        found = self.converged([hertz_mesh(48), hertz_mesh(96)], settings)
+        # Augmentation to a thousandth of a facet leaves 0.1 % with 40 elements across.
+        return found._replace(uncertainty=max(found.uncertainty, 1e-3))
 
     def deck(self, changes: Changes, element: str) -> Deck:
         def upper(x: float) -> float:
