@@ -7,6 +7,7 @@ import copy
 import math
 import os
 import re
+import signal
 import tempfile
 from pathlib import Path
 from typing import Any, Callable, Sequence
@@ -77,7 +78,7 @@ class CcxJob:
             if self.time > end * (1 - 1e-6)
             else (
                 f"{limit} s are over"
-                if limit and self.seconds > 0.99 * limit
+                if limit and done.code in (-signal.SIGXCPU, -signal.SIGKILL)
                 else re.sub(r"\s+", " ", said[0])
                 if said
                 else f"ends with code {done.code}"
