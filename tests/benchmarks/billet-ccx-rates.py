@@ -7,7 +7,8 @@ from __future__ import annotations
 import statistics
 
 from billet_runs import Run, arguments, mesh, n_elements, number, publish, table
-from ccx_billet import FACES_CONTACT, NODES, CcxRun, read_mesh
+from ccx_billet import CcxRun, read_mesh
+from ccx_decks import FACES_CONTACT, NODES
 
 options = arguments("billet-ccx-rates")
 REPEAT, PART, STEP = {2: 3, 3: 1}, 0.1, 0.02

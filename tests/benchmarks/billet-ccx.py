@@ -25,7 +25,8 @@ from billet_runs import (
     publish,
     table,
 )
-from ccx_billet import FACES_CONTACT, NODES, CcxRun, read_mesh
+from ccx_billet import CcxRun, read_mesh
+from ccx_decks import FACES_CONTACT, NODES
 
 options = arguments("billet-ccx")
 REPEAT = 3

@@ -13,8 +13,6 @@ from typing import Sequence
 from billet_runs import PENALTY, PROGRAM, SCENE, mesh, variant
 from ccx_decks import FACES, Brick, CcxJob, Node, read_bricks
 
-NODES, FACES_CONTACT = "NODE TO SURFACE", "SURFACE TO SURFACE"
-
 
 def read_mesh(refinements: int) -> tuple[list[Node], list[Brick]]:
     """Nodes and bricks (in VTK's order, which is Abaqus', too) of billet's mesh, from its fields at time

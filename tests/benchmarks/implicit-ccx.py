@@ -17,7 +17,7 @@ import numpy
 
 from billet_runs import ROOT, Changes, number, percent, publish, table
 from billet_tools.output import Array
-from ccx_decks import FACES, CcxJob, read_bodies
+from ccx_decks import FACES_CONTACT, NODAL, NODES, TOTALS, CcxJob, Deck, Motion, blocks, totals
 from explicit_runs import ExplicitRun
 
 parser = argparse.ArgumentParser(prog="scripts/benchmarks implicit-ccx")
@@ -30,167 +30,10 @@ parser.add_argument(
 )
 options = parser.parse_args()
 options.large, options.ranks = False, 1
+PRM = ROOT / "prm"
 LIMIT = 120  # seconds of a processor for each run of CalculiX
-NODES, FACES_CONTACT = "NODE TO SURFACE", "SURFACE TO SURFACE"
 NEAR = 1e-4
 SHORTER = ("ironing", "billet_deformable_dies", "passing_spheres")  # also in increments of a tenth
-
-
-Motion = dict[tuple[Any, int], float]  # {(set or node, component): displacement}
-
-
-class Deck:
-    """A shipped scene in CalculiX's words: the mesh, sets by conditions on nodes, one contact pair, steps."""
-
-    def __init__(
-        self,
-        scene: str,
-        materials: Sequence[tuple[Any, ...]],
-        digits: int = 5,
-        turn: Array | None = None,
-        plates: Sequence[tuple[Sequence[float], Sequence[float]]] = (),
-    ) -> None:
-        """Of each body its element, Young's modulus, Poisson's ratio, and yield stresses over plastic
-        strains, if any. Plates, which stand for plane tools, are bricks between two corners, the last
-        bodies."""
-        with tempfile.TemporaryDirectory() as folder:
-            begin = {
-                "Time stepping/End time": 1e-3,
-                "Time stepping/Initial step": 1e-3,
-                "Time stepping/Stops": "",
-            }
-            ExplicitRun(ROOT / f"prm/{scene}.prm", begin, folder)
-            self.nodes, self.bodies = read_bodies(Path(folder, "results/fields_00000.vtm"), digits)
-        if turn is not None:
-            self.nodes = [tuple(turn @ numpy.array(node)) for node in self.nodes]
-        for (x0, y0, z0), (x1, y1, z1) in plates:
-            self.bodies.append([[len(self.nodes) + i for i in range(8)]])
-            self.nodes += [(x, y, z) for z in (z0, z1) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
-        self.pairs: list[tuple[str, str, float | None]] = [("SLAVE", "MASTER", None)]
-        self.materials = materials
-        self.sizes: dict[str, tuple[int, float]] = {}
-        self.lines: list[str] = []
-        self.steps: list[tuple[float, float, float, Motion]] = []
-        self.numbers, last = [], 0
-        for bricks in self.bodies:
-            self.numbers.append(range(last + 1, last + 1 + len(bricks)))
-            last += len(bricks)
-
-    def members(self, body: int, condition: Callable[..., bool]) -> list[int]:
-        used = sorted({corner for brick in self.bodies[body] for corner in brick})
-        return [i for i in used if condition(*self.nodes[i])]
-
-    def node_set(self, name: str, members: Sequence[int]) -> Sequence[int]:
-        self.lines += [f"*NSET, NSET={name}"]
-        self.lines += [", ".join(str(m + 1) for m in members[i : i + 12]) for i in range(0, len(members), 12)]
-        return members
-
-    def surface(self, name: str, body: int, condition: Callable[..., bool]) -> None:
-        """The outer faces of the body all of whose corners are so."""
-        count: dict[tuple[int, ...], int] = {}
-        for brick in self.bodies[body]:
-            for face in FACES:
-                key = tuple(sorted(brick[i] for i in face))
-                count[key] = count.get(key, 0) + 1
-        self.lines += [f"*SURFACE, NAME={name}"]
-        areas = []
-        for number_, brick in zip(self.numbers[body], self.bodies[body]):
-            for side, face in enumerate(FACES):
-                corners = [brick[i] for i in face]
-                if count[tuple(sorted(corners))] == 1 and all(condition(*self.nodes[c]) for c in corners):
-                    self.lines.append(f"{number_}, S{side + 1}")
-                    a, b, c, d = (numpy.array(self.nodes[corner]) for corner in corners)
-                    areas.append(0.5 * numpy.linalg.norm(numpy.cross(c - a, d - b)))
-        self.sizes[name] = (body, math.sqrt(sum(areas) / len(areas)))
-
-    def penalty(self) -> float:
-        """billet's own: ten times E/h of both sides in series, h the root of the faces' mean area."""
-        return 10.0 / sum(size / self.materials[body][1] for body, size in self.sizes.values())
-
-    def hold(self, name: str, members: Sequence[int], *components: int) -> None:
-        """For good."""
-        self.node_set(name, members)
-        self.lines += ["*BOUNDARY"] + [f"{name}, {i}, {i}" for i in components]
-
-    def step(self, period: float, first: float, largest: float, motion: Motion) -> None:
-        """Displacements {(set or node, component): value} at the end; between, they go straight."""
-        self.steps.append((period, first, largest, motion))
-
-    def write(
-        self,
-        path: str | Path,
-        contact: str,
-        friction: float,
-        penalty: float,
-        prints: Sequence[str],
-        shorter: int = 1,
-    ) -> float:
-        lines = ["*NODE, NSET=ALL"]
-        lines += [f"{i + 1}, {x:.7g}, {y:.7g}, {z:.7g}" for i, (x, y, z) in enumerate(self.nodes)]
-        for body, bricks in enumerate(self.bodies):
-            lines += [f"*ELEMENT, TYPE={self.materials[body][0]}, ELSET=BODY{body}"]
-            lines += [
-                ", ".join(str(v) for v in [i] + [c + 1 for c in brick])
-                for i, brick in zip(self.numbers[body], bricks)
-            ]
-        lines += self.lines
-        for body, (_, young, poisson, *plastic) in enumerate(self.materials):
-            lines += [f"*MATERIAL, NAME=MATERIAL{body}", "*ELASTIC", f"{young}, {poisson}"]
-            # With plasticity, though it never yields, elasticity is one of large strain; without,
-            # Saint-Venant and Kirchhoff's, which grows soft in compression.
-            lines += ["*PLASTIC"] + [
-                f"{stress:g}, {strain:g}"
-                for stress, strain in plastic or ((1e3 * young, 0), (2e3 * young, 1))
-            ]
-            lines += [f"*SOLID SECTION, ELSET=BODY{body}, MATERIAL=MATERIAL{body}"]
-        for i, (slave, master, own_penalty) in enumerate(self.pairs):
-            lines += [
-                f"*SURFACE INTERACTION, NAME=TOUCH{i}",
-                "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
-                f"{own_penalty or penalty:.6g}",
-            ]
-            lines += ["*FRICTION", f"{friction}, {penalty:.6g}"] if friction else []
-            lines += [f"*CONTACT PAIR, INTERACTION=TOUCH{i}, TYPE={contact}", f"{slave}, {master}"]
-        for period, first, largest, motion in self.steps:
-            lines += [
-                "*STEP, NLGEOM, INC=100000",
-                "*STATIC",
-                f"{first / shorter}, {period}, 1e-6, {largest / shorter}",
-            ]
-            lines += (
-                ["*BOUNDARY"] + [f"{name}, {i}, {i}, {value:.9g}" for (name, i), value in motion.items()]
-                if motion
-                else []
-            )
-            lines += [*prints, "*END STEP"]
-        Path(path).write_text("\n".join(lines) + "\n")
-        return sum(step[0] for step in self.steps)
-
-
-TOTALS = ["*NODE PRINT, NSET=HELD, TOTALS=ONLY", "RF"]
-NODAL = ["*NODE PRINT, NSET=HELD", "RF"]
-
-
-def totals(folder: str | Path) -> list[tuple[float, ...]]:
-    """Times and sums of reactions."""
-    found = re.findall(
-        r"total force.*?time\s+(\S+)\s+(\S+)\s+(\S+)\s+(\S+)", Path(folder, "deck.dat").read_text(), re.S
-    )
-    return [tuple(float(x) for x in line) for line in found]
-
-
-def blocks(folder: str | Path, what: str, n: int) -> list[tuple[float, list[list[float]]]]:
-    """Times and lines of n integers, then numbers, of what CalculiX prints under `what`."""
-    result: list[tuple[float, list[list[float]]]] = []
-    for line in Path(folder, "deck.dat").read_text().splitlines():
-        words = line.split()
-        if line.strip().startswith(what):
-            result.append((float(words[-1]), []))
-        elif result and len(words) > n and words[0].isdigit():
-            result[-1][1].append([int(w) for w in words[:n]] + [float(w) for w in words[n:]])
-        elif words:
-            result = result if not line.strip().startswith(("forces", "total", "stresses")) else result
-    return result
 
 
 def at(rows: Any, time: float, column: int = 0) -> Any:
@@ -207,7 +50,7 @@ class Ironing:
     result = "vertical force [N], horizontal / vertical, means from 1 to 9 mm"
 
     def deck(self) -> Deck:
-        deck = Deck("ironing", [("C3D8", 100, 0.3), ("C3D8", 1000, 0.3)])
+        deck = Deck(PRM / "ironing.prm", [("C3D8", 100, 0.3), ("C3D8", 1000, 0.3)])
         deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 7 + math.sqrt(16 - (x - 4) ** 2)) < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: abs(z - 3) < NEAR)
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < NEAR), 1, 2, 3)
@@ -241,7 +84,7 @@ class PressFit:
     result = "pressure [MPa] (Lamé: 25.76)"
 
     def deck(self) -> Deck:
-        deck = Deck("press_fit", [("C3D8", 2e5, 0.3), ("C3D8", 2e5, 0.3)])
+        deck = Deck(PRM / "press_fit.prm", [("C3D8", 2e5, 0.3), ("C3D8", 2e5, 0.3)])
         deck.surface("SLAVE", 0, lambda x, y, z: abs(math.hypot(x, y) - 20.01) < NEAR)
         deck.surface("MASTER", 1, lambda x, y, z: abs(math.hypot(x, y) - 20) < NEAR)
         for axis, name in enumerate("XY"):
@@ -267,7 +110,7 @@ class Hertz:
     result = "force [N]"
 
     def deck(self) -> Deck:
-        deck = Deck("hertz_cylinders", [("C3D8", 1e5, 0.3), ("C3D8", 2e5, 0.3)], 6)
+        deck = Deck(PRM / "hertz_cylinders.prm", [("C3D8", 1e5, 0.3), ("C3D8", 2e5, 0.3)], 6)
         deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 10 + math.sqrt(100 - x * x)) < 1e-5)
         deck.surface("MASTER", 0, lambda x, y, z: abs(z + 20 - math.sqrt(400 - x * x)) < 1e-5)
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < -8 + NEAR), 1, 2, 3)
@@ -298,7 +141,8 @@ class Dies:
 
     def deck(self) -> Deck:
         deck = Deck(
-            "billet_deformable_dies", [("C3D8R", 200e3, 0.3, (700, 0), (2200, 5)), ("C3D8", 20e6, 0.3)]
+            PRM / "billet_deformable_dies.prm",
+            [("C3D8R", 200e3, 0.3, (700, 0), (2200, 5)), ("C3D8", 20e6, 0.3)],
         )
         deck.surface("SLAVE", 0, lambda x, y, z: z > 15 - NEAR or math.hypot(x, y) > 9.9)
         deck.surface("MASTER", 1, lambda x, y, z: z < 15 + NEAR)
@@ -334,7 +178,7 @@ class Spheres:
     result = "largest force [N]"
 
     def deck(self) -> Deck:
-        deck = Deck("passing_spheres", [("C3D8", 100, 0.3), ("C3D8", 100, 0.3)])
+        deck = Deck(PRM / "passing_spheres.prm", [("C3D8", 100, 0.3), ("C3D8", 100, 0.3)])
 
         def sphere(*centre: float) -> Callable[..., bool]:
             return lambda *x: abs(math.dist(x, centre) - 10) < 1e-3
@@ -360,7 +204,7 @@ class Twist:
     N = 10  # straight parts of the turn
 
     def deck(self) -> Deck:
-        deck = Deck("twisted_hemisphere", [("C3D8", 1000, 0.3), ("C3D8", 1000, 0.3)])
+        deck = Deck(PRM / "twisted_hemisphere.prm", [("C3D8", 1000, 0.3), ("C3D8", 1000, 0.3)])
         deck.surface("SLAVE", 1, lambda x, y, z: abs(z - 10 + math.sqrt(100 - x * x - y * y)) < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: z > -NEAR)
         deck.hold("BASE", deck.members(0, lambda x, y, z: z < -6 + NEAR), 1, 2, 3)
@@ -416,7 +260,9 @@ class Patch:
     turn: Array | None = numpy.array([[2, 2, -1], [-1, 2, 2], [2, -1, 2]]) / 3  # into the block's own axes
 
     def deck(self) -> Deck:
-        deck = Deck(self.name, [("C3D8", 2e5, self.poisson), ("C3D8", 2e5, self.poisson)], 6, self.turn)
+        deck = Deck(
+            PRM / f"{self.name}.prm", [("C3D8", 2e5, self.poisson), ("C3D8", 2e5, self.poisson)], 6, self.turn
+        )
 
         def in_cut(x: float, y: float, z: float) -> bool:
             return abs(z - self.cut * (x - 1)) < NEAR
@@ -466,7 +312,7 @@ class TurnedBlocks:
     result = "force after pressing [N], its relative change after 360°"
 
     def deck(self) -> Deck:
-        deck = Deck("turned_blocks", [("C3D8", 1000, 0.3), ("C3D8", 2000, 0.2)])
+        deck = Deck(PRM / "turned_blocks.prm", [("C3D8", 1000, 0.3), ("C3D8", 2000, 0.2)])
         deck.surface("SLAVE", 1, lambda x, y, z: z < NEAR)
         deck.surface("MASTER", 0, lambda x, y, z: z > -NEAR)
         foot = deck.members(0, lambda x, y, z: z < -2 + NEAR)
@@ -511,7 +357,9 @@ class HollowBlock:
 
     def deck(self) -> Deck:
         plates = (((-1, -1, 5), (20, 2, 9)), ((-1, -1, -9), (20, 2, -5)))
-        deck = Deck("hollow_block", [("C3D8", 1, 0.4), ("C3D8", 1, 0.4), ("C3D8", 1, 0.4)], plates=plates)
+        deck = Deck(
+            PRM / "hollow_block.prm", [("C3D8", 1, 0.4), ("C3D8", 1, 0.4), ("C3D8", 1, 0.4)], plates=plates
+        )
         deck.surface("SLAVE", 0, lambda x, y, z: abs(math.hypot(x, z) - 3) < NEAR)
         deck.sizes["MASTER"] = deck.sizes["SLAVE"]
         inside = dict(deck.sizes)

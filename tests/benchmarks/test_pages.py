@@ -11,6 +11,10 @@ from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
 from hand_set import beside_hand_set
+from precision_picture import Point as PrecisionPoint
+from precision_picture import front_of, without_luck
+from precision_references import Ring, beam_deflection, press_fit_force, pressurised_bore
+from precision_scenes import difference, on_arc
 from profile_words import (
     Point,
     above,
@@ -184,6 +188,62 @@ class SilentErrors(unittest.TestCase):
         self.assertAlmostEqual(force_curve(["c"])(run, reference), 0)
         self.assertAlmostEqual(force_curve(["c"], lambda time: 2 * time - 1)(run, reference), 0.5)
         self.assertAlmostEqual(force_curve(["c"], lambda time: 2 * time - 1)(run, reference, True), 0)
+
+
+class Precision(unittest.TestCase):
+    def test_beam(self) -> None:
+        """A small force bends by F L³/(3 E I), shears by 6/5 F L/(G A); a large one as Mattiasson has it."""
+        small = beam_deflection(100, 1, 1, 1e5, 1e-6)
+        self.assertAlmostEqual(small / (1e-6 * (1e6 / 3 / (1e5 / 12) + 1.2 * 100 / 5e4)), 1, 8)
+        # Mattiasson (1981), P L²/(E I) = 3: 0.60325 of the length without shear or strain.
+        self.assertAlmostEqual(beam_deflection(100, 0.1, 1, 1e5, 2.5e-3) / 100, 0.60325, 5)
+
+    def test_rings(self) -> None:
+        """Lamé's displacement and pressure, and full plasticity beyond 2/√3 σ ln(b/a)."""
+        a, b, young, poisson = 10.0, 20.0, 210e3, 0.3
+        elastic = (1 + poisson) * a**2 / young / (b**2 - a**2) * ((1 - 2 * poisson) * a + b**2 / a)
+        found = pressurised_bore(Ring(a, b, young, poisson), 1e-3, 50, 1)
+        self.assertAlmostEqual(found / (1e-3 * elastic), 1, 4)
+        lame = (
+            2e5
+            / 0.91
+            * 1e-6
+            / 20
+            * (20**2 - 10**2)
+            * (30**2 - 20**2)
+            / (2 * 20**2 * (30**2 - 10**2))
+        )
+        fit = press_fit_force(Ring(10, 20 + 1e-6, 2e5, 0.3), Ring(20, 30, 2e5, 0.3), 50)
+        self.assertAlmostEqual(fit / (20 * lame), 1, 4)
+        mild = Ring(a, b, young, poisson, 240.0)
+        self.assertLess(pressurised_bore(mild, 188, 50, 20), 0.05)
+        with self.assertRaises(RuntimeError):
+            pressurised_bore(mild, 196, 50, 20)
+
+    def test_difference(self) -> None:
+        self.assertAlmostEqual(difference([(0.5, 9.0), (1.0, 2.2)], [(1.0, 2.0)]), 0.1)
+        self.assertAlmostEqual(difference([(0.5, 1.1), (1.0, 1.9)], [(0.25, 0.5), (1.0, 2.0)]), 0.1 / 1.5)
+
+    def test_front(self) -> None:
+        points = [
+            PrecisionPoint("a", "b", 1, *p)
+            for p in ((1, 0.1), (2, 0.2), (3, 0.01), (4, 0.001), (0.5, math.nan))
+        ]
+        self.assertEqual([p.seconds for p in front_of(points)], [1, 3, 4])
+        self.assertEqual([p.seconds for p in front_of(points, 0.02)], [1, 3])
+
+    def test_luck(self) -> None:
+        """A coarse mesh that is better than a finer one of its setting counts no more than that."""
+        runs = ((1, 0.1), (2, 0.01), (4, 0.05), (8, math.nan))
+        points = [PrecisionPoint("a", "b", n, n, error) for n, error in runs] + [
+            PrecisionPoint("a", "c", 1, 1, 0.001)
+        ]
+        self.assertEqual([p.error for p in without_luck(points)], [0.1, 0.05, 0.05, 0.001])
+
+    def test_midpoints(self) -> None:
+        middle = on_arc((10.0, 0.0, 1.0), (0.0, 10.0, 2.0))
+        self.assertAlmostEqual(math.hypot(*middle[:2]), 10)
+        self.assertAlmostEqual(middle[2], 1.5)
 
 
 if __name__ == "__main__":
