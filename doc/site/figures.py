@@ -71,8 +71,9 @@ def cheaper_scenes() -> tuple[str, ...]:
 
 
 def iterations_of_billet() -> tuple[str, ...]:
-    cell = cell_of(RESULTS / "billet-tangents.md", {"tangent": "exact"}, "5e-3: iterations / steps")
-    return tuple(cell.split(" / "))
+    with (ROOT / "doc/scenes/costs.csv").open(encoding="utf-8", newline="") as file:
+        row = next(row for row in csv.DictReader(file) if row["scene"] == "billet_upsetting")
+    return row["iterations"], row["steps"]
 
 
 def gain_of_tube_impact() -> tuple[str, ...]:
