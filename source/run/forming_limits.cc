@@ -15,11 +15,10 @@ namespace {
 
 const DiagnosticKind beyond_forming_limit(
     "beyond-forming-limit", Severity::warning,
-    "The major strain in the plane of a sheet exceeds the 'Forming limit' of its "
-    "material at the end of the run: the sheet necks or cracks, which the model does not "
-    "describe.",
-    "Set 'Sheet strains = true' in Output to see where; draw less deeply, or change "
-    "holder, friction or radii");
+    "The major strain in the plane of a sheet exceeds the 'Forming limit' of its material at the end of the "
+    "run. The sheet necks or cracks, which the model does not describe.",
+    "Set 'Sheet strains = true' in Output to see where; draw less deeply, or change holder, friction or "
+    "radii");
 
 /// Ratio of strain to limit, and the place.
 using Worst = std::array<double, 4>;

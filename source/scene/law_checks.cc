@@ -47,8 +47,7 @@ const DiagnosticKind implausible_heating(
     "implausible-heating", Severity::warning,
     "Plastic work heats the material by more than 20,000 or less than 0.05 degrees per strain of 1. Metals "
     "warm by 5 to 1,000 degrees. Usually the specific heat has other units than stress and density.",
-    "Give 'Specific heat' in energy per mass and degree: steel has 460 in J/(kg K), and 4.6e8 where lengths "
-    "are in mm, masses in t and times in s");
+    "Give 'Specific heat' in energy per mass and degree. Steel has 460 in J/(kg K), or 4.6e8 in mm, t and s");
 
 /// Returns the rise of the temperature per plastic strain; nothing if the law does not heat or flow.
 std::optional<double> measure_heating(const PointLaw &law, const double temperature, const double dt) {

@@ -17,7 +17,6 @@ using dealii::Tensor;
 
 namespace {
 
-
 Tensor<2, 3> diagonal(const double x, const double y, const double z) {
   Tensor<2, 3> F;
   F[0][0] = x;
