@@ -303,7 +303,11 @@ def _() -> None:
         first_row = next(row for row in rows if row["punch.force_z"] != 0)
         before = [row for row in history(name) if row["time"] <= first_row["time"] * (1 + 1e-9)][-1]
         near(f"force of {name}, then the other", first_row["punch.force_z"], before["punch.force_z"], 0.1)
-        near("force at the end", rows[-1]["punch.force_z"], FINE_FORCE, 0.03)
+        # A body that starts at rest in explicit steps vibrates about the static force, whose curve has the
+        # slope 1.4e3 of its end value.
+        late = [row for row in rows if row["time"] > (9.99e-4 if second else 9.5e-4)]
+        force, time = (sum(row[key] for row in late) / len(late) for key in ("punch.force_z", "time"))
+        near("force at the end", force, FINE_FORCE * (1 + 1.4e3 * (time - 1e-3)), 0.03)
 
 
 for scheme in ("static", "explicit"):
