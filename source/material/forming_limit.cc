@@ -2,6 +2,7 @@
 #include "billet/material/forming_limit.h"
 
 #include "billet/material/csv_columns.h"
+#include "billet/material/interpolation.h"
 
 #include <algorithm>
 
@@ -19,13 +20,7 @@ PointTable table() {
 } // namespace
 
 double FormingLimit::major_strain(const double minor_strain) const {
-  const auto above = std::upper_bound(points_.begin(), points_.end(), minor_strain,
-                                      [](const double value, const auto &point) { return value < point[0]; });
-  if (above == points_.begin() || above == points_.end())
-    return (above == points_.begin() ? points_.front() : points_.back())[1];
-  const auto &[from, low] = *(above - 1);
-  const auto &[to, high] = *above;
-  return low + (minor_strain - from) / (to - from) * (high - low);
+  return interpolate(points_, minor_strain);
 }
 
 std::vector<TypeParameter> FormingLimit::parameters() { return table().parameters(); }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/csv_columns.h"
+#include "billet/material/interpolation.h"
 #include "billet/material/rate_factor.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
+#include <string>
+#include <utility>
 
 namespace billet {
 
@@ -12,33 +12,17 @@ RateFactorType tabulated_rate_type();
 
 namespace {
 
-/// Piecewise linear factor through (rate, factor) points, from (0, 1) on, constant beyond the last one.
+/// Factor through points (rate, factor), from (0, 1) on, constant beyond the last one.
 class TabulatedRate final : public RateFactor {
 public:
-  explicit TabulatedRate(std::vector<std::pair<double, double>> points) : points_(std::move(points)) {}
+  explicit TabulatedRate(CurvePoints points) : points_(std::move(points)) {}
 
   std::string description() const override { return "times a table of the rate"; }
-  double value(const double rate) const override {
-    const auto &start = points_[segment(rate)];
-    return start.second + slope(rate) * (rate - start.first);
-  }
-  double slope(const double rate) const override {
-    const std::size_t i = segment(rate);
-    return i + 1 == points_.size()
-               ? 0.
-               : (points_[i + 1].second - points_[i].second) / (points_[i + 1].first - points_[i].first);
-  }
+  double value(const double rate) const override { return interpolate(points_, rate); }
+  double slope(const double rate) const override { return find_slope(points_, rate); }
 
 private:
-  /// Returns the number of the last point at or below a rate >= 0.
-  std::size_t segment(const double rate) const {
-    const auto above =
-        std::upper_bound(points_.begin(), points_.end(), rate,
-                         [](const double value, const auto &point) { return value < point.first; });
-    return static_cast<std::size_t>(above - points_.begin()) - 1;
-  }
-
-  std::vector<std::pair<double, double>> points_;
+  CurvePoints points_;
 };
 
 /// Not a constant of the file: other files may ask for the type before it is made.
@@ -50,13 +34,13 @@ PointTable table() {
 
 std::shared_ptr<const RateFactor> make_table(const TypeInput &input) {
   std::string key;
-  std::vector<std::pair<double, double>> points = {{0., 1.}};
+  CurvePoints points = {{0., 1.}};
   for (const auto &[rate, factor] : table().read(input, key)) {
-    if (!(rate > points.back().first))
+    if (!(rate > points.back()[0]))
       input.reject(key, "rates > 0 that increase strictly");
-    if (!(factor >= points.back().second))
+    if (!(factor >= points.back()[1]))
       input.reject(key, "factors >= 1 that do not decrease");
-    points.emplace_back(rate, factor);
+    points.push_back({rate, factor});
   }
   if (points.size() == 1)
     input.reject(key, "at least one 'rate : factor' pair");

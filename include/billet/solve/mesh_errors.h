@@ -25,8 +25,6 @@ public:
 
   /// Whether add() has been called.
   bool has_begun() const { return has_begun_; }
-  /// Returns the number of states in the interval so far, without that at its start.
-  unsigned int n_states() const { return n_states_; }
   /// Whether there has been any work of deformation to normalise errors by.
   bool is_known() const { return work_ > 0.; }
   /// Returns the relative error so far; 0 if it is unknown.
