@@ -48,7 +48,6 @@ void Resumption::load(const Scene &scene, const Discretization &discretization,
                       const std::function<RestartReport()> &load) {
   std::vector<std::string> changed;
   if (change_) {
-    in("solution", [&] { change_->before = to_energies(file_.read("energies")); });
     in("", [&] { refined_ = std::make_unique<RefinedReader>(file_, discretization, change_->is_refined); });
   } else
     in("scene", [&] { changed = check_scene(file_, scene, discretization); });

@@ -104,7 +104,7 @@ struct TransientFile {
 
 /// Ends the run and starts one from its state on the finer mesh. Collective.
 std::unique_ptr<Run> refine(std::unique_ptr<Run> run, const Scene &scene, RunOutput &output,
-                            const MeshChange &change) {
+                            MeshChange change) {
   MPI_Comm communicator = run->discretization().communicator();
   const TransientFile file{scene.parameters().output.folder.value + "/refinement.h5",
                            dealii::Utilities::MPI::this_mpi_process(communicator) == 0};
@@ -116,6 +116,7 @@ std::unique_ptr<Run> refine(std::unique_ptr<Run> run, const Scene &scene, RunOut
                                      scene.parameters().file_name +
                                          ": the state for the refined mesh cannot be stored: " + failure)
                               .time(change.time));
+  change.before = run->end_with_energies(output);
   run.reset(); // its memory is free for the finer mesh
   Resumption resumption(file.name, communicator, change);
   try {

@@ -276,6 +276,16 @@ def _() -> None:
     require(drift < 1e-3, f"energy drift of {drift}")
 
 
+@check("at the first touch, when springs gain most of their energy within a step")
+def _() -> None:
+    at_once = ("--set", "Bodies/block/Refinement times=1e-7", "--set", "Time stepping/End time=1.01e-7")
+    ended = run(*program.on(1, "refined_press.prm", "--output", "touch", *at_once))
+    require(ended.code == 0, ended.errors)
+    energy = float(says(r"The energy changes by (\S+)", ended.output)[1])
+    work = history("touch")[-1]["external_work"]
+    require(abs(energy) < 0.5 * work, f"the refinement makes {energy} of {work}")
+
+
 PRESS = "refined_press.prm"
 FINE_FORCE = -297.8  # static, of a mesh fine from the start
 STATIC_PRESS = ("--set", "Time stepping/Scheme=static")

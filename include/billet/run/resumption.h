@@ -27,7 +27,7 @@ struct MeshChange {
   std::vector<bool> is_refined; ///< by body
   double time;
   std::string text;         ///< names of the bodies and numbers of their elements, for messages
-  EnergyLedger before = {}; ///< on the coarser mesh
+  EnergyLedger before = {}; ///< at this time on the coarser mesh
 
   /// Maximum energy that contact springs may gain, as a part of all energy before. New nodes lie on the
   /// chords of faces, which a curved surface lets penetrate: springs then push bodies apart.

@@ -51,6 +51,9 @@ public:
   const Discretization &discretization() const { return discretization_; }
   /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.
   void save(StateWriter &writer) const;
+  /// Returns the energies at time(). The run cannot go on or be saved after it: one that keeps the state
+  /// between two steps completes the later one. Throws as step().
+  virtual EnergyLedger end_with_energies(RunOutput &output) = 0;
 
 protected:
   /// Saves the method's own part of the state.

@@ -114,17 +114,19 @@ void ExplicitLedger::update(SolutionState &state) {
   }
   if (parts_.clock.is_at_start())
     energies.initial = energies.total() - energies.external;
-  if (drift_before_) {
-    energy_of_refinement_ = *drift_before_ - energies.drift();
-    energies.initial += energy_of_refinement_;
-    drift_before_.reset();
-  }
   drift_ = energies.drift();
   // The present energy counts half only, so that spurious energy does not hide itself.
   const double energy = std::max(0.5 * energies.total(), std::abs(energies.initial + energies.external));
   max_energy_ = std::max(max_energy_, energy);
   if (is_due()) // steps must not depend on other updates
     max_energy_when_due_ = std::max(max_energy_when_due_, energy);
+}
+
+double ExplicitLedger::count_refinement(SolutionState &state, const double drift) {
+  const double made = drift - state.energies.drift();
+  state.energies.initial += made;
+  drift_ = drift;
+  return made;
 }
 
 double ExplicitLedger::min_energy(const double stable_step) const {
@@ -179,8 +181,6 @@ void ExplicitLedger::save(StateWriter &writer, EnergyLedger energies) const {
 EnergyLedger ExplicitLedger::load(const StateReader &reader, const bool is_exact) {
   if (is_exact)
     drift_ = reader.number("drift");
-  if (!refined_bodies(reader).empty())
-    drift_before_ = drift_;
   // The ledger resumes these sums; the rest follows from the state.
   const EnergyLedger energies = to_energies(reader.read("energies"));
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(parts_.communicator());

@@ -5,7 +5,6 @@
 #include "billet/solve/explicit/explicit_parts.h"
 #include "billet/solve/solution.h"
 
-#include <optional>
 #include <vector>
 
 namespace billet {
@@ -33,9 +32,9 @@ public:
   /// larger, it is the reference.
   double relative_drift(const EnergyLedger &energies, double stable_step) const;
 
-  /// Returns the energy that the refinement of bodies has made, (R6) of doc/theory. The first update() finds
-  /// it, and counts it as initial energy.
-  double energy_of_refinement() const { return energy_of_refinement_; }
+  /// Returns the energy that the refinement of bodies has made, (R6) of doc/theory, after the first update().
+  /// Counts it as initial energy, so that the drift remains the one on the coarser mesh, `drift`.
+  double count_refinement(SolutionState &state, double drift);
 
   /// `energies`: those of the last update. Collective.
   void save(StateWriter &writer, EnergyLedger energies) const;
@@ -56,9 +55,7 @@ private:
   const ExplicitParts &parts_;
   ExplicitWorks works_;
   double max_energy_ = 0., max_energy_when_due_ = 0.;
-  std::optional<double> drift_before_; ///< refinement, until the first update() after it [energy]
-  double drift_ = 0.;                  ///< at the last update(), also before a restart [energy]
-  double energy_of_refinement_ = 0.;   ///< [energy]
+  double drift_ = 0.;  ///< at the last update(), also before a restart [energy]
   double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
 };
 
