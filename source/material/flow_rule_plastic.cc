@@ -613,6 +613,22 @@ FlowRulePlasticity<has_directions, is_thermal>::find_history(const Tensor<2, 3> 
 }
 
 template <bool has_directions, bool is_thermal>
+std::optional<double>
+FlowRulePlasticity<has_directions, is_thermal>::flow_slope(const History &history,
+                                                           const double temperature) const {
+  if constexpr (is_thermal) {
+    const double alpha = history.equivalent_plastic_strain, at = temperature + history.temperature_rise,
+                 stress = flow_->stress(alpha), slope = flow_->slope(alpha),
+                 at_rest = flow_->plastic_work_at_rest(alpha),
+                 rate_factor = at_rest > 0. ? flow_->plastic_work(alpha, history.flow) / at_rest : 1.,
+                 softening = rule_.heating * rate_factor * rule_.thermal->slope(at) * stress * stress;
+    return rule_.thermal->value(at) * rate_factor * (slope + softening) + described_flow_->slope(alpha) -
+           slope;
+  } else
+    return {};
+}
+
+template <bool has_directions, bool is_thermal>
 std::vector<StateField> FlowRulePlasticity<has_directions, is_thermal>::fields() const {
   std::vector<StateField> result = {symmetric_field("inverse plastic metric"),
                                     {"equivalent plastic strain", 1},

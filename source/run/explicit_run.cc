@@ -128,7 +128,7 @@ template <class Part> void ExplicitRun::attempt(RunOutput &output, const Part &p
     problem_.update_state();
     output.snapshots().write(problem_);
     if (std::isfinite(problem_.relative_drift()))
-      output.report(stability_.check(problem_.time(), problem_.state().displacements));
+      output.report(stability_.check(problem_));
     throw SolutionFailure(
         explain_failed_step(scene_, problem_, failure.diagnostic(), stability_.has_unstable_bodies()));
   }
@@ -253,12 +253,12 @@ void ExplicitRun::check_stability(RunOutput &output) {
   if (problem_.time() < last_.next_check || !std::isfinite(problem_.relative_drift()))
     return;
   problem_.update_state();
-  output.report(stability_.check(problem_.time(), problem_.state().displacements));
+  output.report(stability_.check(problem_));
   last_.next_check = problem_.time() + stops_.end() / Limits::n_checks;
 }
 
 std::string ExplicitRun::advise_on_law(RunOutput &output) {
-  output.report(stability_.check(problem_.time(), problem_.state().displacements));
+  output.report(stability_.check(problem_));
   if (stability_.has_unstable_bodies())
     return EnergyWatch::advise(EnergyWatch::Cause::unstable_law);
   if (!problem_.has_low_penalties() && has_inexact_dissipation(scene_, discretization_, problem_))

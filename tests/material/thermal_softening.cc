@@ -2,7 +2,8 @@
 // Thermal factors and adiabatic heating: with Johnson and Cook's factor of exponent 1 the softening of a
 // material at a constant rate is exp(−a W(α)), a = β/(ρ c (T_m − T_r)); a step has the factor
 // θ_n/(1 + a ΔW). Known numbers of 4340 steel. Tables. A factor of 1 is Hencky's law; the tangent is
-// symmetric without directions. Moduli against differences, with heat, rates, backstress and anisotropy.
+// symmetric without directions. Moduli against differences, with heat, rates, backstress and anisotropy. The
+// slope of the flow stress with heat sums up to the flow stress, and changes its sign at the maximum.
 
 #include "point_driver.h"
 #include "texts.h"
@@ -156,6 +157,33 @@ void test_tables() {
     check("rate table refuses '" + text + "'", refuses(rate_factor_types(), "Rate table", text));
 }
 
+/// Integrates the slope along a path, after a steep start, and compares it with the flow stress.
+template <class Law> void test_slope(const std::string &name, const Law &law) {
+  constexpr unsigned int n_steps = 4000;
+  constexpr double start = 0.05;
+  double sum = 0., first = 0., last = 0., maximum = 0., strain_of_maximum = 0., strain_of_change = 0.,
+         slope_before = 0., strain_before = 0.;
+  shear(law, 1., n_steps, 1. / n_steps, [&](const double q, const auto &, const auto &after) {
+    const double alpha = after.equivalent_plastic_strain, slope = *law.flow_slope(after, room);
+    if (alpha < start)
+      first = sum = q;
+    else
+      sum += 0.5 * (slope + slope_before) * (alpha - strain_before);
+    if (slope < 0. && strain_of_change == 0.)
+      strain_of_change = alpha;
+    slope_before = slope;
+    strain_before = alpha;
+    last = q;
+    if (q > maximum) {
+      maximum = q;
+      strain_of_maximum = alpha;
+    }
+  });
+  check(name + ", flow stress from its slope", std::abs(sum - last) / maximum, 1e-3);
+  check(name + ", strain of its maximum", std::abs(strain_of_change / strain_of_maximum - 1.), 0.01);
+  check(name + ", it rises and falls", maximum > 1.003 * std::max(first, last));
+}
+
 template <class Law> void test_moduli(const std::string &name, const Law &law, const bool is_symmetric) {
   Random random;
   PointStep step;
@@ -215,6 +243,12 @@ int main() {
   test_tables();
   test_moduli("linear", make_law<Isotropic>(make_hardening(linear), "1"), true);
   test_moduli("at a rate", make_law<Isotropic>(at_rate(voce, cowper_symonds(40., 5.)), "1.03"), true);
+  test_slope("slope, linear", make_law<Isotropic>(make_hardening(linear), "1", 30. * heating));
+  test_slope("slope, 4340 steel at a rate",
+             make_law<Isotropic>(at_rate(Steel4340(), cowper_symonds(40., 5.)), "1.03"));
+  FlowRule kinematic;
+  kinematic.backstress = {{2000., 10.}};
+  test_slope("slope, backstress", make_law<Directed>(make_hardening(linear), "1", 10. * heating, kinematic));
   FlowRule rule;
   rule.backstress = {{20000., 100.}, {1500., 0.}};
   rule.anisotropy = std::make_shared<const Anisotropy>(

@@ -3,6 +3,7 @@
 // and three ranks.
 #include "billet/output/probe_reader.h"
 
+#include "given_solution.h"
 #include "restart_run.h"
 
 #include <map>
@@ -18,34 +19,16 @@ Tensor<1, 3> deformed(const Tensor<1, 3> &X) {
   return Tensor<1, 3>({1.1 * X[0], 0.9 * X[1], X[2] * (1. + 0.025 * X[0])});
 }
 
-/// A state that nothing has solved.
-class GivenSolution final : public Solution {
+class FormulaSolution final : public billet::testing::GivenSolution {
 public:
-  explicit GivenSolution(const Discretization &discretization) : discretization_(discretization) {
-    Vector displacements = discretization.make_owned_vector(), velocities = displacements;
-    for (const Element &element : discretization.elements(0))
-      for (unsigned int a = 0; a < n_element_nodes; ++a) {
-        const Tensor<1, 3> X = element.cell->vertex(a);
-        for (unsigned int i = 0; i < 3; ++i) {
-          const DofIndex dof = element.dofs[std::size_t{3} * a + i];
-          if (!discretization.owned_dofs().is_element(dof))
-            continue;
-          displacements(dof) = deformed(X)[i] - X[i];
-          velocities(dof) = i == 0 ? 1. : 2.;
-        }
-      }
-    displacements.compress(dealii::VectorOperation::insert);
-    velocities.compress(dealii::VectorOperation::insert);
-    state_.displacements = discretization.make_ghosted_vector();
+  explicit FormulaSolution(const Discretization &discretization) : GivenSolution(discretization) {
+    move(0, [](const Tensor<1, 3> &X) { return deformed(X) - X; });
     state_.velocities = discretization.make_ghosted_vector();
-    state_.displacements = displacements;
-    state_.velocities = velocities;
+    set(state_.velocities, 0, [](const Tensor<1, 3> &) { return Tensor<1, 3>({1., 2., 2.}); });
     state_.energies.kinetic = 1.;
     state_.energies.elastic = 3.;
   }
 
-  const SolutionState &state() const override { return state_; }
-  const Discretization &discretization() const override { return discretization_; }
   std::vector<ElementSummary> summarize(const std::size_t body) const override {
     std::vector<ElementSummary> summaries;
     for (const Element &element : discretization_.elements(body)) {
@@ -57,23 +40,12 @@ public:
     }
     return summaries;
   }
-  std::vector<StateAverages> average_states(std::size_t) const override { return {}; }
-  std::vector<std::vector<ContactNodeReport>> report_contacts() const override { return {}; }
-  std::array<std::size_t, 2> history_sizes() const override { return {0, 0}; }
-  std::string method() const override { return "formulas"; }
-  DiagnosticList initial_diagnostics() const override { return {}; }
-  const Reactions &reactions() const override { return reactions_; }
-
-private:
-  const Discretization &discretization_;
-  SolutionState state_;
-  Reactions reactions_;
 };
 
 std::vector<double> read(const Scene &scene, const MPI_Comm communicator) {
   const Discretization discretization(scene, communicator);
   const ProbeReader reader(scene, discretization);
-  return reader.read(GivenSolution(discretization));
+  return reader.read(FormulaSolution(discretization));
 }
 
 /// Values by the names of their columns.

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -60,6 +61,8 @@ public:
   static double equivalent_plastic_strain(const History &history) {
     return history.equivalent_plastic_strain;
   }
+  /// Returns what PointLaw::flow_slope() says; nothing without a thermal factor.
+  std::optional<double> flow_slope(const History &history, double temperature) const;
   double plastic_work(const History &history) const {
     return flow_->plastic_work(history.equivalent_plastic_strain, history.flow) + history.dissipated;
   }

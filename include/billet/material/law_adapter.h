@@ -20,6 +20,7 @@ namespace billet {
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   depends_on_temperature         true, if it reads PointStep::temperature
+///   flow_slope()                   if that is so and the law has plasticity
 ///   bound_stiffness(tau)           if PointLaw's is not the law's; without it, moduli bound elastic laws
 ///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
@@ -102,6 +103,14 @@ public:
       return {};
     else
       return law_.min_wave_stiffness(stretches);
+  }
+
+  std::optional<double> flow_slope([[maybe_unused]] const double *state,
+                                   [[maybe_unused]] const double temperature) const override {
+    if constexpr (Law::has_plasticity && finds_temperature<Law>(0))
+      return law_.flow_slope(restore(state), temperature);
+    else
+      return {};
   }
 
   std::optional<LaneLaw> lane_law() const override { return find_lane_law<Law>(0); }
