@@ -353,8 +353,8 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind unstable_law(
     "unstable-law", Severity::warning,
-    "A body is strained beyond the stability of its law: an elastic one loses ellipticity, or heat softens a "
-    "plastic one by more than it hardens. Results depend on the mesh.",
+    "A body is strained beyond the stability of its law: ellipticity is lost, or heat softens more than flow "
+    "hardens. Results depend on the mesh.",
     "Reduce the strains");
 
 inline const DiagnosticKind wrong_tangent(
