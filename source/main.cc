@@ -338,7 +338,7 @@ bool certify(const CommandLine &command) {
   bool have_passed = true;
   for (const auto &file : command.scenes)
     have_passed =
-        billet::certify_laws(billet::read_materials(file, command.settings),
+        billet::certify_laws(file, command.settings,
                              command.markdown ? billet::PageFormat::markdown : billet::PageFormat::text,
                              std::cout) &&
         have_passed;

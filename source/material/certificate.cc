@@ -25,7 +25,7 @@ Certificate certify(const PointLaw &law, const CertificationSettings &settings) 
   Certificate certificate;
   certificate.law = describe_law(law);
   for (const auto trial : {&try_objectivity, &try_tangent, &try_energies, &try_steps, &try_repeated_stretches,
-                           &try_checkpoint, &try_cost})
+                           &try_units, &try_checkpoint, &try_cost})
     for (Finding &finding : trial(law, settings))
       certificate.findings.push_back(std::move(finding));
   certificate.ranges = find_safe_ranges(law, settings);

@@ -36,6 +36,8 @@ struct Limits {
   /// Between ten steps and a hundred.
   static constexpr double steps = 0.05;
   static constexpr double drift = 0.01;
+  /// Round-off, which follows from other numbers.
+  static constexpr double units = 1e-8;
 };
 
 const Tensor<2, 3> unit = dealii::unit_symmetric_tensor<3>();
@@ -417,6 +419,33 @@ std::vector<Finding> try_repeated_stretches(const PointLaw &law, const Certifica
       worst.add((*last - *of_held).norm() / of_held->norm(), [] { return ""; });
   }
   return {worst.judge("repeated stretches", Limits::drift, "drift of the stress in 1000 elastic cycles")};
+}
+
+std::vector<Finding> try_units(const PointLaw &law, const CertificationSettings &settings) {
+  if (!settings.other_units)
+    return {};
+  const OtherUnits &other = *settings.other_units;
+  if (other.law == nullptr)
+    return {{"units", 0., 0., "not tried: " + other.why_not, Finding::Verdict::reported}};
+  constexpr unsigned int n_paths = 50, n_steps = 5;
+  TrialNumbers random;
+  Worst worst;
+  for (unsigned int path = 0; path < n_paths; ++path) {
+    LawPoint point(law, settings.temperature), same(*other.law, other.temperature * settings.temperature);
+    const double size = random.logarithmic(1e-4, 0.1), dt = settings.dt * random.logarithmic(1e-6, 1.);
+    Tensor<2, 3> F = unit;
+    for (unsigned int step = 0; step < n_steps; ++step) {
+      F = (unit + size * random.strain()) * random.rotation(size) * F;
+      const auto tau = point.evaluate(F, dt), of_same = same.evaluate(F, other.time * dt);
+      if (!tau || !of_same)
+        break;
+      worst.add((*of_same / other.stress - *tau).norm() / tau->norm(),
+                [&] { return "steps of " + number(size) + " in a time of " + number(dt); });
+      point.commit();
+      same.commit();
+    }
+  }
+  return {worst.judge("units", Limits::units, counted(n_paths, "paths with parameters in other units"))};
 }
 
 std::vector<Finding> try_checkpoint(const PointLaw &law, const CertificationSettings &settings) {

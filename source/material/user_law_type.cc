@@ -39,7 +39,7 @@ std::vector<TypeParameter> user_law_parameters() {
   return {
       {library_key, "", Kind::text,
        "Shared library with the subroutine, such as ./libsteel.so, relative to the scene file."},
-      {constants_key, "", Kind::text, "PROPS, separated by commas. NPROPS is their count."},
+      {constants_key, "", Kind::text, "PROPS, separated by commas. NPROPS is their count. [any unit]"},
       {n_variables_key, "0", Kind::number, "NSTATV, NSTATEV >= 0. Number of the state variables at a point."},
       {names_key, "", Kind::text,
        "Names of all state variables, separated by commas, for 'State fields' and checkpoints. The one "

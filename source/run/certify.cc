@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/material/law_refusal.h"
 #include "billet/material/subroutine_messages.h"
+#include "billet/run/other_units.h"
 #include "billet/scene/expression.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <iterator>
+#include <memory>
 #include <ostream>
 #include <sstream>
 
@@ -130,28 +133,39 @@ void print(const Certificate &certificate, const std::string &title, const PageF
          << number(certificate.seconds) << " s.\n\n";
 }
 
-parameters::Scene read_materials(const std::string &file, const std::vector<SceneFile::Setting> &settings) {
-  if (is_scene(file))
-    return parameters::Scene::read(file, "", settings);
-  const TemporaryScene scene(
-      "subsection Bodies\n  subsection material\n    subsection Material\n      include " +
-      std::filesystem::absolute(file).string() + "\n    end\n  end\nend\n");
-  return parameters::Scene::read(scene.name(), "", settings);
-}
-
-bool certify_laws(const parameters::Scene &scene, const PageFormat format, std::ostream &stream) {
+bool certify_laws(const std::string &file, const Settings &settings, const PageFormat format,
+                  std::ostream &stream) {
   constexpr double explicit_part = 1e-3; // of the end time, for schemes whose steps follow from the mesh
+  std::unique_ptr<const TemporaryScene> of_material;
+  if (!is_scene(file))
+    of_material = std::make_unique<const TemporaryScene>(
+        "subsection Bodies\n  subsection material\n    subsection Material\n      include " +
+        std::filesystem::absolute(file).string() + "\n    end\n  end\nend\n");
+  const std::string name = of_material ? of_material->name() : file;
+  const auto read = [&](const Settings &more) {
+    Settings all = more;
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(all), [&more](const auto &setting) {
+      return std::none_of(more.begin(), more.end(),
+                          [&setting](const auto &other) { return other.path == setting.path; });
+    });
+    return parameters::Scene::read(name, "", all);
+  };
+  const parameters::Scene scene = read({});
+  const std::vector<OtherUnits> other_units =
+      in_other_units(scene, SceneFile::read(name, settings).entries(), read);
   bool have_passed = true;
-  for (const parameters::Body &body : scene.bodies) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const parameters::Body &body = scene.bodies[b];
     const PointLaw &law = *body.material.law;
-    CertificationSettings settings;
-    settings.dt = scene.scheme().has_matrix ? scene.time_stepping.initial_step
-                                            : explicit_part * scene.time_stepping.end_time;
+    CertificationSettings settings_of_law;
+    settings_of_law.other_units = other_units[b];
+    settings_of_law.dt = scene.scheme().has_matrix ? scene.time_stepping.initial_step
+                                                   : explicit_part * scene.time_stepping.end_time;
     if (law.depends_on_temperature())
-      settings.temperature = Expression(body.material.temperature.value, Expression::Variables::time,
-                                        scene.amplitudes, body.material.temperature.origin)
-                                 .value(0.);
-    const Certificate certificate = certify(law, settings);
+      settings_of_law.temperature = Expression(body.material.temperature.value, Expression::Variables::time,
+                                               scene.amplitudes, body.material.temperature.origin)
+                                        .value(0.);
+    const Certificate certificate = certify(law, settings_of_law);
     const auto *const user_law = dynamic_cast<const ExplainsRefusals *>(&law);
     print(certificate,
           "Body '" + body.name + "': " + (user_law != nullptr ? user_law->title() : certificate.law), format,

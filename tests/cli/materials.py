@@ -11,7 +11,7 @@ import math
 import sys
 from pathlib import Path
 
-from checks import SHIPPED, Checks, enter_folder, near, read_text, require, run, write_text
+from checks import SHIPPED, Checks, enter_folder, near, read_text, require, run, says, write_text
 from material_theory import Constants, constants_of, tension, tension_scene
 from shipped import history
 
@@ -51,6 +51,7 @@ for file in files:
     def _() -> None:
         ended = run(program, "--certify", str(file))
         require(ended.code == 0 and "The law passes" in ended.output, ended.output + ended.errors)
+        says(r"units +pass", ended.output)
 
     @check(file.stem)
     def _() -> None:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The certification of laws: every built-in law passes, and a law with one planted error of each kind fails
-// the trial for it, and no other trial where errors do not show in others. Ranges of ellipticity against the
-// laws' own (M7).
+// the trial for it, and no other trial where errors do not show in others. Units. Ranges of ellipticity
+// against the laws' own (M7).
 
 #include "rubber_laws.h"
 
@@ -200,6 +200,28 @@ void test_planted_errors() {
   require_failure(Error::fields, checkpoint, {});
 }
 
+/// A rate that is the same number in all units is a constant of the law.
+void test_units() {
+  constexpr double stress = 1e-12, time = 1e3;
+  const auto law_with = [](const double of_stress, const double rate) {
+    return make_hencky_law(
+        {of_stress * steel.bulk, of_stress * steel.shear},
+        make_flow_stress(make_hardening(LinearHardening{of_stress * 700., of_stress * 300.}),
+                         cowper_symonds(rate, 5.)));
+  };
+  CertificationSettings in_units = settings();
+  in_units.other_units = OtherUnits{law_with(stress, 40. / time), "", stress, time, 1.};
+  const SharedLaw law = law_with(1., 40.);
+  check("all units follow", failures(certify(*law, in_units)).empty());
+  in_units.other_units->law = law_with(stress, 40.);
+  check("a rate without a unit", failures(certify(*law, in_units)) == std::set<std::string>{"units"});
+  in_units.other_units = OtherUnits{nullptr, "'Constants' has the unit [any unit]"};
+  const std::vector<Finding> untried = try_units(*law, in_units);
+  check("units that are not known", untried.size() == 1 &&
+                                        untried.front().verdict == Finding::Verdict::reported &&
+                                        untried.front().remark.find("'Constants'") != std::string::npos);
+}
+
 /// The ends of the ranges are those of (M7), to the step of the trial.
 void test_ranges() {
   const SharedLaw law = make_hencky_law(steel);
@@ -226,6 +248,7 @@ void test_ranges() {
 int main() {
   test_built_in_laws();
   test_planted_errors();
+  test_units();
   test_ranges();
   return billet::testing::exit_code();
 }

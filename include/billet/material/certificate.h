@@ -4,6 +4,7 @@
 
 #include "billet/material/point_law.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,20 @@ struct Certificate {
   bool has_passed() const;
 };
 
+/// The same material, with the numbers of its parameters in other units. Factors: numbers in these units over
+/// those in the first ones.
+struct OtherUnits {
+  std::shared_ptr<const PointLaw> law; ///< null if it is not known
+  std::string why_not;                 ///< then
+  double stress = 1., time = 1., temperature = 1.;
+};
+
 /// How a law is driven.
 struct CertificationSettings {
   double dt = 1e-3;            ///< length of each step [time]
   double temperature = 0.;     ///< of the body
   unsigned int n_paths = 1000; ///< of the comparison of tangents
+  std::optional<OtherUnits> other_units = {};
 };
 
 /// Drives a law through what a run demands of it, and judges it:
@@ -53,6 +63,7 @@ struct CertificationSettings {
 ///   dissipation        the work less the stored energy does not fall; energies and work balance
 ///   steps              from 1e-6 to 0.5 of strain: a finite stress that converges with the step
 ///   repeated stretches no drift of the stress in elastic cycles
+///   units              the stress does not depend on the units of its parameters, if these are known
 ///   checkpoint         the state of a point has all that the next steps need
 ///   ellipticity        ranges of stretches, (U8)
 ///   cost               an update beside Hencky's law with J2 plasticity

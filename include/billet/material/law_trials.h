@@ -34,6 +34,8 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
 std::vector<Finding> try_energies(const PointLaw &law, const CertificationSettings &settings);
 std::vector<Finding> try_steps(const PointLaw &law, const CertificationSettings &settings);
 std::vector<Finding> try_repeated_stretches(const PointLaw &law, const CertificationSettings &settings);
+/// Nothing if there are no other units.
+std::vector<Finding> try_units(const PointLaw &law, const CertificationSettings &settings);
 std::vector<Finding> try_checkpoint(const PointLaw &law, const CertificationSettings &settings);
 std::vector<Finding> try_cost(const PointLaw &law, const CertificationSettings &settings);
 

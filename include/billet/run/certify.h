@@ -16,12 +16,11 @@ enum class PageFormat { text, markdown };
 /// Prints the findings about a law.
 void print(const Certificate &certificate, const std::string &title, PageFormat format, std::ostream &stream);
 
-/// Reads a scene, or a file with nothing but the parameters of a material.
-parameters::Scene read_materials(const std::string &file, const std::vector<SceneFile::Setting> &settings);
-
-/// Certifies the law of each body of a scene (certificate.h) with the scene's first step and temperature, and
-/// prints the findings. Returns whether all laws pass.
-bool certify_laws(const parameters::Scene &scene, PageFormat format, std::ostream &stream);
+/// Certifies the law of each body of a scene (certificate.h) with the scene's first step and temperature, or
+/// that of a file with nothing but the parameters of a material. Prints the findings. Returns whether all
+/// laws pass. Throws InputError.
+bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting> &settings, PageFormat format,
+                  std::ostream &stream);
 
 } // namespace billet
 
