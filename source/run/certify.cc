@@ -4,7 +4,7 @@
 #include "billet/errors.h"
 #include "billet/material/law_refusal.h"
 #include "billet/material/subroutine_messages.h"
-#include "billet/run/other_units.h"
+#include "billet/parameters/other_units.h"
 #include "billet/scene/expression.h"
 
 #include <algorithm>
@@ -133,8 +133,8 @@ void print(const Certificate &certificate, const std::string &title, const PageF
          << number(certificate.seconds) << " s.\n\n";
 }
 
-bool certify_laws(const std::string &file, const Settings &settings, const PageFormat format,
-                  std::ostream &stream) {
+bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting> &settings,
+                  const PageFormat format, std::ostream &stream) {
   constexpr double explicit_part = 1e-3; // of the end time, for schemes whose steps follow from the mesh
   std::unique_ptr<const TemporaryScene> of_material;
   if (!is_scene(file))
@@ -142,8 +142,8 @@ bool certify_laws(const std::string &file, const Settings &settings, const PageF
         "subsection Bodies\n  subsection material\n    subsection Material\n      include " +
         std::filesystem::absolute(file).string() + "\n    end\n  end\nend\n");
   const std::string name = of_material ? of_material->name() : file;
-  const auto read = [&](const Settings &more) {
-    Settings all = more;
+  const auto read = [&](const parameters::Settings &more) {
+    parameters::Settings all = more;
     std::copy_if(settings.begin(), settings.end(), std::back_inserter(all), [&more](const auto &setting) {
       return std::none_of(more.begin(), more.end(),
                           [&setting](const auto &other) { return other.path == setting.path; });
@@ -152,7 +152,7 @@ bool certify_laws(const std::string &file, const Settings &settings, const PageF
   };
   const parameters::Scene scene = read({});
   const std::vector<OtherUnits> other_units =
-      in_other_units(scene, SceneFile::read(name, settings).entries(), read);
+      parameters::in_other_units(scene, SceneFile::read(name, settings).entries(), read);
   bool have_passed = true;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const parameters::Body &body = scene.bodies[b];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_RUN_OTHER_UNITS_H
-#define BILLET_RUN_OTHER_UNITS_H
+#ifndef BILLET_PARAMETERS_OTHER_UNITS_H
+#define BILLET_PARAMETERS_OTHER_UNITS_H
 
 #include "billet/material/certificate.h"
 #include "billet/parameters/scene.h"
@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
-namespace billet {
+namespace billet::parameters {
 
 using Settings = std::vector<SceneFile::Setting>;
 
 /// Reads the scene with more settings. Throws InputError.
-using SceneReader = std::function<parameters::Scene(const Settings &more)>;
+using SceneReader = std::function<Scene(const Settings &more)>;
 
 /// Returns the materials of all bodies with numbers in other units, by the unit at the end of each
 /// parameter's meaning, such as [stress] or [1/time]. Defaults are turned, too. `entries`: of the scene. A
 /// material has no law, but a reason, if a parameter has an unknown unit or is no list or table of numbers.
-std::vector<OtherUnits> in_other_units(const parameters::Scene &scene,
-                                       const std::vector<SceneFile::Entry> &entries, const SceneReader &read);
+std::vector<OtherUnits> in_other_units(const Scene &scene, const std::vector<SceneFile::Entry> &entries,
+                                       const SceneReader &read);
 
-} // namespace billet
+} // namespace billet::parameters
 
 #endif

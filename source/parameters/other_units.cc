@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/run/other_units.h"
+#include "billet/parameters/other_units.h"
 
 #include "billet/errors.h"
 #include "billet/registered_type.h"
@@ -16,7 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace billet {
+namespace billet::parameters {
 
 namespace {
 
@@ -32,7 +32,7 @@ struct Dimensional {
 /// Returns the parameters of a material that have a unit, by name.
 std::map<std::string, Dimensional> dimensional_parameters() {
   dealii::ParameterHandler prm;
-  parameters::Material::declare(prm);
+  Material::declare(prm);
   std::stringstream text;
   prm.print_parameters(text, dealii::ParameterHandler::JSON);
   std::map<std::string, Dimensional> found;
@@ -96,8 +96,7 @@ bool takes(const SceneReader &read, const SceneFile::Setting &setting) {
 
 } // namespace
 
-std::vector<OtherUnits> in_other_units(const parameters::Scene &scene,
-                                       const std::vector<SceneFile::Entry> &entries,
+std::vector<OtherUnits> in_other_units(const Scene &scene, const std::vector<SceneFile::Entry> &entries,
                                        const SceneReader &read) {
   const auto dimensional = dimensional_parameters();
   std::vector<OtherUnits> result;
@@ -135,4 +134,4 @@ std::vector<OtherUnits> in_other_units(const parameters::Scene &scene,
   return result;
 }
 
-} // namespace billet
+} // namespace billet::parameters
