@@ -443,23 +443,24 @@ private:
       double temperature = start;
       constexpr unsigned int max_iterations = 50;
       for (unsigned int i = 0; i < max_iterations; ++i) {
-        const double change = (start + heating * thermal.value(temperature) * heat_.work - temperature) /
-                              (1. - heating * thermal.slope(temperature) * heat_.work);
+        const double change =
+            (start + heating * thermal.value_at(alpha, temperature) * heat_.work - temperature) /
+            (1. - heating * thermal.slopes_at(alpha, temperature).first * heat_.work);
         temperature += change;
         if (std::abs(change) <= 1e-15 * (std::abs(temperature) + std::abs(start)))
           break;
       }
-      heat_.factor = thermal.value(temperature);
+      heat_.factor = thermal.value_at(alpha, temperature);
       heat_.rise = temperature - step_.temperature;
-      const double theta_slope = thermal.slope(temperature), at_rest = law_.flow_->stress(alpha),
-                   raw = q_ / heat_.factor;
+      const auto [theta_slope, theta_hardening] = thermal.slopes_at(alpha, temperature);
+      const double at_rest = law_.flow_->stress(alpha), raw = q_ / heat_.factor;
       const double work_slope =
           raw + (increment_.alpha > 0.
                      ? (increment_.slope / raw - law_.flow_->slope(alpha) / at_rest) * heat_.work
                      : 0.);
-      heat_.slope = heat_.factor * increment_.slope + raw * theta_slope * heating * heat_.factor *
-                                                          work_slope /
-                                                          (1. - heating * theta_slope * heat_.work);
+      const double warming = heating * (heat_.factor * work_slope + theta_hardening * heat_.work) /
+                             (1. - heating * theta_slope * heat_.work);
+      heat_.slope = heat_.factor * increment_.slope + raw * (theta_slope * warming + theta_hardening);
     }
   }
 
@@ -621,9 +622,11 @@ FlowRulePlasticity<has_directions, is_thermal>::flow_slope(const History &histor
                  stress = flow_->stress(alpha), slope = flow_->slope(alpha),
                  at_rest = flow_->plastic_work_at_rest(alpha),
                  rate_factor = at_rest > 0. ? flow_->plastic_work(alpha, history.flow) / at_rest : 1.,
-                 softening = rule_.heating * rate_factor * rule_.thermal->slope(at) * stress * stress;
-    return rule_.thermal->value(at) * rate_factor * (slope + softening) + described_flow_->slope(alpha) -
-           slope;
+                 theta = rule_.thermal->value_at(alpha, at);
+    const auto [theta_slope, theta_hardening] = rule_.thermal->slopes_at(alpha, at);
+    const double softening = rule_.heating * rate_factor * theta_slope * stress * stress;
+    return rate_factor * (theta * (slope + softening) + theta_hardening * stress) +
+           described_flow_->slope(alpha) - slope;
   } else
     return {};
 }

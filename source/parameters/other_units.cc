@@ -84,6 +84,12 @@ std::string turned(const std::string &value, const std::string &unit) {
   return text.str();
 }
 
+/// Whether a parameter names a file of numbers.
+bool is_file(const std::string &name) {
+  const std::string ending = " file";
+  return name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 /// Whether the material of a scene takes a parameter, which it refuses if its law does not use it.
 bool takes(const SceneReader &read, const SceneFile::Setting &setting) {
   try {
@@ -108,6 +114,9 @@ std::vector<OtherUnits> in_other_units(const Scene &scene, const std::vector<Sce
         given[entry.key] = entry.value;
     Settings settings;
     OtherUnits other;
+    for (const auto &[name, value] : given)
+      if (is_file(name) && !value.empty())
+        other.why_not = "'" + name + "' has numbers in a file";
     other.stress = stress;
     other.time = duration;
     other.temperature = temperature;

@@ -10,6 +10,9 @@
 
 #include "billet/material/flow_rule_plastic.h"
 
+#include <fstream>
+#include <map>
+
 using namespace billet;
 using namespace billet::testing;
 
@@ -39,14 +42,30 @@ Law make_law(const SharedFlow &flow, const std::string &exponent, const double h
   return Law(steel, flow, rule);
 }
 
+/// Curves at three temperatures, of which `linear` is the first.
+std::shared_ptr<const ThermalFactor> thermal_curves() {
+  std::ofstream("thermal_curves.csv") << "0,700,500,200\n0.2,760,530,210\n2,1300,800,300\n";
+  return thermal_factor_types().find("curves")->make(
+      Texts(std::map<std::string, std::string>{{"Curve temperatures", "293, 600, 1200"},
+                                               {"Thermal curves file", "thermal_curves.csv"},
+                                               {"Thermal curves columns", "1, 2, 3, 4"}}));
+}
+
+Isotropic law_of_curves(const double heat) {
+  FlowRule rule;
+  rule.thermal = thermal_curves();
+  rule.heating = heat;
+  return Isotropic(steel, make_hardening(linear), rule);
+}
+
 /// Pure shear to a strain whose equivalent plastic strain the law finds.
 template <class Law, class Visit>
 void shear(const Law &law, const double measure, const unsigned int n_steps, const double dt,
-           const Visit &visit) {
+           const Visit &visit, const double temperature = room) {
   typename Law::History history_n, history;
   PointStep step;
   step.dt = dt;
-  step.temperature = room;
+  step.temperature = temperature;
   for (unsigned int i = 1; i <= n_steps; ++i) {
     const double e = 0.5 * std::sqrt(3.) * measure * i / n_steps;
     Tensor<2, 3> F;
@@ -125,6 +144,41 @@ void test_known_numbers() {
     check(name + ", stress", std::abs(q / stress - 1.), allowed);
     check(name + ", temperature", std::abs(heat / rise - 1.), 5e-3);
   }
+}
+
+/// Without heat, the stress is that between the curves.
+void test_curves() {
+  WorstError error;
+  for (const auto &[temperature, low, high, part] :
+       {std::tuple(200., 0, 0, 0.), std::tuple(446.5, 0, 1, 0.5), std::tuple(1050., 1, 2, 0.75),
+        std::tuple(2000., 2, 2, 0.)}) {
+    const auto curve = [](const int k, const double alpha) {
+      constexpr double stresses[3][3] = {{700., 760., 1300.}, {500., 530., 800.}, {200., 210., 300.}};
+      const auto &at = stresses[k];
+      return alpha < 0.2 ? at[0] + (at[1] - at[0]) * alpha / 0.2
+                         : at[1] + (at[2] - at[1]) * (alpha - 0.2) / 1.8;
+    };
+    const auto visit = [&, low = low, high = high, part = part](const double q, const auto &,
+                                                                const auto &after) {
+      const double alpha = after.equivalent_plastic_strain;
+      error.add(std::abs(q / ((1. - part) * curve(low, alpha) + part * curve(high, alpha)) - 1.));
+    };
+    shear(law_of_curves(0.), 1., 50, 1., visit, temperature);
+  }
+  check("curves at temperatures, stress between them", error.value(), 1e-10);
+  const auto refuses = [](const char *temperatures) {
+    try {
+      thermal_factor_types().find("curves")->make(
+          Texts(std::map<std::string, std::string>{{"Curve temperatures", temperatures},
+                                                   {"Thermal curves file", "thermal_curves.csv"},
+                                                   {"Thermal curves columns", "1, 2, 3"}}));
+    } catch (const std::invalid_argument &) {
+      return true;
+    }
+    return false;
+  };
+  check("curves refuse temperatures",
+        refuses("293") && refuses("300, 300") && refuses("1, 2, 3") && !refuses("-20, 400"));
 }
 
 void test_tables() {
@@ -243,9 +297,12 @@ int main() {
   test_tables();
   test_moduli("linear", make_law<Isotropic>(make_hardening(linear), "1"), true);
   test_moduli("at a rate", make_law<Isotropic>(at_rate(voce, cowper_symonds(40., 5.)), "1.03"), true);
+  test_curves();
+  test_moduli("curves at temperatures", law_of_curves(heating), true);
   test_slope("slope, linear", make_law<Isotropic>(make_hardening(linear), "1", 30. * heating));
   test_slope("slope, 4340 steel at a rate",
              make_law<Isotropic>(at_rate(Steel4340(), cowper_symonds(40., 5.)), "1.03"));
+  test_slope("slope, curves at temperatures", law_of_curves(30. * heating));
   FlowRule kinematic;
   kinematic.backstress = {{2000., 10.}};
   test_slope("slope, backstress", make_law<Directed>(make_hardening(linear), "1", 10. * heating, kinematic));

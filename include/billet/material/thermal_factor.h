@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace billet {
 
@@ -21,6 +22,12 @@ public:
   virtual double value(double temperature) const = 0;
   /// Returns the derivative of value() [1/temperature].
   virtual double slope(double temperature) const = 0;
+  /// Returns the factor at an equivalent plastic strain, for factors that depend on it, too.
+  virtual double value_at(double /*alpha*/, const double temperature) const { return value(temperature); }
+  /// Returns the derivatives of value_at() by the temperature [1/temperature] and by the plastic strain.
+  virtual std::pair<double, double> slopes_at(double /*alpha*/, const double temperature) const {
+    return {slope(temperature), 0.};
+  }
 };
 
 /// Thermal factors that a scene file can name; "none" makes a null pointer. A new one is a file in
