@@ -353,8 +353,7 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind unstable_law(
     "unstable-law", Severity::warning,
-    "A body is strained beyond the stability of its law: ellipticity is lost, or heat softens more than flow "
-    "hardens. Results depend on the mesh.",
+    "The strains of an elastic body exceed the limit of ellipticity of its law; results depend on the mesh.",
     "Reduce the strains");
 
 inline const DiagnosticKind wrong_tangent(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/elasticity.h"
 
+#include "billet/material/flow_rule.h"
 #include "billet/material/hypoelastic.h"
 #include "billet/material/law_adapter.h"
 #include "billet/material/neo_hookean.h"
@@ -31,19 +32,25 @@ namespace {
 class IsotropicElasticity final : public Elasticity {
 public:
   using Maker = SharedLaw (*)(const ElasticModuli &, SharedFlow);
+  using MakerWithRule = SharedLaw (*)(const ElasticModuli &, SharedFlow, const FlowRule &);
 
-  IsotropicElasticity(const double young, const double poisson, Maker make)
-      : young_(young), moduli_(ElasticModuli::from_young_poisson(young, poisson)), make_(make) {}
+  IsotropicElasticity(const double young, const double poisson, Maker make, MakerWithRule make_with_rule)
+      : young_(young), moduli_(ElasticModuli::from_young_poisson(young, poisson)), make_(make),
+        make_with_rule_(make_with_rule) {}
 
   const ElasticModuli &moduli() const override { return moduli_; }
   double young_modulus() const override { return young_; } // the given value, without round-off
   SharedLaw make_elastic_law() const override { return make_(moduli_, nullptr); }
   SharedLaw make_plastic_law(SharedFlow flow) const override { return make_(moduli_, std::move(flow)); }
+  SharedLaw make_law_with_rule(SharedFlow flow, const FlowRule &rule) const override {
+    return make_with_rule_ != nullptr ? make_with_rule_(moduli_, std::move(flow), rule) : nullptr;
+  }
 
 private:
   double young_;
   ElasticModuli moduli_;
   Maker make_;
+  MakerWithRule make_with_rule_;
 };
 
 template <class Elastic, class Plastic>
@@ -72,7 +79,9 @@ SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow) {
 }
 
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
-                                         SharedLaw (*make)(const ElasticModuli &, SharedFlow)) {
+                                         SharedLaw (*make)(const ElasticModuli &, SharedFlow),
+                                         SharedLaw (*make_with_rule)(const ElasticModuli &, SharedFlow,
+                                                                     const FlowRule &)) {
   using Kind = TypeParameter::Kind;
   const SharedLaw law = make({1., 1.}, nullptr);
   ElasticityType type;
@@ -80,14 +89,14 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
   type.meaning = std::move(meaning);
   type.parameters = {{"Young modulus", "0", Kind::number, "E > 0. Young's modulus. [stress]"},
                      {"Poisson ratio", "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."}};
-  type.make = [make](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
+  type.make = [make, make_with_rule](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
     const double young = input.positive("Young modulus"), poisson = input.number("Poisson ratio");
     if (poisson == 0.5)
       input.reject("Poisson ratio", "a number > -1 and < 0.5: the bulk modulus of an incompressible material "
                                     "is infinite. Use 0.499, which elements take without locking");
     if (!(poisson > -1. && poisson < 0.5))
       input.reject("Poisson ratio", "a number > -1 and < 0.5");
-    return std::make_shared<const IsotropicElasticity>(young, poisson, make);
+    return std::make_shared<const IsotropicElasticity>(young, poisson, make, make_with_rule);
   };
   type.make_law = make;
   type.depends_on_path = law != nullptr && law->is_rate_form();
@@ -97,7 +106,7 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
 ElasticityType hencky_type() {
   return with_prony_series(isotropic_elasticity_type(hencky,
                                                      "multiplicative plasticity with logarithmic strains",
-                                                     &make_hencky_law),
+                                                     &make_hencky_law, &make_hencky_law),
                            &make_hencky_energy);
 }
 ElasticityType neo_hookean_type() {

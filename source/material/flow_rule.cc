@@ -104,11 +104,8 @@ SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow, const F
 }
 
 SharedLaw make_plastic_law(const Elasticity &elasticity, SharedFlow flow, const FlowRule &rule) {
-  SharedLaw plain = elasticity.make_plastic_law(flow);
-  if (rule.is_plain() || plain == nullptr)
-    return plain;
-  SharedLaw law = make_hencky_law(elasticity.moduli(), std::move(flow), rule);
-  return law->name() == plain->name() ? law : nullptr;
+  return rule.is_plain() ? elasticity.make_plastic_law(std::move(flow))
+                         : elasticity.make_law_with_rule(std::move(flow), rule);
 }
 
 } // namespace billet

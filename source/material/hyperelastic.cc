@@ -6,6 +6,7 @@
 #include "billet/material/viscoelastic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -143,15 +144,26 @@ constexpr const char *bulk_key = "Bulk modulus", *poisson_key = "Poisson ratio",
                      *volume_key = "Volumetric law", *exponent_key = "Volumetric exponent";
 constexpr double greatest_poisson_ratio = 0.49999;
 
+/// Volumetric energy that a scene can name; the first one is the default.
+struct VolumeLaw {
+  const char *name;
+  VolumetricEnergy::Kind kind;
+};
+constexpr std::array<VolumeLaw, 3> volume_laws = {{{"logarithmic", VolumetricEnergy::Kind::logarithmic},
+                                                   {"quadratic", VolumetricEnergy::Kind::quadratic},
+                                                   {"Ogden", VolumetricEnergy::Kind::ogden}}};
+
 std::vector<TypeParameter> volumetric_parameters() {
   using Kind = TypeParameter::Kind;
-  return {
-      {bulk_key, "0", Kind::number, "K > 0. Bulk modulus; or give 'Poisson ratio'. [stress]"},
-      {poisson_key, "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."},
-      {volume_key, "logarithmic", Kind::choice,
-       "logarithmic|quadratic|Ogden: volumetric energy K/2 (ln J)^2, K/2 (J - 1)^2 or K/B^2 (B ln J + J^-B - "
-       "1)."},
-      {exponent_key, "9", Kind::number, "B, not 0. Exponent of 'Volumetric law = Ogden'."}};
+  std::string names;
+  for (const VolumeLaw &law : volume_laws)
+    names += (names.empty() ? "" : "|") + std::string(law.name);
+  return {{bulk_key, "0", Kind::number, "K > 0. Bulk modulus; or give 'Poisson ratio'. [stress]"},
+          {poisson_key, "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."},
+          {volume_key, volume_laws.front().name, Kind::choice,
+           names + ": volumetric energy K/2 (ln J)^2, K/2 (J - 1)^2 or K/B^2 (B ln J + J^-B - "
+                   "1)."},
+          {exponent_key, "9", Kind::number, "B, not 0. Exponent of 'Volumetric law = Ogden'."}};
 }
 
 VolumetricEnergy read_volumetric_energy(const TypeInput &input, const double shear) {
@@ -167,10 +179,10 @@ VolumetricEnergy read_volumetric_energy(const TypeInput &input, const double she
     volumetric.bulk = 2. * shear * (1. + poisson) / (3. * (1. - 2. * poisson));
   }
   const std::string kind = input.text(volume_key);
-  if (kind == "quadratic")
-    volumetric.kind = VolumetricEnergy::Kind::quadratic;
-  if (kind == "Ogden") {
-    volumetric.kind = VolumetricEnergy::Kind::ogden;
+  volumetric.kind = std::find_if(volume_laws.begin(), volume_laws.end(), [&kind](const VolumeLaw &law) {
+                      return law.name == kind;
+                    })->kind; // the parameter's choice
+  if (volumetric.kind == VolumetricEnergy::Kind::ogden) {
     volumetric.exponent = input.number(exponent_key);
     if (volumetric.exponent == 0.)
       input.reject(exponent_key, "a number other than 0");

@@ -9,6 +9,7 @@
 #include <deal.II/physics/transformations.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -160,30 +161,28 @@ double asymmetry(const StressRates &rates, const SymmetricTensor<2, 3> &tau) {
   return std::sqrt(difference / size);
 }
 
-/// Kinds of random paths, each with two steps before the one whose tangent is compared.
-enum class Way { loading, unloading, reversal, shear };
+/// Kind of random paths, with two steps in the direction D before the one whose tangent is compared.
+struct Way {
+  const char *name;
+  /// Returns the increment of F in the last step.
+  Tensor<2, 3> (*last)(const Tensor<2, 3> &D, double size, TrialNumbers &random);
+};
+
+const std::array<Way, 4> ways = {
+    {{"loading", [](const Tensor<2, 3> &D, const double size, TrialNumbers &) { return unit + size * D; }},
+     {"unloading",
+      [](const Tensor<2, 3> &D, const double size, TrialNumbers &) { return unit - 1e-3 * size * D; }},
+     {"reversal", [](const Tensor<2, 3> &D, const double size, TrialNumbers &) { return unit - size * D; }},
+     {"shear", [](const Tensor<2, 3> &, const double size, TrialNumbers &random) {
+        Tensor<2, 3> F = unit;
+        F[0][1] = 2. * size;
+        return random.rotation(size) * F;
+      }}}};
 
 /// Returns the increments of F along a path of this kind, relative to the step before.
-std::array<Tensor<2, 3>, 3> make_path(const Way way, const double size, TrialNumbers &random) {
-  const SymmetricTensor<2, 3> D = random.strain();
-  std::array<Tensor<2, 3>, 3> path;
-  path[0] = path[1] = unit + size * Tensor<2, 3>(D);
-  switch (way) {
-  case Way::loading:
-    path[2] = path[0];
-    break;
-  case Way::unloading:
-    path[2] = unit - 1e-3 * size * Tensor<2, 3>(D);
-    break;
-  case Way::reversal:
-    path[2] = unit - size * Tensor<2, 3>(D);
-    break;
-  case Way::shear:
-    path[2] = unit;
-    path[2][0][1] = 2. * size;
-    path[2] = random.rotation(size) * path[2];
-  }
-  return path;
+std::array<Tensor<2, 3>, 3> make_path(const Way &way, const double size, TrialNumbers &random) {
+  const Tensor<2, 3> D = random.strain();
+  return {unit + size * D, unit + size * D, way.last(D, size, random)};
 }
 
 /// Strains the point to some 10 % in small steps; returns F at their end.
@@ -210,11 +209,6 @@ Finding judge_lost_symmetry(const Worst &lost) {
           : "as the subroutine returns it");
 }
 
-const char *name_of(const Way way) {
-  constexpr const char *names[] = {"loading", "unloading", "reversal", "shear"};
-  return names[static_cast<unsigned int>(way)];
-}
-
 } // namespace
 
 std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSettings &settings) {
@@ -225,10 +219,10 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
   std::size_t n_kinks = 0, n_refused = 0;
   double safe_step = largest_step;
   for (unsigned int path = 0; path < settings.n_paths; ++path) {
-    const Way way = static_cast<Way>(path % 4);
+    const Way &way = ways[path % ways.size()];
     const double size = random.logarithmic(1e-5, largest_step);
     LawPoint point(law, settings.temperature);
-    const bool is_strained = path / 4 % 2 == 1;
+    const bool is_strained = path / ways.size() % 2 == 1;
     Tensor<2, 3> F = is_strained ? strain_before(point, random, settings.dt) : unit;
     StressRates promised{};
     std::optional<SymmetricTensor<2, 3>> tau;
@@ -246,13 +240,13 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
       continue;
     }
     const auto where = [&] {
-      return std::string(name_of(way)) + " by steps of " + number(size) +
+      return std::string(way.name) + " by steps of " + number(size) +
              (is_strained ? " after a strain of 0.1" : "");
     };
     if (user_law != nullptr && size <= Limits::small_step)
       lost.add(user_law->lost_asymmetry(), where);
     if (law.has_symmetric_moduli())
-      asymmetric.add(asymmetry(promised, *tau), [&] { return "in " + std::string(name_of(way)); });
+      asymmetric.add(asymmetry(promised, *tau), [&] { return "in " + std::string(way.name); });
     const auto measured = point.differentiate(F, settings.dt, std::min(difference, 0.01 * size), kink);
     if (!measured) {
       ++n_kinks;

@@ -3,6 +3,8 @@
 #include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
 
+#include <stdexcept>
+
 namespace billet {
 
 ElementType assumed_strain_type();
@@ -18,16 +20,17 @@ namespace {
 
 std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &law,
                                          const ElementFormulation &formulation) {
-  switch (formulation.points_through) { // one of all_points_through
+  switch (formulation.points_through) {
+  case 2:
+    return make_law_block<AssumedStrainElement<>>(law, formulation);
   case 3:
     return make_assumed_strain_block_3(law, formulation);
   case 5:
     return make_assumed_strain_block_5(law, formulation);
   case 7:
     return make_assumed_strain_block_7(law, formulation);
-  default:
-    return make_law_block<AssumedStrainElement<>>(law, formulation);
   }
+  throw std::logic_error("there is no block for this number of points through the thickness");
 }
 
 bool compare(const ElementComparison &comparison, const ComparedBrick &brick, ElementEnergies &energies) {

@@ -7,6 +7,7 @@
 #include "billet/material/law_refusal.h"
 #include "billet/material/law_type.h"
 #include "billet/material/rate_factor.h"
+#include "billet/mechanics/thickness.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/named_values.h"
 #include "billet/parameters/primitives.h"
@@ -520,11 +521,23 @@ void Load::parse(Reader &reader) {
     origins.push_back(reader.origin(expression.key));
 }
 
+namespace {
+
+/// Returns "2|3|5|7".
+std::string numbers_through() {
+  std::string text;
+  for (const unsigned int n : all_points_through)
+    text += (text.empty() ? "" : "|") + std::to_string(n);
+  return text;
+}
+
+} // namespace
+
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,
                    const std::vector<std::string> &load_names) {
   declare_selection(prm, "Element", BrickElement::assumed_strain.name(), element_types(),
                     "Formulation of the bricks.");
-  prm.declare_entry("Points through thickness", "2", Patterns::Selection("2|3|5|7"),
+  prm.declare_entry("Points through thickness", "2", Patterns::Selection(numbers_through()),
                     "Gauss points of each brick along the thickness direction. More than 2 need 'Element = "
                     "assumed strain' and a static scene or implicit dynamics. Use 5 for the springback of "
                     "sheets, with two bricks through the thickness rather than one.");
@@ -659,7 +672,7 @@ void Body::parse(Reader &reader) {
                              "tell, and forces would be several times too large");
   points_through =
       reader.located("Points through thickness",
-                     static_cast<unsigned int>(reader.text("Points through thickness")[0] - '0'));
+                     static_cast<unsigned int>(std::stoul(reader.text("Points through thickness"))));
   thickness_direction = reader.located("Thickness direction", reader.parts("Thickness direction"));
   if (points_through.value > 2 && !element.value.has_layers())
     reader.reject("Points through thickness", "2, since only " + name_layered_elements() + " takes more");

@@ -128,7 +128,7 @@ template <class Part> void ExplicitRun::attempt(RunOutput &output, const Part &p
     problem_.update_state();
     output.snapshots().write(problem_);
     if (std::isfinite(problem_.relative_drift()))
-      output.report(stability_.check(problem_));
+      output.report(stability_.check(problem_.state()));
     throw SolutionFailure(
         explain_failed_step(scene_, problem_, failure.diagnostic(), stability_.has_unstable_bodies()));
   }
@@ -146,9 +146,12 @@ bool ExplicitRun::step(RunOutput &output) {
 
 // The state between two steps has the springs of the earlier time. Compared with those of the finer mesh, all
 // that they store in a step would seem gained, which is much at first touch.
-EnergyLedger ExplicitRun::end_with_energies(RunOutput &output) {
+EnergyLedger ExplicitRun::hand_over(RunOutput &output) {
   step(output);
-  problem_.update_ledger();
+  if (change_) // the refinement before this one
+    report_change(output);
+  else
+    problem_.update_ledger();
   return problem_.state().energies;
 }
 
@@ -157,7 +160,7 @@ void ExplicitRun::report_change(RunOutput &output) {
     return;
   problem_.update_ledger();
   RestartReport report;
-  report.energy_change = problem_.count_refinement(change_->before.drift());
+  report.energy_change = problem_.count_refinement(change_->before);
   change_->check(parameters_.file_name, report.energy_change, problem_.state().energies);
   output.report(change_->describe(report, 0.));
   change_.reset();
@@ -253,12 +256,13 @@ void ExplicitRun::check_stability(RunOutput &output) {
   if (problem_.time() < last_.next_check || !std::isfinite(problem_.relative_drift()))
     return;
   problem_.update_state();
-  output.report(stability_.check(problem_));
+  output.report(stability_.check(problem_.state()));
+  output.report(softening_.check(problem_));
   last_.next_check = problem_.time() + stops_.end() / Limits::n_checks;
 }
 
 std::string ExplicitRun::advise_on_law(RunOutput &output) {
-  output.report(stability_.check(problem_));
+  output.report(stability_.check(problem_.state()));
   if (stability_.has_unstable_bodies())
     return EnergyWatch::advise(EnergyWatch::Cause::unstable_law);
   if (!problem_.has_low_penalties() && has_inexact_dissipation(scene_, discretization_, problem_))

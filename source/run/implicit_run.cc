@@ -163,7 +163,8 @@ void ImplicitRun::after_step(RunOutput &output) {
   output.progress().accept(report_, problem_);
   output.report(check_force_balance(problem_.reactions().balance, problem_.state().time, false));
   output.report(review_.after_step(problem_, control_.is_finished()));
-  output.report(stability_.check(problem_));
+  output.report(stability_.check(problem_.state()));
+  output.report(softening_.check(problem_));
   check_energies(output);
   output.snapshots().after_step(control_.n_steps(), problem_);
 }

@@ -116,7 +116,7 @@ std::unique_ptr<Run> refine(std::unique_ptr<Run> run, const Scene &scene, RunOut
                                      scene.parameters().file_name +
                                          ": the state for the refined mesh cannot be stored: " + failure)
                               .time(change.time));
-  change.before = run->end_with_energies(output);
+  change.before = run->hand_over(output);
   run.reset(); // its memory is free for the finer mesh
   Resumption resumption(file.name, communicator, change);
   try {

@@ -45,15 +45,11 @@ std::string advise(const PointLaw &law, const Stretches &stretches) {
 } // namespace
 
 StabilityWatch::StabilityWatch(const Scene &scene, const Discretization &discretization)
-    : scene_(scene), discretization_(discretization) {
+    : discretization_(discretization) {
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const Body &body = scene.bodies()[b];
     if (body.law->min_wave_stiffness({1., 1., 1.}))
       bodies_.push_back({b, body.name, body.law, find_safe_range(*body.law), false});
-    std::vector<double> state(body.law->n_state());
-    body.law->initialize(state.data());
-    if (body.law->flow_slope(state.data(), 0.))
-      heated_.push_back({b, false});
   }
 }
 
@@ -76,12 +72,12 @@ StabilityWatch::Range StabilityWatch::find_safe_range(const PointLaw &law) {
   return safe == ranges.end() ? Range{1., 1.} : *safe;
 }
 
-DiagnosticList StabilityWatch::check(const Solution &solution) {
+DiagnosticList StabilityWatch::check(const SolutionState &state) {
   DiagnosticList messages;
   for (Watched &watched : bodies_) {
     if (watched.is_unstable)
       continue;
-    const auto [stiffness, stretches] = find_weakest(watched, solution.state().displacements);
+    const auto [stiffness, stretches] = find_weakest(watched, state.displacements);
     if (!(stiffness < 0.))
       continue;
     watched.is_unstable = has_unstable_bodies_ = true;
@@ -91,43 +87,10 @@ DiagnosticList StabilityWatch::check(const Solution &solution) {
          << " and " << stretches[0] << "; results depend on the mesh";
     messages.push_back(Diagnostic(diagnostic::unstable_law, text.str())
                            .body(watched.name)
-                           .time(solution.state().time)
+                           .time(state.time)
                            .advice(advise(*watched.law, stretches)));
   }
-  for (Heated &heated : heated_)
-    if (!heated.is_unstable)
-      check_heat(heated, solution, messages);
   return messages;
-}
-
-void StabilityWatch::check_heat(Heated &heated, const Solution &solution, DiagnosticList &messages) {
-  const Body &body = scene_.bodies()[heated.body];
-  const double temperature = body.temperature != nullptr ? body.temperature->value(solution.state().time) : 0.;
-  constexpr double visible = 0.01; // smaller strains are no bands yet
-  double least = 0., strain = 0.;  // slope, and plastic strain there
-  for (const StateAverages &layers : solution.average_states(heated.body))
-    for (const std::vector<double> &state : layers) {
-      const double plastic = body.law->equivalent_plastic_strain(state.data()),
-                   slope = body.law->flow_slope(state.data(), temperature).value_or(0.);
-      if (plastic > visible && slope < least) {
-        least = slope;
-        strain = plastic;
-      }
-    }
-  const auto of_ranks = all_gather(discretization_.communicator(), std::array<double, 2>{least, strain});
-  const auto &minimum = *std::min_element(of_ranks.begin(), of_ranks.end());
-  if (!(minimum[0] < 0.))
-    return;
-  heated.is_unstable = has_unstable_bodies_ = true;
-  std::ostringstream text;
-  text.precision(2);
-  text << "At a plastic strain of " << minimum[1]
-       << " heat softens the material by more than it hardens. Strains localise in one layer of elements; "
-          "results depend on the mesh";
-  messages.push_back(Diagnostic(diagnostic::unstable_law, text.str())
-                         .body(body.name)
-                         .time(solution.state().time)
-                         .advice("Compare with finer elements, and take no result that they change"));
 }
 
 StabilityWatch::Weakest StabilityWatch::find_weakest(const Watched &watched,

@@ -33,8 +33,9 @@ std::string inspect(const double strain, const std::string &elasticity, const bo
         {X[0] * std::expm1(across * strain), X[1] * std::expm1(across * strain), X[2] * std::expm1(strain)});
   });
   StabilityWatch watch(scene, discretization);
-  const DiagnosticList messages = watch.check(solution);
-  check("reported once", watch.check(solution).empty() && watch.has_unstable_bodies() == !messages.empty());
+  const DiagnosticList messages = watch.check(solution.state());
+  check("reported once",
+        watch.check(solution.state()).empty() && watch.has_unstable_bodies() == !messages.empty());
   return messages.empty() ? "" : messages.front().text();
 }
 

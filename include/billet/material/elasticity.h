@@ -14,6 +14,8 @@ namespace billet {
 using SharedLaw = std::shared_ptr<const PointLaw>;
 using SharedFlow = std::shared_ptr<const FlowStress>;
 
+struct FlowRule;
+
 /// Elastic part of a material, with its constants. It makes the law of a body with or without plasticity.
 class Elasticity {
 public:
@@ -27,6 +29,10 @@ public:
   virtual SharedLaw make_elastic_law() const = 0;
   /// Returns null if this elasticity does not support plasticity.
   virtual SharedLaw make_plastic_law(SharedFlow flow) const = 0;
+  /// Returns the law with a flow rule that is not plain; null if this elasticity does not support any.
+  virtual SharedLaw make_law_with_rule(SharedFlow /*flow*/, const FlowRule & /*rule*/) const {
+    return nullptr;
+  }
 };
 
 /// Elasticities that a scene file can name. A new one is a file in source/material/ with a function that
@@ -49,9 +55,12 @@ SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow = nullpt
 SharedLaw make_neo_hookean_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 
-/// Returns the type of such a law; its parameters are Young's modulus and Poisson's ratio.
+/// Returns the type of such a law; its parameters are Young's modulus and Poisson's ratio. `make_with_rule`:
+/// null if it does not support flow rules.
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
-                                         SharedLaw (*make)(const ElasticModuli &, SharedFlow));
+                                         SharedLaw (*make)(const ElasticModuli &, SharedFlow),
+                                         SharedLaw (*make_with_rule)(const ElasticModuli &, SharedFlow,
+                                                                     const FlowRule &) = nullptr);
 
 } // namespace billet
 

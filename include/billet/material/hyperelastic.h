@@ -51,7 +51,6 @@ public:
   std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const override;
 
   const IsochoricEnergy &isochoric_energy() const { return *isochoric_; }
-  const SharedEnergy &shared_energy() const { return isochoric_; }
   const VolumetricEnergy &volumetric_energy() const { return volumetric_; }
 
   /// Computes the state at F. Returns false if F is inadmissible.

@@ -20,7 +20,7 @@ namespace billet {
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   depends_on_temperature         true, if it reads PointStep::temperature
-///   flow_slope()                   if that is so and the law has plasticity
+///   flow_slope()                   if the law may soften
 ///   bound_stiffness(tau)           if PointLaw's is not the law's; without it, moduli bound elastic laws
 ///   flow_stress()                  with plasticity
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
@@ -105,12 +105,8 @@ public:
       return law_.min_wave_stiffness(stretches);
   }
 
-  std::optional<double> flow_slope([[maybe_unused]] const double *state,
-                                   [[maybe_unused]] const double temperature) const override {
-    if constexpr (Law::has_plasticity && finds_temperature<Law>(0))
-      return law_.flow_slope(restore(state), temperature);
-    else
-      return {};
+  std::optional<double> flow_slope(const double *state, const double temperature) const override {
+    return find_flow_slope(law_, state, temperature, 0);
   }
 
   std::optional<LaneLaw> lane_law() const override { return find_lane_law<Law>(0); }
@@ -135,6 +131,15 @@ private:
     return true;
   }
   template <class L> static constexpr bool has_own_bound(long) { return false; }
+
+  template <class L>
+  auto find_flow_slope(const L &law, const double *state, const double temperature, int) const
+      -> decltype(law.flow_slope(History(), temperature)) {
+    return law.flow_slope(restore(state), temperature);
+  }
+  template <class L> std::optional<double> find_flow_slope(const L &, const double *, double, long) const {
+    return {};
+  }
 
   template <class L> static constexpr auto finds_temperature(int) -> decltype(L::depends_on_temperature) {
     return L::depends_on_temperature;

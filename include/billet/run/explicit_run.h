@@ -29,7 +29,7 @@ public:
   unsigned int n_steps() const override { return problem_.n_steps(); }
   double time() const override { return problem_.time(); }
   bool is_resumable() const override { return is_between_steps_; }
-  EnergyLedger end_with_energies(RunOutput &output) override;
+  EnergyLedger hand_over(RunOutput &output) override;
 
 protected:
   void save_method(StateWriter &writer) const override;

@@ -27,7 +27,7 @@ public:
   void end(RunOutput &output) override;
   unsigned int n_steps() const override { return control_.n_steps(); }
   double time() const override { return control_.time(); }
-  EnergyLedger end_with_energies(RunOutput &) override { return problem_.state().energies; }
+  EnergyLedger hand_over(RunOutput &) override { return problem_.state().energies; }
 
 protected:
   void save_method(StateWriter &writer) const override;

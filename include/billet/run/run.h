@@ -7,6 +7,7 @@
 #include "billet/run/run_output.h"
 #include "billet/solve/mesh_errors.h"
 #include "billet/solve/run_review.h"
+#include "billet/solve/softening_watch.h"
 #include "billet/solve/stability_watch.h"
 
 #include <memory>
@@ -24,8 +25,8 @@ public:
       : scene_(scene), parameters_(scene.parameters()),
         discretization_(scene, communicator,
                         resumption == nullptr ? MeshLevels() : resumption->find_levels(scene)),
-        review_(scene, discretization_), stability_(scene, discretization_), mesh_errors_(discretization_),
-        probes_(scene, discretization_) {}
+        review_(scene, discretization_), stability_(scene, discretization_), softening_(scene),
+        mesh_errors_(discretization_), probes_(scene, discretization_) {}
   virtual ~Run() = default;
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
@@ -51,9 +52,9 @@ public:
   const Discretization &discretization() const { return discretization_; }
   /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.
   void save(StateWriter &writer) const;
-  /// Returns the energies at time(). The run cannot go on or be saved after it: one that keeps the state
-  /// between two steps completes the later one. Throws as step().
-  virtual EnergyLedger end_with_energies(RunOutput &output) = 0;
+  /// Ends the run at time(), for a run on another mesh that goes on from what save() has saved: completes the
+  /// state there, and returns its energies. Nothing may follow. Throws as step().
+  virtual EnergyLedger hand_over(RunOutput &output) = 0;
 
 protected:
   /// Saves the method's own part of the state.
@@ -68,6 +69,7 @@ protected:
   const Discretization discretization_;
   RunReview review_;
   StabilityWatch stability_;
+  SofteningWatch softening_;
   MeshErrors mesh_errors_;
   const ProbeReader probes_;
 };

@@ -14,15 +14,15 @@
 
 namespace billet {
 
-/// Warns once for each body that is strained beyond the stability of its law; results depend on the mesh then.
-/// An elastic body loses its ellipticity, (M7) of doc/theory, at the centre of an element. A body that yields
-/// softens by heat, (H20), in the mean over an element. Its elastic strains, which are small, are left out.
+/// Warns once for each elastic body that is strained beyond the stability of its law, (M7) of doc/theory.md.
+/// Ellipticity is lost then, and results depend on the mesh. It checks the centres of the elements. Bodies
+/// that yield, whose elastic strains are small, are left out.
 class StabilityWatch {
 public:
   StabilityWatch(const Scene &scene, const Discretization &discretization);
 
   /// Returns messages at this state, one for each body that has newly lost its stability. Collective.
-  DiagnosticList check(const Solution &solution);
+  DiagnosticList check(const SolutionState &state);
   /// Whether any body has lost its stability.
   bool has_unstable_bodies() const { return has_unstable_bodies_; }
 
@@ -42,22 +42,13 @@ private:
     double stiffness; ///< over the shear modulus
     Stretches stretches;
   };
-  /// Body whose law may soften by heat.
-  struct Heated {
-    std::size_t body;
-    bool is_unstable;
-  };
   /// Returns the largest of some ranges in which a law is stable; an empty one if it is stable in none.
   static Range find_safe_range(const PointLaw &law);
   /// Finds the weakest element of all ranks.
   Weakest find_weakest(const Watched &watched, const Vector &displacements) const;
-  /// Adds a message if an element of the body that has yielded softens.
-  void check_heat(Heated &heated, const Solution &solution, DiagnosticList &messages);
 
-  const Scene &scene_;
   const Discretization &discretization_;
   std::vector<Watched> bodies_;
-  std::vector<Heated> heated_;
   bool has_unstable_bodies_ = false;
 };
 

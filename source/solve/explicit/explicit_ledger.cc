@@ -122,10 +122,11 @@ void ExplicitLedger::update(SolutionState &state) {
     max_energy_when_due_ = std::max(max_energy_when_due_, energy);
 }
 
-double ExplicitLedger::count_refinement(SolutionState &state, const double drift) {
-  const double made = drift - state.energies.drift();
-  state.energies.initial += made;
-  drift_ = drift;
+double ExplicitLedger::count_refinement(SolutionState &state, const EnergyLedger &before) {
+  const EnergyLedger &now = state.energies;
+  const double made = (now.total() - now.external) - (before.total() - before.external);
+  state.energies.initial = before.initial + made;
+  drift_ = state.energies.drift();
   return made;
 }
 

@@ -55,8 +55,8 @@ public:
   /// Updates these and the fields. Collective.
   void update_state();
   /// Returns the energy that the refinement of bodies has made, and counts it as initial energy, after the
-  /// first update_ledger() [energy]. `drift`: on the coarser mesh.
-  double count_refinement(const double drift) { return ledger_.count_refinement(state_, drift); }
+  /// first update_ledger() [energy]. `before`: on the coarser mesh at the same time.
+  double count_refinement(const EnergyLedger &before) { return ledger_.count_refinement(state_, before); }
   /// Returns warnings about penalties, after prepare_step(). Collective.
   DiagnosticList check_penalties() { return penalties_.check(state_.energies); }
   /// Returns messages about causes of much shorter steps, contact or flat elements, each once, after

@@ -33,8 +33,9 @@ public:
   double relative_drift(const EnergyLedger &energies, double stable_step) const;
 
   /// Returns the energy that the refinement of bodies has made, (R6) of doc/theory, after the first update().
-  /// Counts it as initial energy, so that the drift remains the one on the coarser mesh, `drift`.
-  double count_refinement(SolutionState &state, double drift);
+  /// Counts it as initial energy, so that the drift remains the one `before`, on the coarser mesh at the same
+  /// time.
+  double count_refinement(SolutionState &state, const EnergyLedger &before);
 
   /// `energies`: those of the last update. Collective.
   void save(StateWriter &writer, EnergyLedger energies) const;
