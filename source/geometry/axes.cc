@@ -18,7 +18,8 @@ std::vector<TypeParameter> Axes::parameters() {
       {"Second axis", "", Kind::text,
        "Local axes: vector 'x, y, z'. Its part across the first axis is along the second one; the third "
        "one follows by the right-hand rule."},
-      {"Axis point", "", Kind::text, "Cylindrical axes: point 'x, y, z' of the line; empty is the origin. [length]"},
+      {"Axis point", "", Kind::text,
+       "Cylindrical axes: point 'x, y, z' of the line; empty is the origin. [length]"},
       {"Axis direction", "", Kind::text,
        "Cylindrical axes: vector 'x, y, z' along the line, about which the circumference turns by the "
        "right-hand rule."}};

@@ -31,9 +31,9 @@ public:
     states_.resize(positions_.size());
     for (unsigned int q = 0; q < points.stress.size(); ++q) {
       const unsigned int layer = q / 4, node = is_layered ? corners[q % 4] : q;
-      const unsigned int place = !is_along                  ? (node >> direction) & 1U
+      const unsigned int place = !is_along                 ? (node >> direction) & 1U
                                  : points.axis.is_reversed ? n_through - 1 - layer
-                                                            : layer;
+                                                           : layer;
       const double weight = is_along ? 0.25 : 0.5 * through.weights[layer];
       states_[place].deviator += weight * points.stress[q].deviator;
       states_[place].equivalent_plastic_strain += weight * points.stress[q].equivalent_plastic_strain;
@@ -111,8 +111,8 @@ SymmetricTensor<2, 3> bending_strain(const ElementData &element, const unsigned 
   dealii::Point<3> low(0.5, 0.5, 0.5), high = low;
   low[direction] = 0.;
   high[direction] = 1.;
-  return 0.5 * dealii::symmetrize(
-                   (deformation_gradient(element, high) - deformation_gradient(element, low)) * mean_inverse);
+  return 0.5 * dealii::symmetrize((deformation_gradient(element, high) - deformation_gradient(element, low)) *
+                                  mean_inverse);
 }
 
 double von_mises(const SymmetricTensor<2, 3> &deviator) { return std::sqrt(1.5) * deviator.norm(); }
@@ -128,8 +128,8 @@ LocalStates::PlaneFactors LocalStates::plane_factors(const ElementVectors &posit
   double share = 1., thinning = 0.;
   if (formulation_.element == BrickElement::assumed_strain) {
     const auto modes = compute_modes(positions);
-    const auto constants = compute_strain_constants(
-        elastic, {2. * modes[0].norm(), 2. * modes[1].norm(), 2. * modes[2].norm()});
+    const auto constants =
+        compute_strain_constants(elastic, {2. * modes[0].norm(), 2. * modes[1].norm(), 2. * modes[2].norm()});
     share = std::sqrt(constants.share[(direction + 1) % 3][direction] *
                       constants.share[(direction + 2) % 3][direction]);
     thinning = constants.thinning[direction];
@@ -148,8 +148,7 @@ double LocalStates::find_share(const ElementData &element, const double volume_r
   // Flow at a rate, or by another function than von Mises', may exceed the yield stress at the points, too.
   double excess = 1.;
   for (const PointStress &point : element.points->stress)
-    excess =
-        std::max(excess, von_mises(point.deviator) / flow->stress(point.equivalent_plastic_strain));
+    excess = std::max(excess, von_mises(point.deviator) / flow->stress(point.equivalent_plastic_strain));
   const double limit = excess * flow->stress(equivalent_plastic_strain) / volume_ratio;
   const SymmetricTensor<2, 3> mean = dealii::deviator(element.summary.cauchy_stress),
                               more = dealii::deviator(bending);

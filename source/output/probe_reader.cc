@@ -96,8 +96,8 @@ void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const
   values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
 }
 
-/// Appends what a quantity of elements writes of a state. `centre`: of the undeformed element, where cylindrical
-/// axes are taken, since the stress of a brick does not turn about their line within it.
+/// Appends what a quantity of elements writes of a state. `centre`: of the undeformed element, where
+/// cylindrical axes are taken, since the stress of a brick does not turn about their line within it.
 void append(const Kind kind, const LocalState &state, const Axes &axes, const Tensor<1, 3> &centre,
             std::vector<double> &values) {
   if (kind == Kind::strain)

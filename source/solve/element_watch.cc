@@ -33,9 +33,9 @@ std::string advise_on_stiffness(const ElementFormulation &formulation, const Ele
 constexpr std::size_t n_energies = 9;
 
 void add_numbers(const ElementEnergies &energies, std::vector<double> &values) {
-  values.insert(values.end(), {energies.used, energies.one_point, energies.accurate, energies.hourglass,
-                               energies.plastic, energies.tapered, energies.plastic_within,
-                               energies.beyond_yield, energies.face_stress});
+  values.insert(values.end(),
+                {energies.used, energies.one_point, energies.accurate, energies.hourglass, energies.plastic,
+                 energies.tapered, energies.plastic_within, energies.beyond_yield, energies.face_stress});
 }
 ElementEnergies energies_in(const std::vector<double> &values, const std::size_t body) {
   const double *own = &values[n_energies * body];

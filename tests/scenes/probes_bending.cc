@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Stresses and strains that probes read at the faces of bricks that bend, one through the thickness, and in a
-// wedge, against closed forms: a strip with a constant curvature, elastic and perfectly plastic, with two points
-// and with layers; a cantilever; Lamé's pipe.
+// wedge, against closed forms: a strip with a constant curvature, elastic and perfectly plastic, with two
+// points and with layers; a cantilever; Lamé's pipe.
 #include "implicit_run.h"
 #include "materials.h"
 
@@ -67,12 +67,12 @@ void bend_elastic(const unsigned int n_points, const std::string &axis) {
           std::abs(at.at("through." + std::to_string(i + 3) + ".stress_xx") / stress - 0.5 * i), tolerance);
 }
 
-/// A strip that does not harden, at 1.5 and three times the curvature of its elastic limit: no probe reads more than
-/// the yield stress, and none less, since the strip flows at its face.
+/// A strip that does not harden, at 1.5 and three times the curvature of its elastic limit: no probe reads
+/// more than the yield stress, and none less, since the strip flows at its face.
 void bend_plastic(const unsigned int n_points, const double multiple) {
   constexpr double yield_stress = 10., poisson = 0.3;
-  const double first_yield = 2. * yield_stress * (1. - poisson * poisson) /
-                             (1e5 * std::sqrt(1. - poisson + poisson * poisson));
+  const double first_yield =
+      2. * yield_stress * (1. - poisson * poisson) / (1e5 * std::sqrt(1. - poisson + poisson * poisson));
   parameters::Scene scene = read_strip(n_points, "1", multiple * first_yield);
   testing::set_hardening(scene.bodies[0].material, LinearHardening{yield_stress, 0.});
   const Columns at = run_to_end(scene);

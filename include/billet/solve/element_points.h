@@ -8,7 +8,8 @@
 
 namespace billet {
 
-/// States of the points of an element, and its axis through the thickness if there are more than two along it.
+/// States of the points of an element, and its axis through the thickness if there are more than two along
+/// it.
 struct ElementPoints {
   ElementStress stress;
   ThicknessAxis axis = {};
