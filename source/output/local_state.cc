@@ -184,12 +184,18 @@ LocalState LocalStates::evaluate(const ElementData &element, const dealii::Point
   state.equivalent_plastic_strain = std::max(0., state.equivalent_plastic_strain);
   const double share = find_share(element, volume_ratio, state.equivalent_plastic_strain, bending);
   state.cauchy_stress += share * bending;
+  const ElasticModuli elastic = law_->elastic();
   const Tensor<2, 3> inverse = dealii::invert(F);
   SymmetricTensor<2, 3> Y = dealii::unit_symmetric_tensor<3>();
   for (unsigned int k = 0; k < 3; ++k) {
     const SymmetricTensor<2, 3> plane =
         (2. * coordinates[k] - 1.) * plane_part(bending_strain(element, k, inverse), normals[k]);
-    const double volumetric = share * dealii::trace(stresses[k]) / (3. * law_->elastic().bulk);
+    // One point has no bending stress: its strain is that of an elastic plate, (1 − 2ν)/(1 − ν) of the
+    // plane's.
+    const double volumetric =
+        formulation_.element.is_stabilised()
+            ? 6. * elastic.shear / (3. * elastic.bulk + 4. * elastic.shear) * dealii::trace(plane)
+            : share * dealii::trace(stresses[k]) / (3. * elastic.bulk);
     Y += plane + (volumetric - dealii::trace(plane)) *
                      dealii::symmetrize(dealii::outer_product(normals[k], normals[k]));
   }

@@ -174,8 +174,9 @@ DiagnosticList ElementWatch::judge_bending() const {
     } else if (is_between_points) {
       measure = {"part", energies.plastic / energies.plastic_within};
       text << "their points capture " << 100. * measure.second
-           << " % of the plastic dissipation between them. Forces and springback are wrong by as much as "
-              "that dissipation matters";
+           << " % of the plastic dissipation between them, which is "
+           << 100. * energies.plastic_within / energies.used
+           << " % of the energy. Forces or displacements, and springback, are wrong";
     } else {
       measure = {"stress", energies.face_stress};
       text << "the elastic stress at the faces of bricks is up to " << measure.second
@@ -198,23 +199,25 @@ DiagnosticList ElementWatch::judge_bending() const {
 
 DiagnosticList ElementWatch::judge_probes() const {
   constexpr double of_hourglass_modes = 0.1;
+  std::vector<std::string> readers(energies_.size()); // by body
+  for (const auto &probe : scene_.parameters().probes)
+    if (probe.probe.reads(ProbeQuantity::Kind::stress)) {
+      std::string &names = readers[scene_.parameters().body_index(probe)];
+      names += (names.empty() ? "'" : ", '") + probe.name + "'";
+    }
   DiagnosticList diagnostics;
-  for (const auto &probe : scene_.parameters().probes) {
-    if (!probe.probe.reads(ProbeQuantity::Kind::stress))
-      continue;
-    const std::size_t b = scene_.parameters().body_index(probe);
-    const ElementEnergies &energies = energies_[b];
-    if (!scene_.bodies()[b].formulation.element.is_stabilised() || !counts(b) ||
-        !(energies.hourglass > of_hourglass_modes * energies.used))
+  for (std::size_t b = 0; b < energies_.size(); ++b) {
+    const double part = energies_[b].used > 0. ? energies_[b].hourglass / energies_[b].used : 0.;
+    if (readers[b].empty() || !scene_.bodies()[b].formulation.element.is_stabilised() || !counts(b) ||
+        !(part > of_hourglass_modes))
       continue;
     std::ostringstream text;
     text.precision(3);
-    text << "Probe '" << probe.name << "' reads stresses in the middle of one-point elements, and "
-         << 100. * energies.hourglass / energies.used
-         << " % of the energy is in their hourglass modes: the bending stress is missing";
+    text << "The stress of one-point elements is that of their middle, and " << 100. * part
+         << " % of the energy is in their hourglass modes. The bending stress is missing in the probes "
+         << readers[b];
     Diagnostic message(diagnostic::probe_without_bending, text.str());
-    message.body(scene_.bodies()[b].name).time(compared_time_);
-    message.measure("part", energies.hourglass / energies.used);
+    message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", part);
     message.advice("Use 'Element = assumed strain', or four or more bricks through the thickness");
     diagnostics.push_back(message);
   }
