@@ -78,13 +78,13 @@ public:
 
   const SolutionState &state() const override { return state_; }
   const Discretization &discretization() const override { return parts_.discretization; }
-  std::vector<ElementSummary> summarize(const std::size_t body) const override {
+  std::vector<ElementSummary> summarize(std::size_t body) const override {
     return parts_.elements.summarize(body, parts_.motion.displacements());
   }
-  std::vector<StateAverages> average_states(const std::size_t body) const override {
+  std::vector<StateAverages> average_states(std::size_t body) const override {
     return parts_.elements.average_states(body, parts_.motion.displacements());
   }
-  std::vector<ElementPoints> element_points(const std::size_t body) const override {
+  std::vector<ElementPoints> element_points(std::size_t body) const override {
     return parts_.elements.element_points(body, parts_.motion.displacements());
   }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {

@@ -65,13 +65,13 @@ public:
 
   const SolutionState &state() const override { return problem_.state(); }
   const Discretization &discretization() const override { return parts_.discretization(); }
-  std::vector<ElementSummary> summarize(const std::size_t body) const override {
+  std::vector<ElementSummary> summarize(std::size_t body) const override {
     return parts_.internal().summarize(body, state().displacements);
   }
-  std::vector<LayerSummaries> summarize_layers(const std::size_t body) const override {
+  std::vector<LayerSummaries> summarize_layers(std::size_t body) const override {
     return parts_.internal().summarize_layers(body, state().displacements);
   }
-  std::vector<StateAverages> average_states(const std::size_t body) const override {
+  std::vector<StateAverages> average_states(std::size_t body) const override {
     return parts_.internal().average_states(body);
   }
   std::vector<ElementPoints> element_points(std::size_t body) const override;
