@@ -48,6 +48,12 @@ inline const DiagnosticKind probe_without_contact(
     "pair's first body have it.",
     "Name faces of the 'Body' of a pair in the probe");
 
+inline const DiagnosticKind probe_without_bending(
+    "probe-without-bending", Severity::warning,
+    "A probe reads the stress of one-point elements that bend. It is that of their middle, without the "
+    "bending stress, which their hourglass stabilisation bears.",
+    "Use 'Element = assumed strain', or four or more bricks through the thickness");
+
 inline const DiagnosticKind parameters_left_out(
     "parameters-left-out", Severity::note,
     "The command line chooses another 'Scheme' than the scene file. The program leaves out the file's "
@@ -328,7 +334,8 @@ inline const DiagnosticKind plastic_bending_coarse(
     "A body yields in bending, with few elements through its thickness or along the fold. One-point elements "
     "have more than 10 % of the energy in hourglass modes, with one yield stress for an element. Or the two "
     "points of assumed strains miss more than 30 % of the dissipation between them, where that exceeds 5 % "
-    "of the energy.",
+    "of the energy. Or they do not yield, while the stress at the faces of their bricks exceeds the yield "
+    "stress by more than 20 %, in bricks with more than 10 % of the energy.",
     "Use four or more one-point bricks through the thickness, and shorter ones where the bend is sharpest. "
     "With assumed strains use two bricks, or 'Points through thickness = 5'");
 

@@ -18,7 +18,8 @@ std::vector<TypeParameter> Axes::parameters() {
       {"Second axis", "", Kind::text,
        "Local axes: vector 'x, y, z'. Its part across the first axis is along the second one; the third "
        "one follows by the right-hand rule."},
-      {"Axis point", "", Kind::text, "Cylindrical axes: point 'x, y, z' of the line. [length]"},
+      {"Axis point", "", Kind::text,
+       "Cylindrical axes: point 'x, y, z' of the line; empty is the origin. [length]"},
       {"Axis direction", "", Kind::text,
        "Cylindrical axes: vector 'x, y, z' along the line, about which the circumference turns by the "
        "right-hand rule."}};
@@ -44,12 +45,11 @@ Axes::Axes(const TypeInput &input) {
     triad_[2] = dealii::cross_product_3d(triad_[0], triad_[1]);
   }
   if (kind_ == Kind::cylindrical) {
-    if (!input.is_set("Axis point"))
-      input.reject("Axis point", "a point 'x, y, z' of the line about which the axes are cylindrical");
     if (!input.is_set("Axis direction"))
       input.reject("Axis direction",
                    "a vector 'x, y, z' along the line about which the axes are cylindrical");
-    point_ = input.vector("Axis point");
+    if (input.is_set("Axis point"))
+      point_ = input.vector("Axis point");
     triad_[2] = input.direction("Axis direction");
   }
 }

@@ -160,6 +160,30 @@ void ElementComparison::add_dissipation(const PointEnergies &points, ElementEner
   energies.plastic_within += volume_of_all * dissipation_between(points.F);
 }
 
+void ElementComparison::compare_faces(const PointEnergies &points, ElementEnergies &energies) const {
+  if (flow_ == nullptr || formulation_.points_through != AssumedStrainElement<>::points_through)
+    return;
+  const auto stress = [&](const Strains &strains) { // of an elastic body, von Mises
+    return std::sqrt(6. * elastic_.shear * strains.deviatoric_energy);
+  };
+  const double yield_stress = flow_->stress(0.);
+  if (std::any_of(points.strains.begin(), points.strains.end(),
+                  [&](const Strains &strains) { return stress(strains) > yield_stress; }))
+    return;
+  double largest = 0.;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (const double side : {-1., 1.}) {
+      dealii::Tensor<2, 3> F;
+      for (unsigned int q = 0; q < n_element_points; ++q)
+        F += 0.125 * (1. + side * std::sqrt(3.) * corner(q, k)) * points.F[q];
+      largest = std::max(largest, stress(measure(F)) / yield_stress);
+    }
+  if (largest > 1. + yield_margin) {
+    energies.beyond_yield += energies.used;
+    energies.face_stress = std::max(energies.face_stress, largest);
+  }
+}
+
 bool ElementComparison::compare(const ElementVectors &positions, const ElementVectors &displacements,
                                 ElementEnergies &energies) const {
   ElementEnergies own, one_point;
@@ -178,6 +202,7 @@ bool ElementComparison::compare(const ElementVectors &positions, const ElementVe
       return false;
   } else
     own.used = own.accurate;
+  compare_faces(accurate, own);
   if (!std::isfinite(own.used + own.one_point + own.accurate + own.tapered + own.plastic_within))
     return false;
   energies += own;

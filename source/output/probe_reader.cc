@@ -9,7 +9,9 @@
 #include "billet/mechanics/hexahedron.h"
 #include "billet/output/contact_fields.h"
 #include "billet/output/element_fields.h"
+#include "billet/output/local_state.h"
 #include "billet/output/probe_geometry.h"
+#include "billet/solve/element_points.h"
 
 #include <deal.II/base/geometry_info.h>
 
@@ -60,6 +62,14 @@ std::array<DofIndex, 3> dofs_of(const Element &element, const unsigned int node)
           element.dofs[std::size_t{3} * node + 2]};
 }
 
+/// Returns the middle of a face in the coordinates of its element, from 0 to 1.
+dealii::Point<3> middle_of(const BoundaryFacet &facet) {
+  const auto face = static_cast<unsigned int>(facet.key % dealii::GeometryInfo<3>::faces_per_cell);
+  dealii::Point<3> coordinates(0.5, 0.5, 0.5);
+  coordinates[face / 2] = face % 2;
+  return coordinates;
+}
+
 FacetCorners undeformed_corners(const BoundaryFacet &facet) {
   FacetCorners corners;
   for (unsigned int a = 0; a < 4; ++a)
@@ -84,6 +94,18 @@ void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const
   }
   const Tensor<1, 3> components = axes.from_global(vector, position);
   values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
+}
+
+/// Appends what a quantity of elements writes of a state. `centre`: of the undeformed element, where
+/// cylindrical axes are taken, since the stress of a brick does not turn about their line within it.
+void append(const Kind kind, const LocalState &state, const Axes &axes, const Tensor<1, 3> &centre,
+            std::vector<double> &values) {
+  if (kind == Kind::strain)
+    append(list_components(axes.from_global(state.strain, centre)), values);
+  else if (kind == Kind::plastic_strain)
+    values.push_back(state.equivalent_plastic_strain);
+  else
+    append(list_stress(state.cauchy_stress, axes.from_global(state.cauchy_stress, centre)), values);
 }
 
 double denominator_of(const ProbedEnergies &of, const EnergyLedger &energies) {
@@ -140,18 +162,29 @@ public:
   /// Collective.
   State(const Scene &scene, const Solution &solution)
       : solution_(solution), discretization_(solution.discretization()),
-        summaries_(discretization_.n_bodies()) {
+        summaries_(discretization_.n_bodies()), points_(discretization_.n_bodies()) {
     const auto &probes = scene.parameters().probes;
     if (std::any_of(probes.begin(), probes.end(),
                     [](const parameters::Probe &probe) { return probe.probe.reads(Kind::contact_pressure); }))
       contact_ = collect_contact_fields(discretization_, solution);
-    std::set<std::size_t> bodies;
-    for (const parameters::Probe &probe : probes)
-      if (probe.probe.reads(Kind::stress) || probe.probe.reads(Kind::plastic_strain) ||
-          std::holds_alternative<ProbedMotion>(probe.probe.where))
-        bodies.insert(scene.parameters().body_index(probe));
+    std::set<std::size_t> bodies, bodies_of_points;
+    for (const parameters::Probe &probe : probes) {
+      const bool reads_points = probe.probe.reads(Kind::stress) || probe.probe.reads(Kind::strain) ||
+                                probe.probe.reads(Kind::plastic_strain);
+      const std::size_t body = probe.probe.has_body() ? scene.parameters().body_index(probe) : 0;
+      if (reads_points)
+        bodies_of_points.insert(body);
+      if (reads_points || std::holds_alternative<ProbedMotion>(probe.probe.where))
+        bodies.insert(body);
+    }
+    const auto *has_points = dynamic_cast<const HasElementPoints *>(&solution);
     for (const std::size_t body : bodies)
       summaries_[body] = solution.summarize(body);
+    for (const std::size_t body : bodies_of_points)
+      if (has_points != nullptr)
+        points_[body] = has_points->element_points(body);
+    for (const Body &body : scene.bodies())
+      local_states_.emplace_back(body.law, body.formulation);
   }
 
   const EnergyLedger &energies() const { return solution_.state().energies; }
@@ -206,23 +239,14 @@ public:
     return displacement(dofs);
   }
 
-  /// Appends the values of a quantity of elements, in the axes at an undeformed position.
-  void append_of_element(const Kind kind, const std::size_t body, const std::size_t e, const Axes &axes,
-                         const Tensor<1, 3> &position, std::vector<double> &values) const {
-    if (kind == Kind::strain) {
-      const Element &element = discretization_.elements(body)[e];
-      const auto strain = logarithmic_strain(mean_deformation_gradient(
-          nodal_positions(element.cell), gather(solution_.state().displacements, element.dofs)));
-      append(list_components(axes.from_global(strain, position)), values);
-      return;
-    }
-    const ElementSummary &summary = summaries_[body][e];
-    if (kind == Kind::plastic_strain) {
-      values.push_back(summary.equivalent_plastic_strain);
-      return;
-    }
-    const auto &stress = summary.cauchy_stress;
-    append(list_stress(stress, axes.from_global(stress, position)), values);
+  /// Returns stress and strains in an element, at coordinates from 0 to 1.
+  LocalState local_state(const std::size_t body, const std::size_t e,
+                         const dealii::Point<3> &coordinates) const {
+    const Element &element = discretization_.elements(body)[e];
+    return local_states_[body].evaluate(
+        {nodal_positions(element.cell), gather(solution_.state().displacements, element.dofs),
+         summaries_[body][e], points_[body].empty() ? nullptr : &points_[body][e]},
+        coordinates);
   }
 
   /// Returns the values of all quantities at a point of an element.
@@ -237,10 +261,13 @@ public:
     };
     const Tensor<1, 3> position =
         interpolate([&](const unsigned int a) { return Tensor<1, 3>(element.cell->vertex(a)); });
+    const bool has_state = std::any_of(probe.quantities.begin(), probe.quantities.end(),
+                                       [](const ProbeQuantity &quantity) { return !quantity.is_nodal(); });
+    const LocalState local = has_state ? local_state(body, e, coordinates) : LocalState();
     std::vector<double> values;
     for (const ProbeQuantity &quantity : probe.quantities) {
       if (!quantity.is_nodal()) {
-        append_of_element(quantity.kind, body, e, probe.axes, position, values);
+        append(quantity.kind, local, probe.axes, element.cell->center(), values);
         continue;
       }
       const Tensor<1, 3> vector = interpolate([&](const unsigned int a) {
@@ -259,6 +286,8 @@ private:
   const Solution &solution_;
   const Discretization &discretization_;
   std::vector<std::vector<ElementSummary>> summaries_; ///< of bodies whose stresses are read
+  std::vector<std::vector<ElementPoints>> points_;     ///< of the same
+  std::vector<LocalStates> local_states_;              ///< by body
   std::array<Vector, 3> contact_;                      ///< only if pressures are read
 };
 
@@ -401,10 +430,11 @@ ProbeRows ProbeReader::read_nodes(const Placed &placed, const State &state) cons
 ProbeRows ProbeReader::read_faces(const Placed &placed, const State &state) const {
   ProbeRows rows(placed.probe().components().size());
   for (const ProbedFace &face : placed.faces) {
+    const LocalState local = state.local_state(placed.body, face.element, middle_of(face.facet));
     std::vector<double> values;
     for (const ProbeQuantity &quantity : placed.probe().quantities)
-      state.append_of_element(quantity.kind, placed.body, face.element, placed.probe().axes,
-                              discretization_.elements(placed.body)[face.element].cell->center(), values);
+      append(quantity.kind, local, placed.probe().axes,
+             discretization_.elements(placed.body)[face.element].cell->center(), values);
     rows.add(face.facet.key, 0, face.facet.area_vector().norm(), values);
   }
   return rows;

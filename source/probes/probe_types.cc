@@ -226,7 +226,8 @@ TypeParameter probed_quantities() {
     list += (list.empty() ? "" : ", ") + quantity.name;
   return {"Quantities", "displacement", TypeParameter::Kind::text,
           "List of " + list +
-              ", separated by commas. Stress and strains are means over elements, as in the fields."};
+              ", separated by commas. Stress and strains are those at the face or point, with the bending of "
+              "its element."};
 }
 
 TypeParameter probed_statistics() {

@@ -6,8 +6,7 @@ namespace billet {
 ProbeType set_type();
 
 ProbeType set_type() {
-  return {"set",
-          "quantities at the nodes of faces and, of stress and strains, in the elements of these faces",
+  return {"set", "quantities at the nodes of faces and, of stress and strains, at the middles of these faces",
           with_probed_axes({probed_body(), probed_faces(), probed_quantities(), probed_statistics()}),
           [](const TypeInput &input) {
             Probe probe{ProbedFaces{}};

@@ -30,11 +30,12 @@ std::string advise_on_stiffness(const ElementFormulation &formulation, const Ele
              : "Use 'Element = assumed strain'";
 }
 
-constexpr std::size_t n_energies = 7;
+constexpr std::size_t n_energies = 9;
 
 void add_numbers(const ElementEnergies &energies, std::vector<double> &values) {
-  values.insert(values.end(), {energies.used, energies.one_point, energies.accurate, energies.hourglass,
-                               energies.plastic, energies.tapered, energies.plastic_within});
+  values.insert(values.end(),
+                {energies.used, energies.one_point, energies.accurate, energies.hourglass, energies.plastic,
+                 energies.tapered, energies.plastic_within, energies.beyond_yield, energies.face_stress});
 }
 ElementEnergies energies_in(const std::vector<double> &values, const std::size_t body) {
   const double *own = &values[n_energies * body];
@@ -46,6 +47,8 @@ ElementEnergies energies_in(const std::vector<double> &values, const std::size_t
   energies.plastic = own[4];
   energies.tapered = own[5];
   energies.plastic_within = own[6];
+  energies.beyond_yield = own[7];
+  energies.face_stress = own[8];
   return energies;
 }
 
@@ -64,17 +67,21 @@ ElementWatch::ElementWatch(const Scene &scene, const Discretization &discretizat
 }
 
 void ElementWatch::compare(const SolutionState &state) {
-  std::vector<double> sums;
+  std::vector<double> sums, face_stresses;
   for (std::size_t b = 0; b < comparisons_.size(); ++b) {
     ElementEnergies energies;
     for (const auto &element : discretization_.elements(b))
       comparisons_[b].compare(nodal_positions(element.cell), gather(state.displacements, element.dofs),
                               energies);
     add_numbers(energies, sums);
+    face_stresses.push_back(energies.face_stress);
   }
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
-  for (std::size_t b = 0; b < comparisons_.size(); ++b)
+  dealii::Utilities::MPI::max(face_stresses, discretization_.communicator(), face_stresses);
+  for (std::size_t b = 0; b < comparisons_.size(); ++b) {
     energies_[b] = energies_in(sums, b);
+    energies_[b].face_stress = face_stresses[b];
+  }
   compared_time_ = state.time;
 }
 
@@ -140,39 +147,78 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
 }
 
 DiagnosticList ElementWatch::judge_bending() const {
-  constexpr double of_hourglass_modes = 0.1, of_yielding = 0.1, of_flow_within = 0.05, of_dissipation = 0.3;
+  constexpr double of_hourglass_modes = 0.1, of_yielding = 0.1, of_flow_within = 0.05, of_dissipation = 0.3,
+                   of_faces = 0.1;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const ElementEnergies &energies = energies_[b];
+    const bool has_plasticity = scene_.bodies()[b].law->has_plasticity();
     // An element without such modes, or whose comparison does not compute the dissipation, adds zeros.
     const bool is_hourglass = energies.hourglass > of_hourglass_modes * energies.used &&
                               energies.plastic > of_yielding * energies.used;
     const bool is_between_points =
         energies.plastic_within > of_flow_within * energies.used &&
         std::abs(energies.plastic - energies.plastic_within) > of_dissipation * energies.plastic_within;
-    if (!counts(b) || !(is_hourglass || is_between_points))
+    const bool is_at_faces = has_plasticity && energies.beyond_yield > of_faces * energies.used;
+    if (!counts(b) || !(is_hourglass || is_between_points || is_at_faces))
       continue;
-    const double share =
-        is_hourglass ? energies.hourglass / energies.used : energies.plastic / energies.plastic_within;
     std::ostringstream text;
     text.precision(3);
     text << "The body yields in bending within single elements: ";
-    if (is_hourglass)
-      text << 100. * share
+    std::pair<const char *, double> measure;
+    if (is_hourglass) {
+      measure = {"part", energies.hourglass / energies.used};
+      text << 100. * measure.second
            << " % of the energy is in hourglass modes, whose stabilisation has one yield stress for the "
-              "whole element. The error of forces may be tens of per cent";
-    else
-      text << "their points capture " << 100. * share
-           << " % of the plastic dissipation between them. The error of forces may be ten per cent, that of "
-              "springback far larger";
+              "whole element. Forces are too large, and springback is wrong";
+    } else if (is_between_points) {
+      measure = {"part", energies.plastic / energies.plastic_within};
+      text << "their points capture " << 100. * measure.second
+           << " % of the plastic dissipation between them, which is "
+           << 100. * energies.plastic_within / energies.used
+           << " % of the energy. Forces or displacements, and springback, are wrong";
+    } else {
+      measure = {"stress", energies.face_stress};
+      text << "the elastic stress at the faces of bricks is up to " << measure.second
+           << " times the yield stress, and that at their points is below it. Such bricks hold "
+           << 100. * energies.beyond_yield / energies.used
+           << " % of the energy, and are too stiff: the plastic flow near their faces is missing";
+    }
     Diagnostic message(diagnostic::plastic_bending_coarse, text.str());
-    message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", share);
+    message.body(scene_.bodies()[b].name).time(compared_time_).measure(measure.first, measure.second);
     message.advice(is_hourglass ? "Use four or more bricks through the thickness, and shorter ones where the "
                                   "bend is sharpest"
                    : !scene_.parameters().scheme().has_matrix ||
                            !scene_.bodies()[b].formulation.element.has_layers()
                        ? "Use two or more bricks through the thickness"
                        : "Use two or more bricks through the thickness, or 'Points through thickness = 5'");
+    diagnostics.push_back(message);
+  }
+  return diagnostics;
+}
+
+DiagnosticList ElementWatch::judge_probes() const {
+  constexpr double of_hourglass_modes = 0.1;
+  std::vector<std::string> readers(energies_.size()); // by body
+  for (const auto &probe : scene_.parameters().probes)
+    if (probe.probe.reads(ProbeQuantity::Kind::stress)) {
+      std::string &names = readers[scene_.parameters().body_index(probe)];
+      names += (names.empty() ? "'" : ", '") + probe.name + "'";
+    }
+  DiagnosticList diagnostics;
+  for (std::size_t b = 0; b < energies_.size(); ++b) {
+    const double part = energies_[b].used > 0. ? energies_[b].hourglass / energies_[b].used : 0.;
+    if (readers[b].empty() || !scene_.bodies()[b].formulation.element.is_stabilised() || !counts(b) ||
+        !(part > of_hourglass_modes))
+      continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "The stress of one-point elements is that of their middle, and " << 100. * part
+         << " % of the energy is in their hourglass modes. The bending stress is missing in the probes "
+         << readers[b];
+    Diagnostic message(diagnostic::probe_without_bending, text.str());
+    message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", part);
+    message.advice("Use 'Element = assumed strain', or four or more bricks through the thickness");
     diagnostics.push_back(message);
   }
   return diagnostics;
@@ -195,6 +241,7 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   if (is_last) {
     DiagnosticList diagnostics = judge(false);
     append(diagnostics, judge_bending());
+    append(diagnostics, judge_probes());
     return diagnostics;
   }
   return is_static && is_first && compared_energy_ > 0. ? judge(true) : DiagnosticList();

@@ -4,6 +4,7 @@
 
 #include "billet/mechanics/element_block.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -23,6 +24,8 @@ struct ElementEnergies {
   double hourglass = 0.;      ///< part of `used`: stabilisation energy of a one-point element
   double plastic = 0.;        ///< part of `used`: dissipated energy (one-point elements, assumed strains)
   double plastic_within = 0.; ///< same from strains between the points, (L3) (assumed strains)
+  double beyond_yield = 0.;   ///< part of `used` in elastic bricks whose faces are beyond yield, (L10)
+  double face_stress = 0.;    ///< largest stress at the faces of such bricks, per yield stress, (L10)
 
   /// Returns the factor by which the element is too stiff, (L1): a lower bound; an approximation for tapered
   /// bricks.
@@ -35,6 +38,8 @@ struct ElementEnergies {
     hourglass += other.hourglass;
     plastic += other.plastic;
     plastic_within += other.plastic_within;
+    beyond_yield += other.beyond_yield;
+    face_stress = std::max(face_stress, other.face_stress);
     return *this;
   }
 };
@@ -81,7 +86,12 @@ public:
                PointEnergies &points) const;
   /// Adds `plastic` and `plastic_within`, if the body yields.
   void add_dissipation(const PointEnergies &points, ElementEnergies &energies) const;
+  /// Sets `beyond_yield` and `face_stress` of a brick with two points through each direction.
+  void compare_faces(const PointEnergies &points, ElementEnergies &energies) const;
   const ElementFormulation &formulation() const { return formulation_; }
+
+  /// Part of the yield stress by which a face must exceed it to count.
+  static constexpr double yield_margin = 0.2;
 
 private:
   using Strains = LogarithmicStrains;

@@ -22,7 +22,7 @@ struct ProbeQuantity {
   std::string name;
   std::vector<std::string> components; ///< their names in columns
 
-  /// Whether it is known at nodes; otherwise it is a mean over each element.
+  /// Whether it is known at nodes; otherwise it is known in each element.
   bool is_nodal() const {
     return kind == Kind::displacement || kind == Kind::velocity || kind == Kind::position ||
            kind == Kind::contact_pressure;

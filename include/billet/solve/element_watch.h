@@ -41,9 +41,11 @@ public:
 
 private:
   void compare(const SolutionState &state);
-  /// Returns warnings about plastic bending, (L3): of bodies with too few one-point elements through the
-  /// thickness, or with flow between the points of assumed-strain bricks.
+  /// Returns warnings about plastic bending, (L3) and (L10): of bodies with too few one-point elements
+  /// through the thickness, or with flow between the points of assumed-strain bricks or at their faces.
   DiagnosticList judge_bending() const;
+  /// Returns warnings about probes that read stresses of one-point elements that bend.
+  DiagnosticList judge_probes() const;
   /// Returns (L1), on the safe side for bodies that yield.
   double factor_of(std::size_t body) const;
   /// Whether the body's elements are too stiff or too soft for its deformation.

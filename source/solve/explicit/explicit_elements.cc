@@ -193,6 +193,14 @@ std::vector<StateAverages> ExplicitElements::average_states(const std::size_t bo
   return averages;
 }
 
+std::vector<ElementPoints> ExplicitElements::element_points(const std::size_t body,
+                                                            const NodalVectors &displacements) const {
+  std::vector<ElementPoints> result;
+  for (std::size_t e = 0; e < blocks_[body]->size(); ++e)
+    result.push_back({blocks_[body]->compute_stress(e, displacements.data())});
+  return result;
+}
+
 std::size_t ExplicitElements::history_size() const {
   std::size_t size = 0;
   for (const auto &block : blocks_)

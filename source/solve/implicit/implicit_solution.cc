@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/implicit_solution.h"
 
+#include "billet/algebra/gather.h"
 #include "billet/errors.h"
 
 #include <algorithm>
@@ -47,6 +48,17 @@ std::array<std::size_t, 2> ImplicitSolution::history_sizes() const {
   for (auto &size : sizes)
     size = dealii::Utilities::MPI::sum(size, parts_.communicator());
   return sizes;
+}
+
+std::vector<ElementPoints> ImplicitSolution::element_points(const std::size_t body) const {
+  const ElementBlock &block = parts_.internal().block(body);
+  const std::vector<ThicknessAxis> axes = block.thickness_axes();
+  const auto &elements = discretization().elements(body);
+  std::vector<ElementPoints> result;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    result.push_back({block.compute_stress(e, gather(state().displacements, elements[e].dofs)),
+                      axes.empty() ? ThicknessAxis() : axes[e]});
+  return result;
 }
 
 DiagnosticList ImplicitSolution::initial_diagnostics() const {

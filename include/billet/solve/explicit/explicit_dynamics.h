@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_EXPLICIT_EXPLICIT_DYNAMICS_H
 #define BILLET_SOLVE_EXPLICIT_EXPLICIT_DYNAMICS_H
 
+#include "billet/solve/element_points.h"
 #include "billet/solve/explicit/crossing_limit.h"
 #include "billet/solve/explicit/explicit_ledger.h"
 #include "billet/solve/explicit/explicit_penalties.h"
@@ -18,7 +19,7 @@ namespace billet {
 /// completes the state at t_n. finish_step() moves on to t_{n+1}.
 ///
 /// In a linear system with equal steps the sum of the energies of ExplicitLedger is constant to round-off.
-class ExplicitDynamics final : public Solution {
+class ExplicitDynamics final : public Solution, public HasElementPoints {
 public:
   ExplicitDynamics(const Scene &scene, const Discretization &discretization);
   ~ExplicitDynamics() override;
@@ -78,11 +79,14 @@ public:
 
   const SolutionState &state() const override { return state_; }
   const Discretization &discretization() const override { return parts_.discretization; }
-  std::vector<ElementSummary> summarize(const std::size_t body) const override {
+  std::vector<ElementSummary> summarize(std::size_t body) const override {
     return parts_.elements.summarize(body, parts_.motion.displacements());
   }
-  std::vector<StateAverages> average_states(const std::size_t body) const override {
+  std::vector<StateAverages> average_states(std::size_t body) const override {
     return parts_.elements.average_states(body, parts_.motion.displacements());
+  }
+  std::vector<ElementPoints> element_points(std::size_t body) const override {
+    return parts_.elements.element_points(body, parts_.motion.displacements());
   }
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {
     return parts_.contacts.report();

@@ -5,6 +5,7 @@
 #include "billet/discretization/local_nodes.h"
 #include "billet/mechanics/explicit_block.h"
 #include "billet/scene/scene.h"
+#include "billet/solve/element_points.h"
 #include "billet/solve/explicit/explicit_clock.h"
 #include "billet/solve/restart.h"
 #include "billet/usage.h"
@@ -59,6 +60,7 @@ public:
 
   std::vector<ElementSummary> summarize(std::size_t body, const NodalVectors &displacements) const;
   std::vector<StateAverages> average_states(std::size_t body, const NodalVectors &displacements) const;
+  std::vector<ElementPoints> element_points(std::size_t body, const NodalVectors &displacements) const;
   /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 

@@ -2,6 +2,7 @@
 #ifndef BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 #define BILLET_SOLVE_IMPLICIT_IMPLICIT_SOLUTION_H
 
+#include "billet/solve/element_points.h"
 #include "billet/solve/implicit/accepted_steps.h"
 #include "billet/solve/implicit/implicit_reactions.h"
 #include "billet/solve/implicit/problem_checkpoint.h"
@@ -18,7 +19,7 @@ namespace billet {
 /// Solution of a static or an implicit dynamic scene, step by step: attempts a step, recovers from failures,
 /// and commits the step on acceptance. A failure needs no undo, since the state at the start of a step never
 /// changes before.
-class ImplicitSolution final : public Solution {
+class ImplicitSolution final : public Solution, public HasElementPoints {
 public:
   ImplicitSolution(const Scene &scene, const Discretization &discretization);
   ~ImplicitSolution() override;
@@ -64,15 +65,16 @@ public:
 
   const SolutionState &state() const override { return problem_.state(); }
   const Discretization &discretization() const override { return parts_.discretization(); }
-  std::vector<ElementSummary> summarize(const std::size_t body) const override {
+  std::vector<ElementSummary> summarize(std::size_t body) const override {
     return parts_.internal().summarize(body, state().displacements);
   }
-  std::vector<LayerSummaries> summarize_layers(const std::size_t body) const override {
+  std::vector<LayerSummaries> summarize_layers(std::size_t body) const override {
     return parts_.internal().summarize_layers(body, state().displacements);
   }
-  std::vector<StateAverages> average_states(const std::size_t body) const override {
+  std::vector<StateAverages> average_states(std::size_t body) const override {
     return parts_.internal().average_states(body);
   }
+  std::vector<ElementPoints> element_points(std::size_t body) const override;
   std::vector<std::vector<ContactNodeReport>> report_contacts() const override {
     return parts_.contacts().report();
   }
