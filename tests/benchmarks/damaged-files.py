@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -60,6 +61,9 @@ def damage(target: Target) -> Counts:
             text=True,
             env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"},
         )
+        for kept in [*Path(folder).glob("unsound_*"), *Path(folder).glob("slow_*")]:
+            shutil.copy(kept, TESTS / "fuzz")
+            print(f"kept: {TESTS / 'fuzz' / kept.name}", file=sys.stderr)
     rows = LINE.findall(done.stdout)
     end = {0: "passes", 1: "fails", 2: "hangs"}.get(done.returncode, f"ends with {done.returncode}")
     print(f"{target.program}: {end}", *re.findall(r".*FAILED", done.stdout), file=sys.stderr, flush=True)
