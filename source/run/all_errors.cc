@@ -63,6 +63,8 @@ public:
 
   const SceneFile &file() const { return file_; }
 
+  bool has_bodies() const { return !file_.names_below({"Bodies"}).empty(); }
+
   /// Notes errors, except consequences of earlier ones, and takes out the parts that they are about. Returns
   /// whether more can be found in what is left.
   bool take_out(const DiagnosticList &errors) {
@@ -76,8 +78,9 @@ public:
         found_.push_back(error);
         if (place)
           reported_.insert(part_of(place->path));
-      } else if (place)
-        unchecked_.insert(part_of(place->path));
+      } else if (place && !(is_dynamic_ && has_word(lower(error.what()), "scheme")))
+        unchecked_.insert(
+            {part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)" : ""});
       if (place)
         places.emplace_back(*place, error.what());
       // A statement without a place is left out when the file is read.
@@ -92,7 +95,7 @@ public:
   bool leave_out_meshless() {
     const std::set<std::string> bodies = std::exchange(meshless_, {});
     for (const std::string &body : bodies) {
-      unchecked_.insert({"Bodies", body});
+      unchecked_[{"Bodies", body}] = " (supports, loads, contact, probes)";
       remove_part({"Bodies", body});
     }
     return !bodies.empty();
@@ -102,14 +105,9 @@ public:
   DiagnosticList report(const bool is_sound) const {
     DiagnosticList all = found_;
     std::string list;
-    for (const Path &path : unchecked_) {
-      const bool is_body = path.size() == 2 && path[0] == "Bodies";
-      if (path.empty() || (reported_.count(path) > 0 && !is_body))
-        continue;
-      list += (list.empty() ? "'" : ", '") + join(path) + "'";
-      if (is_body)
-        list += " (supports, loads, contact)";
-    }
+    for (const auto &[path, detail] : unchecked_)
+      if (!path.empty() && (reported_.count(path) == 0 || !detail.empty()))
+        list += (list.empty() ? "'" : ", '") + join(path) + "'" + detail;
     if (!is_sound && n_rounds_ > 1)
       list += list.empty() ? "parts of the scene" : ", other parts";
     if (!list.empty())
@@ -144,8 +142,9 @@ private:
     for (const Path &replaced : replaced_)
       if (begins_with(path, replaced))
         return true;
-    if (place.is_missing && std::any_of(changed_.begin(), changed_.end(),
-                                        [&](const Path &changed) { return may_miss(path, changed); }))
+    if (place.is_missing && std::any_of(changed_.begin(), changed_.end(), [&](const Path &changed) {
+          return may_miss(path, changed) || (place.key.empty() && may_touch(path, changed));
+        }))
       return true;
     const std::string text = without_place(message), words = lower(text);
     return std::any_of(
@@ -153,16 +152,20 @@ private:
                [&](const std::string &name) { return text.find("'" + name + "'") != std::string::npos; }) ||
            std::any_of(amplitudes_.begin(), amplitudes_.end(),
                        [&](const std::string &name) { return has_word(text, name); }) ||
-           std::any_of(keys_.begin(), keys_.end(),
-                       [&](const std::string &key) { return has_word(words, key); });
+           std::any_of(keys_.begin(), keys_.end(), [&](const auto &key) {
+             return (!is_named(at(key.first, 0)) || begins_with(path, key.first)) &&
+                    has_word(words, key.second);
+           });
   }
 
   /// Whether something in a subsection may be missing since another one has changed.
   static bool may_miss(const Path &path, const Path &changed) {
-    if (begins_with(path, changed))
-      return true;
-    if (begins_with(changed, path)) // a material supports nothing
-      return at(changed, 2) != "Material";
+    return begins_with(path, changed) || // a material supports nothing
+           (begins_with(changed, path) && at(changed, 2) != "Material");
+  }
+
+  /// Whether a body or a pair may touch something else since another subsection has changed.
+  static bool may_touch(const Path &path, const Path &changed) {
     const std::string of = at(path, 0), by = at(changed, 0);
     const bool is_of_contact = by == "Tools" || by == "Contact pairs" || by == "General contact" ||
                                by == "Amplitudes" || changed == Path{"Bodies"};
@@ -183,7 +186,7 @@ private:
         return remove_subsection(part_of(path));
       if (path.size() > 2 || !place.key.empty()) // unknown names, and parameters of the body
         return place.is_missing && !place.key.empty() ? remove_part({section, name}) : remove_place(place);
-      return remove_part({section, name});
+      return make_dynamic() || remove_part({section, name});
     }
     if (is_named(section) && path.size() > 1) {
       if (section == "Tools" && kind == "Motion" && remove_subsection({section, name, kind}))
@@ -193,18 +196,20 @@ private:
     return remove_place(place);
   }
 
-  /// Remembers a parameter of a section that all parts may depend on.
+  /// Remembers a parameter, on which others of its subsection may depend, and on those of other sections all.
   void note_key(const SceneFile::Place &place, const std::string &message) {
-    if (place.key.empty() || is_named(at(place.path, 0)))
+    const std::string scheme = "Scheme", advice = "did you mean '";
+    if (without_place(message).find("'" + scheme + "'") != std::string::npos) // one such error is enough
+      keys_.insert({{}, lower(scheme)});
+    if (place.key.empty())
       return;
     std::string key = place.key;
-    const std::string advice = "did you mean '";
     if (const std::size_t begin = message.find(advice); begin != std::string::npos) // for an unknown one
       key = message.substr(begin + advice.size(),
                            message.find('\'', begin + advice.size()) - begin - advice.size());
     for (const std::string &word : {place.key, key})
-      keys_.insert(lower(word));
-    all_depends_ = all_depends_ || place.key == "Scheme" || key == "Scheme" || key == "Libraries";
+      keys_.insert({place.path, lower(word)});
+    all_depends_ = all_depends_ || place.key == scheme || key == scheme || key == "Libraries";
   }
 
   /// Takes out an entry, or a subsection that is unknown.
@@ -239,10 +244,31 @@ private:
         for (const std::string &user : file_.names_below({list}))
           for (const std::string key : {"Body", "Second body", "Tool"})
             if (file_.value({list, user}, key, "") == name && (key == "Tool") == (section == "Tools")) {
-              unchecked_.insert({list, user});
+              unchecked_.insert({{list, user}, ""});
               remove_subsection({list, user});
             }
     return remove_subsection(part);
+  }
+
+  /// Returns where a subsection is in the file; if it is not there, a place at which no message begins.
+  std::string where_of(const Path &path) const {
+    const std::string where = file_.where(path);
+    return where == file_.file_name() ? "(stands in)" : where;
+  }
+
+  /// Makes a static scene a dynamic one, in which a body needs no support. Returns false if it is one.
+  bool make_dynamic() {
+    const Path section{"Time stepping"};
+    const std::string key = "Scheme", scheme = file_.value(section, key, "static");
+    if (scheme != "static" && scheme != "quasi-static")
+      return false;
+    const std::string where = where_of(section);
+    file_.remove(section, key);
+    file_.add_subsection(section, where);
+    file_.add_entry(section, key, "implicit dynamics", where);
+    keys_.insert({{}, lower(key)});
+    is_dynamic_ = true;
+    return true;
   }
 
   /// Gives a body a material that stands for its own.
@@ -269,7 +295,7 @@ private:
     if (!replaced_.insert(path).second)
       return n_rounds_of_[path] == n_rounds_ || remove_part({path[0], path[1]});
     n_rounds_of_[path] = n_rounds_;
-    const std::string where = file_.where(path);
+    const std::string where = where_of(path);
     remove_subsection(path);
     file_.add_subsection(path, where);
     for (const auto &[key, value] : entries)
@@ -279,14 +305,16 @@ private:
 
   SceneFile file_;
   DiagnosticList found_;
-  std::set<Path> reported_, unchecked_; ///< parts
-  std::set<Path> changed_;              ///< subsections of which something was taken out
-  std::set<Path> replaced_;             ///< materials and meshes
+  std::set<Path> reported_;               ///< parts with errors
+  std::map<Path, std::string> unchecked_; ///< parts, with what of them is unchecked
+  std::set<Path> changed_;                ///< subsections of which something was taken out
+  std::set<Path> replaced_;               ///< materials and meshes
   std::map<Path, unsigned int> n_rounds_of_;
   std::set<std::string> meshless_;
-  std::set<std::string> names_, amplitudes_; ///< of parts that were taken out
-  std::set<std::string> keys_;               ///< of other sections that were taken out, in lower case
+  std::set<std::string> names_, amplitudes_;    ///< of parts that were taken out
+  std::set<std::pair<Path, std::string>> keys_; ///< that were taken out, in lower case
   unsigned int n_rounds_ = 0;
+  bool is_dynamic_ = false;  ///< whether it has been made so
   bool all_depends_ = false; ///< on a parameter with an error
 };
 
@@ -311,9 +339,10 @@ DiagnosticList find_all_errors(const SceneSource &source, const DiagnosticList &
                       [&] { scene = parameters::Scene::read(rest->file(), source.restart_file); });
       };
       read();
-      if (rest->leave_out_meshless())
+      if (rest->leave_out_meshless() && rest->has_bodies())
         read();
-      check_quietly(scene, communicator);
+      if (rest->has_bodies())
+        check_quietly(scene, communicator);
       is_sound = true;
     } catch (const InputError &error) { // on all ranks
       errors = error.diagnostics();
