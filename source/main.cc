@@ -4,6 +4,7 @@
 #include "billet/nearest_name.h"
 #include "billet/output/console_log.h"
 #include "billet/parameters/scene_update.h"
+#include "billet/run/all_errors.h"
 #include "billet/run/certify.h"
 #include "billet/run/check.h"
 #include "billet/run/launch.h"
@@ -138,19 +139,24 @@ const std::vector<std::string> options = {
     "--print-parameters", "--quiet",    "--ranks", "--restart", "--set",     "--update-scene",
     "--version"};
 
+/// Returns the help as the end of a message, which gets a full stop.
+std::string allowed_arguments() {
+  const std::string text = help;
+  return "allowed is the following.\n" + text.substr(0, text.find_last_not_of(".\n") + 1);
+}
+
 [[noreturn]] void refuse(const std::string &argument) {
   const std::string advice = billet::did_you_mean(argument, options);
-  throw billet::InputError("command line: '" + argument + "' is not allowed here" +
-                           (advice.empty() ? "; allowed" : advice + " Allowed") + " is the following.\n" +
-                           help);
+  throw billet::InputError(
+      "command line: '" + argument + "' is not allowed here" +
+      (advice.empty() ? "; " + allowed_arguments() : advice + " 'billet --help' shows what is allowed"));
 }
 
 /// Returns the argument of an option. Throws InputError if there is none.
 std::string argument_of(const std::string &option, const std::vector<std::string> &arguments,
                         std::size_t &next, const std::string &what) {
   if (++next == arguments.size() || arguments[next].empty())
-    throw billet::InputError("command line: '" + option + "' names no " + what +
-                             "; allowed is the following.\n" + help);
+    throw billet::InputError("command line: '" + option + "' names no " + what + "; " + allowed_arguments());
   return arguments[next];
 }
 
@@ -238,8 +244,7 @@ CommandLine read_command_line(const std::vector<std::string> &arguments) {
     return command;
   }
   if (command.scenes.empty())
-    throw billet::InputError(
-        std::string("command line: it names no scene file; allowed is the following.\n") + help);
+    throw billet::InputError("command line: it names no scene file; " + allowed_arguments());
   if (command.task == Task::check)
     return command;
   if (command.json)
@@ -289,6 +294,18 @@ billet::parameters::Scene read_scene(const std::string &file, const CommandLine 
     parameters = billet::parameters::Scene::read(file, command.restart_file, command.settings);
   });
   return parameters;
+}
+
+/// Calls `use` with the parameters of a scene. Throws InputError with all errors of the scene, not only with
+/// those that show first.
+template <class Function>
+void use_scene(const std::string &file, const CommandLine &command, const Function &use) {
+  try {
+    use(read_scene(file, command));
+  } catch (const billet::InputError &error) { // on all ranks
+    throw billet::InputError(billet::find_all_errors({file, command.restart_file, command.settings},
+                                                     error.diagnostics(), MPI_COMM_WORLD));
+  }
 }
 
 void print_errors(const billet::DiagnosticList &errors, const bool is_first) {
@@ -399,7 +416,9 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
   case Task::check:
     for (const auto &file : command.scenes)
       try {
-        billet::check_simulation(read_scene(file, command), MPI_COMM_WORLD, std::cout, command.json);
+        use_scene(file, command, [&](const billet::parameters::Scene &scene) {
+          billet::check_simulation(scene, MPI_COMM_WORLD, std::cout, command.json);
+        });
       } catch (const billet::InputError &error) { // the other scenes are still checked
         if (command.json)
           print_refusal(file, error, is_first);
@@ -411,7 +430,9 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
   case Task::preview:
     for (const auto &file : command.scenes)
       try {
-        billet::preview_simulation(read_scene(file, command), MPI_COMM_WORLD, std::cout);
+        use_scene(file, command, [&](const billet::parameters::Scene &scene) {
+          billet::preview_simulation(scene, MPI_COMM_WORLD, std::cout);
+        });
       } catch (const billet::InputError &error) { // the other scenes are still shown
         print_errors(error.diagnostics(), is_first);
         code = ExitCode::bad_input;
@@ -430,8 +451,10 @@ ExitCode perform(const CommandLine &command, const bool is_first, billet::Consol
     });
     break;
   case Task::run:
-    code = billet::run_to_target(read_scene(command.scenes.front(), command), MPI_COMM_WORLD,
-                                 {command.replaces_results, log, command.is_quiet, changes_of(command)});
+    use_scene(command.scenes.front(), command, [&](const billet::parameters::Scene &scene) {
+      code = billet::run_to_target(scene, MPI_COMM_WORLD,
+                                   {command.replaces_results, log, command.is_quiet, changes_of(command)});
+    });
     break;
   }
   return code;

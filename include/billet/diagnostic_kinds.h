@@ -15,6 +15,11 @@ inline const DiagnosticKind
               "The scene file, a file that it names or the command line cannot be used.", "");
 
 inline const DiagnosticKind
+    unchecked_parts("unchecked-parts", Severity::note,
+                    "These parts of the scene depend on others that have errors, so they are unchecked.",
+                    "Correct the errors and check the scene again");
+
+inline const DiagnosticKind
     old_name("old-name", Severity::warning,
              "The scene uses the old name of a parameter or of a value. Version 1.0 will refuse it.",
              "Convert the scene by 'billet --update-scene'");

@@ -13,6 +13,22 @@
 
 namespace billet {
 
+namespace {
+
+constexpr double little_weight = 1e-14; ///< of a constraint in a combination: round-off
+
+/// Returns what is wrong with prescribed displacements.
+std::string describe_contradiction(const Hold &hold, const double time, const dealii::Point<3> &position,
+                                   const std::string &names, const double difference) {
+  std::ostringstream message;
+  message << hold.origin << ": at time " << time << " the node at (" << position
+          << ") has prescribed displacements by " << names << ", which contradict each other by "
+          << difference << "; allowed are prescribed displacements that agree where their boundaries meet";
+  return message.str();
+}
+
+} // namespace
+
 void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vector<DofIndex> &dofs) const {
   if (weight != 1.) {
     dealii::FullMatrix<double> weighted(local);
@@ -133,27 +149,16 @@ double Supports::start_of(const Hold &hold, const HeldNode &node) const {
   return hold.value != nullptr ? place - hold.value->value(hold.times.from, node.position) : place;
 }
 
-void Supports::eliminate(const HeldNode &node) {
+std::vector<HoldRow> solve_for_pivots(const HeldNode &node) {
   const std::vector<const Hold *> &holds = node.holds;
-  const std::array<DofIndex, 3> &dofs = node.dofs;
-  const dealii::Point<3> &position = node.position;
-  std::vector<double> starts;
-  for (const Hold *hold : holds)
-    starts.push_back(start_of(*hold, node));
-  // Gauss-Jordan on the rows (n | weights of the values), the largest component as pivot.
-  struct Row {
-    dealii::Tensor<1, 3> n;
-    std::vector<double> weights;
-    int pivot = -1;
-  };
-  std::vector<Row> rows(holds.size());
+  std::vector<HoldRow> rows(holds.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    rows[r].n = holds[r]->direction(position);
+    rows[r].n = holds[r]->direction(node.position);
     rows[r].weights.assign(holds.size(), 0.);
     rows[r].weights[r] = 1.;
   }
   for (auto &row : rows) {
-    for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int i = 0; i < 3; ++i) // the largest component is the pivot
       if (row.pivot < 0 || std::abs(row.n[i]) > std::abs(row.n[static_cast<unsigned int>(row.pivot)]))
         row.pivot = static_cast<int>(i);
     const double pivot = row.n[static_cast<unsigned int>(row.pivot)];
@@ -172,25 +177,37 @@ void Supports::eliminate(const HeldNode &node) {
           other.weights[h] -= factor * row.weights[h];
       }
   }
-  const auto names = [&holds](const std::vector<double> &weights) {
-    std::string list;
-    for (std::size_t h = 0; h < holds.size(); ++h)
-      if (std::abs(weights[h]) > 1e-14)
-        list += (list.empty() ? "'" : " and '") + holds[h]->name + "'";
-    return list;
-  };
+  return rows;
+}
+
+std::string names_in(const HoldRow &row, const HeldNode &node) {
+  std::string list;
+  for (std::size_t h = 0; h < node.holds.size(); ++h)
+    if (std::abs(row.weights[h]) > little_weight)
+      list += (list.empty() ? "'" : " and '") + node.holds[h]->name + "'";
+  return list;
+}
+
+void Supports::eliminate(const HeldNode &node) {
+  const std::vector<const Hold *> &holds = node.holds;
+  const std::array<DofIndex, 3> &dofs = node.dofs;
+  const dealii::Point<3> &position = node.position;
+  std::vector<double> starts;
+  for (const Hold *hold : holds)
+    starts.push_back(start_of(*hold, node));
+  const std::vector<HoldRow> rows = solve_for_pivots(node);
   for (const auto &row : rows) {
     std::vector<Term> terms;
     double start = 0.;
     for (std::size_t h = 0; h < holds.size(); ++h)
-      if (std::abs(row.weights[h]) > 1e-14) {
+      if (std::abs(row.weights[h]) > little_weight) {
         if (holds[h]->value != nullptr)
           terms.push_back({holds[h], row.weights[h]});
         start += row.weights[h] * starts[h];
       }
     if (row.pivot < 0) {
       if (!terms.empty())
-        redundancies_.push_back({terms, names(row.weights), position, start});
+        redundancies_.push_back({terms, names_in(row, node), position, start});
       continue;
     }
     ConstraintLine line{dofs[static_cast<unsigned int>(row.pivot)], {}};
@@ -206,6 +223,84 @@ void Supports::eliminate(const HeldNode &node) {
   moving_memory_.set(bytes);
 }
 
+namespace {
+
+/// Constraints of a node that depend on each other, while they act. With those that began at `start` or
+/// before they agree there, and from then on their changes have to.
+class DependentHolds {
+public:
+  DependentHolds(const HoldRow &row, const HeldNode &node)
+      : names_(names_in(row, node)), position_(node.position) {
+    for (std::size_t h = 0; h < node.holds.size(); ++h) {
+      if (!(std::abs(row.weights[h]) > little_weight))
+        continue;
+      start_ = std::max(start_, node.holds[h]->times.from);
+      if (node.holds[h]->value != nullptr)
+        terms_.emplace_back(node.holds[h], row.weights[h]);
+    }
+  }
+
+  bool have_values() const { return !terms_.empty(); }
+  double sum_at(const double t) const {
+    double sum = 0.;
+    for (const auto &[hold, weight] : terms_)
+      sum += weight * hold->value->value(t, position_);
+    return sum;
+  }
+  double start() const { return start_; }
+  void refuse(const double t, const double difference) const {
+    throw InputError(describe_contradiction(*terms_.front().first, t, position_, names_, difference));
+  }
+
+private:
+  std::vector<std::pair<const Hold *, double>> terms_;
+  std::string names_;
+  dealii::Point<3> position_;
+  double start_ = 0.;
+};
+
+} // namespace
+
+void check_agreement(const Scene &scene, const Discretization &discretization) {
+  const double end = scene.parameters().time_stepping.end_time;
+  std::set<double> changes{0., end};
+  for (const Body &body : scene.bodies())
+    for (const Hold &hold : body.holds)
+      for (const double time : {hold.times.from, hold.times.until})
+        if (time > 0. && time < end)
+          changes.insert(time);
+  for (auto from = changes.begin(); std::next(from) != changes.end(); ++from) {
+    std::vector<DependentHolds> dependent;
+    for (const auto &entry : collect_held_nodes(
+             scene, discretization, [&](const Hold &hold) { return hold.times.holds_after(*from); }))
+      for (const HoldRow &row : solve_for_pivots(entry.second))
+        if (row.pivot < 0)
+          if (DependentHolds holds(row, entry.second); holds.have_values())
+            dependent.push_back(std::move(holds));
+    // One time after the other: an expression is parsed again when the time changes.
+    fail_together(discretization.communicator(), [&] {
+      check_before_start([&] {
+        std::map<double, std::vector<std::size_t>> of_start;
+        std::vector<double> sums_at_start(dependent.size(), 0.);
+        for (std::size_t i = 0; i < dependent.size(); ++i)
+          if (dependent[i].start() > 0.)
+            of_start[dependent[i].start()].push_back(i);
+        for (const auto &[start, members] : of_start)
+          for (const std::size_t i : members)
+            sums_at_start[i] = dependent[i].sum_at(start);
+        constexpr unsigned int n_checks = 16;
+        for (unsigned int check = 0; check <= n_checks; ++check) {
+          const double t = *from + (*std::next(from) - *from) * check / n_checks;
+          for (std::size_t i = 0; i < dependent.size(); ++i)
+            if (const double difference = std::abs(dependent[i].sum_at(t) - sums_at_start[i]);
+                difference > 1e-8 * discretization.radius())
+              dependent[i].refuse(t, difference);
+        }
+      });
+    });
+  }
+}
+
 Constraints Supports::build(std::vector<double> values) const {
   return build_constraints(discretization_.owned_dofs(), discretization_.relevant_dofs(),
                            {{links_, {}}, {lines_, std::move(values)}});
@@ -217,14 +312,9 @@ Constraints Supports::at_time(const double t) const {
       double sum = redundancy.start;
       for (const auto &term : redundancy.terms)
         sum += term.weight * term.hold->value->value(t, redundancy.position);
-      if (std::abs(sum) > 1e-8 * discretization_.radius()) {
-        std::ostringstream message;
-        message << redundancy.terms.front().hold->origin << ": at time " << t << " the node at ("
-                << redundancy.position << ") has prescribed displacements by " << redundancy.holds
-                << ", which contradict each other by " << std::abs(sum)
-                << "; allowed are prescribed displacements that agree where their boundaries meet";
-        throw SolutionFailure(message.str()); // becomes an InputError at the start
-      }
+      if (std::abs(sum) > 1e-8 * discretization_.radius())
+        throw SolutionFailure(describe_contradiction(*redundancy.terms.front().hold, t, redundancy.position,
+                                                     redundancy.holds, std::abs(sum)));
     }
   });
   std::vector<double> values;

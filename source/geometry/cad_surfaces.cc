@@ -285,6 +285,45 @@ void check_tolerances(const CadSource &source, const TopoDS_Shape &shape) {
   source.reject(text.str());
 }
 
+std::string describe_kind(const TopoDS_Face &face) {
+  const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
+  std::ostringstream text;
+  switch (surface.GetType()) { // of OpenCASCADE, with kinds that have no name here
+  case GeomAbs_Plane:
+    return "plane";
+  case GeomAbs_Cylinder:
+    text << "cylinder of radius " << surface.Cylinder().Radius();
+    return text.str();
+  case GeomAbs_Cone:
+    return "cone";
+  case GeomAbs_Sphere:
+    text << "sphere of radius " << surface.Sphere().Radius();
+    return text.str();
+  case GeomAbs_Torus:
+    text << "torus of radii " << surface.Torus().MajorRadius() << " and " << surface.Torus().MinorRadius();
+    return text.str();
+  default:
+    return "free-form surface";
+  }
+}
+
+/// Refuses faces without an end, which a damaged file has if a face lacks its edges.
+void check_extents(const CadSource &source, const TopoDS_Shape &shape) {
+  constexpr double max_extent = 1e12; // [mm]
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    Bnd_Box box;
+    BRepBndLib::Add(faces(i), box, false);
+    if (!box.IsVoid() && !box.IsOpen() && box.SquareExtent() <= max_extent * max_extent)
+      continue;
+    source.reject("a file whose faces have edges on all sides; face " + std::to_string(i) + ", a " +
+                  describe_kind(TopoDS::Face(faces(i))) +
+                  ", has no end. The file may be damaged. Write it again, or in the other format, STEP or "
+                  "IGES");
+  }
+}
+
 /// Reads a file. OpenCASCADE gives lengths in millimetres, whatever the file's unit.
 TopoDS_Shape read_shape(const CadSource &source) {
   Message::DefaultMessenger()->RemovePrinters(
@@ -300,6 +339,7 @@ TopoDS_Shape read_shape(const CadSource &source) {
   }
   if (shape.IsNull())
     source.reject(is_iges(source) ? "an IGES file with a shape" : "a STEP file with a shape");
+  check_extents(source, shape);
   check_tolerances(source, shape);
   return shape;
 }
@@ -413,28 +453,6 @@ SurfacePatches make(const TypeInput &input) {
   const CadSource source(input);
   return read_soundly(source,
                       [&](const std::size_t n_defined) { return convert_file(input, source, n_defined); });
-}
-
-std::string describe_kind(const TopoDS_Face &face) {
-  const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
-  std::ostringstream text;
-  switch (surface.GetType()) { // of OpenCASCADE, with kinds that have no name here
-  case GeomAbs_Plane:
-    return "plane";
-  case GeomAbs_Cylinder:
-    text << "cylinder of radius " << surface.Cylinder().Radius();
-    return text.str();
-  case GeomAbs_Cone:
-    return "cone";
-  case GeomAbs_Sphere:
-    text << "sphere of radius " << surface.Sphere().Radius();
-    return text.str();
-  case GeomAbs_Torus:
-    text << "torus of radii " << surface.Torus().MajorRadius() << " and " << surface.Torus().MinorRadius();
-    return text.str();
-  default:
-    return "free-form surface";
-  }
 }
 
 std::vector<CadFace> list_faces(const CadSource &source) {

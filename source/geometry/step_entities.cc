@@ -11,70 +11,139 @@
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace billet {
 
 namespace {
 
-/// Entity of shapes: how many parameters it has, and which of them, counted from 0, are lengths > 0.
+/// What an entity is to those that refer to it.
+enum class Kind {
+  unknown, ///< none of the rules
+  complex, ///< with parts of several types, such as rational splines
+  point,
+  direction,
+  vector,
+  axes,
+  curve,
+  parameter_curve, ///< on a surface
+  surface,
+  representation,
+  vertex,
+  edge,
+  oriented_edge,
+  loop,
+  bound,
+  face,
+  shell,
+  solid
+};
+
+const char *name_of(const Kind kind) {
+  switch (kind) {
+  case Kind::unknown:
+  case Kind::complex:
+    break;
+  case Kind::point:
+    return "a point";
+  case Kind::direction:
+    return "a direction";
+  case Kind::vector:
+    return "a vector";
+  case Kind::axes:
+    return "axes";
+  case Kind::curve:
+  case Kind::parameter_curve:
+    return "a curve";
+  case Kind::surface:
+    return "a surface";
+  case Kind::representation:
+    return "a representation";
+  case Kind::vertex:
+    return "a vertex";
+  case Kind::edge:
+    return "an edge";
+  case Kind::oriented_edge:
+    return "an oriented edge";
+  case Kind::loop:
+    return "a loop";
+  case Kind::bound:
+    return "a bound of a face";
+  case Kind::face:
+    return "a face";
+  case Kind::shell:
+    return "a shell";
+  case Kind::solid:
+    return "a solid";
+  }
+  return "another entity";
+}
+
+/// Entity of shapes: how many parameters it has, which of them, counted from 0, are lengths > 0, and what
+/// those are that refer to entities, by themselves or in a list. Source: ISO 10303-42, sections 4 and 5.
 struct EntityRule {
+  Kind kind;
   std::size_t n_parameters;
   std::vector<std::size_t> lengths = {};
+  std::vector<std::pair<std::size_t, Kind>> references = {};
 };
 
 const std::unordered_map<std::string_view, EntityRule> &rules() {
-  static const std::unordered_map<std::string_view, EntityRule> table{{"CARTESIAN_POINT", {2}},
-                                                                      {"DIRECTION", {2}},
-                                                                      {"VECTOR", {3}},
-                                                                      {"AXIS1_PLACEMENT", {3}},
-                                                                      {"AXIS2_PLACEMENT_2D", {3}},
-                                                                      {"AXIS2_PLACEMENT_3D", {4}},
-                                                                      {"LINE", {3}},
-                                                                      {"CIRCLE", {3, {2}}},
-                                                                      {"ELLIPSE", {4, {2, 3}}},
-                                                                      {"HYPERBOLA", {4, {2, 3}}},
-                                                                      {"PARABOLA", {3}},
-                                                                      {"POLYLINE", {2}},
-                                                                      {"TRIMMED_CURVE", {6}},
-                                                                      {"B_SPLINE_CURVE_WITH_KNOTS", {9}},
-                                                                      {"SURFACE_CURVE", {4}},
-                                                                      {"SEAM_CURVE", {4}},
-                                                                      {"INTERSECTION_CURVE", {4}},
-                                                                      {"PCURVE", {3}},
-                                                                      {"PLANE", {2}},
-                                                                      {"CYLINDRICAL_SURFACE", {3, {2}}},
-                                                                      {"CONICAL_SURFACE", {4}},
-                                                                      {"SPHERICAL_SURFACE", {3, {2}}},
-                                                                      {"TOROIDAL_SURFACE", {4, {2, 3}}},
-                                                                      {"SURFACE_OF_LINEAR_EXTRUSION", {3}},
-                                                                      {"SURFACE_OF_REVOLUTION", {3}},
-                                                                      {"B_SPLINE_SURFACE_WITH_KNOTS", {13}},
-                                                                      {"RECTANGULAR_TRIMMED_SURFACE", {7}},
-                                                                      {"VERTEX_POINT", {2}},
-                                                                      {"EDGE_CURVE", {5}},
-                                                                      {"ORIENTED_EDGE", {5}},
-                                                                      {"EDGE_LOOP", {2}},
-                                                                      {"VERTEX_LOOP", {2}},
-                                                                      {"FACE_BOUND", {3}},
-                                                                      {"FACE_OUTER_BOUND", {3}},
-                                                                      {"ADVANCED_FACE", {4}},
-                                                                      {"FACE_SURFACE", {4}},
-                                                                      {"CLOSED_SHELL", {2}},
-                                                                      {"OPEN_SHELL", {2}},
-                                                                      {"MANIFOLD_SOLID_BREP", {2}},
-                                                                      {"SHELL_BASED_SURFACE_MODEL", {2}}};
+  static const std::unordered_map<std::string_view, EntityRule> table{
+      {"CARTESIAN_POINT", {Kind::point, 2}},
+      {"DIRECTION", {Kind::direction, 2}},
+      {"VECTOR", {Kind::vector, 3, {}, {{1, Kind::direction}}}},
+      {"AXIS1_PLACEMENT", {Kind::axes, 3, {}, {{1, Kind::point}, {2, Kind::direction}}}},
+      {"AXIS2_PLACEMENT_2D", {Kind::axes, 3, {}, {{1, Kind::point}, {2, Kind::direction}}}},
+      {"AXIS2_PLACEMENT_3D",
+       {Kind::axes, 4, {}, {{1, Kind::point}, {2, Kind::direction}, {3, Kind::direction}}}},
+      {"LINE", {Kind::curve, 3, {}, {{1, Kind::point}, {2, Kind::vector}}}},
+      {"CIRCLE", {Kind::curve, 3, {2}, {{1, Kind::axes}}}},
+      {"ELLIPSE", {Kind::curve, 4, {2, 3}, {{1, Kind::axes}}}},
+      {"HYPERBOLA", {Kind::curve, 4, {2, 3}, {{1, Kind::axes}}}},
+      {"PARABOLA", {Kind::curve, 3, {}, {{1, Kind::axes}}}},
+      {"POLYLINE", {Kind::curve, 2, {}, {{1, Kind::point}}}},
+      {"TRIMMED_CURVE", {Kind::curve, 6, {}, {{1, Kind::curve}}}},
+      {"B_SPLINE_CURVE_WITH_KNOTS", {Kind::curve, 9, {}, {{2, Kind::point}}}},
+      {"SURFACE_CURVE", {Kind::curve, 4, {}, {{1, Kind::curve}}}},
+      {"SEAM_CURVE", {Kind::curve, 4, {}, {{1, Kind::curve}}}},
+      {"INTERSECTION_CURVE", {Kind::curve, 4, {}, {{1, Kind::curve}}}},
+      {"PCURVE", {Kind::parameter_curve, 3, {}, {{1, Kind::surface}, {2, Kind::representation}}}},
+      {"DEFINITIONAL_REPRESENTATION", {Kind::representation, 3}},
+      {"PLANE", {Kind::surface, 2, {}, {{1, Kind::axes}}}},
+      {"CYLINDRICAL_SURFACE", {Kind::surface, 3, {2}, {{1, Kind::axes}}}},
+      {"CONICAL_SURFACE", {Kind::surface, 4, {}, {{1, Kind::axes}}}},
+      {"SPHERICAL_SURFACE", {Kind::surface, 3, {2}, {{1, Kind::axes}}}},
+      {"TOROIDAL_SURFACE", {Kind::surface, 4, {2, 3}, {{1, Kind::axes}}}},
+      {"SURFACE_OF_LINEAR_EXTRUSION", {Kind::surface, 3, {}, {{1, Kind::curve}, {2, Kind::vector}}}},
+      {"SURFACE_OF_REVOLUTION", {Kind::surface, 3, {}, {{1, Kind::curve}, {2, Kind::axes}}}},
+      {"B_SPLINE_SURFACE_WITH_KNOTS", {Kind::surface, 13, {}, {{3, Kind::point}}}},
+      {"RECTANGULAR_TRIMMED_SURFACE", {Kind::surface, 7, {}, {{1, Kind::surface}}}},
+      {"VERTEX_POINT", {Kind::vertex, 2, {}, {{1, Kind::point}}}},
+      {"EDGE_CURVE", {Kind::edge, 5, {}, {{1, Kind::vertex}, {2, Kind::vertex}, {3, Kind::curve}}}},
+      {"ORIENTED_EDGE", {Kind::oriented_edge, 5, {}, {{3, Kind::edge}}}},
+      {"EDGE_LOOP", {Kind::loop, 2, {}, {{1, Kind::oriented_edge}}}},
+      {"VERTEX_LOOP", {Kind::loop, 2, {}, {{1, Kind::vertex}}}},
+      {"POLY_LOOP", {Kind::loop, 2, {}, {{1, Kind::point}}}},
+      {"FACE_BOUND", {Kind::bound, 3, {}, {{1, Kind::loop}}}},
+      {"FACE_OUTER_BOUND", {Kind::bound, 3, {}, {{1, Kind::loop}}}},
+      {"ADVANCED_FACE", {Kind::face, 4, {}, {{1, Kind::bound}, {2, Kind::surface}}}},
+      {"FACE_SURFACE", {Kind::face, 4, {}, {{1, Kind::bound}, {2, Kind::surface}}}},
+      {"CLOSED_SHELL", {Kind::shell, 2, {}, {{1, Kind::face}}}},
+      {"OPEN_SHELL", {Kind::shell, 2, {}, {{1, Kind::face}}}},
+      {"MANIFOLD_SOLID_BREP", {Kind::solid, 2, {}, {{1, Kind::shell}}}},
+      {"SHELL_BASED_SURFACE_MODEL", {Kind::solid, 2, {}, {{1, Kind::shell}}}}};
   return table;
 }
 
-/// What an entity is to the check of coordinates.
-enum class Role { other, face, in_parameters, coordinates };
-
 struct Entity {
   std::uint64_t name;
-  Role role = Role::other;
+  Kind kind = Kind::unknown;
+  std::string_view type = {}; ///< its keyword; empty if it is complex
   std::size_t n_coordinates = 0;
-  std::vector<std::uint64_t> references = {};
+  /// Names of entities, and what these should be; unknown if no rule says that.
+  std::vector<std::pair<std::uint64_t, Kind>> references = {};
 };
 
 constexpr auto blanks = " \t\r\n\f\v";
@@ -103,7 +172,8 @@ private:
   struct Parameter {
     bool is_number = false, is_list = false;
     double value = 0.;
-    std::vector<double> numbers = {}; ///< of a list
+    std::vector<double> numbers = {};           ///< of a list
+    std::vector<std::uint64_t> references = {}; ///< of it, or of lists in it
   };
 
   void read_entity(std::vector<Entity> &entities) {
@@ -116,25 +186,41 @@ private:
     entities.push_back({name});
     if (next() == '(') { // a complex entity, of which each part has some of the parameters
       ++at_;
+      entities.back().kind = Kind::complex;
       while (next() != ')') {
         keyword();
-        parameters(entities.back(), 0);
+        for (const Parameter &parameter : parameters(0))
+          add_references(parameter, Kind::unknown, entities.back());
       }
       ++at_;
     } else if (next() == '<')
       return; // one of another file
     else {
       const std::string_view type = keyword();
-      check(type, parameters(entities.back(), 0), entities.back());
+      check(type, parameters(0), entities.back());
     }
     if (next() != ';')
       refuse("has no ';' at its end");
   }
 
+  static void add_references(const Parameter &parameter, const Kind kind, Entity &entity) {
+    for (const std::uint64_t name : parameter.references)
+      entity.references.emplace_back(name, kind);
+  }
+
   void check(const std::string_view type, const std::vector<Parameter> &parameters, Entity &entity) const {
     const auto rule = rules().find(type);
+    entity.type = type;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      Kind kind = Kind::unknown;
+      if (rule != rules().end())
+        for (const auto &[place, expected] : rule->second.references)
+          kind = place == i ? expected : kind;
+      add_references(parameters[i], kind, entity);
+    }
     if (rule == rules().end())
       return;
+    entity.kind = rule->second.kind;
     const std::string word(type);
     if (parameters.size() != rule->second.n_parameters)
       refuse("has " + std::to_string(parameters.size()) + " parameters, where " + word + " has " +
@@ -147,12 +233,7 @@ private:
       for (const double value : parameter.numbers)
         check_size(value);
     }
-    if (type == "ADVANCED_FACE" || type == "FACE_SURFACE")
-      entity.role = Role::face;
-    else if (type == "PCURVE")
-      entity.role = Role::in_parameters;
-    else if (type == "CARTESIAN_POINT" || type == "DIRECTION") {
-      entity.role = Role::coordinates;
+    if (entity.kind == Kind::point || entity.kind == Kind::direction) {
       entity.n_coordinates = parameters[1].numbers.size();
       if (!parameters[1].is_list || entity.n_coordinates < 1 || entity.n_coordinates > 3)
         refuse("is a " + word + " with " + std::to_string(entity.n_coordinates) + " coordinates");
@@ -169,8 +250,8 @@ private:
       refuse("has a number beyond 1e60");
   }
 
-  /// Reads a list of parameters in brackets. Adds the entities that it names.
-  std::vector<Parameter> parameters(Entity &entity, const unsigned int depth) {
+  /// Reads a list of parameters in brackets.
+  std::vector<Parameter> parameters(const unsigned int depth) {
     constexpr unsigned int max_depth = 50;
     if (next() != '(' || depth > max_depth)
       refuse("has no list of parameters, or too many lists in lists");
@@ -181,7 +262,7 @@ private:
       return all;
     }
     while (true) {
-      all.push_back(parameter(entity, depth));
+      all.push_back(parameter(depth));
       const char c = next();
       if (c != ',' && c != ')')
         refuse("has '" + excerpt() + "' where ',' or ')' should be");
@@ -191,7 +272,7 @@ private:
     }
   }
 
-  Parameter parameter(Entity &entity, const unsigned int depth) {
+  Parameter parameter(const unsigned int depth) {
     Parameter result;
     const char c = next();
     if (c == '\'')
@@ -204,12 +285,14 @@ private:
       ++at_;
     else if (c == '#') {
       ++at_;
-      entity.references.push_back(digits());
+      result.references.push_back(digits());
     } else if (c == '(') {
       result.is_list = true;
-      for (const Parameter &member : parameters(entity, depth + 1))
+      for (const Parameter &member : parameters(depth + 1)) {
         if (member.is_number)
           result.numbers.push_back(member.value);
+        result.references.insert(result.references.end(), member.references.begin(), member.references.end());
+      }
     } else if (is_number(result.value))
       result.is_number = true;
     else { // a value with its type
@@ -218,7 +301,7 @@ private:
         at_ = begin;
         refuse("has '" + excerpt() + "' where a number, a text or a reference should be");
       }
-      const std::vector<Parameter> typed = parameters(entity, depth + 1);
+      const std::vector<Parameter> typed = parameters(depth + 1);
       if (typed.size() == 1)
         result = typed[0];
     }
@@ -305,38 +388,98 @@ private:
   std::uint64_t entity_ = 0;
 };
 
-/// Refuses points and directions of faces that have not three coordinates. Those in the parameters of a
-/// surface have two.
-void check_coordinates(const std::vector<Entity> &entities) {
-  std::unordered_map<std::uint64_t, std::size_t> index;
-  for (std::size_t i = 0; i < entities.size(); ++i)
-    index.emplace(entities[i].name, i);
-  std::vector<bool> is_seen(entities.size(), false);
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < entities.size(); ++i)
-    if (entities[i].role == Role::face)
-      open.push_back(i);
-  while (!open.empty()) {
-    const Entity &entity = entities[open.back()];
-    const std::size_t current = open.back();
-    open.pop_back();
-    if (is_seen[current] || entity.role == Role::in_parameters)
-      continue;
-    is_seen[current] = true;
-    if (entity.role == Role::coordinates && entity.n_coordinates != 3)
-      throw std::invalid_argument("its entity #" + std::to_string(entity.name) + ", of a face, has " +
-                                  std::to_string(entity.n_coordinates) + " coordinates, where 3 should be");
-    for (const std::uint64_t name : entity.references)
-      if (const auto found = index.find(name); found != index.end())
-        open.push_back(found->second);
+/// Entities by their names.
+class EntityGraph {
+public:
+  explicit EntityGraph(const std::vector<Entity> &entities) : entities_(entities) {
+    for (std::size_t i = 0; i < entities.size(); ++i)
+      index_.emplace(entities[i].name, i);
   }
-}
+
+  /// Refuses an entity that refers to one of the wrong kind, such as a loop of points.
+  void check_references() const {
+    for (const Entity &entity : entities_)
+      for (const auto &[name, kind] : entity.references) {
+        const auto found = index_.find(name);
+        if (found == index_.end() || can_be(entities_[found->second], kind))
+          continue;
+        const Entity &other = entities_[found->second];
+        throw std::invalid_argument(
+            "its entity #" + std::to_string(entity.name) + ", of type " + std::string(entity.type) +
+            ", names #" + std::to_string(name) +
+            (other.type.empty() ? "" : ", of type " + printable(std::string(other.type), 40)) + ", where " +
+            name_of(kind) + " should be");
+      }
+  }
+
+  /// Refuses points and directions of faces that have not three coordinates, and those in the parameters of
+  /// a surface that have not two.
+  void check_coordinates() const {
+    std::vector<std::size_t> in_space, in_parameters;
+    for (std::size_t i = 0; i < entities_.size(); ++i)
+      if (entities_[i].kind == Kind::face)
+        in_space.push_back(i);
+      else if (entities_[i].kind == Kind::parameter_curve)
+        for (const auto &[name, kind] : entities_[i].references)
+          if (const auto found = index_.find(name); kind == Kind::representation && found != index_.end())
+            in_parameters.push_back(found->second);
+    check_coordinates(std::move(in_space), 3, "of a face");
+    check_coordinates(std::move(in_parameters), 2, "in the parameters of a face");
+  }
+
+private:
+  /// Whether an entity may stand where one of this kind should be. Other types of curves and surfaces than
+  /// those of the rules have telling names.
+  static bool can_be(const Entity &entity, const Kind kind) {
+    const auto has = [&](const std::string_view word) {
+      return entity.type.find(word) != std::string_view::npos;
+    };
+    if (kind == Kind::unknown || entity.kind == kind)
+      return true;
+    if (kind == Kind::curve)
+      return entity.kind == Kind::parameter_curve || entity.kind == Kind::complex ||
+             (entity.kind == Kind::unknown && has("CURVE"));
+    if (kind == Kind::surface)
+      return entity.kind == Kind::complex || (entity.kind == Kind::unknown && has("SURFACE"));
+    if (kind == Kind::representation)
+      return entity.kind == Kind::complex;
+    return entity.kind == Kind::unknown &&
+           ((kind == Kind::edge && has("EDGE")) || (kind == Kind::oriented_edge && has("EDGE")) ||
+            (kind == Kind::face && has("FACE")) || (kind == Kind::shell && has("SHELL")) ||
+            (kind == Kind::point && has("POINT")) || (kind == Kind::vertex && has("VERTEX")));
+  }
+
+  void check_coordinates(std::vector<std::size_t> open, const std::size_t n, const char *const where) const {
+    std::vector<bool> is_seen(entities_.size(), false);
+    while (!open.empty()) {
+      const std::size_t current = open.back();
+      const Entity &entity = entities_[current];
+      open.pop_back();
+      if (is_seen[current] || entity.kind == Kind::parameter_curve)
+        continue;
+      is_seen[current] = true;
+      if ((entity.kind == Kind::point || entity.kind == Kind::direction) && entity.n_coordinates != n)
+        throw std::invalid_argument("its entity #" + std::to_string(entity.name) + ", " + where + ", has " +
+                                    std::to_string(entity.n_coordinates) + " coordinates, where " +
+                                    std::to_string(n) + " should be");
+      for (const auto &reference : entity.references)
+        if (const auto found = index_.find(reference.first); found != index_.end())
+          open.push_back(found->second);
+    }
+  }
+
+  const std::vector<Entity> &entities_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+};
 
 } // namespace
 
 std::string find_faulty_entity(const std::string &text) {
   try {
-    check_coordinates(EntityReader(text).read());
+    const std::vector<Entity> entities = EntityReader(text).read();
+    const EntityGraph graph(entities);
+    graph.check_references();
+    graph.check_coordinates();
   } catch (const std::invalid_argument &error) {
     return error.what();
   }

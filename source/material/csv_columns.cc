@@ -33,6 +33,20 @@ std::vector<std::string> split(std::string line) {
   return cells;
 }
 
+/// Whether a cell is a number with a decimal comma.
+bool has_decimal_comma(std::string cell) {
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string::npos)
+    return false;
+  cell[comma] = '.';
+  try {
+    parse_number(cell);
+    return true;
+  } catch (const std::invalid_argument &) {
+    return false;
+  }
+}
+
 } // namespace
 
 std::vector<std::vector<double>> read_table(std::istream &text, const std::vector<unsigned int> &columns) {
@@ -51,10 +65,13 @@ std::vector<std::vector<double>> read_table(std::istream &text, const std::vecto
           throw std::invalid_argument("has no column " + std::to_string(column));
         row.push_back(parse_number(cells[column - 1]));
       } catch (const std::invalid_argument &) {
-        if (rows.empty()) // a head
+        const bool has_comma = column <= cells.size() && has_decimal_comma(cells[column - 1]);
+        if (rows.empty() && !has_comma) // a head
           break;
-        throw std::invalid_argument("line " + std::to_string(number) + " has no number in column " +
-                                    std::to_string(column));
+        throw std::invalid_argument(
+            "line " + std::to_string(number) + " has no number in column " + std::to_string(column) +
+            (has_comma ? ", but '" + cells[column - 1] + "': write decimals with a point, not with a comma"
+                       : ""));
       }
     if (row.size() == columns.size())
       rows.push_back(std::move(row));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/progress.h"
 
+#include "billet/spent_time.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -36,7 +38,7 @@ int Progress::Load::width() const {
 
 Progress::Progress(const Scene &scene, std::ostream &stream, std::ostream &messages, const bool is_terminal)
     : scene_(scene), stream_(stream), messages_(messages), is_terminal_(is_terminal),
-      verbosity_(scene.parameters().output.verbosity) {
+      verbosity_(scene.parameters().output.verbosity), start_(SpentTime::on_all()) {
   make_columns();
 }
 
@@ -131,10 +133,6 @@ void Progress::show_values(const Solution &solution) const {
   for (const Column &column : columns_)
     stream_ << std::setw(column.width) << column.value(solution);
   stream_ << "\n";
-}
-
-double Progress::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void Progress::start(const Discretization &discretization, const Solution &solution) {
@@ -240,12 +238,12 @@ void Progress::show_iterations(const NewtonReport &newton) {
 void Progress::show_advance(const double time, const double length) {
   if (!begin_)
     begin_ = std::max(0., time - length);
-  const double end = scene_.parameters().time_stepping.end_time, now = elapsed();
+  const double end = scene_.parameters().time_stepping.end_time, now = SpentTime::on_all();
   // A run that resumes has not spent its time on what was there.
   const double part = std::min(1., time / end), part_of_run = (time - *begin_) / (end - *begin_);
   std::string duration = format_duration(now);
   if (part_of_run > 0. && part < 1.)
-    duration += ", about " + format_duration(now * (1. - part_of_run) / part_of_run) + " to go";
+    duration += ", about " + format_duration((now - start_) * (1. - part_of_run) / part_of_run) + " to go";
   if (is_terminal_)
     return show_bar(part, duration);
   if (part < 1. && now - last_line_ >= seconds_between_lines) {
@@ -289,7 +287,7 @@ void Progress::finish(const std::vector<std::string> &repetitions, const std::st
   std::ostream &stream = warnings.empty() ? stream_ : messages_;
   for (const auto &line : repetitions)
     stream << line << "\n";
-  stream << "Completed in " << format_duration(elapsed())
+  stream << "Completed in " << format_duration(SpentTime::on_all())
          << (warnings.empty() ? " without warnings." : " with " + warnings + ".");
   if (!file_to_open.empty())
     stream << " Open in ParaView: " << file_to_open;

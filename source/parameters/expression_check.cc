@@ -7,9 +7,12 @@
 #include <deal.II/base/function_parser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <sstream>
+#include <vector>
 
 namespace billet {
 
@@ -47,6 +50,25 @@ bool can_be_evaluated(const std::string &text, const ExpressionVariables variabl
   return makes_sense;
 }
 
+/// Returns the first name of a text, other than of functions, that is none of these; empty if there is none.
+std::string find_unknown_name(const std::string &text, const std::vector<std::string> &known) {
+  const auto is_of_name = [](const char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+  };
+  for (auto begin = text.begin(); begin != text.end();) {
+    const auto end = std::find_if_not(begin, text.end(), is_of_name);
+    const std::string word(begin, end);
+    const auto next = std::find_if(end, text.end(), [](const char c) { return c != ' '; });
+    const bool is_name =
+        !word.empty() && (std::isalpha(static_cast<unsigned char>(word[0])) != 0 || word[0] == '_');
+    const bool is_function = next != text.end() && *next == '(';
+    if (is_name && !is_function && std::find(known.begin(), known.end(), word) == known.end())
+      return word;
+    begin = end == text.end() ? end : std::max(end, std::next(begin));
+  }
+  return "";
+}
+
 } // namespace
 
 std::string parser_variables(const ExpressionVariables variables) {
@@ -57,10 +79,19 @@ void check_expression(const std::string &text, const ExpressionVariables variabl
                       const std::vector<parameters::Amplitude> &amplitudes, const std::string &origin) {
   if (!has_free_comma(text) && can_be_evaluated(text, variables, amplitudes))
     return;
-  std::string allowed = variables == ExpressionVariables::time ? "t, pi" : "x, y, z, t, pi";
+  std::vector<std::string> known{"t", "pi"};
+  if (variables != ExpressionVariables::time)
+    known.insert(known.begin(), {"x", "y", "z"});
   for (const auto &amplitude : amplitudes)
-    allowed += ", " + amplitude.name;
-  throw InputError(origin + " contains '" + text + "'; allowed is a muParser expression of " + allowed);
+    known.push_back(amplitude.name);
+  std::string allowed;
+  for (const std::string &name : known)
+    allowed += (allowed.empty() ? "" : ", ") + name;
+  const std::string unknown = find_unknown_name(text, known);
+  throw InputError(origin + " contains '" + text + "'; allowed is a muParser expression of " + allowed +
+                   (has_free_comma(text) ? ". Write decimals with a point, not with a comma"
+                    : unknown.empty()    ? ""
+                                         : "; '" + unknown + "' is unknown"));
 }
 
 } // namespace billet

@@ -473,7 +473,11 @@ Scene::~Scene() = default;
 
 Scene Scene::read(const std::string &file_name, const std::string &restart_file,
                   const std::vector<SceneFile::Setting> &settings) {
-  SceneFile file = SceneFile::read(file_name, settings);
+  return read(SceneFile::read(file_name, settings), restart_file);
+}
+
+Scene Scene::read(SceneFile file, const std::string &restart_file) {
+  const std::string file_name = file.file_name();
   load_libraries(file);
   const std::vector<std::string> generated = add_general_contact(file);
   ParameterHandler prm;

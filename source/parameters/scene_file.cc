@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace billet {
@@ -76,20 +77,34 @@ bool read_statement(std::istream &text, const std::string &name, std::string &li
 }
 
 /// Replaces control characters by blanks, since messages quote a statement. Returns what is wrong with the
-/// first one, or nothing.
+/// first one that is no tab, or nothing.
 std::string remove_control_characters(std::string &statement) {
   std::string error;
   for (char &c : statement) {
     const auto code = static_cast<unsigned char>(c);
-    if (c == '\t' || (code >= ' ' && code != 0x7F))
+    if (code >= ' ' && code != 0x7F)
       continue;
-    if (error.empty())
+    if (error.empty() && c != '\t')
       error = ": a control character, of code " + std::to_string(code) +
               ", stands in the statement; allowed is text. Write the line anew";
     c = ' ';
   }
   statement = trim(statement);
   return error;
+}
+
+std::string single_spaced(const std::string &text);
+
+/// Returns a statement "Name/Name/Key = value" without its path, and appends this to `path`.
+std::string take_path(const std::string &statement, SceneFile::Path &path) {
+  std::size_t key = 0;
+  const std::size_t equals = statement.find('=');
+  for (std::size_t slash = statement.find('/'); slash < equals && equals != std::string::npos;
+       slash = statement.find('/', key)) {
+    path.push_back(single_spaced(trim(statement.substr(key, slash - key))));
+    key = slash + 1;
+  }
+  return statement.substr(key);
 }
 
 std::string single_spaced(const std::string &text) {
@@ -186,6 +201,11 @@ void SceneFile::fail(const std::string &error) {
 
 void SceneFile::note(const std::string &error) { errors_.emplace_back(diagnostic::bad_input, error); }
 
+void SceneFile::note(const std::string &error, const std::string &where, const Path &path) {
+  faulty_.push_back({path, where});
+  note(error);
+}
+
 void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path,
                           const std::vector<unsigned int> &outer_files) {
   const Path outer = path;
@@ -199,7 +219,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
     std::string statement = trim(line.substr(0, line.find('#')));
     const std::string error = remove_control_characters(statement);
     if (!error.empty())
-      note(where + error);
+      note(where + error, where, path);
     if (take_keyword(statement, "include")) {
       include(statement, where, name, path, files);
       continue;
@@ -215,8 +235,10 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       subsections_.push_back({path, where});
       statements.push_back({Statement::Kind::subsection, path.back(), indentation, first_line});
     } else if (take_keyword(statement, "set")) {
-      add_entry(statement, path,
-                {path, "", "", where, "", "", first_line, files.size() > 1, files, folder_of(name)});
+      Path target = path; // of 'set Bodies/block/Material/Density = 1'
+      const std::string setting = take_path(statement, target);
+      add_entry(setting, target,
+                {target, "", "", where, "", "", first_line, files.size() > 1, files, folder_of(name)});
       const std::string key = single_spaced(trim(statement.substr(0, statement.find('='))));
       statements.push_back({Statement::Kind::set, current_names(path, key, "").key, indentation, first_line});
     } else if (statement == "end") {
@@ -226,7 +248,8 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       statements.push_back({Statement::Kind::end, "", indentation, first_line});
     } else
       note(where + ": the statement is '" + statement +
-           "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'");
+               "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'",
+           where, path);
   }
   if (path.size() == outer.size())
     return;
@@ -260,7 +283,8 @@ void SceneFile::add_entry(const std::string &statement, const Path &path, Entry 
   const auto equals = statement.find('=');
   if (equals == std::string::npos)
     return note(entry.where + ": the statement is 'set " + statement +
-                "'; allowed is 'set parameter = value'");
+                    "'; allowed is 'set parameter = value'",
+                entry.where, path);
   entry.written_key = single_spaced(trim(statement.substr(0, equals)));
   entry.written_value = trim(statement.substr(equals + 1));
   const CurrentNames names = current_names(path, entry.written_key, entry.written_value);
@@ -319,7 +343,7 @@ void SceneFile::resolve_overrides() {
     if (first == kept.end())
       kept.push_back(entries_[i]);
     else
-      note(describe_second(entries_[i], *first));
+      note(describe_second(entries_[i], *first), entries_[i].where, entries_[i].path);
   }
   for (const auto &[line, entry] : lines_)
     text_ += entry != no_entry && !overridden_at[entry].empty()
@@ -327,6 +351,70 @@ void SceneFile::resolve_overrides() {
                  : line + "\n";
   entries_ = std::move(kept);
   lines_.clear();
+}
+
+namespace {
+
+/// Returns the text between the first quotes at or after a place; empty if there are none.
+std::string quoted(const std::string &text, const std::size_t from) {
+  const std::size_t begin = text.find('\'', from);
+  const std::size_t end = begin == std::string::npos ? begin : text.find('\'', begin + 1);
+  return end == std::string::npos ? "" : text.substr(begin + 1, end - begin - 1);
+}
+
+/// Returns the path whose join() this is.
+SceneFile::Path split(const std::string &joined) {
+  SceneFile::Path path;
+  const std::string separator = " / ";
+  for (std::size_t begin = 0; !joined.empty();) {
+    const std::size_t end = joined.find(separator, begin);
+    path.push_back(joined.substr(begin, end - begin));
+    if (end == std::string::npos)
+      break;
+    begin = end + separator.size();
+  }
+  return path;
+}
+
+} // namespace
+
+std::optional<SceneFile::Place> SceneFile::find_place(const std::string &message) const {
+  const std::string of_default = " (default): '";
+  if (const std::size_t found = message.find(of_default); found != std::string::npos) {
+    // "file:line (default): 'Key' in 'Bodies / block'"
+    const std::size_t key = found + of_default.size() - 1;
+    const std::string name = quoted(message, key), in = "' in '";
+    const std::size_t behind = key + 1 + name.size();
+    return Place{message.compare(behind, in.size(), in) == 0 ? split(quoted(message, behind + 1)) : Path(),
+                 name, true};
+  }
+  const auto begins_at = [&message](const std::string &where) {
+    return message.compare(0, where.size(), where) == 0 && message[where.size()] == ':';
+  };
+  for (const Entry &entry : entries_)
+    if (begins_at(entry.where))
+      return Place{entry.path, entry.key};
+  for (const auto *list : {&faulty_, &subsections_})
+    for (const Subsection &subsection : *list)
+      if (begins_at(subsection.where))
+        return Place{subsection.path, "", true};
+  return {};
+}
+
+bool SceneFile::remove(const Path &path, const std::string &key) {
+  const std::size_t before = entries_.size() + subsections_.size();
+  const auto is_below = [&path](const Path &other) {
+    return other.size() >= path.size() && std::equal(path.begin(), path.end(), other.begin());
+  };
+  const auto erase_if = [](auto &list, const auto &goes) {
+    list.erase(std::remove_if(list.begin(), list.end(), goes), list.end());
+  };
+  erase_if(entries_, [&](const Entry &entry) {
+    return key.empty() ? is_below(entry.path) : entry.path == path && entry.key == key;
+  });
+  if (key.empty())
+    erase_if(subsections_, [&](const Subsection &subsection) { return is_below(subsection.path); });
+  return entries_.size() + subsections_.size() < before;
 }
 
 const SceneFile::Entry *SceneFile::find(const Path &path, const std::string &key) const {
@@ -513,14 +601,13 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
   };
   for (const auto &entry : entries_) {
     if (!entry.path.empty() && !prm.subsection_path_exists(entry.path)) {
-      if (entry.files.empty()) // the command line opens no subsections
-        for (std::size_t n = 1; n <= entry.path.size(); ++n) {
-          const Path part(entry.path.begin(), entry.path.begin() + static_cast<std::ptrdiff_t>(n));
-          if (!prm.subsection_path_exists(part)) {
-            refuse_subsection(part, entry.where);
-            break;
-          }
+      for (std::size_t n = 1; n <= entry.path.size(); ++n) { // a path of names opens no subsections
+        const Path part(entry.path.begin(), entry.path.begin() + static_cast<std::ptrdiff_t>(n));
+        if (!prm.subsection_path_exists(part)) {
+          refuse_subsection(part, entry.where);
+          break;
         }
+      }
       continue;
     }
     const auto [is_declared, wrong_value] = try_to_set(prm, entry);

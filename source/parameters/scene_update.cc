@@ -30,6 +30,8 @@ struct Places {
     key = text.find_first_not_of(blanks, text.find_first_not_of(blanks, begin) + std::string("set").size());
     equals = text.find('=', key);
     key_end = text.find_last_not_of(blanks, equals - 1) + 1;
+    if (const std::size_t slash = text.rfind('/', key_end); slash != std::string::npos && slash > key)
+      key = text.find_first_not_of(blanks, slash + 1); // behind the path
     value = std::min(text.find_first_not_of(blanks, equals + 1), text.size());
     // The value ends at a comment or at a line end without backslash.
     std::size_t end = value;

@@ -73,14 +73,29 @@ DiagnosticList check_outline(const Scene &scene, MPI_Comm communicator) {
   return messages;
 }
 
-} // namespace
-
-void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
-                      const bool as_json) {
+/// Checks the files that a run reads and writes, and builds the scene. Collective.
+std::unique_ptr<const Scene> open_scene(const parameters::Scene &parameters, MPI_Comm communicator) {
   fail_together(communicator, [&] { check_output_folder(parameters, EarlierResults::replaced); });
   if (parameters.restart.is_wanted())
     const CheckpointReader sound(communicator, parameters.restart.file.value, parameters.restart.file.origin);
-  const std::unique_ptr<const Scene> built = build_scene(parameters, communicator);
+  return build_scene(parameters, communicator);
+}
+
+} // namespace
+
+void check_quietly(const parameters::Scene &parameters, MPI_Comm communicator) {
+  const std::unique_ptr<const Scene> scene = open_scene(parameters, communicator);
+  constexpr std::size_t max_elements = 50000; // takes seconds
+  SceneReport report;
+  if (scene->count_elements() <= max_elements)
+    check_start(*scene, communicator, report);
+  else
+    check_outline(*scene, communicator);
+}
+
+void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
+                      const bool as_json) {
+  const std::unique_ptr<const Scene> built = open_scene(parameters, communicator);
   const Scene &scene = *built;
   constexpr std::size_t max_elements = 500000; // takes a minute and some GB on one rank
   DiagnosticList messages = scene.parameters().warnings;

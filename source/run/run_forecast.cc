@@ -81,7 +81,7 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
   return report;
 }
 
-/// Counts the steps. Where a pair meets, nodes that are near limit them from then on.
+/// Counts the steps if contact lasts: where a pair meets, nodes that are near limit them from then on.
 double count_steps(const Scene &scene, ExplicitDynamics &problem, const SceneReport &of_scene,
                    StableStepReport &stable) {
   const double end = scene.parameters().time_stepping.end_time;
@@ -124,7 +124,11 @@ RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const Scen
     StableStepReport stable = find_limiting_element(scene, problem, body);
     problem.prepare_step(end);
     stable.step = problem.usual_step();
-    report.n_steps = std::ceil(growth_of_steps(scene, body) * count_steps(scene, problem, of_scene, stable));
+    const double growth = growth_of_steps(scene, body);
+    report.n_steps = std::ceil(growth * count_steps(end, stable.step));
+    const double in_contact = std::ceil(growth * count_steps(scene, problem, of_scene, stable));
+    if (in_contact > report.n_steps)
+      report.max_steps = in_contact;
     report.stable_step = stable;
   } catch (const SolutionFailure &) { // on all ranks
     report.is_minimum = true;

@@ -122,7 +122,8 @@ void print(const RunReport &run, const double size, std::ostream &stream) {
          << " MB of memory";
   if (run.n_steps > 0.)
     stream << (run.is_minimum ? ", at least " : ", about ") << number(run.n_steps)
-           << (run.n_steps == 1. ? " step\n" : " steps\n");
+           << (run.n_steps == 1. ? " step" : " steps")
+           << (run.max_steps > 0. ? ", up to " + number(run.max_steps) + " if contact lasts\n" : "\n");
   else
     stream << ", number of steps unknown: the forces at the start fail\n";
   if (!run.stable_step)
@@ -193,6 +194,8 @@ Json to_json(const RunReport &run) {
   if (run.n_steps > 0.) {
     object["steps"] = run.n_steps;
     object["steps are a minimum"] = run.is_minimum;
+    if (run.max_steps > 0.)
+      object["steps if contact lasts"] = run.max_steps;
   }
   if (run.stable_step)
     object["stable step"] = {{"of elements", run.stable_step->of_elements},

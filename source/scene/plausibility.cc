@@ -224,8 +224,41 @@ void check_force(const Scene &scene, const std::size_t t, const Start &start, Di
                               .measure("force / (yield stress x section)", force / borne));
 }
 
-/// Checks whether supports hold nodes that a tool with a given force presses on, along that force. A support
-/// that acts on a neighbouring face holds the nodes of their common edge.
+/// Node of a pair in front of a tool that it faces.
+struct FacingNode {
+  unsigned int vertex;
+  double gap, reach; ///< reach: diameter of its face
+};
+
+/// Returns the nodes of a pair on faces that look at the tool, at the start. Those on the sides of a body, or
+/// on its far end, look elsewhere.
+std::vector<FacingNode> find_facing_nodes(const Scene &scene, const ContactPair &pair,
+                                          const Triangulation<3> &mesh) {
+  constexpr double facing = 0.1; // cosine between the face and the tool, below 90 degrees
+  const Tool &tool = scene.tools()[pair.tool];
+  const Placement placement = tool.placement(0.);
+  std::vector<FacingNode> nodes;
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      const auto &face = cell->face(f);
+      const auto &ids = pair.boundary_ids;
+      if (!cell->is_locally_owned() || cell->material_id() != pair.body || !face->at_boundary() ||
+          std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
+        continue;
+      Tensor<1, 3> normal =
+          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+      normal *= (normal * (face->center() - cell->center()) > 0. ? 1. : -1.) / normal.norm();
+      for (const unsigned int v : face->vertex_indices()) {
+        const auto projection = tool.surface().project(placement.to_tool(face->vertex(v)));
+        if (projection.exists && normal * (placement.rotation * projection.normal) < -facing)
+          nodes.push_back({face->vertex_index(v), projection.gap, face->diameter()});
+      }
+    }
+  return nodes;
+}
+
+/// Checks whether supports hold nodes that a tool with a given force presses on first, along that force. A
+/// support that acts on a neighbouring face holds the nodes of their common edge.
 void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
                       DiagnosticList &diagnostics) {
   constexpr double along = 0.1; // cosine between the support and the force
@@ -233,20 +266,22 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
     const Tool &tool = scene.tools()[pair.tool];
     if (tool.control() != Tool::Control::force)
       continue;
-    const Placement placement = tool.placement(0.);
     const auto &holds = scene.bodies()[pair.body].holds;
-    std::vector<std::set<unsigned int>> held(holds.size()); // vertices
+    const std::vector<FacingNode> facing = find_facing_nodes(scene, pair, mesh);
+    double nearest = std::numeric_limits<double>::max();
+    for (const FacingNode &node : facing)
+      nearest = std::min(nearest, node.gap);
+    nearest = dealii::Utilities::MPI::min(nearest, communicator);
     std::set<unsigned int> pressed;
-    const auto &ids = pair.boundary_ids;
+    for (const FacingNode &node : facing)
+      if (node.gap <= nearest + node.reach)
+        pressed.insert(node.vertex);
+    std::vector<std::set<unsigned int>> held(holds.size()); // vertices
     for (const auto &cell : mesh.active_cell_iterators())
       for (const unsigned int f : cell->face_indices()) {
         const auto &face = cell->face(f);
         if (!cell->is_locally_owned() || cell->material_id() != pair.body || !face->at_boundary())
           continue;
-        const bool is_of_pair = std::find(ids.begin(), ids.end(), face->boundary_id()) != ids.end();
-        for (const unsigned int v : face->vertex_indices())
-          if (is_of_pair && tool.surface().project(placement.to_tool(face->vertex(v))).exists)
-            pressed.insert(face->vertex_index(v));
         for (std::size_t h = 0; h < holds.size(); ++h)
           if (holds[h].times.from < tool.removal_time() &&
               holds_face(holds[h], face, 1e-8 * face->diameter()))
@@ -266,8 +301,8 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
       text.precision(3);
       text
           << "The " << holds[h].name << " holds " << std::ceil(100. * n[1] / n[0])
-          << " % of the nodes that the tool may press on, along its 'Force direction'. There it, and not the "
-             "body, bears the force of the tool";
+          << " % of the nodes that the tool presses on first, along its 'Force direction'. There it, and not "
+             "the body, bears the force of the tool";
       diagnostics.push_back(Diagnostic(diagnostic::support_takes_force, text.str())
                                 .pair(pair.name)
                                 .tool(tool.name())

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Thousands of damaged mesh files, the same on every machine: each is refused with a message or accepted with
-// sound indices. Sanitizers and traps see the rest. With clang's -fsanitize=fuzzer and -DBILLET_FUZZ this
-// file is a fuzz target, for which the files beside it are the corpus.
-#include "../fuzz/damage.h"
+// sound indices. Sanitizers and traps see the rest. It is a fuzz target, as fuzz.h says.
+#include "../fuzz/fuzz.h"
 #include "samples.h"
 
 #include "billet/mesh/mesh_volumes.h"
 
-#include <cstdint>
-
-using namespace billet;
-using namespace billet::testing;
+namespace billet::testing {
 
 namespace {
 
@@ -41,7 +37,14 @@ bool is_sound(const MeshFile &mesh) {
   return holds;
 }
 
-enum class Outcome { refused, accepted, unsound };
+} // namespace
+
+std::map<std::string, std::string> corpus() {
+  std::map<std::string, std::string> files;
+  for (const std::string &sample : samples())
+    files[sample] = read_text(sample);
+  return files;
+}
 
 Outcome judge(const std::string &bytes) {
   try {
@@ -65,40 +68,26 @@ Outcome judge(const std::string &bytes) {
   }
 }
 
-} // namespace
+/// A file that is cut short anywhere, but for white space and what no mesh needs, is refused.
+inline void check_cut_files() {
+  for (const auto &[name, sound] : corpus()) {
+    std::size_t n_accepted = 0;
+    const std::size_t end = sound.find_last_not_of(" \r\n\t");
+    for (std::size_t length = 0; length < end; length += 1 + sound.size() / 300)
+      n_accepted += judge(sound.substr(0, length)) == Outcome::accepted ? 1 : 0;
+    const bool has_no_end = name.find(".inp") != std::string::npos || name.find(".vtk") != std::string::npos;
+    check(name + " cut short", has_no_end || n_accepted == 0);
+  }
+}
+
+} // namespace billet::testing
 
 #ifdef BILLET_FUZZ
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std::size_t size) {
-  if (judge(std::string(reinterpret_cast<const char *>(data), size)) == Outcome::unsound)
-    __builtin_trap();
-  return 0;
-}
-
+BILLET_FUZZ_TARGET
 #else
-
 int main(int argc, char **argv) {
-  const unsigned int n = argc > 1 ? static_cast<unsigned int>(std::stoul(argv[1])) : 1000;
-  Damage damage;
-  for (const std::string &sample : samples()) {
-    const std::string sound = read_text(sample);
-    std::size_t n_unsound = 0, n_refused = 0;
-    for (unsigned int i = 0; i < n; ++i) {
-      const Outcome outcome = judge(damage(sound));
-      n_unsound += outcome == Outcome::unsound ? 1 : 0;
-      n_refused += outcome == Outcome::refused ? 1 : 0;
-    }
-    check(sample + " damaged", n_unsound == 0 && n_refused > n / 2);
-    // A file that is cut short anywhere, but for white space and what no mesh needs, is refused.
-    std::size_t n_cut = 0, n_accepted = 0;
-    const std::size_t end = sound.find_last_not_of(" \r\n\t");
-    for (std::size_t length = 0; length < end; length += 1 + sound.size() / 300, ++n_cut)
-      n_accepted += judge(sound.substr(0, length)) == Outcome::accepted ? 1 : 0;
-    const bool has_no_end =
-        sample.find(".inp") != std::string::npos || sample.find(".vtk") != std::string::npos;
-    check(sample + " cut short", has_no_end || n_accepted == 0);
-  }
-  return exit_code();
+  billet::testing::fuzz_main(argc, argv);
+  billet::testing::check_cut_files();
+  return billet::testing::exit_code();
 }
-
 #endif

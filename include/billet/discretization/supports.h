@@ -39,6 +39,21 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
 /// Returns the first dofs of nodes that are constrained in all directions during the whole run.
 std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization);
 
+/// Combination of the constraints of a node.
+struct HoldRow {
+  dealii::Tensor<1, 3> n;      ///< sum of the weights times the normals; 0 without a pivot
+  std::vector<double> weights; ///< of the constraints
+  int pivot = -1;              ///< component of n that is 1; -1 if the constraint depends on those before it
+};
+/// Returns a row for each constraint of a node, solved for their pivots (Gauss-Jordan).
+std::vector<HoldRow> solve_for_pivots(const HeldNode &node);
+/// Returns the names of the constraints in a row: "'symmetry plane x = 0' and 'support top'".
+std::string names_in(const HoldRow &row, const HeldNode &node);
+
+/// Refuses supports that act at the same time and prescribe displacements that contradict each other. It
+/// looks at 17 times between any two at which supports begin or end. Throws InputError. Collective.
+void check_agreement(const Scene &scene, const Discretization &discretization);
+
 /// Prescribed displacements of a constrained node, as far as they change with time.
 class SupportTrack {
 public:

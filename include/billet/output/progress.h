@@ -6,7 +6,6 @@
 #include "billet/output/force_choice.h"
 #include "billet/output/history_file.h"
 
-#include <chrono>
 #include <functional>
 #include <iosfwd>
 #include <optional>
@@ -70,7 +69,6 @@ private:
   void show_advance(double time, double length);
   void show_bar(double part, const std::string &duration);
   void erase_bar();
-  double elapsed() const;
 
   const Scene &scene_;
   std::ostream &stream_, &messages_;
@@ -85,7 +83,7 @@ private:
   std::vector<Column> columns_;       ///< behind those of the loads
   std::vector<double> probes_;
   parameters::Output::Verbosity verbosity_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_; ///< when the run began, after the program [s]
 };
 
 } // namespace billet

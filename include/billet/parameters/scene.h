@@ -48,6 +48,7 @@ struct Scene {
   /// command line override the file. Throws InputError.
   static Scene read(const std::string &file_name, const std::string &restart_file = "",
                     const std::vector<SceneFile::Setting> &settings = {});
+  static Scene read(SceneFile file, const std::string &restart_file);
 
   const SchemeType &scheme() const { return type_of(time_stepping.scheme); }
   std::size_t body_index(const ContactPair &pair) const;

@@ -5,6 +5,7 @@
 #include "billet/diagnostics.h"
 
 #include <istream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,12 @@ public:
     Path path;
     std::string where;
   };
+  /// Place in the file that an error is about.
+  struct Place {
+    Path path;
+    std::string key;         ///< of an entry; empty: the subsection itself
+    bool is_missing = false; ///< the file does not set the entry, or something is missing in the subsection
+  };
   /// Value from the command line, which overrides the files.
   struct Setting {
     std::string path; ///< "Time stepping/End time"
@@ -64,6 +71,14 @@ public:
 
   /// Throws InputError with all errors found so far.
   void require_sound() const;
+
+  /// Returns the place with which an error message begins, "file:line: ..."; none if it begins otherwise.
+  std::optional<Place> find_place(const std::string &message) const;
+  /// Takes an entry away; with an empty key, a subsection with all that is in it. Returns whether there was
+  /// one.
+  bool remove(const Path &path, const std::string &key = "");
+  /// Forgets the errors found so far.
+  void forget_errors() { errors_.clear(); }
 
   /// Returns all entries in the order of their appearance, without overridden ones.
   const std::vector<Entry> &entries() const { return entries_; }
@@ -117,7 +132,9 @@ private:
   void add_entry(const std::string &statement, const Path &path, Entry entry);
   void add_setting(const Setting &setting);
   void resolve_overrides();
+  /// Notes an error; `where` and `path`: of a statement that sets nothing, for find_place().
   void note(const std::string &error);
+  void note(const std::string &error, const std::string &where, const Path &path);
   /// Throws InputError with this and all earlier errors.
   [[noreturn]] void fail(const std::string &error);
   const Entry *find(const Path &path, const std::string &key) const;
@@ -127,6 +144,7 @@ private:
   std::vector<Entry> entries_;
   std::vector<Subsection> subsections_;
   DiagnosticList errors_;
+  std::vector<Subsection> faulty_; ///< statements that set nothing, and the subsections that they stand in
   unsigned int n_files_ = 0;
   std::vector<std::pair<std::string, std::size_t>> lines_; ///< of the text, each with its entry or no_entry
   static constexpr std::size_t no_entry = static_cast<std::size_t>(-1);

@@ -15,6 +15,10 @@ namespace billet {
 void check_simulation(const parameters::Scene &parameters, MPI_Comm communicator, std::ostream &stream,
                       bool as_json);
 
+/// Checks a scene as check_simulation() does, without a description, and large meshes by their outlines.
+/// Throws InputError. Collective.
+void check_quietly(const parameters::Scene &parameters, MPI_Comm communicator);
+
 /// Returns warnings about the undeformed meshes. Collective.
 DiagnosticList check_meshes(const Scene &scene, const Discretization &discretization);
 

@@ -88,7 +88,8 @@ struct StableStepReport {
 struct RunReport {
   std::size_t n_dofs = 0;
   double memory = 0.;      ///< estimate for all ranks [bytes]
-  double n_steps = 0.;     ///< explicit and fixed steps: about; automatic: at least
+  double n_steps = 0.;     ///< explicit and fixed steps: about, as the run prints; automatic: at least
+  double max_steps = 0.;   ///< explicit steps if contact lasts from where pairs meet; 0: it shortens none
   bool is_minimum = false; ///< whether there may be many more steps
   std::optional<StableStepReport> stable_step;
 };

@@ -41,13 +41,7 @@ void ExplicitMotion::begin(const Scene &scene) {
           }
     });
   });
-  // Contradictory planes are detected here, if they contradict each other at one of these times.
-  const Supports supports(scene, nodes_.discretization());
-  constexpr unsigned int n_checks = 16;
-  check_before_start([&] {
-    for (unsigned int check = 0; check <= n_checks; ++check)
-      supports.at_time(scene.parameters().time_stepping.end_time * check / n_checks);
-  });
+  check_agreement(scene, nodes_.discretization());
   held_.set_displacements(0., u_);
 }
 

@@ -24,10 +24,7 @@ struct Limits {
 /// contradict each other.
 std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretization &discretization,
                                             const Supports &supports) {
-  check_before_start([&] {
-    supports.at_time(0.);
-    supports.at_time(scene.parameters().time_stepping.end_time);
-  });
+  check_agreement(scene, discretization);
   if (scene.parameters().scheme().has_inertia)
     return std::make_unique<ImplicitMotion>(scene, discretization, supports);
   return nullptr;

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/run/all_errors.h"
+
+#include "billet/diagnostic_kinds.h"
+#include "billet/errors.h"
+#include "billet/parameters/scene.h"
+#include "billet/run/check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace billet {
+
+namespace {
+
+using Path = SceneFile::Path;
+
+bool begins_with(const Path &path, const Path &start) {
+  return path.size() >= start.size() && std::equal(start.begin(), start.end(), path.begin());
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Whether a text has a word, as expressions have names.
+bool has_word(const std::string &text, const std::string &word) {
+  const auto is_of_word = [](const char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_of_word(text[at - 1])) && (end == text.size() || !is_of_word(text[end])))
+      return true;
+  }
+  return false;
+}
+
+/// Returns a message without its place, "file:line: 'Key' in 'Path'".
+std::string without_place(const std::string &message) {
+  const std::size_t quote = message.find(": '");
+  if (quote == std::string::npos)
+    return message;
+  std::size_t end = message.find('\'', quote + 3);
+  const std::string in = "' in '";
+  if (end != std::string::npos && message.compare(end, in.size(), in) == 0)
+    end = message.find('\'', end + in.size());
+  return end == std::string::npos ? message : message.substr(end + 1);
+}
+
+/// Scene file of which parts with errors are taken out.
+class SoundRest {
+public:
+  explicit SoundRest(SceneFile file) : file_(std::move(file)) { file_.forget_errors(); }
+
+  const SceneFile &file() const { return file_; }
+
+  bool has_bodies() const { return !file_.names_below({"Bodies"}).empty(); }
+
+  /// Notes errors, except consequences of earlier ones, and takes out the parts that they are about. Returns
+  /// whether more can be found in what is left.
+  bool take_out(const DiagnosticList &errors) {
+    const bool is_first = n_rounds_++ == 0;
+    bool changes = false;
+    std::vector<std::pair<SceneFile::Place, std::string>> places;
+    for (const Diagnostic &error : errors) {
+      const std::optional<SceneFile::Place> place = file_.find_place(error.what());
+      const bool is_consequence = !is_first && (!place || follows(*place, error.what()));
+      if (!is_consequence) {
+        found_.push_back(error);
+        if (place)
+          reported_.insert(part_of(place->path));
+      } else if (place && !(is_dynamic_ && has_word(lower(error.what()), "scheme")))
+        unchecked_.insert(
+            {part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)" : ""});
+      if (place)
+        places.emplace_back(*place, error.what());
+      // A statement without a place is left out when the file is read.
+      changes = changes || (is_first && !place);
+    }
+    for (const auto &[place, message] : places)
+      changes = take_out(place, message) || changes;
+    return changes && !all_depends_;
+  }
+
+  /// Takes out bodies without a mesh. Returns whether there are any.
+  bool leave_out_meshless() {
+    const std::set<std::string> bodies = std::exchange(meshless_, {});
+    for (const std::string &body : bodies) {
+      unchecked_[{"Bodies", body}] = " (supports, loads, contact, probes)";
+      remove_part({"Bodies", body});
+    }
+    return !bodies.empty();
+  }
+
+  /// Returns all errors, and a note about what is unchecked. `is_sound`: nothing else was found in the rest.
+  DiagnosticList report(const bool is_sound) const {
+    DiagnosticList all = found_;
+    std::string list;
+    for (const auto &[path, detail] : unchecked_)
+      if (!path.empty() && (reported_.count(path) == 0 || !detail.empty()))
+        list += (list.empty() ? "'" : ", '") + join(path) + "'" + detail;
+    if (!is_sound && n_rounds_ > 1)
+      list += list.empty() ? "parts of the scene" : ", other parts";
+    if (!list.empty())
+      all.emplace_back(diagnostic::unchecked_parts,
+                       "Unchecked, since they depend on parts with errors: " + list);
+    return all;
+  }
+
+private:
+  static std::string at(const Path &path, const std::size_t i) { return i < path.size() ? path[i] : ""; }
+
+  static bool is_named(const std::string &section) {
+    return section == "Bodies" || section == "Tools" || section == "Contact pairs" || section == "Probes" ||
+           section == "Amplitudes";
+  }
+
+  /// Returns the part that is taken out if there is an error at this place; otherwise its subsection.
+  static Path part_of(const Path &path) {
+    if (!is_named(at(path, 0)) || path.size() < 2)
+      return path;
+    std::size_t n = 2;
+    if (path[0] == "Bodies")
+      n = at(path, 2) == "Supports" || at(path, 2) == "Loads" ? 4 : 3;
+    else if (path[0] == "Tools" && at(path, 2) == "Motion")
+      n = 3;
+    return {path.begin(), path.begin() + static_cast<std::ptrdiff_t>(std::min(n, path.size()))};
+  }
+
+  /// Whether an error may be due to what was taken out before.
+  bool follows(const SceneFile::Place &place, const std::string &message) const {
+    const Path &path = place.path;
+    for (const Path &replaced : replaced_)
+      if (begins_with(path, replaced))
+        return true;
+    if (place.is_missing && std::any_of(changed_.begin(), changed_.end(), [&](const Path &changed) {
+          return may_miss(path, changed) || (place.key.empty() && may_touch(path, changed));
+        }))
+      return true;
+    const std::string text = without_place(message), words = lower(text);
+    return std::any_of(
+               names_.begin(), names_.end(),
+               [&](const std::string &name) { return text.find("'" + name + "'") != std::string::npos; }) ||
+           std::any_of(amplitudes_.begin(), amplitudes_.end(),
+                       [&](const std::string &name) { return has_word(text, name); }) ||
+           std::any_of(keys_.begin(), keys_.end(), [&](const auto &key) {
+             return (!is_named(at(key.first, 0)) || begins_with(path, key.first)) &&
+                    has_word(words, key.second);
+           });
+  }
+
+  /// Whether something in a subsection may be missing since another one has changed.
+  static bool may_miss(const Path &path, const Path &changed) {
+    return begins_with(path, changed) || // a material supports nothing
+           (begins_with(changed, path) && at(changed, 2) != "Material");
+  }
+
+  /// Whether a body or a pair may touch something else since another subsection has changed.
+  static bool may_touch(const Path &path, const Path &changed) {
+    const std::string of = at(path, 0), by = at(changed, 0);
+    const bool is_of_contact = by == "Tools" || by == "Contact pairs" || by == "General contact" ||
+                               by == "Amplitudes" || changed == Path{"Bodies"};
+    return (of == "Bodies" && is_of_contact) || (of == "Contact pairs" && (is_of_contact || by == "Bodies"));
+  }
+
+  /// Takes out what has an error. Returns whether the scene has changed.
+  bool take_out(const SceneFile::Place &place, const std::string &message) {
+    const Path &path = place.path;
+    const std::string section = at(path, 0), name = at(path, 1), kind = at(path, 2);
+    note_key(place, message);
+    if (section == "Bodies" && path.size() > 1) {
+      if (kind == "Mesh")
+        return replace_mesh(name);
+      if (kind == "Material")
+        return replace_material(name);
+      if (path.size() > 3 && (kind == "Supports" || kind == "Loads"))
+        return remove_subsection(part_of(path));
+      if (path.size() > 2 || !place.key.empty()) // unknown names, and parameters of the body
+        return place.is_missing && !place.key.empty() ? remove_part({section, name}) : remove_place(place);
+      return make_dynamic() || remove_part({section, name});
+    }
+    if (is_named(section) && path.size() > 1) {
+      if (section == "Tools" && kind == "Motion" && remove_subsection({section, name, kind}))
+        return true;
+      return remove_part({section, name});
+    }
+    return remove_place(place);
+  }
+
+  /// Remembers a parameter, on which others of its subsection may depend, and on those of other sections all.
+  void note_key(const SceneFile::Place &place, const std::string &message) {
+    const std::string scheme = "Scheme", advice = "did you mean '";
+    if (without_place(message).find("'" + scheme + "'") != std::string::npos) // one such error is enough
+      keys_.insert({{}, lower(scheme)});
+    if (place.key.empty())
+      return;
+    std::string key = place.key;
+    if (const std::size_t begin = message.find(advice); begin != std::string::npos) // for an unknown one
+      key = message.substr(begin + advice.size(),
+                           message.find('\'', begin + advice.size()) - begin - advice.size());
+    for (const std::string &word : {place.key, key})
+      keys_.insert({place.path, lower(word)});
+    all_depends_ = all_depends_ || place.key == scheme || key == scheme || key == "Libraries";
+  }
+
+  /// Takes out an entry, or a subsection that is unknown.
+  bool remove_place(const SceneFile::Place &place) {
+    if (!place.key.empty()) {
+      if (!place.path.empty() || place.key == "Contact")
+        changed_.insert(place.path);
+      return file_.remove(place.path, place.key);
+    }
+    if (place.path.empty())
+      return false;
+    for (const std::string &name : file_.names_below(place.path))
+      names_.insert(name);
+    return remove_subsection(place.path);
+  }
+
+  bool remove_subsection(const Path &path) {
+    changed_.insert(path);
+    changed_.insert(Path(path.begin(), path.end() - 1));
+    return file_.remove(path);
+  }
+
+  /// Takes out a body, a tool, a pair, a probe or an amplitude, and pairs and probes that name it.
+  bool remove_part(const Path &part) {
+    const std::string section = part[0], name = part[1];
+    if (section == "Amplitudes")
+      amplitudes_.insert(name);
+    else
+      names_.insert(name);
+    if (section == "Bodies" || section == "Tools")
+      for (const std::string list : {"Contact pairs", "Probes"})
+        for (const std::string &user : file_.names_below({list}))
+          for (const std::string key : {"Body", "Second body", "Tool"})
+            if (file_.value({list, user}, key, "") == name && (key == "Tool") == (section == "Tools")) {
+              unchecked_.insert({{list, user}, ""});
+              remove_subsection({list, user});
+            }
+    return remove_subsection(part);
+  }
+
+  /// Returns where a subsection is in the file; if it is not there, a place at which no message begins.
+  std::string where_of(const Path &path) const {
+    const std::string where = file_.where(path);
+    return where == file_.file_name() ? "(stands in)" : where;
+  }
+
+  /// Makes a static scene a dynamic one, in which a body needs no support. Returns false if it is one.
+  bool make_dynamic() {
+    const Path section{"Time stepping"};
+    const std::string key = "Scheme", scheme = file_.value(section, key, "static");
+    if (scheme != "static" && scheme != "quasi-static")
+      return false;
+    const std::string where = where_of(section);
+    file_.remove(section, key);
+    file_.add_subsection(section, where);
+    file_.add_entry(section, key, "implicit dynamics", where);
+    keys_.insert({{}, lower(key)});
+    is_dynamic_ = true;
+    return true;
+  }
+
+  /// Gives a body a material that stands for its own.
+  bool replace_material(const std::string &body) {
+    const std::vector<std::pair<std::string, std::string>> entries{
+        {"Young modulus", "1"}, {"Poisson ratio", "0.3"}, {"Density", "1"}};
+    return replace({"Bodies", body, "Material"}, entries);
+  }
+
+  /// Gives a body a mesh that stands for its own until meshes matter.
+  bool replace_mesh(const std::string &body) {
+    const std::vector<std::pair<std::string, std::string>> entries{{"Primitive", "hyper_cube"}};
+    if (!replace({"Bodies", body, "Mesh"}, entries))
+      return false;
+    meshless_.insert(body);
+    return true;
+  }
+
+  /// Replaces a subsection, or if that has been done already, takes out the body.
+  bool replace(const Path &path, const std::vector<std::pair<std::string, std::string>> &entries) {
+    const std::vector<std::string> bodies = file_.names_below({path[0]});
+    if (std::find(bodies.begin(), bodies.end(), path[1]) == bodies.end()) // taken out, too
+      return false;
+    if (!replaced_.insert(path).second)
+      return n_rounds_of_[path] == n_rounds_ || remove_part({path[0], path[1]});
+    n_rounds_of_[path] = n_rounds_;
+    const std::string where = where_of(path);
+    remove_subsection(path);
+    file_.add_subsection(path, where);
+    for (const auto &[key, value] : entries)
+      file_.add_entry(path, key, value, where);
+    return true;
+  }
+
+  SceneFile file_;
+  DiagnosticList found_;
+  std::set<Path> reported_;               ///< parts with errors
+  std::map<Path, std::string> unchecked_; ///< parts, with what of them is unchecked
+  std::set<Path> changed_;                ///< subsections of which something was taken out
+  std::set<Path> replaced_;               ///< materials and meshes
+  std::map<Path, unsigned int> n_rounds_of_;
+  std::set<std::string> meshless_;
+  std::set<std::string> names_, amplitudes_;    ///< of parts that were taken out
+  std::set<std::pair<Path, std::string>> keys_; ///< that were taken out, in lower case
+  unsigned int n_rounds_ = 0;
+  bool is_dynamic_ = false;  ///< whether it has been made so
+  bool all_depends_ = false; ///< on a parameter with an error
+};
+
+} // namespace
+
+DiagnosticList find_all_errors(const SceneSource &source, const DiagnosticList &first,
+                               MPI_Comm communicator) {
+  std::optional<SoundRest> rest;
+  try {
+    fail_together(communicator, [&] { rest.emplace(SceneFile::read(source.file_name, source.settings)); });
+  } catch (const InputError &) { // what stands where in the file is not known
+    return first;
+  }
+  constexpr unsigned int max_rounds = 50;
+  DiagnosticList errors = first;
+  bool is_sound = false;
+  for (unsigned int round = 0; round < max_rounds && !is_sound && rest->take_out(errors); ++round)
+    try {
+      parameters::Scene scene;
+      const auto read = [&] {
+        fail_together(communicator,
+                      [&] { scene = parameters::Scene::read(rest->file(), source.restart_file); });
+      };
+      read();
+      if (rest->leave_out_meshless() && rest->has_bodies())
+        read();
+      if (rest->has_bodies())
+        check_quietly(scene, communicator);
+      is_sound = true;
+    } catch (const InputError &error) { // on all ranks
+      errors = error.diagnostics();
+    } catch (const std::exception &) { // on all ranks: the rest is no scene that anybody would write
+      break;
+    }
+  return rest->report(is_sound);
+}
+
+} // namespace billet

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: all_errors.py TABLE... BILLET
+
+All errors of a scene are found at once. Runs in an empty current folder.
+
+Takes edits of block.prm, each with one error, from TABLE... of bad_input.py, and makes scenes with two of
+them, in different parts. One check must find both errors, unless one depends on the other. Then scenes with
+more errors, in as many parts.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+from checks import HERE, Checks, enter_folder, equal, read_text, require, run, says, write_text
+from edits import Edited, edit
+
+BLOCK = read_text(HERE / "block.prm")
+PROGRAM = sys.argv[-1]
+N_PAIRS = 400
+MIN_PART = 0.85  # of pairs of which both errors are found; others depend on a mesh, a support or a pair
+
+check = Checks()
+
+
+class Faulty(NamedTuple):
+    """An edit with an error, where its last change is, and the message without its place."""
+
+    edit: str
+    part: str
+    message: str
+
+
+def part_of(edited: Edited) -> str:
+    """Returns the part of the scene that an edit changes: 'Bodies / block / Mesh'."""
+    names = edited.path.split(" / ")
+    return " / ".join(names[: 4 if len(names) > 2 and names[2] in ("Supports", "Loads") else 3])
+
+
+def messages_of(errors: str) -> list[str]:
+    """Returns messages without their places and the names of files."""
+    found = re.findall(r"^error\[bad-input\]: (.*(?:\n(?!error\[|note\[).*)*)", errors, re.MULTILINE)
+    return [re.sub(r"\w+\.prm(:\d+)?( \(default\))?(: )?", "", message).strip() for message in found]
+
+
+def read_edits(tables: list[str]) -> list[str]:
+    """Returns the edits of tables of block.prm that are written in full."""
+    edits = []
+    for table in tables:
+        text = read_text(Path(table))
+        if re.search(r"^scene ", text, re.MULTILINE):
+            continue
+        short = set(re.findall(r"^(\w+) :=", text, re.MULTILINE))
+        for line in text.split("\n"):
+            match = re.match(r"([A-Za-z][^#]*?)\s*-> ", line)
+            if match and "\\n" not in match[1] and not re.match(r"(\w+)", match[1])[1] in short:
+                edits.append(match[1])
+    return edits
+
+
+def single_errors(edits: list[str]) -> list[Faulty]:
+    """Returns the edits that make one error, with it."""
+    faulty = []
+    for start in range(0, len(edits), 50):
+        files = {}
+        for number, one in enumerate(edits[start : start + 50]):
+            files[f"case_{number:03d}.prm"] = edit(BLOCK, one)
+        for name, edited in files.items():
+            write_text(name, edited.text)
+        errors = run(PROGRAM, "--check", *files).errors
+        for number, (name, edited) in enumerate(files.items()):
+            of_file = "".join(re.findall(rf"^error\[bad-input\]: {name}.*\n", errors, re.MULTILINE))
+            messages = messages_of(of_file)
+            if len(messages) == 1 and edited.path and "has no 'end'" not in messages[0]:
+                faulty.append(Faulty(edits[start + number], part_of(edited), messages[0]))
+    return faulty
+
+
+class Pair(NamedTuple):
+    """Two edits of one scene."""
+
+    first: Faulty
+    second: Faulty
+    file: str
+
+
+def make_pairs(faulty: list[Faulty]) -> list[Pair]:
+    """Writes scenes with two errors in different parts."""
+    chance = random.Random(1)
+    pairs = []
+    while len(pairs) < N_PAIRS:
+        first, second = chance.sample(faulty, 2)
+        if first.part == second.part or first.message == second.message:
+            continue
+        try:
+            text = edit(BLOCK, f"{first.edit} & {second.edit}").text
+        except ValueError:  # the first one takes away what the second one changes
+            continue
+        pairs.append(Pair(first, second, f"pair_{len(pairs):03d}.prm"))
+        write_text(pairs[-1].file, text)
+    return pairs
+
+
+enter_folder()
+faulty = single_errors(read_edits(sys.argv[1:-1]))
+
+
+@check("both errors of two parts are found at once")
+def _() -> None:
+    require(len(faulty) > 100, f"{len(faulty)} edits are too few")
+    pairs = make_pairs(faulty)
+    n_found = 0
+    for start in range(0, len(pairs), 50):
+        errors = run(PROGRAM, "--check", *(pair.file for pair in pairs[start : start + 50])).errors
+        for pair in pairs[start : start + 50]:
+            of_file = "".join(re.findall(rf"^error\[bad-input\]: {pair.file}.*\n", errors, re.MULTILINE))
+            messages = messages_of(of_file)
+            if pair.first.message in messages and pair.second.message in messages:
+                n_found += 1
+            else:
+                print(f"not both: {pair.first.edit} & {pair.second.edit}")
+    print(f"{n_found} of {len(pairs)} pairs")
+    require(n_found >= MIN_PART * len(pairs), f"{n_found} of {len(pairs)} pairs")
+
+
+def errors_of(edits: str) -> str:
+    """Returns what a check of an edited block says."""
+    write_text("scene.prm", edit(BLOCK, edits).text)
+    ended = run(PROGRAM, "--check", "scene.prm")
+    equal("exit code", ended.code, 2)
+    return ended.errors
+
+
+INDEPENDENT = (
+    "Output: Step interval = 0.5 & block / Material: Young modulus = -1 & Motion: Translation = 0 ; 0 ; 3*tt"
+    " & floor: Boundary ids = 99 & top on die: Normal penalty = 0 & Solver: Maximum iteration = 2"
+    " & + subsection Probes\\n subsection far\\n  set Point = 9, 9, 99\\n end\\nend"
+)
+
+
+@check("seven errors of text, numbers, expressions, meshes and probes")
+def _() -> None:
+    errors = errors_of(INDEPENDENT)
+    for text in (
+        "'Step interval' in 'Output' is '0.5'",
+        "'Young modulus' in 'Bodies / block / Material' is '-1'",
+        r"'Translation' in 'Tools / die / Motion' contains '3\*tt'",
+        "names boundary id 99",
+        "'Normal penalty' in 'Contact pairs / top on die' is '0'",
+        "there is no parameter 'Maximum iteration' in 'Solver'",
+        r"'Probes / far': the point \(9 9 99\)",
+    ):
+        says(rf"^error\[bad-input\]: scene\.prm:\d+: .*({text})", errors)
+    equal("number of errors", len(messages_of(errors)), 7)
+
+
+@check("what depends on a mesh with errors is named, and not checked")
+def _() -> None:
+    errors = errors_of("block / Mesh: Primitive = hyper_rectangel & floor: Boundary ids = 99")
+    equal("number of errors", len(messages_of(errors)), 1)
+    says(r"^note\[unchecked-parts\]: .*'Bodies / block' \(supports, loads, contact, probes\)", errors)
+    says(r"^note\[unchecked-parts\]: .*'Contact pairs / top on die'", errors)
+
+
+@check("a run says the same, and writes nothing")
+def _() -> None:
+    write_text("scene.prm", edit(BLOCK, INDEPENDENT).text)
+    ended = run(PROGRAM, "scene.prm")
+    equal("exit code", ended.code, 2)
+    equal("number of errors", len(messages_of(ended.errors)), 7)
+    require(not Path("scene").exists() and not Path("results").exists(), "it writes")
+
+
+sys.exit(check.finish())
