@@ -148,10 +148,7 @@ bool ExplicitRun::step(RunOutput &output) {
 // that they store in a step would seem gained, which is much at first touch.
 EnergyLedger ExplicitRun::hand_over(RunOutput &output) {
   step(output);
-  if (change_) // the refinement before this one
-    report_change(output);
-  else
-    problem_.update_ledger();
+  problem_.update_ledger();
   return problem_.state().energies;
 }
 

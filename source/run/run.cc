@@ -75,7 +75,7 @@ bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
 std::optional<MeshChange> find_change(const Run &run, const Scene &scene) {
   const MeshLevels &now = run.discretization().levels(),
                    wanted = find_mesh_levels(scene.parameters(), run.time());
-  if (run.is_finished() || now == wanted)
+  if (run.is_finished() || now == wanted || !run.can_refine())
     return {};
   const std::vector<std::size_t> counts = run.discretization().count_elements();
   MeshChange change{now, {}, run.time(), ""};

@@ -29,6 +29,8 @@ public:
   unsigned int n_steps() const override { return problem_.n_steps(); }
   double time() const override { return problem_.time(); }
   bool is_resumable() const override { return is_between_steps_; }
+  /// A mesh that has just changed needs a step, with which its energy is counted.
+  bool can_refine() const override { return !change_; }
   EnergyLedger hand_over(RunOutput &output) override;
 
 protected:
