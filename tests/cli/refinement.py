@@ -177,6 +177,17 @@ def _() -> None:
     near("plastic work", refined.last("plastic_work"), fine.last("plastic_work"), 0.15)
 
 
+@check("two refinements at once in an impact, each with its energy")
+def _() -> None:
+    refined = runs(IMPACT, "block: + set Refinement times = 5e-6, 5.0000000001e-6")
+    first, second = (float(found) for found in re.findall(r"The energy changes by (\S+)", refined.said))
+    energy = refined.column("kinetic_energy")[0]
+    require(0.1 * energy < first < 0.2 * energy, f"the first makes {first} of {energy}")
+    require(abs(second) < 0.02 * energy, f"the second makes {second} of {energy}")
+    drift = abs(refined.last("energy_drift"))
+    require(drift < 0.05 * energy, f"drift {drift} of {energy}")
+
+
 # --- ranks and restarts ---------------------------------------------------------------------------
 
 if program.launcher:
@@ -288,6 +299,7 @@ def _() -> None:
 
 PRESS = "refined_press.prm"
 FINE_FORCE = -297.8  # static, of a mesh fine from the start
+NEVER = ("--set", "Bodies/block/Refinement times=")
 STATIC_PRESS = ("--set", "Time stepping/Scheme=static")
 
 
@@ -318,6 +330,20 @@ def _() -> None:
         late = [row for row in rows if row["time"] > (9.99e-4 if second else 9.5e-4)]
         force, time = (sum(row[key] for row in late) / len(late) for key in ("punch.force_z", "time"))
         near("force at the end", force, FINE_FORCE * (1 + 1.4e3 * (time - 1e-3)), 0.03)
+
+
+@check("finer elements at once after a change of scheme have the energy that they have in statics")
+def _() -> None:
+    stored = ("--set", "Output/Checkpoint/Interval=1e-4", "--set", "Time stepping/End time=3e-4")
+    ended = run(*program.on(1, PRESS, "--output", "whole", *stored, *STATIC_PRESS, *NEVER))
+    require(ended.code == 0, ended.errors)
+    checkpoint, energies = sorted(glob("whole/checkpoint_*.h5"))[0], []
+    for scheme in (STATIC_PRESS, ()):
+        settings = ("--set", "Bodies/block/Refinement times=5e-5", "--set", "Time stepping/End time=2.2e-4")
+        ended = run(*program.on(1, PRESS, "--restart", checkpoint, "--output", "on", *settings, *scheme))
+        require(ended.code == 0, ended.errors)
+        energies.append(float(says(r"The energy changes by (\S+)", ended.output)[1]))
+    near("energy", energies[1], energies[0], 0.05)
 
 
 for scheme in ("static", "explicit"):
