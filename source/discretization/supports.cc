@@ -271,12 +271,18 @@ void check_agreement(const Scene &scene, const Discretization &discretization) {
           changes.insert(time);
   for (auto from = changes.begin(); std::next(from) != changes.end(); ++from) {
     std::vector<DependentHolds> dependent;
-    for (const auto &entry : collect_held_nodes(
-             scene, discretization, [&](const Hold &hold) { return hold.times.holds_after(*from); }))
-      for (const HoldRow &row : solve_for_pivots(entry.second))
+    std::vector<std::pair<const Hold *, dealii::Point<3>>> moving;
+    const auto acts = [&](const Hold &hold) { return hold.times.holds_after(*from); };
+    for (const auto &entry : collect_held_nodes(scene, discretization, acts)) {
+      const HeldNode &node = entry.second;
+      for (const HoldRow &row : solve_for_pivots(node))
         if (row.pivot < 0)
-          if (DependentHolds holds(row, entry.second); holds.have_values())
+          if (DependentHolds holds(row, node); holds.have_values())
             dependent.push_back(std::move(holds));
+      for (const Hold *hold : node.holds)
+        if (hold->value != nullptr)
+          moving.emplace_back(hold, node.position);
+    }
     // One time after the other: an expression is parsed again when the time changes.
     fail_together(discretization.communicator(), [&] {
       check_before_start([&] {
@@ -291,6 +297,8 @@ void check_agreement(const Scene &scene, const Discretization &discretization) {
         constexpr unsigned int n_checks = 16;
         for (unsigned int check = 0; check <= n_checks; ++check) {
           const double t = *from + (*std::next(from) - *from) * check / n_checks;
+          for (const auto &[hold, position] : moving) // throws if it is not finite
+            hold->value->value(t, position);
           for (std::size_t i = 0; i < dependent.size(); ++i)
             if (const double difference = std::abs(dependent[i].sum_at(t) - sums_at_start[i]);
                 difference > 1e-8 * discretization.radius())

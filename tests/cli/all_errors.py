@@ -58,7 +58,7 @@ def read_edits(tables: list[str]) -> list[str]:
         short = set(re.findall(r"^(\w+) :=", text, re.MULTILINE))
         for line in text.split("\n"):
             match = re.match(r"([A-Za-z][^#]*?)\s*-> ", line)
-            if match and "\\n" not in match[1] and not re.match(r"(\w+)", match[1])[1] in short:
+            if match and "\\n" not in match[1] and re.split(r"\W", match[1])[0] not in short:
                 edits.append(match[1])
     return edits
 
@@ -92,7 +92,7 @@ class Pair(NamedTuple):
 def make_pairs(faulty: list[Faulty]) -> list[Pair]:
     """Writes scenes with two errors in different parts."""
     chance = random.Random(1)
-    pairs = []
+    pairs: list[Pair] = []
     while len(pairs) < N_PAIRS:
         first, second = chance.sample(faulty, 2)
         if first.part == second.part or first.message == second.message:

@@ -10,7 +10,8 @@ EDIT of block.prm, or of the file that a line 'scene FILE' names: see edits.py. 
 where '...' stands for anything, '@' for the file and the line of the last edit, '@{name}' for those of that
 subsection. 'allowed ...' or 'did you mean ...' alone stands for "@: 'Key' in 'Path' is 'value'; allowed ...".
 Several messages are separated by ' || '. After NAME :=
-EDIT, NAME at the start of a line stands for EDIT. '#' begins a comment. The note about what is unchecked does not count.
+EDIT, NAME at the start of a line stands for EDIT. '#' begins a comment. The note about what is unchecked does
+not count.
 
 One start of the program with --check reads the whole table: it must say the messages and nothing else. Every
 tenth scene (fiftieth under mpirun), and every one of a table run_*.cases (of what --check may pass), is also

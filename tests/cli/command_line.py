@@ -353,6 +353,11 @@ def _() -> None:
     says(r"^#   set End time = 0\.75 \(overridden by variant.prm:3\)$", read_text("variant/scene.prm"))
     billet("--output", "copied", "variant/scene.prm")
     equal("history of the copy", read_text("copied/history.csv"), read_text("variant/history.csv"))
+    write_text("short.prm", "include parts/base.prm\nset Time stepping/End time = 0.25\n")
+    says("^Time +0 to 0.25, ", billet("--check", "short.prm").output)
+    billet("short.prm")
+    says(r"^#   set End time = 0\.75 \(overridden by short.prm:2\)$", read_text("short/scene.prm"))
+    says("^Time +0 to 0.25, ", billet("--check", "short/scene.prm").output)
     write_text("before.prm", "subsection Time stepping\n  set End time = 0.5\nend\ninclude parts/base.prm\n")
     says("^Time +0 to 0.5, ", billet("--check", "before.prm").output)
 

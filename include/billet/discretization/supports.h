@@ -50,8 +50,9 @@ std::vector<HoldRow> solve_for_pivots(const HeldNode &node);
 /// Returns the names of the constraints in a row: "'symmetry plane x = 0' and 'support top'".
 std::string names_in(const HoldRow &row, const HeldNode &node);
 
-/// Refuses supports that act at the same time and prescribe displacements that contradict each other. It
-/// looks at 17 times between any two at which supports begin or end. Throws InputError. Collective.
+/// Refuses supports that act at the same time and prescribe displacements that contradict each other, or are
+/// not finite. It looks at 17 times between any two at which supports begin or end. Throws InputError.
+/// Collective.
 void check_agreement(const Scene &scene, const Discretization &discretization);
 
 /// Prescribed displacements of a constrained node, as far as they change with time.
