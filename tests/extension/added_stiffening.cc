@@ -81,15 +81,17 @@ std::string material(const std::string &elasticity) {
 bool is_told_unstable(const std::string &elasticity, const double stretch) {
   const Scene scene(testing::read_pulled_cube("assumed strain", material(elasticity), stretch, 1., false, 1));
   const Discretization discretization(scene, MPI_COMM_WORLD);
-  Vector displacements = discretization.make_ghosted_vector(), owned = discretization.make_owned_vector();
+  SolutionState state;
+  state.displacements = discretization.make_ghosted_vector();
+  Vector owned = discretization.make_owned_vector();
   for (const Element &element : discretization.elements(0)) {
     const ElementVectors x = nodal_positions(element.cell);
     for (unsigned int i = 0; i < n_element_dofs; ++i)
       owned[element.dofs[i]] = x[i] * ((i % 3 == 2 ? stretch : 1. / std::sqrt(stretch)) - 1.);
   }
   owned.compress(dealii::VectorOperation::insert);
-  displacements = owned;
-  return !StabilityWatch(scene, discretization).check(0.5, displacements).empty();
+  state.displacements = owned;
+  return !StabilityWatch(scene, discretization).check(state).empty();
 }
 
 } // namespace
