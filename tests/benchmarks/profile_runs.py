@@ -104,10 +104,7 @@ LEFT_OUT = {
 
 
 # Why scenes miss an error or a ratio; the page prints the reasons of those that do.
-FIRST_STEPS = (
-    "elastic, so that forces hardly depend on steps. Those of balanced are short at first for safety,"
-    " those of accurate are at most a fiftieth of the time"
-)
+FIRST_STEPS = "elastic, so that forces hardly depend on steps. They are short at first for safety"
 EXPLICIT_STEPS = (
     "explicit: penalty, resolution and safety factor shorten all steps, whether contact needs it or not"
 )
@@ -252,12 +249,19 @@ def reference(
 
 
 def before(entries: Mapping[str, str]) -> dict[str, dict[str, object]]:
-    """Returns, by profile, what undoes the last change of the profiles in source/parameters/profile.cc."""
+    """Returns, by profile, what undoes the last changes of the profiles in source/parameters/profile.cc."""
     if scheme_of(entries) != "quasi-static":
         return {}
-    longest = repr(0.1 * float(entries.get("Time stepping/End time", 1)))
+    end = float(entries.get("Time stepping/End time", 1))
     fast = of_pairs(entries, Penetration_tolerance=0)
-    return {**({"fast": fast} if fast else {}), "balanced": {"Time stepping/Maximum step": longest}}
+    return {
+        **({"fast": fast} if fast else {}),
+        "balanced": {"Time stepping/Maximum step": repr(0.1 * end)},
+        "accurate": {
+            "Time stepping/Initial step": repr(0.005 * end),
+            "Time stepping/Maximum step": repr(0.02 * end),
+        },
+    }
 
 
 def by_hand(entries: Mapping[str, str]) -> Iterator[tuple[str, dict[str, object]]]:
