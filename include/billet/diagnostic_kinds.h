@@ -339,8 +339,8 @@ inline const DiagnosticKind plastic_bending_coarse(
     "A body yields in bending, with few elements through its thickness or along the fold. One-point elements "
     "have more than 10 % of the energy in hourglass modes, with one yield stress for an element. Or the two "
     "points of assumed strains miss more than 30 % of the dissipation between them, where that exceeds 5 % "
-    "of the energy. Or they are elastic, and the stress at faces exceeds the yield stress by 20 %, in bricks "
-    "with more than 10 % of the energy.",
+    "of the energy. Or they are elastic, and the stress at faces exceeds yield by 20 %, in bricks with more "
+    "than 10 % of the energy.",
     "Use four or more one-point bricks through the thickness, and shorter ones where the bend is sharpest. "
     "With assumed strains use two bricks, or 'Points through thickness = 5'");
 
