@@ -30,10 +30,10 @@ class Target(NamedTuple):
 TARGETS = (
     Target("meshes: MSH, VTK, UCD, decks", "mesh.mutations", 10000),
     Target("CAD: text of STEP and IGES", "fuzz.cad_text", 10000),
-    Target("CAD: STEP and IGES, by OpenCASCADE", "geometry.damaged_cad", 5000),
+    Target("CAD: STEP and IGES, by OpenCASCADE", "geometry.damaged_cad", 600),
     Target("STL", "fuzz.stl", 10000),
     Target("tables of numbers", "fuzz.table", 10000),
-    Target("scenes", "fuzz.scene", 5000),
+    Target("scenes", "fuzz.scene", 1500),
     Target("checkpoints", "fuzz.checkpoint", 10000),
 )
 LINE = re.compile(r"^(\S+): (\d+) files, (\d+) refused, (\d+) unsound, longest (\S+) s$", re.MULTILINE)
