@@ -108,7 +108,7 @@ public:
     for (const auto &[path, detail] : unchecked_)
       if (!path.empty() && (reported_.count(path) == 0 || !detail.empty()))
         list += (list.empty() ? "'" : ", '") + join(path) + "'" + detail;
-    if (!is_sound && n_rounds_ > 1)
+    if (!is_sound && n_rounds_ > 1 && !changed_.empty()) // an error beside the scene hides nothing of it
       list += list.empty() ? "parts of the scene" : ", other parts";
     if (!list.empty())
       all.emplace_back(diagnostic::unchecked_parts,
