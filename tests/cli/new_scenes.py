@@ -240,7 +240,7 @@ def _() -> None:
     parts = scenes_of_guide("start.md", "tutorials/*.md")
     require(len(parts) > 20, f"only {len(parts)} parts of scenes")
     for page, part in parts:
-        unknown = [name for name in re.findall(r"^ *set (.*?) *=", part, re.M) if name not in names]
+        unknown = [name for name in re.findall(r"^ *set (?:.*/)?(.*?) *=", part, re.M) if name not in names]
         equal(f"unknown on {page}", unknown, [])
         equal(f"subsections on {page}", len(re.findall(r"^ *subsection ", part, re.M)), part.count("end\n"))
 

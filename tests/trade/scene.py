@@ -63,6 +63,11 @@ class TestScene(unittest.TestCase):
         self.assertNotIn("                    3", new)  # the line that went on goes, too
         self.assertEqual(new.count("set Height = 7"), 2)  # wherever it stands
 
+    def test_variant_of_a_path(self) -> None:
+        text = "set Time stepping/End time = 2\nsubsection Bodies\nset block/Element = one point\nend\n"
+        new = variant(text, {"Time stepping/End time": 5, "Bodies/block/Element": "assumed strain"})
+        self.assertEqual(new, text.replace("2", "5").replace("one point", "assumed strain"))
+
     def test_unchanged(self) -> None:
         self.assertEqual(variant(TEXT, {}), TEXT)
         for file in sorted((ROOT / "prm").glob("*.prm")):

@@ -97,7 +97,8 @@ def variant(text: str, changes: Changes) -> str:
         else:
             left.pop(key, None)
             if wanted[key] is not None:
-                lines.append(old[first].split("set ")[0] + f"set {key.split('/')[-1]} = {wanted[key]}")
+                name = _words(rest.partition("=")[0])  # may be a path itself
+                lines.append(old[first].split("set ")[0] + f"set {name} = {wanted[key]}")
     for key, value in left.items():
         if value is not None:
             *sections, name = key.split("/")
