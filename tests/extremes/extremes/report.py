@@ -225,6 +225,11 @@ def tried(records: Records, parameter: str) -> str:
     return f"{shown(min(values))} to {shown(max(values))}"
 
 
+def shortened(text: str, width: int) -> str:
+    """The first whole words of a text."""
+    return text if len(text) <= width else text[: width + 1].rpartition(" ")[0] + " ..."
+
+
 def reasons(records: Records, outcome: str) -> list[tuple[str, list[Record]]]:
     """Messages without their numbers and names, most frequent first."""
     found = defaultdict(list)
@@ -236,7 +241,7 @@ def reasons(records: Records, outcome: str) -> list[tuple[str, list[Record]]]:
             words = re.sub(r"-?\d[\d.]*(e[-+]?\d+)?", "#", words)
             words = re.sub(r"'(Bodies|Tools|Contact pairs) / [^']*'|pair '[^']*'", "...", words)
             words = re.sub(r"; residual # of the forces.*", "", words)
-            found[words[:220]].append(r)
+            found[shortened(words, 220)].append(r)
     return sorted(found.items(), key=lambda item: -len(item[1]))
 
 
@@ -367,7 +372,7 @@ def changed(records: Records, before: Records) -> list[str]:
 
     def said(older: Record, newer: Record) -> str:
         words = " ".join((newer["reason"] or older["reason"]).split())
-        return re.sub(r"^scene\.prm(:\d+)?: ", "", words)[:200].replace("|", "\\|")
+        return shortened(re.sub(r"^scene\.prm(:\d+)?: ", "", words), 200).replace("|", "\\|")
 
     return [
         "## Another outcome than before",
@@ -496,7 +501,11 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
             table(
                 ["", "scene", "why"],
                 [
-                    [r["outcome"], f"`{r['name']}`", " ".join(r["reason"].split())[:240].replace("|", "\\|")]
+                    [
+                        r["outcome"],
+                        f"`{r['name']}`",
+                        shortened(" ".join(r["reason"].split()), 240).replace("|", "\\|"),
+                    ]
                     for r in sorted(bad, key=lambda r: (r["outcome"], r["name"]))
                 ],
             ),
