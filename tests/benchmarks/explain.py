@@ -52,8 +52,7 @@ def explained(file: Path, folder: Path) -> dict[str, Bar]:
         check=True,
         stdout=sys.stderr,
     )
-    (found,) = folder.rglob("explain.csv")
-    with found.open(encoding="utf-8", newline="") as rows:
+    with folder.with_suffix(".csv").open(encoding="utf-8", newline="") as rows:
         return {
             row["source"]: Bar(*(float(row[key] or "nan") for key in ("error", "low", "high")))
             for row in csv.DictReader(rows)
