@@ -16,6 +16,7 @@ namespace billet {
 namespace {
 
 constexpr double little_weight = 1e-14; ///< of a constraint in a combination: round-off
+constexpr double disagreement = 1e-8;   ///< allowed of prescribed displacements, over the scene's radius
 
 /// Returns what is wrong with prescribed displacements.
 std::string describe_contradiction(const Hold &hold, const double time, const dealii::Point<3> &position,
@@ -301,7 +302,7 @@ void check_agreement(const Scene &scene, const Discretization &discretization) {
             hold->value->value(t, position);
           for (std::size_t i = 0; i < dependent.size(); ++i)
             if (const double difference = std::abs(dependent[i].sum_at(t) - sums_at_start[i]);
-                difference > 1e-8 * discretization.radius())
+                difference > disagreement * discretization.radius())
               dependent[i].refuse(t, difference);
         }
       });
@@ -320,7 +321,7 @@ Constraints Supports::at_time(const double t) const {
       double sum = redundancy.start;
       for (const auto &term : redundancy.terms)
         sum += term.weight * term.hold->value->value(t, redundancy.position);
-      if (std::abs(sum) > 1e-8 * discretization_.radius())
+      if (std::abs(sum) > disagreement * discretization_.radius())
         throw SolutionFailure(describe_contradiction(*redundancy.terms.front().hold, t, redundancy.position,
                                                      redundancy.holds, std::abs(sum)));
     }
