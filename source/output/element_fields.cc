@@ -170,26 +170,31 @@ std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
   return averages;
 }
 
+dealii::Tensor<2, 3> jacobian_at(const dealii::Point<3> &coordinates, const ElementVectors &x) {
+  dealii::Tensor<2, 3> jacobian;
+  for (unsigned int a = 0; a < n_element_nodes; ++a) {
+    const auto gradient = dealii::GeometryInfo<3>::d_linear_shape_function_gradient(coordinates, a);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        jacobian[i][j] += x[3 * a + i] * gradient[j];
+  }
+  return jacobian;
+}
+
 dealii::Tensor<2, 3> mean_deformation_gradient(const ElementVectors &positions,
                                                const ElementVectors &displacements) {
-  using Unit = dealii::GeometryInfo<3>;
+  ElementVectors moved = positions;
+  for (unsigned int i = 0; i < n_element_dofs; ++i)
+    moved[i] += displacements[i];
   dealii::Tensor<2, 3> sum;
   double volume = 0.;
   for (unsigned int q = 0; q < n_element_nodes; ++q) { // Gauss points, of equal weights
     const auto coordinate = [](const bool is_upper) { return 0.5 + (is_upper ? 0.5 : -0.5) / std::sqrt(3.); };
     const dealii::Point<3> xi(coordinate((q & 1U) != 0), coordinate((q & 2U) != 0),
                               coordinate((q & 4U) != 0));
-    dealii::Tensor<2, 3> before, now;
-    for (unsigned int a = 0; a < n_element_nodes; ++a) {
-      const auto gradient = Unit::d_linear_shape_function_gradient(xi, a);
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j) {
-          before[i][j] += positions[3 * a + i] * gradient[j];
-          now[i][j] += (positions[3 * a + i] + displacements[3 * a + i]) * gradient[j];
-        }
-    }
+    const dealii::Tensor<2, 3> before = jacobian_at(xi, positions);
     const double weight = dealii::determinant(before);
-    sum += weight * (now * dealii::invert(before));
+    sum += weight * (jacobian_at(xi, moved) * dealii::invert(before));
     volume += weight;
   }
   return sum / volume;

@@ -4,8 +4,6 @@
 #include "billet/mechanics/assumed_strain_element.h"
 #include "billet/output/element_fields.h"
 
-#include <deal.II/base/geometry_info.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -91,28 +89,16 @@ SymmetricTensor<2, 3> unit_of_plane(const Tensor<1, 3> &n) {
   return dealii::unit_symmetric_tensor<3>() - dealii::symmetrize(dealii::outer_product(n, n));
 }
 
-/// Returns the deformation gradient of trilinear displacements.
-Tensor<2, 3> deformation_gradient(const ElementData &element, const dealii::Point<3> &coordinates) {
-  Tensor<2, 3> before, now;
-  for (unsigned int a = 0; a < n_element_nodes; ++a) {
-    const auto gradient = dealii::GeometryInfo<3>::d_linear_shape_function_gradient(coordinates, a);
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j) {
-        before[i][j] += element.positions[3 * a + i] * gradient[j];
-        now[i][j] += (element.positions[3 * a + i] + element.displacements[3 * a + i]) * gradient[j];
-      }
-  }
-  return now * dealii::invert(before);
-}
-
 /// Returns the strain per coordinate along a direction: half the difference between both faces' middles.
-SymmetricTensor<2, 3> bending_strain(const ElementData &element, const unsigned int direction,
-                                     const Tensor<2, 3> &mean_inverse) {
+SymmetricTensor<2, 3> bending_strain(const ElementVectors &positions, const ElementVectors &deformed,
+                                     const unsigned int direction, const Tensor<2, 3> &mean_inverse) {
+  const auto gradient_at = [&](const dealii::Point<3> &place) {
+    return jacobian_at(place, deformed) * dealii::invert(jacobian_at(place, positions));
+  };
   dealii::Point<3> low(0.5, 0.5, 0.5), high = low;
   low[direction] = 0.;
   high[direction] = 1.;
-  return 0.5 * dealii::symmetrize((deformation_gradient(element, high) - deformation_gradient(element, low)) *
-                                  mean_inverse);
+  return 0.5 * dealii::symmetrize((gradient_at(high) - gradient_at(low)) * mean_inverse);
 }
 
 double von_mises(const SymmetricTensor<2, 3> &deviator) { return std::sqrt(1.5) * deviator.norm(); }
@@ -189,7 +175,8 @@ LocalState LocalStates::evaluate(const ElementData &element, const dealii::Point
   SymmetricTensor<2, 3> Y = dealii::unit_symmetric_tensor<3>();
   for (unsigned int k = 0; k < 3; ++k) {
     const SymmetricTensor<2, 3> plane =
-        (2. * coordinates[k] - 1.) * plane_part(bending_strain(element, k, inverse), normals[k]);
+        (2. * coordinates[k] - 1.) *
+        plane_part(bending_strain(element.positions, deformed, k, inverse), normals[k]);
     // One point has no bending stress: its strain is that of an elastic plate, (1 − 2ν)/(1 − ν) of the
     // plane's.
     const double volumetric =

@@ -32,6 +32,9 @@ struct NodalAverage {
 std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
                                            const std::vector<std::vector<GridField>> &fields);
 
+/// Returns the derivatives of trilinear positions x with respect to coordinates from 0 to 1, at such a point.
+dealii::Tensor<2, 3> jacobian_at(const dealii::Point<3> &coordinates, const ElementVectors &x);
+
 /// Returns the mean over the undeformed element of the deformation gradient of nodal displacements.
 dealii::Tensor<2, 3> mean_deformation_gradient(const ElementVectors &positions,
                                                const ElementVectors &displacements);
