@@ -3,14 +3,14 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/material/law_refusal.h"
+#include "billet/material/user_subroutine.h"
 
 #include <deal.II/base/mpi.h>
 
 namespace billet {
 
 std::string describe_refusal(const PointLaw &law) {
-  const auto *const user_law = dynamic_cast<const ExplainsRefusals *>(&law);
+  const auto *const user_law = law.user_subroutine();
   return user_law != nullptr ? user_law->refusal().what : "";
 }
 
@@ -19,7 +19,7 @@ std::string find_law_refusal(const parameters::Scene &scene, MPI_Comm communicat
   bool has_user_laws = false;
   fail_together(communicator, [&] {
     for (const parameters::Body &body : scene.bodies) {
-      const auto *const law = dynamic_cast<const ExplainsRefusals *>(body.material.law.get());
+      const auto *const law = body.material.law->user_subroutine();
       has_user_laws = has_user_laws || law != nullptr;
       if (law == nullptr || law->refusal().what.empty())
         continue;

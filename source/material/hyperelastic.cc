@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace billet {
 
@@ -140,55 +141,27 @@ private:
   double young_;
 };
 
-constexpr const char *bulk_key = "Bulk modulus", *poisson_key = "Poisson ratio",
-                     *volume_key = "Volumetric law", *exponent_key = "Volumetric exponent";
+constexpr const char *bulk_key = "Bulk modulus", *poisson_key = "Poisson ratio";
 constexpr double greatest_poisson_ratio = 0.49999;
-
-/// Volumetric energy that a scene can name; the first one is the default.
-struct VolumeLaw {
-  const char *name;
-  VolumetricEnergy::Kind kind;
-};
-constexpr std::array<VolumeLaw, 3> volume_laws = {{{"logarithmic", VolumetricEnergy::Kind::logarithmic},
-                                                   {"quadratic", VolumetricEnergy::Kind::quadratic},
-                                                   {"Ogden", VolumetricEnergy::Kind::ogden}}};
 
 std::vector<TypeParameter> volumetric_parameters() {
   using Kind = TypeParameter::Kind;
-  std::string names;
-  for (const VolumeLaw &law : volume_laws)
-    names += (names.empty() ? "" : "|") + std::string(law.name);
   return {{bulk_key, "0", Kind::number, "K > 0. Bulk modulus; or give 'Poisson ratio'. [stress]"},
-          {poisson_key, "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."},
-          {volume_key, volume_laws.front().name, Kind::choice,
-           names + ": volumetric energy K/2 (ln J)^2, K/2 (J - 1)^2 or K/B^2 (B ln J + J^-B - "
-                   "1)."},
-          {exponent_key, "9", Kind::number, "B, not 0. Exponent of 'Volumetric law = Ogden'."}};
+          {poisson_key, "0.3", Kind::number, "-1 < nu < 0.5. Poisson's ratio."}};
 }
 
 VolumetricEnergy read_volumetric_energy(const TypeInput &input, const double shear) {
-  VolumetricEnergy volumetric;
+  const VolumetricLawType *type = volumetric_law_types().find(input.text(volumetric_law_key));
+  if (type == nullptr) // the selection has refused all other names
+    throw std::logic_error("unknown type '" + input.text(volumetric_law_key) + "'");
   if (input.is_set(bulk_key) == input.is_set(poisson_key))
     input.reject(bulk_key, "a bulk modulus, or else a 'Poisson ratio': exactly one of them");
   if (input.is_set(bulk_key))
-    volumetric.bulk = input.positive(bulk_key);
-  else {
-    const double poisson = input.number(poisson_key);
-    if (!(poisson > -1. && poisson <= greatest_poisson_ratio))
-      input.reject(poisson_key, "a number > -1 and <= 0.49999: rubber has a finite bulk modulus");
-    volumetric.bulk = 2. * shear * (1. + poisson) / (3. * (1. - 2. * poisson));
-  }
-  const std::string kind = input.text(volume_key);
-  volumetric.kind = std::find_if(volume_laws.begin(), volume_laws.end(), [&kind](const VolumeLaw &law) {
-                      return law.name == kind;
-                    })->kind; // the parameter's choice
-  if (volumetric.kind == VolumetricEnergy::Kind::ogden) {
-    volumetric.exponent = input.number(exponent_key);
-    if (volumetric.exponent == 0.)
-      input.reject(exponent_key, "a number other than 0");
-  } else if (input.is_set(exponent_key))
-    input.reject(exponent_key, "no value: 'Volumetric law = " + kind + "' does not use it");
-  return volumetric;
+    return {type->make(input), input.positive(bulk_key)};
+  const double poisson = input.number(poisson_key);
+  if (!(poisson > -1. && poisson <= greatest_poisson_ratio))
+    input.reject(poisson_key, "a number > -1 and <= 0.49999: rubber has a finite bulk modulus");
+  return {type->make(input), 2. * shear * (1. + poisson) / (3. * (1. - 2. * poisson))};
 }
 
 } // namespace
@@ -211,6 +184,7 @@ ElasticityType hyperelastic_type(std::string name, std::string meaning, std::vec
     type.parameters.push_back(std::move(parameter));
   for (TypeParameter &parameter : prony_parameters())
     type.parameters.push_back(std::move(parameter));
+  type.has_volumetric_law = true;
   type.make = [name = type.name, main_key = std::move(main_key),
                make](const TypeInput &input) -> std::shared_ptr<const Elasticity> {
     SharedEnergy isochoric = make(input);
@@ -221,9 +195,10 @@ ElasticityType hyperelastic_type(std::string name, std::string meaning, std::vec
       input.reject(main_key, text.str());
     }
     const VolumetricEnergy volumetric = read_volumetric_energy(input, shear);
+    const double bulk = volumetric.bulk_modulus(), young_modulus = 9. * bulk * shear / (3. * bulk + shear);
     return make_elasticity(
         make_hyperelastic_law(HyperelasticLaw(name, isochoric, volumetric), read_prony_series(input)),
-        9. * volumetric.bulk * shear / (3. * volumetric.bulk + shear));
+        young_modulus);
   };
   return type;
 }

@@ -390,8 +390,7 @@ ElasticityType with_prony_series(ElasticityType type, SharedEnergy (*make)(doubl
     if (series.times.empty())
       return elastic;
     const ElasticModuli moduli = elastic->moduli();
-    VolumetricEnergy volumetric;
-    volumetric.bulk = moduli.bulk;
+    const VolumetricEnergy volumetric(make_logarithmic_volume(), moduli.bulk);
     return make_elasticity(
         make_hyperelastic_law(HyperelasticLaw(name, make(moduli.shear), volumetric), std::move(series)),
         elastic->young_modulus());

@@ -4,9 +4,10 @@
 #include "billet/errors.h"
 #include "billet/material/flow_rule.h"
 #include "billet/material/hardening.h"
-#include "billet/material/law_refusal.h"
 #include "billet/material/law_type.h"
 #include "billet/material/rate_factor.h"
+#include "billet/material/user_subroutine.h"
+#include "billet/material/volumetric_law.h"
 #include "billet/mechanics/thickness.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/named_values.h"
@@ -275,6 +276,8 @@ void Material::declare(ParameterHandler &prm) {
   join_parameters(law_types()).declare(prm);
   declare_selection(prm, "Elasticity", "Hencky", elasticity_types(),
                     "Elastic law, and how it combines with plasticity.");
+  declare_selection(prm, volumetric_law_key, "logarithmic", volumetric_law_types(),
+                    "Volumetric part of the stored energy of rubber, over J = det F; K is the bulk modulus.");
   prm.declare_entry("Density", "0", Patterns::Double(),
                     "Density of the undeformed body, > 0 in dynamic scenes and for loads on the mass. "
                     "[mass/length^3]");
@@ -321,11 +324,8 @@ bool wants_plasticity(const Reader &reader) {
 
 /// Refuses parameters of plasticity. `reason` follows "no value: ".
 void reject_plasticity(const Reader &reader, const std::string &reason) {
-  for_each_plastic_table([&](const auto &table, const char *key) {
-    if (reader.is_set(key))
-      reader.reject(key, "no value: " + reason);
-    join_parameters(table).reject_unused(reader, {}, reason);
-  });
+  for_each_plastic_table(
+      [&](const auto &table, const char *key) { reject_selection(reader, key, table, reason); });
   for (const TypeParameter &parameter : flow_rule_parameters())
     if (reader.is_set(parameter.key))
       reader.reject(parameter.key, "no value: " + reason);
@@ -334,11 +334,20 @@ void reject_plasticity(const Reader &reader, const std::string &reason) {
 /// Returns the law that 'Law' selects as a whole, without elasticity and hardening.
 SharedLaw read_whole_law(const Reader &reader) {
   const std::string reason = "'Law = " + reader.text("Law") + "' does not use it";
-  if (reader.is_set("Elasticity"))
-    reader.reject("Elasticity", "no value: " + reason);
-  join_parameters(elasticity_types()).reject_unused(reader, {}, reason);
+  reject_selection(reader, "Elasticity", elasticity_types(), reason);
+  reject_selection(reader, volumetric_law_key, volumetric_law_types(), reason);
   reject_plasticity(reader, reason);
   return make_selected(reader, "Law", law_types());
+}
+
+std::shared_ptr<const Elasticity> read_elasticity(const Reader &reader) {
+  const ElasticityType &type = find_selected(reader, "Elasticity", elasticity_types());
+  if (type.has_volumetric_law)
+    find_selected(reader, volumetric_law_key, volumetric_law_types());
+  else
+    reject_selection(reader, volumetric_law_key, volumetric_law_types(),
+                     "'Elasticity = " + type.name + "' does not use it");
+  return type.make(reader);
 }
 
 FlowRule read_flow_rule(const Reader &reader, const double density) {
@@ -379,7 +388,7 @@ void Material::parse(Reader &reader) {
   else {
     join_parameters(law_types())
         .reject_unused(reader, {}, "'Law = " + reader.text("Law") + "' does not use it");
-    elasticity = make_selected(reader, "Elasticity", elasticity_types());
+    elasticity = read_elasticity(reader);
     // A forgotten switch is the usual reason for parameters of plasticity with an elastic law.
     if (!wants_plasticity(reader)) {
       reject_plasticity(reader, "the law is elastic");
@@ -640,9 +649,6 @@ std::string name_layered_elements() {
   return names;
 }
 
-/// Whether the law is a subroutine of a user's library.
-bool is_of_user(const SharedLaw &law) { return dynamic_cast<const ExplainsRefusals *>(law.get()) != nullptr; }
-
 } // namespace
 
 void Body::parse(Reader &reader) {
@@ -666,7 +672,7 @@ void Body::parse(Reader &reader) {
       });
   });
   element = reader.located("Element", make_selected(reader, "Element", element_types()));
-  if (element.value == BrickElement::one_point && is_of_user(material.law))
+  if (element.value == BrickElement::one_point && material.law->user_subroutine() != nullptr)
     reader.reject("Element", "'assumed strain' or 'mean dilatation', since the law is a subroutine: 'one "
                              "point' stabilises a body by its yield stress, which a subroutine does not "
                              "tell, and forces would be several times too large");

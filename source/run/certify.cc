@@ -2,8 +2,8 @@
 #include "billet/run/certify.h"
 
 #include "billet/errors.h"
-#include "billet/material/law_refusal.h"
 #include "billet/material/subroutine_messages.h"
+#include "billet/material/user_subroutine.h"
 #include "billet/parameters/other_units.h"
 #include "billet/scene/expression.h"
 
@@ -166,7 +166,7 @@ bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting>
                                                scene.amplitudes, body.material.temperature.origin)
                                         .value(0.);
     const Certificate certificate = certify(law, settings_of_law);
-    const auto *const user_law = dynamic_cast<const ExplainsRefusals *>(&law);
+    const auto *const user_law = law.user_subroutine();
     print(certificate,
           "Body '" + body.name + "': " + (user_law != nullptr ? user_law->title() : certificate.law), format,
           stream);

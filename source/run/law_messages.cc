@@ -2,7 +2,7 @@
 #include "billet/run/law_messages.h"
 
 #include "billet/algebra/gather.h"
-#include "billet/material/law_refusal.h"
+#include "billet/material/user_subroutine.h"
 #include "billet/scene/law_checks.h"
 
 #include <algorithm>
@@ -11,9 +11,8 @@ namespace billet {
 
 DiagnosticList gather_law_messages(const Scene &scene, const MPI_Comm communicator, const double time) {
   const bool has_subroutines =
-      std::any_of(scene.bodies().begin(), scene.bodies().end(), [](const Body &body) {
-        return dynamic_cast<const ExplainsRefusals *>(body.law.get()) != nullptr;
-      });
+      std::any_of(scene.bodies().begin(), scene.bodies().end(),
+                  [](const Body &body) { return body.law->user_subroutine() != nullptr; });
   if (!has_subroutines)
     return {};
   DiagnosticList own = describe(take_subroutine_messages());

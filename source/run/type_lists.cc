@@ -13,6 +13,7 @@
 #include "billet/material/law_type.h"
 #include "billet/material/rate_factor.h"
 #include "billet/material/thermal_factor.h"
+#include "billet/material/volumetric_law.h"
 #include "billet/mechanics/element_type.h"
 #include "billet/nearest_name.h"
 #include "billet/output/field_quantity.h"
@@ -99,6 +100,7 @@ std::vector<Named> list_materials() {
   std::vector<Named> all;
   add_types(law_types(), "Law", all);
   add_types(elasticity_types(), "Elasticity", all);
+  add_types(volumetric_law_types(), volumetric_law_key, all);
   add_types(hardening_types(), "Hardening", all);
   add_types(rate_factor_types(), "Rate factor", all);
   add_types(thermal_factor_types(), "Thermal factor", all);

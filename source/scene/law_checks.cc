@@ -4,7 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/material/law_point.h"
-#include "billet/material/law_refusal.h"
+#include "billet/material/user_subroutine.h"
 
 #include <cmath>
 #include <optional>
@@ -73,7 +73,7 @@ std::optional<double> measure_heating(const PointLaw &law, const double temperat
   return flown > 0. ? std::optional<double>(point.state()[place] / flown) : std::nullopt;
 }
 
-Diagnostic describe_tangent(const ExplainsRefusals &law, const TangentError &found) {
+Diagnostic describe_tangent(const UserSubroutine &law, const TangentError &found) {
   std::ostringstream text;
   text.precision(2);
   text << "The tangent of " << law.title() << " is off by " << 100. * found.error << " % at a strain of "
@@ -91,7 +91,7 @@ Diagnostic describe_tangent(const ExplainsRefusals &law, const TangentError &fou
 }
 
 /// Compares the tangents of the law with its stress.
-void check_tangent(const Scene &scene, const Body &body, const ExplainsRefusals &law,
+void check_tangent(const Scene &scene, const Body &body, const UserSubroutine &law,
                    DiagnosticList &diagnostics) {
   const TangentError found =
       find_tangent_error(*body.law, scene.parameters().time_stepping.initial_step,
@@ -109,7 +109,7 @@ void check_tangent(const Scene &scene, const Body &body, const ExplainsRefusals 
 DiagnosticList check_user_laws(const Scene &scene) {
   DiagnosticList diagnostics;
   for (const Body &body : scene.bodies()) {
-    const auto *const law = dynamic_cast<const ExplainsRefusals *>(body.law.get());
+    const auto *const law = body.law->user_subroutine();
     if (law == nullptr)
       continue;
     if (!law->idle_subroutines().empty())

@@ -2,7 +2,7 @@
 #include "billet/solve/element_watch.h"
 
 #include "billet/diagnostic_kinds.h"
-#include "billet/material/law_refusal.h"
+#include "billet/material/user_subroutine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,7 @@ bool is_of_taper(const ElementEnergies &energies) {
 }
 
 /// Subroutines of users do not tell whether they have plasticity.
-bool may_yield(const PointLaw &law) {
-  return law.has_plasticity() || dynamic_cast<const ExplainsRefusals *>(&law) != nullptr;
-}
+bool may_yield(const PointLaw &law) { return law.has_plasticity() || law.user_subroutine() != nullptr; }
 
 /// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {

@@ -66,11 +66,11 @@ void test_built_in_laws() {
   require_pass("Chaboche", make_hencky_law(steel, make_hardening(voce), chaboche));
   const PronySeries series{{0.3, 0.2}, {0.01, 1.}};
   for (const auto &[name, energy] : rubber_energies())
-    for (const auto kind : volume_kinds) {
-      const std::string label = name + ", volume " + std::to_string(static_cast<int>(kind));
-      require_pass(label, make_hyperelastic_law(HyperelasticLaw(name, energy, volume(kind)), {}));
+    for (const auto &type : volumetric_law_types()) {
+      const std::string label = name + ", volume " + type.name;
+      require_pass(label, make_hyperelastic_law(HyperelasticLaw(name, energy, volume(type.name)), {}));
       require_pass(label + ", viscous",
-                   make_hyperelastic_law(HyperelasticLaw(name, energy, volume(kind)), series));
+                   make_hyperelastic_law(HyperelasticLaw(name, energy, volume(type.name)), series));
     }
 }
 

@@ -3,6 +3,7 @@
 #define BILLET_TESTS_MATERIAL_RUBBER_LAWS_H
 
 #include "moduli.h"
+#include "texts.h"
 
 #include "billet/material/viscoelastic.h"
 
@@ -31,14 +32,11 @@ inline std::vector<NamedEnergy> rubber_energies() {
           {"Hencky", make_hencky_energy(0.4)}};
 }
 
-inline VolumetricEnergy volume(const VolumetricEnergy::Kind kind, const double bulk = 20.) {
-  VolumetricEnergy volumetric;
-  volumetric.kind = kind;
-  volumetric.bulk = bulk;
-  return volumetric;
+/// Ogden's volumetric law has its default exponent.
+inline VolumetricEnergy volume(const std::string &name, const double bulk = 20.) {
+  return {volumetric_law_types().find(name)->make(Texts("Volumetric exponent", "9")), bulk};
 }
-constexpr std::array<VolumetricEnergy::Kind, 3> volume_kinds = {
-    VolumetricEnergy::Kind::logarithmic, VolumetricEnergy::Kind::quadratic, VolumetricEnergy::Kind::ogden};
+inline const std::string logarithmic = "logarithmic";
 
 /// A point of a law, its state and its stress.
 class Point {

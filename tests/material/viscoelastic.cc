@@ -10,8 +10,6 @@ using namespace billet::testing;
 namespace {
 
 const PronySeries series{{0.3, 0.25, 0.1}, {0.02, 1., 30.}};
-constexpr auto logarithmic = VolumetricEnergy::Kind::logarithmic;
-
 Tensor<2, 3> uniaxial(const double l) {
   Tensor<2, 3> F;
   F[0][0] = l;
@@ -104,8 +102,7 @@ void test_creep() {
 /// Moduli in states of a random history.
 void test_moduli() {
   for (const auto &[name, energy] : rubber_energies()) {
-    const ViscoelasticLaw law(HyperelasticLaw("test", energy, volume(VolumetricEnergy::Kind::quadratic)),
-                              series);
+    const ViscoelasticLaw law(HyperelasticLaw("test", energy, volume("quadratic")), series);
     WorstError error, turned;
     Random random;
     for (const Tensor<2, 3> &F : sampled_gradients()) {

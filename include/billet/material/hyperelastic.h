@@ -4,7 +4,7 @@
 
 #include "billet/material/drucker.h"
 #include "billet/material/hencky.h"
-#include "billet/material/volumetric_energy.h"
+#include "billet/material/volumetric_law.h"
 
 #include <string>
 #include <utility>
@@ -25,7 +25,7 @@ class HyperelasticLaw : public SpatialLaw {
 public:
   HyperelasticLaw(std::string name, SharedEnergy isochoric, const VolumetricEnergy &volumetric)
       : name_(std::move(name)), isochoric_(std::move(isochoric)),
-        volumetric_(volumetric), moduli_{volumetric.bulk, isochoric_->shear_modulus()} {}
+        volumetric_(volumetric), moduli_{volumetric.bulk_modulus(), isochoric_->shear_modulus()} {}
 
   std::string name() const override { return name_; }
   /// With the stretches at which it is stable.

@@ -54,9 +54,9 @@ SharedEnergy make_ogden_energy(std::vector<double> moduli, std::vector<double> e
 /// Returns W = Σ_i c_i (I_1 − 3)^i, i from 1, (V4), with I_1 = Σ λ̄_A² [stress].
 SharedEnergy make_invariant_energy(std::vector<double> coefficients);
 
-/// Returns the type of a hyperelastic law. Parameters of the volumetric law and of Prony's series are added
-/// to those of the isochoric energy. The law is refused if its initial shear modulus is not positive; the
-/// message names the parameter `main_key`.
+/// Returns the type of a hyperelastic law with any volumetric law. Bulk modulus and Prony's series are added
+/// to the parameters of the isochoric energy. The law is refused if its initial shear modulus is not
+/// positive; the message names the parameter `main_key`.
 ElasticityType hyperelastic_type(std::string name, std::string meaning, std::vector<TypeParameter> parameters,
                                  std::string main_key, SharedEnergy (*make)(const TypeInput &));
 

@@ -56,7 +56,7 @@ double relative_difference(const StressRates &a, const StressRates &b, bool is_s
 struct TangentError {
   double error = 0.;     ///< relative to the norm of the derivatives
   double strain = 0.;    ///< at this strain
-  double asymmetry = 0.; ///< largest ExplainsRefusals::lost_asymmetry()
+  double asymmetry = 0.; ///< largest UserSubroutine::lost_asymmetry()
 };
 
 /// Pulls points of the law along straight paths up to a strain of 1 %, in steps of length dt, and compares

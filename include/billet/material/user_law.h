@@ -3,8 +3,8 @@
 #define BILLET_MATERIAL_USER_LAW_H
 
 #include "billet/material/guarded_arrays.h"
-#include "billet/material/law_refusal.h"
 #include "billet/material/point_law.h"
+#include "billet/material/user_subroutine.h"
 
 #include <cstddef>
 #include <string>
@@ -29,11 +29,12 @@ struct UserLawSettings {
 /// the strain, energies, the work, the clock of the last step and a bound of the moduli, and then the state
 /// variables. Energies are (U5) of doc/theory.md. A shorter step follows if the subroutine returns numbers
 /// that are not finite. After a crash the law refuses every update: refusal() says so.
-class UserLaw : public SpatialLaw, public ExplainsRefusals {
+class UserLaw : public SpatialLaw, public UserSubroutine {
 public:
   std::string name() const override { return kind_; }
   std::string description() const override { return kind_; }
   std::string summary() const override { return kind_; }
+  const UserSubroutine *user_subroutine() const override { return this; }
   /// Returns the isotropic part of the tangent of the undeformed point, Voigt's average.
   const ElasticModuli &elastic() const override { return elastic_; }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override;

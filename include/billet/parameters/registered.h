@@ -57,14 +57,29 @@ void declare_selection(dealii::ParameterHandler &prm, const std::string &key, co
   join_parameters(table).declare(prm);
 }
 
-/// Makes the product that `key` selects. Refuses parameters of the other types.
-template <class Table> auto make_selected(const Reader &reader, const std::string &key, const Table &table) {
+/// Refuses the selection and all its parameters. `reason` follows "no value: ".
+template <class Table>
+void reject_selection(const Reader &reader, const std::string &key, const Table &table,
+                      const std::string &reason) {
+  if (reader.is_set(key))
+    reader.reject(key, "no value: " + reason);
+  join_parameters(table).reject_unused(reader, {}, reason);
+}
+
+/// Returns the type that `key` selects. Refuses parameters of the other types.
+template <class Table>
+const auto &find_selected(const Reader &reader, const std::string &key, const Table &table) {
   const auto *type = table.find(reader.text(key));
   if (type == nullptr) // the selection has refused all other names
     throw std::logic_error("unknown type '" + reader.text(key) + "'");
   join_parameters(table).reject_unused(reader, type->parameters,
                                        "'" + key + " = " + type->name + "' does not use it");
-  return type->make(reader);
+  return *type;
+}
+
+/// Makes the product that `key` selects.
+template <class Table> auto make_selected(const Reader &reader, const std::string &key, const Table &table) {
+  return find_selected(reader, key, table).make(reader);
 }
 
 } // namespace billet::parameters

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_MATERIAL_LAW_REFUSAL_H
-#define BILLET_MATERIAL_LAW_REFUSAL_H
+#ifndef BILLET_MATERIAL_USER_SUBROUTINE_H
+#define BILLET_MATERIAL_USER_SUBROUTINE_H
 
 #include <string>
 
@@ -12,10 +12,10 @@ struct LawRefusal {
   bool is_final = false; ///< a shorter step does not help, as after a crash
 };
 
-/// Base of laws whose code is a user's, so that their refusals need words.
-class ExplainsRefusals {
+/// What a law tells of itself if it is a subroutine of a user's library, so that its refusals need words.
+class UserSubroutine {
 public:
-  virtual ~ExplainsRefusals() = default;
+  virtual ~UserSubroutine() = default;
 
   /// Returns why the last update has failed.
   virtual const LawRefusal &refusal() const = 0;
