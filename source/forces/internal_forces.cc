@@ -89,6 +89,7 @@ void InternalForces::count() const {
 }
 
 bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces) {
+  discard_evaluated_summaries();
   count();
   ElementVectors force{};
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -104,6 +105,7 @@ bool InternalForces::assemble_forces(const Vector &displacements, Vector &forces
 
 bool InternalForces::assemble_tangent(const Vector &displacements, const TangentSystem &system,
                                       const double yield_slack) {
+  discard_evaluated_summaries();
   count();
   ElementVectors force{};
   ElementMatrix tangent{};
@@ -127,17 +129,28 @@ bool InternalForces::assemble_tangent(const Vector &displacements, const Tangent
 void InternalForces::commit() {
   for (auto &block : blocks_)
     block->commit();
+  if (summarized_ == Beat::committed) // of the state before
+    summaries_.clear();
+  summarized_ = Beat::committed;
 }
 
-InternalForces::Energies InternalForces::compute_energies(const Vector &displacements,
-                                                          const Beat beat) const {
+void InternalForces::discard_evaluated_summaries() {
+  if (summarized_ == Beat::evaluated)
+    summaries_.clear();
+}
+
+InternalForces::Energies InternalForces::compute_energies(const Vector &displacements, const Beat beat) {
   std::array<double, 3> sums{};
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (const auto &summary : summarize(b, displacements, beat)) {
+  summaries_.clear();
+  summarized_ = beat;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    summaries_.push_back(compute_summaries(b, displacements, beat));
+    for (const ElementSummary &summary : summaries_.back()) {
       sums[0] += summary.elastic_energy;
       sums[1] += summary.plastic_work;
       sums[2] += summary.hourglass_energy;
     }
+  }
   std::array<double, 3> totals{};
   dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()),
                               discretization_.communicator(),
@@ -145,13 +158,20 @@ InternalForces::Energies InternalForces::compute_energies(const Vector &displace
   return {totals[0], totals[1], totals[2]};
 }
 
-std::vector<ElementSummary> InternalForces::summarize(const std::size_t body, const Vector &displacements,
-                                                      const Beat beat) const {
+std::vector<ElementSummary> InternalForces::compute_summaries(const std::size_t body,
+                                                              const Vector &displacements,
+                                                              const Beat beat) const {
   std::vector<ElementSummary> result;
   const auto &elements = discretization_.elements(body);
   for (std::size_t e = 0; e < elements.size(); ++e)
     result.push_back(blocks_[body]->summarize(e, gather(displacements, elements[e].dofs), beat));
   return result;
+}
+
+std::vector<ElementSummary> InternalForces::summarize(const std::size_t body,
+                                                      const Vector &displacements) const {
+  const bool is_known = summarized_ == Beat::committed && !summaries_.empty();
+  return is_known ? summaries_[body] : compute_summaries(body, displacements, Beat::committed);
 }
 
 std::vector<LayerSummaries> InternalForces::summarize_layers(const std::size_t body,

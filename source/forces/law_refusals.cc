@@ -10,7 +10,7 @@
 namespace billet {
 
 std::string describe_refusal(const PointLaw &law) {
-  const auto *const user_law = law.user_subroutine();
+  const auto *const user_law = find_user_subroutine(law);
   return user_law != nullptr ? user_law->refusal().what : "";
 }
 
@@ -19,7 +19,7 @@ std::string find_law_refusal(const parameters::Scene &scene, MPI_Comm communicat
   bool has_user_laws = false;
   fail_together(communicator, [&] {
     for (const parameters::Body &body : scene.bodies) {
-      const auto *const law = body.material.law->user_subroutine();
+      const auto *const law = find_user_subroutine(*body.material.law);
       has_user_laws = has_user_laws || law != nullptr;
       if (law == nullptr || law->refusal().what.empty())
         continue;

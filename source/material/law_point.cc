@@ -145,7 +145,7 @@ TangentError find_tangent_error(const PointLaw &law, const double dt, const doub
                                                                 {0.4, 0.3, -0.1, 0.1, -0.3, 0.4}}};
   constexpr std::array<double, 4> strains = {1e-5, 1e-4, 1e-3, 1e-2};
   constexpr double kink = 0.02, part = 1e-3; // of the strain, for differences
-  const auto *const user_law = law.user_subroutine();
+  const auto *const user_law = find_user_subroutine(law);
   TangentError maximum;
   for (const auto &direction : directions) {
     LawPoint point(law, temperature);

@@ -215,7 +215,7 @@ std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSetting
   constexpr double difference = 1e-6, kink = 1e-3, largest_step = 0.3;
   TrialNumbers random;
   Worst in_small_steps, asymmetric, lost;
-  const auto *const user_law = law.user_subroutine();
+  const auto *const user_law = find_user_subroutine(law);
   std::size_t n_kinks = 0, n_refused = 0;
   double safe_step = largest_step;
   for (unsigned int path = 0; path < settings.n_paths; ++path) {
@@ -320,7 +320,7 @@ std::vector<Finding> try_energies(const PointLaw &law, const CertificationSettin
   }
   const double allowed =
       law.is_rate_form() || !law.has_exact_dissipation() ? Limits::balance : Limits::dissipation;
-  const auto *const user_law = law.user_subroutine();
+  const auto *const user_law = find_user_subroutine(law);
   if (user_law != nullptr && !user_law->computes_energies()) {
     Finding skipped;
     skipped.property = "dissipation >= 0";

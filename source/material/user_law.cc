@@ -215,4 +215,8 @@ void UserLaw::accept() const {
     refusal_ = {};
 }
 
+const UserSubroutine *find_user_subroutine(const PointLaw &law) {
+  return dynamic_cast<const UserSubroutine *>(&law);
+}
+
 } // namespace billet

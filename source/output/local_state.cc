@@ -89,16 +89,18 @@ SymmetricTensor<2, 3> unit_of_plane(const Tensor<1, 3> &n) {
   return dealii::unit_symmetric_tensor<3>() - dealii::symmetrize(dealii::outer_product(n, n));
 }
 
-/// Returns the strain per coordinate along a direction: half the difference between both faces' middles.
+/// Returns the strain per coordinate from -1 to 1 along a direction, by the difference between its Gauss
+/// points. At a face that is an edge, as on the axis of a wedge, there is no gradient.
 SymmetricTensor<2, 3> bending_strain(const ElementVectors &positions, const ElementVectors &deformed,
                                      const unsigned int direction, const Tensor<2, 3> &mean_inverse) {
   const auto gradient_at = [&](const dealii::Point<3> &place) {
     return jacobian_at(place, deformed) * dealii::invert(jacobian_at(place, positions));
   };
+  const double half = 0.5 / std::sqrt(3.);
   dealii::Point<3> low(0.5, 0.5, 0.5), high = low;
-  low[direction] = 0.;
-  high[direction] = 1.;
-  return 0.5 * dealii::symmetrize((gradient_at(high) - gradient_at(low)) * mean_inverse);
+  low[direction] -= half;
+  high[direction] += half;
+  return 0.25 / half * dealii::symmetrize((gradient_at(high) - gradient_at(low)) * mean_inverse);
 }
 
 double von_mises(const SymmetricTensor<2, 3> &deviator) { return std::sqrt(1.5) * deviator.norm(); }

@@ -672,7 +672,7 @@ void Body::parse(Reader &reader) {
       });
   });
   element = reader.located("Element", make_selected(reader, "Element", element_types()));
-  if (element.value == BrickElement::one_point && material.law->user_subroutine() != nullptr)
+  if (element.value == BrickElement::one_point && find_user_subroutine(*material.law) != nullptr)
     reader.reject("Element", "'assumed strain' or 'mean dilatation', since the law is a subroutine: 'one "
                              "point' stabilises a body by its yield stress, which a subroutine does not "
                              "tell, and forces would be several times too large");

@@ -166,7 +166,7 @@ bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting>
                                                scene.amplitudes, body.material.temperature.origin)
                                         .value(0.);
     const Certificate certificate = certify(law, settings_of_law);
-    const auto *const user_law = law.user_subroutine();
+    const auto *const user_law = find_user_subroutine(law);
     print(certificate,
           "Body '" + body.name + "': " + (user_law != nullptr ? user_law->title() : certificate.law), format,
           stream);

@@ -12,7 +12,7 @@ namespace billet {
 DiagnosticList gather_law_messages(const Scene &scene, const MPI_Comm communicator, const double time) {
   const bool has_subroutines =
       std::any_of(scene.bodies().begin(), scene.bodies().end(),
-                  [](const Body &body) { return body.law->user_subroutine() != nullptr; });
+                  [](const Body &body) { return find_user_subroutine(*body.law) != nullptr; });
   if (!has_subroutines)
     return {};
   DiagnosticList own = describe(take_subroutine_messages());

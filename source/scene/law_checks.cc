@@ -109,7 +109,7 @@ void check_tangent(const Scene &scene, const Body &body, const UserSubroutine &l
 DiagnosticList check_user_laws(const Scene &scene) {
   DiagnosticList diagnostics;
   for (const Body &body : scene.bodies()) {
-    const auto *const law = body.law->user_subroutine();
+    const auto *const law = find_user_subroutine(*body.law);
     if (law == nullptr)
       continue;
     if (!law->idle_subroutines().empty())

@@ -18,7 +18,7 @@ bool is_of_taper(const ElementEnergies &energies) {
 }
 
 /// Subroutines of users do not tell whether they have plasticity.
-bool may_yield(const PointLaw &law) { return law.has_plasticity() || law.user_subroutine() != nullptr; }
+bool may_yield(const PointLaw &law) { return law.has_plasticity() || find_user_subroutine(law) != nullptr; }
 
 /// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {

@@ -37,12 +37,13 @@ public:
     double hourglass = 0.; ///< stored by the stabilisation
     double total() const { return elastic + plastic + hourglass; }
   };
-  /// Computes the energies at a history and its displacements; the same on all ranks.
-  Energies compute_energies(const Vector &displacements, Beat beat = Beat::committed) const;
+  /// Computes the energies at a history and its displacements; the same on all ranks. Those of an evaluated
+  /// state also serve summarize() once the state is committed.
+  Energies compute_energies(const Vector &displacements, Beat beat = Beat::committed);
 
-  /// Returns one entry for each owned element of the body, in the order of Discretization::elements().
-  std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements,
-                                        Beat beat = Beat::committed) const;
+  /// Returns one entry for each owned element of the body, in the order of Discretization::elements(), at the
+  /// start of the step and its displacements.
+  std::vector<ElementSummary> summarize(std::size_t body, const Vector &displacements) const;
 
   /// Returns the summaries of the layers; empty if the body has two points through the thickness.
   std::vector<LayerSummaries> summarize_layers(std::size_t body, const Vector &displacements) const;
@@ -53,17 +54,28 @@ public:
   /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 
-  /// Returns the element block of a body, for checkpoints.
-  ElementBlock &block(const std::size_t body) { return *blocks_[body]; }
+  /// Returns the element block of a body, for checkpoints. Its history may change.
+  ElementBlock &block(const std::size_t body) {
+    summaries_.clear();
+    return *blocks_[body];
+  }
   const ElementBlock &block(const std::size_t body) const { return *blocks_[body]; }
 
 private:
-  const Discretization &discretization_;
   void count() const;
+  void discard_evaluated_summaries();
+  std::vector<ElementSummary> compute_summaries(std::size_t body, const Vector &displacements,
+                                                Beat beat) const;
+
+  const Discretization &discretization_;
 
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
   std::vector<const Expression *> temperatures_;      // by body; null if its law does not depend on it
   PointStep step_;
+  // Summaries by body of the last state whose energies were computed, so that no step computes them twice;
+  // empty: unknown.
+  std::vector<std::vector<ElementSummary>> summaries_;
+  Beat summarized_ = Beat::committed;
   std::size_t n_plastic_ = 0, n_stabilised_ = 0; ///< elements
   HeldMemory plastic_memory_{Capability::plasticity}, stabilised_memory_{Capability::stabilisation};
 };

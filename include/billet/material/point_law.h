@@ -46,8 +46,6 @@ struct StateField {
   std::vector<std::string> components = {};
 };
 
-class UserSubroutine;
-
 /// Material law: the response of a point to a deformation. It is independent of elements, schemes and ranks.
 /// The state of a point is an array of n_state() numbers, which fields() names. Stresses are Kirchhoff's. `F`
 /// is the deformation gradient of the element; `J` is the volume ratio of the pressure, det F for most
@@ -84,8 +82,6 @@ public:
   const FlowStress *flow_stress() const { return shared_flow_stress().get(); }
   /// Whether the law flows at a yield stress, which it has by flow_stress().
   bool has_plasticity() const { return shared_flow_stress() != nullptr; }
-  /// Returns what a subroutine of a user's library tells of itself; null for other laws.
-  virtual const UserSubroutine *user_subroutine() const { return nullptr; }
 
   /// Whether the law reads PointStep::temperature. Scenes must then give it, and otherwise must not. Stored
   /// and dissipated energy are still the work of the stresses: such a law counts the energy that heat brings

@@ -34,7 +34,6 @@ public:
   std::string name() const override { return kind_; }
   std::string description() const override { return kind_; }
   std::string summary() const override { return kind_; }
-  const UserSubroutine *user_subroutine() const override { return this; }
   /// Returns the isotropic part of the tangent of the undeformed point, Voigt's average.
   const ElasticModuli &elastic() const override { return elastic_; }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override;

@@ -6,6 +6,8 @@
 
 namespace billet {
 
+class PointLaw;
+
 /// Why a law has returned no stress.
 struct LawRefusal {
   std::string what;      ///< a sentence without its full stop; empty: its last update has succeeded
@@ -29,6 +31,9 @@ public:
   /// Returns the names of subroutines in its library that the program does not call; empty: there are none.
   virtual std::string idle_subroutines() const = 0;
 };
+
+/// Returns what a law tells of itself as a subroutine of a user's library; null for other laws.
+const UserSubroutine *find_user_subroutine(const PointLaw &law);
 
 } // namespace billet
 
