@@ -61,4 +61,6 @@ bool Load::limits_steps() const {
   return bound.stiffness > 0. || bound.damping > 0.;
 }
 
+bool Load::is_viscous() const { return properties().bound(LoadedSurface()).damping > 0.; }
+
 } // namespace billet

@@ -640,6 +640,20 @@ std::vector<SymmetryPlane> sides_of_section(const Mesh &mesh) {
           SymmetryPlane{normal, low + mesh.scale * mesh.height, "top of the section"}};
 }
 
+/// Refuses planes that a section does not allow: an axisymmetric one would make a cone of them.
+void check_plane_of_section(const Reader &reader, const Mesh &mesh, const SymmetryPlane &plane) {
+  constexpr double rounding = 1e-6;
+  if (mesh.section.value == Mesh::Section::solid)
+    return;
+  const double along = std::abs(plane.normal * mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.})));
+  if (mesh.section.value == Mesh::Section::axisymmetric && along < 1. - rounding)
+    reader.reject("Symmetry planes", "planes across the axis, such as z = 0: 'Section = axisymmetric' has "
+                                     "those through the axis by itself");
+  if (mesh.section.value == Mesh::Section::plane_strain && along > rounding)
+    reader.reject("Symmetry planes", "planes along the width, such as x = 0: 'Section = plane strain' has "
+                                     "those across it by itself");
+}
+
 /// Returns the elements with layers: "'Element = a' or 'Element = b'".
 std::string name_layered_elements() {
   std::string names;
@@ -700,8 +714,10 @@ void Body::parse(Reader &reader) {
   is_stabilised =
       reader.located("Contact stabilisation", chosen(stabilisations, reader.text("Contact stabilisation")));
   symmetry_planes = reader.located("Symmetry planes", std::vector<SymmetryPlane>());
-  for (const auto &part : reader.parts("Symmetry planes"))
+  for (const auto &part : reader.parts("Symmetry planes")) {
     symmetry_planes.value.push_back(parse_plane(reader, part));
+    check_plane_of_section(reader, mesh, symmetry_planes.value.back());
+  }
   for (const SymmetryPlane &plane : sides_of_section(mesh)) {
     symmetry_planes.value.push_back(plane);
     symmetry_planes.value.back().is_of_section = true;

@@ -278,8 +278,10 @@ void ExplicitDynamics::declare(ParameterHandler &prm) {
   prm.declare_entry("Maximum energy drift", "0.05", Patterns::Double(),
                     "> 0. Allowed drift of the energies, as a part of the maximum energy so far. The run "
                     "fails if the drift is larger for a hundred steps, or at the end.");
-  prm.declare_entry("Instruction set", "automatic", Patterns::Selection(selection(instruction_sets)),
-                    "Instruction set of the element kernels; automatic: the fastest one of this machine.");
+  prm.declare_entry(
+      "Instruction set", "automatic", Patterns::Selection(selection(instruction_sets)),
+      "Instruction set of the element kernels; automatic: the fastest one of this machine. Others are "
+      "for comparison, and for the same digits on all machines.");
   prm.declare_entry("Number type", "double", Patterns::Selection(selection(number_types)),
                     "Precision of the elements. float: twice as many elements at once, with about seven "
                     "digits; nodes, sums and energies remain double.");

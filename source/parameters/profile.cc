@@ -140,19 +140,29 @@ public:
       return law != nullptr && has_kernel(element(body), *law);
     });
   }
-  /// Whether stresses depend on the path. Friction does, too, but slip soon loses the influence of earlier
-  /// steps, so that it needs no shorter ones.
+  /// Whether stresses or dashpots depend on the path. Friction does, too, but slip soon loses the influence
+  /// of earlier steps, so that it needs no shorter ones.
   bool depend_on_path() const {
     const std::vector<std::string> bodies = file_.names_below({"Bodies"});
     return std::any_of(bodies.begin(), bodies.end(), [this](const std::string &body) {
-      const ElasticityType *type =
-          elasticity_types().find(file_.value({"Bodies", body, "Material"}, "Elasticity", ""));
-      const bool is_whole = law_types().find(file_.value({"Bodies", body, "Material"}, "Law", "")) != nullptr;
-      return is_whole || is_plastic(body) || (type != nullptr && type->depends_on_path);
+      const auto law = material(body).law;
+      return (law != nullptr && depends_on_path(*law)) || has_dashpots(body);
     });
   }
 
 private:
+  bool has_dashpots(const std::string &body) const {
+    const std::vector<std::string> loads = file_.names_below({"Bodies", body, "Loads"});
+    return std::any_of(loads.begin(), loads.end(), [&](const std::string &name) {
+      Load load;
+      bool is_read = false;
+      read(body, [&](Reader &reader) {
+        reader.in("Loads", [&] { reader.in(name, [&] { load.parse(reader); }); });
+        is_read = true;
+      });
+      return is_read && load.load.is_viscous();
+    });
+  }
   BrickElement element(const std::string &body) const {
     BrickElement element = BrickElement::assumed_strain;
     read(body, [&](Reader &reader) { element = make_selected(reader, "Element", element_types()); });

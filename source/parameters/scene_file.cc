@@ -159,7 +159,9 @@ std::string join(const SceneFile::Path &path) {
 }
 
 /// Whether an entry is one of the command line without a value, which takes away those of the files.
-static bool takes_away(const SceneFile::Entry &entry) { return entry.files.empty() && entry.value.empty(); }
+static bool must_take_away(const SceneFile::Entry &entry) {
+  return entry.files.empty() && entry.value.empty();
+}
 
 bool SceneFile::Entry::overrides(const Entry &other) const {
   return files.size() < other.files.size() && std::equal(files.begin(), files.end(), other.files.begin());
@@ -318,16 +320,22 @@ void SceneFile::add_setting(const Setting &setting) {
 void SceneFile::resolve_overrides() {
   const auto is_same = [](const Entry &a, const Entry &b) { return a.key == b.key && a.path == b.path; };
   std::vector<std::string> overridden_at(entries_.size());
+  // An entry without a value takes the place of another for the default.
+  const auto take_place = [&](const std::size_t taken, const std::size_t by) {
+    overridden_at[taken] = entries_[by].where;
+    if (entries_[by].value.empty() && !must_take_away(entries_[by]))
+      overridden_at[by] = entries_[by].where;
+  };
   for (std::size_t i = 0; i < entries_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (is_same(entries_[i], entries_[j])) {
         if (entries_[i].overrides(entries_[j]))
-          overridden_at[j] = entries_[i].where;
+          take_place(j, i);
         else if (entries_[j].overrides(entries_[i]))
-          overridden_at[i] = entries_[j].where;
+          take_place(i, j);
       }
   for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (takes_away(entries_[i])) {
+    if (must_take_away(entries_[i])) {
       if (std::find(overridden_at.begin(), overridden_at.end(), entries_[i].where) == overridden_at.end())
         note(entries_[i].where + ": the scene does not set '" + entries_[i].key + "'" +
              (entries_[i].path.empty() ? "" : " in '" + join(entries_[i].path) + "'") +

@@ -2,6 +2,7 @@
 // Checks of the scene that need a mesh.
 #include "billet/error_notes.h"
 #include "billet/geometry/curve.h"
+#include "billet/scene/plane_fit.h"
 #include "billet/scene/rigid_motions.h"
 #include "billet/scene/scene.h"
 
@@ -43,6 +44,12 @@ void check_ids(const BoundaryIds &asked, const std::set<unsigned int> &present, 
     return;
   for (const unsigned int id : asked.value)
     if (present.count(id) == 0) {
+      for (const auto &[name, ids] : body.boundary_names.ids_of_name)
+        if (std::find(ids.begin(), ids.end(), id) != ids.end())
+          throw InputError(
+              asked.origin + " names '" + name + "', which no face of body '" + body.name +
+              "' has; allowed are names of faces: the condition of this name in 'Boundary ids' of "
+              "its mesh holds for none");
       std::string allowed;
       for (const unsigned int p : present)
         allowed += (allowed.empty() ? "" : ", ") + std::to_string(p);
@@ -232,10 +239,12 @@ void Scene::check_planes(const Triangulation<3> &mesh, const std::size_t b) cons
   });
   for (const Hold &hold : bodies_[b].holds)
     if (hold.on_plane && used.count(&hold) == 0)
-      throw InputError(parameters_.bodies[b].symmetry_planes.origin + " is '" +
-                       hold.name.substr(std::string("symmetry plane ").size()) +
-                       "'; allowed are planes that hold boundary faces of body '" + bodies_[b].name +
-                       "', but this plane holds none");
+      throw InputError(
+          parameters_.bodies[b].symmetry_planes.origin + " is '" +
+          hold.name.substr(std::string("symmetry plane ").size()) +
+          "'; allowed are planes that hold boundary faces of body '" + bodies_[b].name +
+          "', but this plane holds none: " +
+          describe_nearest_face({hold.normal, hold.offset, hold.name}, mesh, static_cast<unsigned int>(b)));
 }
 
 void Scene::check_support(const Triangulation<3> &mesh, const std::size_t b) const {

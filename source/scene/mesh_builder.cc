@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/scene/boundary_names.h"
 #include "billet/scene/expression.h"
+#include "billet/scene/plane_fit.h"
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_generator.h>
@@ -327,6 +328,7 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
     dealii::GridTools::rotate(parameters.rotation_axis, parameters.rotation_angle, mesh);
   if (parameters.translation.norm() > 0.)
     dealii::GridTools::shift(parameters.translation, mesh);
+  fit_to_planes(body, mesh);
   rename_boundaries(parameters, mesh);
 }
 

@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/scene/course_checks.h"
 #include "billet/scene/law_checks.h"
 
 #include <deal.II/base/mpi.h>
@@ -117,6 +118,12 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
 }
 
 /// Maxima of the prescribed motion of a tool over the run.
+const DiagnosticKind bodies_coincide(
+    "bodies-coincide", Severity::warning,
+    "Two bodies take the same place. They pass through each other, since a pair sees no node that starts "
+    "inside another body.",
+    "Change 'Volumes', or the position of one of them");
+
 struct Course {
   double travel = 0., speed = 0., turn = 0.;
 };
@@ -359,6 +366,42 @@ bool have_common(const std::vector<unsigned int> &a, const std::vector<unsigned 
   return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
+/// Warns of bodies that take the same place, such as a copy whose volume was not changed.
+void check_places(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
+                  DiagnosticList &diagnostics) {
+  constexpr double same = 1e-9;
+  const std::size_t n_bodies = scene.bodies().size();
+  std::vector<double> boxes(6 * n_bodies, -std::numeric_limits<double>::infinity()), // -low, high
+      volumes(n_bodies);
+  for (const auto &cell : mesh.active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    double *box = &boxes[std::size_t{6} * cell->material_id()];
+    volumes[cell->material_id()] += cell->measure();
+    for (const unsigned int v : cell->vertex_indices())
+      for (unsigned int i = 0; i < 3; ++i) {
+        box[i] = std::max(box[i], -cell->vertex(v)[i]);
+        box[3 + i] = std::max(box[3 + i], cell->vertex(v)[i]);
+      }
+  }
+  dealii::Utilities::MPI::max(boxes, communicator, boxes);
+  dealii::Utilities::MPI::sum(volumes, communicator, volumes);
+  const auto are_same = [&](const std::size_t a, const std::size_t b) {
+    double size = 0., difference = 0.;
+    for (std::size_t i = 0; i < 6; ++i) {
+      size = std::max(size, boxes[6 * a + i % 3] + boxes[6 * a + 3 + i % 3]);
+      difference = std::max(difference, std::abs(boxes[6 * a + i] - boxes[6 * b + i]));
+    }
+    return difference <= same * size && std::abs(volumes[a] - volumes[b]) <= same * volumes[a];
+  };
+  for (std::size_t a = 0; a < n_bodies; ++a)
+    for (std::size_t b = a + 1; b < n_bodies; ++b)
+      if (are_same(a, b))
+        diagnostics.push_back(Diagnostic(bodies_coincide, "The body has the extent and volume of body '" +
+                                                              scene.bodies()[a].name + "', at the same place")
+                                  .body(scene.bodies()[b].name));
+}
+
 /// Warns of probes of the contact pressure where no pair has any: nodes of its first body alone have one.
 void check_pressure_probes(const Scene &of_run, DiagnosticList &diagnostics) {
   const parameters::Scene &scene = of_run.parameters();
@@ -412,6 +455,9 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
     check_yield_stress(body, diagnostics);
   append(diagnostics, check_user_laws(scene));
   append(diagnostics, check_heating(scene));
+  append(diagnostics, check_course(scene));
+  check_places(scene, mesh, communicator, diagnostics);
+  append(diagnostics, check_sections(scene, mesh, communicator));
   if (scene.parameters().scheme().has_inertia)
     check_speeds(scene, start, diagnostics);
   if (!scene.parameters().scheme().has_matrix)

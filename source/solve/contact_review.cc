@@ -283,6 +283,12 @@ void ContactReview::judge_pairs(DiagnosticList &diagnostics) const {
       diagnostics.push_back(message.tool(tool.name()));
     }
   }
+  if (std::any_of(pairs_.begin(), pairs_.end(),
+                  [](const Pair &pair) {
+                    return pair.tool == none && pair.bodies[0] != pair.bodies[1] && pair.may_stay_open;
+                  }) &&
+      std::none_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.has_touched; }))
+    diagnostics.emplace_back(diagnostic::pair_never_touched, "No pair has contact in the whole run");
   std::vector<bool> is_reported(pairs_.size(), false); // reported as too soft, including friction
   for (std::size_t i = 0; i < paths_.size(); ++i)
     for (const std::size_t pair : paths_[i].pairs)

@@ -25,20 +25,18 @@ bool may_choose_penetration(const parameters::Scene &parameters) {
                                                 })) == parameters.pairs.size();
 }
 
-/// Whether stresses depend on the step length, by return mapping or by integration of stress rates: their
-/// errors persist.
-bool stresses_depend_on_steps(const Scene &scene) {
-  const std::vector<parameters::Body> &bodies = scene.parameters().bodies;
-  return scene.capabilities().plasticity ||
-         std::any_of(bodies.begin(), bodies.end(),
-                     [](const parameters::Body &body) { return body.material.law->is_rate_form(); });
+/// Whether stresses or dashpots depend on the steps: their errors persist.
+bool has_path(const Scene &scene) {
+  return std::any_of(scene.bodies().begin(), scene.bodies().end(), [](const Body &body) {
+    return depends_on_path(*body.law) ||
+           std::any_of(body.loads.begin(), body.loads.end(),
+                       [](const AppliedLoad &load) { return load.load.is_viscous(); });
+  });
 }
 
-/// Whether the solution depends on the step length: by stresses, or by tractions on a friction cone. Errors
+/// Whether the solution depends on the step length: by the path, or by tractions on a friction cone. Errors
 /// of tractions fade.
-bool depends_on_steps(const Scene &scene) {
-  return scene.capabilities().friction || stresses_depend_on_steps(scene);
-}
+bool depends_on_steps(const Scene &scene) { return scene.capabilities().friction || has_path(scene); }
 
 ErrorControl::Tolerances tolerances_of(const Scene &scene) {
   const parameters::Scene &parameters = scene.parameters();
@@ -46,7 +44,7 @@ ErrorControl::Tolerances tolerances_of(const Scene &scene) {
   return {parameters.time_stepping.error_tolerance,
           may_choose_penetration(parameters) ? ErrorBudget::of_penetration(target, depends_on_steps(scene))
                                              : 0.,
-          !stresses_depend_on_steps(scene)};
+          !has_path(scene)};
 }
 
 ErrorControl::Tolerances tolerances_of_travels(const Scene &scene) {

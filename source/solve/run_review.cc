@@ -16,7 +16,7 @@ namespace billet {
 RunReview::RunReview(const Scene &scene, const Discretization &discretization)
     : scene_(scene), discretization_(discretization), elements_(scene, discretization),
       inertia_(scene, discretization), contacts_(scene, discretization),
-      missing_pairs_(scene, discretization), unbalanced_(scene) {}
+      missing_pairs_(scene, discretization), unbalanced_(scene, discretization) {}
 
 DiagnosticList RunReview::start() const {
   return check_plausibility(scene_, discretization_.dof_handler().get_triangulation(),

@@ -3,14 +3,26 @@
 
 #include "billet/diagnostic_kinds.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace billet {
 
 using dealii::Tensor;
 
-UnbalancedBodies::UnbalancedBodies(const Scene &scene) : scene_(scene), bodies_(scene.bodies().size()) {
+UnbalancedBodies::UnbalancedBodies(const Scene &scene, const Discretization &discretization)
+    : scene_(scene), bodies_(scene.bodies().size()) {
+  constexpr double rounding = 1e-14;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    double volume = 0.;
+    for (const auto &element : discretization.elements(b))
+      volume += element.cell->measure();
+    volume = dealii::Utilities::MPI::sum(volume, discretization.communicator());
+    round_off_.push_back(rounding * scene.bodies()[b].young_modulus * std::pow(volume, 2. / 3.));
+  }
   for (const NamedSupport &support : named_supports(scene))
     bodies_of_supports_.push_back(support.body);
 }
@@ -46,7 +58,7 @@ void UnbalancedBodies::add(const Solution &solution) {
 }
 
 DiagnosticList UnbalancedBodies::judge() const {
-  constexpr double much = 0.05, of_tolerance = 0.1;
+  constexpr double much = 0.02, of_tolerance = 0.1;
   const double tolerance = scene_.parameters().solver.force_tolerance;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -54,7 +66,8 @@ DiagnosticList UnbalancedBodies::judge() const {
     unsigned int axis = 3;
     for (unsigned int i = 0; i < 3; ++i) {
       const Course &course = bodies_[b].axes[i];
-      if (course.force > of_tolerance * tolerance * bodies_[b].size && course.rest > worst * course.force) {
+      if (course.force > std::max(round_off_[b], of_tolerance * tolerance * bodies_[b].size) &&
+          course.rest > worst * course.force) {
         worst = course.rest / course.force;
         axis = i;
       }

@@ -219,6 +219,8 @@ struct Load {
   bool has_unsymmetric_tangent() const;
   /// Whether the load limits the explicit time step.
   bool limits_steps() const;
+  /// Whether it resists velocities.
+  bool is_viscous() const;
 };
 
 /// Loads that a scene file can name. A new one is a file in source/loads/ with a function that returns its

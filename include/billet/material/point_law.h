@@ -126,6 +126,10 @@ public:
   virtual std::optional<LaneLaw> lane_law() const { return {}; }
 };
 
+/// Whether stresses depend on the path, so that errors of steps remain: those of a law without a state do
+/// not.
+inline bool depends_on_path(const PointLaw &law) { return law.n_state() > 0; }
+
 /// Law whose moduli are those of the Lie derivative, or all derivatives with respect to the velocity
 /// gradient. `M`: SpatialModuli or GradientModuli.
 template <class M> class LawWithModuli : public PointLaw {

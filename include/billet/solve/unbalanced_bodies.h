@@ -16,13 +16,14 @@ namespace billet {
 /// The free residual of a body, summed, is the error of the sum of its reported forces.
 class UnbalancedBodies {
 public:
-  explicit UnbalancedBodies(const Scene &scene);
+  UnbalancedBodies(const Scene &scene, const Discretization &discretization);
 
   /// Adds an accepted step. Explicit schemes have no residual; they need none of this.
   void add(const Solution &solution);
-  /// Returns a warning for each body whose forces along an axis are off by more than a twentieth of the
+  /// Returns a warning for each body whose forces along an axis are off by more than a fiftieth of the
   /// largest one along that axis. A force below a tenth of 'Force tolerance' times the nodal forces of
-  /// the body does not count: what residuals leave is of that size, and the force may be 0 but for them.
+  /// the body does not count: what residuals leave is of that size, and the force may be 0 but for them. Nor
+  /// does the round-off of Young's modulus times the body's size squared.
   DiagnosticList judge() const;
 
   void save(StateWriter &writer) const;
@@ -40,6 +41,7 @@ private:
   };
 
   const Scene &scene_;
+  std::vector<double> round_off_;               ///< by body [force]
   std::vector<std::size_t> bodies_of_supports_; ///< in the order of named_supports()
   std::vector<Of> bodies_;
 };

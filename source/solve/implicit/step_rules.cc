@@ -110,18 +110,20 @@ void StaticRules::commit(const double t) {
 void StaticRules::close_step(const double t) {
   balance_.update_largest_energy();
   const ToolRemoval::Removal removal = remove_tools(t);
-  for (const auto &[body, removed] : removal.let_go)
-    if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
-      free_body_ = describe_free_mode(problem_, body, name_all("tool", removed), "removed");
   const bool is_due = parts_.switched_supports().is_due(t);
+  std::map<std::size_t, std::set<std::string>> ended_supports;
   if (is_due)
-    for (const auto &[body, ended] : switch_supports(t, parts_.discretization().make_owned_vector()))
-      if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
-        free_body_ = describe_free_mode(problem_, body, name_all("support", ended), "switched off");
+    ended_supports = switch_supports(t, parts_.discretization().make_owned_vector());
   const SwitchedSprings springs = find_switched_springs(parts_.scene(), t);
-  for (const auto &[body, ended] : springs.ended)
-    if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
-      free_body_ = describe_free_mode(problem_, body, name_all("spring", ended), "switched off");
+  // After all of them, since a support that begins may take over from a tool.
+  const auto check = [&](const auto &of_bodies, const std::string &kind, const std::string &what_happens) {
+    for (const auto &[body, gone] : of_bodies)
+      if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
+        free_body_ = describe_free_mode(problem_, body, name_all(kind, gone), what_happens);
+  };
+  check(removal.let_go, "tool", "removed");
+  check(ended_supports, "support", "switched off");
+  check(springs.ended, "spring", "switched off");
   if (is_due || springs.any)
     modes_.follow_supports(t);
 }
