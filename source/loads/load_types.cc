@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/loads/load.h"
+#include "billet/vector_text.h"
 
 namespace billet {
 
@@ -32,10 +33,7 @@ std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters) {
 
 void add_vector_expressions(const TypeInput &input, const std::string &key, const bool uses_position,
                             Load &load) {
-  const auto components = input.parts(key);
-  if (components.size() != 3)
-    input.reject(key, "three expressions, separated by semicolons");
-  for (const std::string &component : components)
+  for (const std::string &component : read_expressions(input, key))
     load.expressions.push_back({key, component, uses_position});
 }
 

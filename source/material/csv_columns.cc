@@ -13,11 +13,14 @@ namespace billet {
 
 namespace {
 
-/// Returns the cells of a line. Blanks separate them only if nothing else does.
-std::vector<std::string> split(std::string line) {
-  line = line.substr(0, line.find('#'));
+/// Returns what separates the cells of a line: blanks only if nothing else does.
+char separator_of(const std::string &line) {
   const auto has = [&line](const char c) { return line.find(c) != std::string::npos; };
-  const char separator = has(';') ? ';' : has(',') ? ',' : has('\t') ? '\t' : ' ';
+  return has(';') ? ';' : has(',') ? ',' : has('\t') ? '\t' : ' ';
+}
+
+/// Returns the cells of a line without comments.
+std::vector<std::string> split(const std::string &line, const char separator) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
   for (std::string cell; std::getline(stream, cell, separator);) {
@@ -36,7 +39,7 @@ std::vector<std::string> split(std::string line) {
 /// Whether a cell is a number with a decimal comma.
 bool has_decimal_comma(std::string cell) {
   const std::size_t comma = cell.find(',');
-  if (comma == std::string::npos)
+  if (comma == std::string::npos || cell.find_first_of("0123456789", comma) != comma + 1)
     return false;
   cell[comma] = '.';
   try {
@@ -47,15 +50,29 @@ bool has_decimal_comma(std::string cell) {
   }
 }
 
+/// Returns the first number with a decimal comma between semicolons, or else between tabs or blanks; empty if
+/// there is none.
+std::string find_decimal_comma(std::string line) {
+  const bool has_semicolons = line.find(';') != std::string::npos;
+  if (!has_semicolons)
+    std::replace(line.begin(), line.end(), '\t', ' ');
+  const std::vector<std::string> cells = split(line, has_semicolons ? ';' : ' ');
+  if (cells.size() < 2) // commas separate cells
+    return "";
+  const auto found = std::find_if(cells.begin(), cells.end(), has_decimal_comma);
+  return found == cells.end() ? "" : *found;
+}
+
 } // namespace
 
 std::vector<std::vector<double>> read_table(std::istream &text, const std::vector<unsigned int> &columns) {
   std::vector<std::vector<double>> rows;
   std::string line;
   for (unsigned int number = 1; std::getline(text, line); ++number) {
-    const std::vector<std::string> cells = split(number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0 // a mark
-                                                     ? line.substr(3)
-                                                     : line);
+    if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte-order mark
+      line.erase(0, 3);
+    line = line.substr(0, line.find('#'));
+    const std::vector<std::string> cells = split(line, separator_of(line));
     if (cells.empty())
       continue;
     std::vector<double> row;
@@ -65,13 +82,12 @@ std::vector<std::vector<double>> read_table(std::istream &text, const std::vecto
           throw std::invalid_argument("has no column " + std::to_string(column));
         row.push_back(parse_number(cells[column - 1]));
       } catch (const std::invalid_argument &) {
-        const bool has_comma = column <= cells.size() && has_decimal_comma(cells[column - 1]);
-        if (rows.empty() && !has_comma) // a head
+        const std::string comma = find_decimal_comma(line);
+        if (rows.empty() && comma.empty()) // a head
           break;
         throw std::invalid_argument(
             "line " + std::to_string(number) + " has no number in column " + std::to_string(column) +
-            (has_comma ? ", but '" + cells[column - 1] + "': write decimals with a point, not with a comma"
-                       : ""));
+            (comma.empty() ? "" : ", but '" + comma + "': write decimals with a point, not with a comma"));
       }
     if (row.size() == columns.size())
       rows.push_back(std::move(row));

@@ -13,6 +13,7 @@
 #include "billet/parameters/named_values.h"
 #include "billet/parameters/primitives.h"
 #include "billet/parameters/registered.h"
+#include "billet/vector_text.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -105,7 +106,7 @@ void Mesh::declare(ParameterHandler &prm) {
       "[length]");
   prm.declare_entry(
       "Positions", "", Patterns::Anything(),
-      "Three muParser expressions of x, y, z, separated by semicolons: new positions of the "
+      "Three muParser expressions of x, y, z, separated by commas or semicolons: new positions of the "
       "vertices, before scaling, rotation and translation. 'x*cos(y) ; x*sin(y) ; z' bends a "
       "box into a ring. Axisymmetric sections: two expressions, of x, the radius, and y, the height, "
       "which move the section before it is turned. Empty: no change. [length]");
@@ -195,14 +196,15 @@ void Mesh::parse(Reader &reader) {
   n_layers = reader.count("Layers", 1);
   file_name = reader.located("File", reader.text("File"));
   volumes = reader.located("Volumes", reader.parts("Volumes", ','));
-  positions = reader.located("Positions", reader.parts("Positions"));
+  positions = reader.located("Positions", split_vector(reader.text("Positions")));
   const bool is_turned = section.value == Section::axisymmetric;
   if (is_turned && !positions.value.empty() && positions.value.size() != 2)
-    reader.reject("Positions", "two expressions, separated by a semicolon, or nothing, since 'Section = "
-                               "axisymmetric': the new x, the radius, and the new y, the height, of the "
-                               "section before it is turned");
+    reader.reject("Positions",
+                  "two expressions, separated by a comma or semicolon, or nothing, since 'Section = "
+                  "axisymmetric': the new x, the radius, and the new y, the height, of the "
+                  "section before it is turned");
   if (!is_turned && !positions.value.empty() && positions.value.size() != 3)
-    reader.reject("Positions", "three expressions, separated by semicolons, or nothing");
+    reader.reject("Positions", "three expressions, separated by commas or semicolons, or nothing");
   scale = reader.positive("Scale");
   rotation_axis = reader.direction("Rotation axis");
   rotation_angle = reader.number("Rotation angle") * dealii::numbers::PI / 180.;
@@ -443,17 +445,15 @@ namespace {
 
 /// Reads 'Displacement' of a support: three expressions, or one for each component that it prescribes.
 std::array<std::string, 3> read_displacement(const Reader &reader, const std::array<bool, 3> &components) {
-  const auto expressions = reader.parts("Displacement");
-  const std::string text = reader.text("Displacement");
+  const auto expressions = split_vector(reader.text("Displacement"));
   const auto n = static_cast<std::size_t>(std::count(components.begin(), components.end(), true));
-  const auto n_places = static_cast<std::size_t>(std::count(text.begin(), text.end(), ';')) + 1;
-  if (n_places != expressions.size() || (n_places != 3 && n_places != n)) // a place may be empty
+  if (has_empty_component(expressions) || (expressions.size() != 3 && expressions.size() != n))
     reader.reject("Displacement", "three expressions for x, y and z, or one for each of 'Components' alone, "
-                                  "separated by semicolons, such as '0 ; 0 ; 0.5*t'");
+                                  "separated by commas or semicolons, such as '0 ; 0 ; 0.5*t'");
   std::array<std::string, 3> displacement{"0", "0", "0"};
   std::size_t next = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    if (n_places == 3 || components[i])
+    if (expressions.size() == 3 || components[i])
       displacement[i] = expressions[next++];
   return displacement;
 }
@@ -693,22 +693,21 @@ void Body::parse(Reader &reader) {
   points_through =
       reader.located("Points through thickness",
                      static_cast<unsigned int>(std::stoul(reader.text("Points through thickness"))));
-  thickness_direction = reader.located("Thickness direction", reader.parts("Thickness direction"));
+  thickness_direction =
+      reader.located("Thickness direction", split_vector(reader.text("Thickness direction")));
   if (points_through.value > 2 && !element.value.has_layers())
     reader.reject("Points through thickness", "2, since only " + name_layered_elements() + " takes more");
   if (points_through.value > 2 && thickness_direction.value.size() != 3)
     reader.reject("Thickness direction",
-                  "three expressions, separated by semicolons, such as '0 ; 0 ; 1', since 'Points through "
-                  "thickness' is more than 2");
+                  "three expressions, separated by commas or semicolons, such as '0 ; 0 ; 1', since 'Points "
+                  "through thickness' is more than 2");
   if (points_through.value == 2 && !thickness_direction.value.empty())
     reader.reject("Thickness direction", "no value: 'Points through thickness = 2' does not use it");
   refinement_times = reader.located("Refinement times", reader.numbers("Refinement times"));
   for (std::size_t i = 0; i < refinement_times.value.size(); ++i)
     if (!(refinement_times.value[i] > (i == 0 ? 0. : refinement_times.value[i - 1])))
       reader.reject("Refinement times", "numbers > 0, each above the one before");
-  const auto velocity = reader.parts("Initial velocity");
-  if (velocity.size() != 3)
-    reader.reject("Initial velocity", "three expressions, separated by semicolons");
+  const auto velocity = read_expressions(reader, "Initial velocity");
   initial_velocity =
       reader.located("Initial velocity", std::array<std::string, 3>{velocity[0], velocity[1], velocity[2]});
   is_stabilised =

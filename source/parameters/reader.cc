@@ -2,6 +2,8 @@
 #include "billet/parameters/reader.h"
 
 #include "billet/errors.h"
+#include "billet/parameters/number_text.h"
+#include "billet/vector_text.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -27,6 +29,21 @@ bool is_beyond_reach(const double value) {
 
 InputError refuse(const std::string &origin, const std::string &value, const std::string &allowed) {
   return InputError(origin + " is '" + value + "'; allowed is " + allowed);
+}
+
+std::vector<double> parse_numbers(const Reader &reader, const std::string &key,
+                                  const std::vector<std::string> &texts) {
+  std::vector<double> result;
+  for (const auto &text : texts) {
+    try {
+      result.push_back(parse_number(text));
+    } catch (const std::invalid_argument &) {
+      reader.reject(key, "finite numbers, separated by commas" + parameters::number_remedy(text));
+    }
+    if (is_beyond_reach(result.back()))
+      reader.reject(key, within_reach);
+  }
+  return result;
 }
 
 } // namespace
@@ -112,20 +129,9 @@ std::vector<std::string> Reader::parts(const std::string &key, const char separa
 }
 
 std::vector<double> Reader::numbers(const std::string &key) const {
-  std::vector<double> result;
   const auto list = dealii::Utilities::split_string_list(prm_.get(key), ',');
-  for (const auto &part : list) {
-    if (part.empty() && list.size() == 1)
-      break;
-    try {
-      result.push_back(parse_number(part));
-    } catch (const std::invalid_argument &) {
-      reject(key, "finite numbers, separated by commas");
-    }
-    if (is_beyond_reach(result.back()))
-      reject(key, within_reach);
-  }
-  return result;
+  const bool is_empty = list.size() == 1 && list.front().empty();
+  return is_empty ? std::vector<double>() : parse_numbers(*this, key, list);
 }
 
 unsigned int parse_count(const std::string &text) {
@@ -184,9 +190,10 @@ BoundaryIds Reader::boundaries(const std::string &key) const {
 }
 
 dealii::Tensor<1, 3> Reader::vector(const std::string &key) const {
-  const auto values = numbers(key);
-  if (values.size() != 3)
-    reject(key, "three numbers, separated by commas");
+  const auto parts = split_vector(text(key));
+  if (parts.size() != 3)
+    reject(key, "three numbers, separated by commas or semicolons");
+  const auto values = parse_numbers(*this, key, parts);
   dealii::Tensor<1, 3> result;
   for (unsigned int i = 0; i < 3; ++i)
     result[i] = values[i];

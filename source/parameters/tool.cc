@@ -4,6 +4,7 @@
 #include "billet/errors.h"
 #include "billet/geometry/surface_type.h"
 #include "billet/parameters/registered.h"
+#include "billet/vector_text.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -59,9 +60,7 @@ void Motion::declare(ParameterHandler &prm) {
 }
 
 void Motion::parse(Reader &reader) {
-  const auto expressions = reader.parts("Translation");
-  if (expressions.size() != 3)
-    reader.reject("Translation", "three expressions, separated by semicolons");
+  const auto expressions = read_expressions(reader, "Translation");
   translation = reader.located("Translation",
                                std::array<std::string, 3>{expressions[0], expressions[1], expressions[2]});
   rotation_angle = reader.located("Rotation angle", reader.text("Rotation angle"));

@@ -42,15 +42,28 @@ std::vector<Unneeded> list_unneeded(const RunCosts &costs) {
 
 } // namespace
 
+bool helps_symmetrised_contact(const Scene &scene) {
+  const auto has_friction = [](const auto &pair) { return pair.has_friction(); };
+  const auto any = [&has_friction](const auto &pairs) {
+    return std::any_of(pairs.begin(), pairs.end(), has_friction);
+  };
+  const bool is_exact =
+      scene.parameters().solver.material_tangent.value == parameters::MaterialTangent::exact;
+  const auto is_unsymmetric = [is_exact](const Body &body) {
+    return (is_exact && !body.law->has_symmetric_moduli()) ||
+           std::any_of(body.loads.begin(), body.loads.end(),
+                       [](const AppliedLoad &load) { return load.load.has_unsymmetric_tangent(); });
+  };
+  return (any(scene.pairs()) || any(scene.body_pairs())) &&
+         std::none_of(scene.bodies().begin(), scene.bodies().end(), is_unsymmetric);
+}
+
 RunCosts collect_costs(const Scene &scene, const Solution &solution, const RunReview &review) {
   constexpr double rounding = 1e-9;
   const EnergyLedger &energies = solution.state().energies;
   RunCosts costs;
   costs.all = SpentTime::on_all();
-  const auto any = [](const auto &pairs) {
-    return std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) { return pair.has_friction(); });
-  };
-  if (any(scene.pairs()) || any(scene.body_pairs()))
+  if (helps_symmetrised_contact(scene))
     costs.unsymmetric_matrix = SpentTime::on(Work::unsymmetric_matrix);
   costs.self_contact = SpentTime::on(Work::self_contact);
   costs.fields = SpentTime::on(Work::fields);

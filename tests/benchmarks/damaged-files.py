@@ -30,12 +30,13 @@ class Target(NamedTuple):
 TARGETS = (
     Target("meshes: MSH, VTK, UCD, decks", "mesh.mutations", 10000),
     Target("CAD: text of STEP and IGES", "fuzz.cad_text", 10000),
-    Target("CAD: STEP and IGES, by OpenCASCADE", "geometry.damaged_cad", 600),
+    Target("CAD: STEP and IGES, by OpenCASCADE", "geometry.damaged_cad", 1200),
     Target("STL", "fuzz.stl", 10000),
     Target("tables of numbers", "fuzz.table", 10000),
     Target("scenes", "fuzz.scene", 1500),
     Target("checkpoints", "fuzz.checkpoint", 10000),
 )
+READ = re.compile(r"^(\S+): (\d+) read by OpenCASCADE$", re.MULTILINE)
 LINE = re.compile(r"^(\S+): (\d+) files, (\d+) refused, (\d+) unsound, longest (\S+) s$", re.MULTILINE)
 
 
@@ -47,6 +48,7 @@ class Counts(NamedTuple):
     n_unsound: int
     longest: float
     end: str  # of the program
+    n_read: int  # by OpenCASCADE, of those files that it may read
 
 
 def damage(target: Target) -> Counts:
@@ -73,6 +75,7 @@ def damage(target: Target) -> Counts:
         sum(int(row[3]) for row in rows),
         max((float(row[4]) for row in rows), default=0.0),
         end,
+        sum(int(row[1]) for row in READ.findall(done.stdout)),
     )
 
 
@@ -86,6 +89,8 @@ publish(
         "This page shows what the readers make of damaged files. `tests/fuzz/damage.h` damages sound files"
         " in one to three places. It changes bytes, numbers and lines, and cuts files short. The readers"
         " run in the process of the test, except OpenCASCADE, which reads each file in a copy first.\n\n"
+        "Most damaged CAD files are refused by a check of their text. Half of the files for OpenCASCADE are"
+        " therefore damaged in numbers, references and senses alone, so that this check passes most.\n\n"
         "A file is accepted against itself if the result contradicts its counts, indices, sizes or checksums."
         f" The limit for a file is {MAX_SECONDS} s of processor time. A crash or a hang ends the test."
     ),
@@ -117,7 +122,8 @@ publish(
     (
         f"These are {total} files in all. {sum(one.n_unsound for one in counts)} were accepted against"
         f" themselves, and {sum(one.longest > MAX_SECONDS for one in counts)} tests have a file above the"
-        " limit."
+        " limit. The text of"
+        f" {sum(one.n_read for one in counts)} damaged CAD files was sound, so that OpenCASCADE read them."
     ),
 )
 sys.exit(0 if all(one.end == "passes" for one in counts) else 1)

@@ -7,6 +7,7 @@
 #include "../scenes/scene_run.h"
 
 #include "billet/loads/load.h"
+#include "billet/vector_text.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -37,11 +38,8 @@ LoadType added_traction_type() {
             "Three expressions of the undeformed face's centre, the time t and the names of amplitudes. "
             "[stress]"}},
           [](const TypeInput &input) {
-            const auto components = input.parts("Traction");
-            if (components.size() != 3)
-              input.reject("Traction", "three expressions, separated by semicolons");
             Load load{{}, std::make_shared<const AddedTraction>()};
-            for (const std::string &component : components)
+            for (const std::string &component : read_expressions(input, "Traction"))
               load.expressions.push_back({"Traction", component, true});
             return load;
           }};

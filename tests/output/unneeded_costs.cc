@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a run paid for and did not need: each part alone, and none where it was needed or is small.
+// What a run paid for and did not need: each part alone, and none where it was needed, is small, or has no
+// remedy.
 #include "billet/run/unneeded_costs.h"
 
 #include "../testing.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <fstream>
 
 using namespace billet;
 using billet::testing::check;
@@ -20,9 +25,41 @@ bool says(const RunCosts &costs, const std::string &what) {
   return !list.empty() && list.front().text().find(what) != std::string::npos;
 }
 
+/// A block on a plane, with friction and what else is given.
+bool helps(const std::string &material, const std::string &loads, const std::string &solver,
+           const std::string &friction = "0.1") {
+  const std::string file = "block.prm";
+  std::ofstream(file)
+      << "subsection Bodies\n  subsection block\n    subsection Mesh\n      set Primitive = hyper_rectangle\n"
+         "      set Arguments = 0, 0, 0 : 1, 1, 1 : true\n    end\n    set Symmetry planes = x = 0 ; y = 0\n"
+         "    subsection Material\n      set Young modulus = 1000\n"
+      << material << "    end\n    subsection Loads\n      subsection load\n"
+      << loads
+      << "        set Boundary ids = 5\n      end\n    end\n  end\nend\n"
+         "subsection Tools\n  subsection floor\n    subsection Surfaces\n      subsection plane\n      end\n"
+         "    end\n  end\nend\nset Contact = all\nsubsection General contact\n"
+         "  set Friction coefficient = "
+      << friction << "\nend\nsubsection Solver\n"
+      << solver << "end\n";
+  return helps_symmetrised_contact(Scene(parameters::Scene::read(file)));
+}
+
+void check_remedies() {
+  const std::string law = "set Elasticity = hypoelastic\nset Yield stress = 10\n";
+  const std::string dead = "set Type = dead traction\nset Traction = 0, 0, -1\n";
+  const std::string following = "set Type = pressure\nset Pressure = 1\n";
+  check("symmetrised contact suffices", helps("", dead, ""));
+  check("nothing to symmetrise without friction", !helps("", dead, "", "0"));
+  check("a following pressure stays unsymmetric", !helps("", following, ""));
+  check("a law stays unsymmetric if its tangent is exact",
+        !helps(law, dead, "set Material tangent = exact\n"));
+  check("a law follows the matrix by default", helps(law, dead, ""));
+}
+
 } // namespace
 
-int main() {
+int main(int argc, char *argv[]) {
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   RunCosts costs;
   costs.all = 20.;
   check("nothing", seconds(costs), 0.);
@@ -49,5 +86,6 @@ int main() {
   costs.fields = 0.;
   costs.error_control = 0.8;
   check("a short run", seconds(costs), 0.);
+  check_remedies();
   return testing::exit_code();
 }

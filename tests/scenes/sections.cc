@@ -165,10 +165,25 @@ void check_pressed_ring(const std::string &name, const std::string &motion, cons
   check(name + ": force on the full circle", (force / exact + axis).norm(), 1e-3);
 }
 
+/// A load in the whole of the section: traction times area.
+void check_traction(const std::string &name, const std::string &mesh, const std::string &planes,
+                    const std::string &traction, const std::string &column, const Tensor<1, 3> &exact) {
+  SceneRun run(
+      read(mesh, "    set Symmetry planes = " + planes +
+                     "\n    subsection Loads\n      subsection weight\n        set Type = dead traction\n"
+                     "        set Boundary ids = 3\n        set Traction = " +
+                     traction + "\n      end\n    end\n"));
+  run.finish();
+  const Tensor<1, 3> force = whole_force(run, "body.load weight." + column);
+  check(name, (force - exact).norm() / exact.norm(), 1e-10);
+}
+
+const std::string layer =
+    "      set Arguments = 2, 2 : 0, 0 : 5, 4 : true\n      set Section = plane strain\n"
+    "      set Height = 2\n";
+
 void check_layer() {
-  SceneRun run(read("      set Arguments = 2, 2 : 0, 0 : 5, 4 : true\n      set Section = plane strain\n"
-                    "      set Height = 2\n",
-                    "    set Symmetry planes = x = 0\n" + press("", "y")));
+  SceneRun run(read(layer, "    set Symmetry planes = x = 0\n" + press("", "y")));
   run.finish();
   const double exact = young / (1. - poisson * poisson) * shortening / height * 5.;
   const Tensor<1, 3> force = whole_force(run, "body.support top.force_per_width_x");
@@ -202,6 +217,10 @@ int main(int argc, char *argv[]) {
       "0, 1\n",
       Tensor<1, 3>({1., 0., 0.}));
   check_layer();
+  check_traction("load on a ring", ring, "z = 0", "0 ; 0 ; -0.01", "full_circle_force_x",
+                 Tensor<1, 3>({0., 0., -0.01 * M_PI * (outer * outer - inner * inner)}));
+  check_traction("load on a layer", layer, "x = 0 ; y = 0", "0.002, -0.01, 0", "force_per_width_x",
+                 Tensor<1, 3>({0.01, -0.05, 0.}));
   check_refusal("a section across the axis is refused",
                 "      set Arguments = 4, 2 : -1, 0 : 20, 4 : true\n      set Section = axisymmetric\n",
                 "begins at the radius x = -1; allowed are sections with x >= 0");

@@ -16,8 +16,12 @@ struct RunCosts {
   double steps_error = 0., target = 0.; ///< estimated error of the steps, and the target for all errors
 };
 
-/// Returns the costs of this process so far, without error and target. An unsymmetric matrix counts only in
-/// scenes with friction: loads and laws that make it so have no remedy.
+/// Whether a symmetrised contact tangent makes the matrix symmetric: friction makes it unsymmetric, and
+/// neither a load, such as a following pressure, nor an exact material tangent does.
+bool helps_symmetrised_contact(const Scene &scene);
+
+/// Returns the costs of this process so far, without error and target. An unsymmetric matrix counts only if a
+/// symmetrised contact tangent helps.
 RunCosts collect_costs(const Scene &scene, const Solution &solution, const RunReview &review);
 
 /// Returns a note that lists, in seconds, what the scene paid for and did not need, if that is more than a

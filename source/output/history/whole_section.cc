@@ -20,7 +20,7 @@ std::string column_name(std::string name) {
 HistoryQuantity whole_section_quantity() {
   return {"forces in the whole of a section",
           {{"NAME.force_per_width_x, NAME.force_per_width_y, NAME.force_per_width_z",
-            "Plane strain: force of a tool, pair or support per unit of width. [force/length]"},
+            "Plane strain: force of a tool, pair, support or load per unit of width. [force/length]"},
            {"NAME.full_circle_force_x, NAME.full_circle_force_y, NAME.full_circle_force_z",
             "Axisymmetric sections: its force over the full circle. [force]"}},
           [](const Scene &scene) {
@@ -35,6 +35,8 @@ HistoryQuantity whole_section_quantity() {
               names.push_back(column_name(pair.name));
             for (const NamedSupport &support : named_supports(scene))
               names.push_back(column_name(scene.bodies()[support.body].name + "." + support.name));
+            for (const std::string &name : named_loads(scene))
+              names.push_back(column_name(name));
             for (const std::string &name : names)
               for (const char component : {'x', 'y', 'z'})
                 columns.push_back(
@@ -56,6 +58,8 @@ HistoryQuantity whole_section_quantity() {
                 add(load.force);
             for (const Resultant &reaction : sample.reactions.of_supports)
               add(reaction.force);
+            for (const LoadResult &load : sample.reactions.of_loads)
+              add(load.force);
             return values;
           }};
 }
