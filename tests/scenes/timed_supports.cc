@@ -22,7 +22,7 @@ template <class... Values> void check(const std::string &name, const Values... v
 constexpr double young = 1e4, height = 2.;
 
 /// A column of section 1 on z = 0 whose sides are free, without lateral strain.
-parameters::Scene read(const std::string &supports, const std::string &loads) {
+parameters::Scene read(const std::string &supports, const std::string &loads, const std::string &tools = "") {
   const std::string file = "timed_supports.prm";
   if (testing::is_first_rank())
     std::ofstream(file)
@@ -35,7 +35,8 @@ parameters::Scene read(const std::string &supports, const std::string &loads) {
         << loads
         << "    end\n  end\nend\nsubsection Time stepping\n  set End time = 1\n"
            "  set Step control = fixed\n  set Initial step = 0.1\nend\n"
-           "subsection Output\n  set Format = none\nend\n";
+           "subsection Output\n  set Format = none\nend\n"
+        << tools;
   MPI_Barrier(MPI_COMM_WORLD);
   parameters::Scene scene = parameters::Scene::read(file);
   MPI_Barrier(MPI_COMM_WORLD);
@@ -160,6 +161,25 @@ void check_handover() {
         std::abs(reaction(run, "second") / force_at(-0.004) - 1.), 1e-6);
 }
 
+/// A support takes over from two tools that hold the column alone, and are removed at its beginning.
+void check_takeover() {
+  const auto tool = [](const std::string &name, const std::string &plane, const std::string &translation) {
+    return "  subsection " + name + "\n    subsection Surfaces\n      subsection face\n" + plane +
+           "      end\n    end\n    subsection Motion\n      set Translation = 0 ; 0 ; " + translation +
+           "\n      set Removal time = 0.4\n    end\n  end\n";
+  };
+  parameters::Scene scene =
+      read(support("hold", "0", "        set From = 0.4\n"), "",
+           "subsection Tools\n" + tool("die", "", "0") +
+               tool("punch", "        set Point = 0, 0, 2\n        set Normal = 0, 0, -1\n", "-0.01*t") +
+               "end\nset Contact = all\n");
+  scene.bodies[0].symmetry_planes.value.pop_back(); // z = 0
+  SceneRun run(scene);
+  run.finish([](const NewtonReport &) {});
+  check("takeover: the run goes on to its end", std::abs(run.problem.state().time - 1.), 1e-9);
+  check("takeover: the top stays", off(run, -0.004), 1e-5);
+}
+
 /// A support that leaves a static body free is refused.
 void check_refusal() {
   parameters::Scene scene = read(support("press", "0", "        set Until = 0.4\n"), "");
@@ -181,6 +201,7 @@ int main(int argc, char *argv[]) {
   check_hold();
   check_motion();
   check_handover();
+  check_takeover();
   check_refusal();
   testing::test_going_on<testing::ImplicitSolutionRun>(
       "Timed supports",

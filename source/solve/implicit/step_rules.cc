@@ -107,23 +107,25 @@ void StaticRules::commit(const double t) {
   StepRules::commit(t);
 }
 
+void StaticRules::find_free_body(const std::map<std::size_t, std::set<std::string>> &losses,
+                                 const std::string &kind, const std::string &what_happens) {
+  for (const auto &[body, names] : losses)
+    if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
+      free_body_ = describe_free_mode(problem_, body, name_all(kind, names), what_happens);
+}
+
 void StaticRules::close_step(const double t) {
   balance_.update_largest_energy();
-  const ToolRemoval::Removal removal = remove_tools(t);
+  const std::map<std::size_t, std::set<std::string>> let_go = remove_tools(t).let_go;
   const bool is_due = parts_.switched_supports().is_due(t);
-  std::map<std::size_t, std::set<std::string>> ended_supports;
+  std::map<std::size_t, std::set<std::string>> ended;
   if (is_due)
-    ended_supports = switch_supports(t, parts_.discretization().make_owned_vector());
+    ended = switch_supports(t, parts_.discretization().make_owned_vector());
   const SwitchedSprings springs = find_switched_springs(parts_.scene(), t);
-  // After all of them, since a support that begins may take over from a tool.
-  const auto check = [&](const auto &of_bodies, const std::string &kind, const std::string &what_happens) {
-    for (const auto &[body, gone] : of_bodies)
-      if (free_body_.empty() && !parts_.stabilisation().acts_on(body))
-        free_body_ = describe_free_mode(problem_, body, name_all(kind, gone), what_happens);
-  };
-  check(removal.let_go, "tool", "removed");
-  check(ended_supports, "support", "switched off");
-  check(springs.ended, "spring", "switched off");
+  // Supports and springs that begin now hold what others let go.
+  find_free_body(let_go, "tool", "removed");
+  find_free_body(ended, "support", "switched off");
+  find_free_body(springs.ended, "spring", "switched off");
   if (is_due || springs.any)
     modes_.follow_supports(t);
 }

@@ -127,6 +127,11 @@ public:
   void finish_load(StateReader &reader, double release_time, RestartReport &report) override;
 
 private:
+  /// Sets free_body_ for the first body that what it loses, by body, leaves free; with the kind of these and
+  /// what happens to them. Collective.
+  void find_free_body(const std::map<std::size_t, std::set<std::string>> &losses, const std::string &kind,
+                      const std::string &what_happens);
+
   Predictor predictor_;
   StaticBalance balance_;
   SlidingGuard sliding_;
