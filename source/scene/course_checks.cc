@@ -27,8 +27,8 @@ const DiagnosticKind unfinished_course(
 const DiagnosticKind tool_breaks_section(
     "tool-breaks-section", Severity::warning,
     "The gap to a tool differs along the width of a plane-strain section, or around the axis of an "
-    "axisymmetric one. Or a tool with friction moves along the width, or across the axis. The section sees "
-    "one place of it and takes it for all.",
+    "axisymmetric one. Or a tool with friction moves along the width, across the axis, or turns about it. "
+    "The section sees one place of it and takes it for all.",
     "Give the tool a surface and a motion that keep to the section, or model the solid");
 
 constexpr double rounding = 1e-9;
@@ -106,14 +106,17 @@ public:
     const Tensor<1, 3> arm = x - origin_;
     return is_turned_ ? (arm - (arm * direction_) * direction_).norm() : width_;
   }
-  /// Returns the part of a tool's travel that the section does not allow with friction.
-  double sideways(const Tensor<1, 3> &travel) const {
+  /// Returns what the section does not allow of a tool's motion with friction, over the length of `x`: travel
+  /// along the width or across the axis, and turns about the axis. `turn`: a rotation vector [radians].
+  double sideways(const Tensor<1, 3> &travel, const Tensor<1, 3> &turn, const Tensor<1, 3> &x) const {
     const double along = travel * direction_;
-    return is_turned_ ? (travel - along * direction_).norm() : std::abs(along);
+    return is_turned_ ? (travel - along * direction_).norm() / length(x) + std::abs(turn * direction_)
+                      : std::abs(along) / length(x);
   }
   /// Returns words about a difference of gaps, or about a travel sideways.
   std::string describe(const bool is_travel) const {
-    return is_travel ? std::string("The tool moves ") + (is_turned_ ? "across the axis" : "along the width")
+    return is_travel ? std::string("The tool moves ") +
+                           (is_turned_ ? "across the axis or turns about it" : "along the width")
                      : std::string("The gap to the tool differs ") +
                            (is_turned_ ? "half around the axis" : "across the width");
   }
@@ -199,7 +202,8 @@ DiagnosticList check_sections(const Scene &scene, const Triangulation<3> &mesh, 
             if (here.exists && there.exists)
               add(std::abs(here.gap - there.gap) / length, time, false);
             if (here.exists && pair.has_friction())
-              add(twin.sideways(placement.translation) / length, time, true);
+              add(twin.sideways(placement.translation, placement.rotation_angle * tool.rotation_axis(), x),
+                  time, true);
           }
         }
     }

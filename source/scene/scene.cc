@@ -203,9 +203,37 @@ void check_wedges(const std::vector<parameters::Body> &bodies) {
   }
 }
 
+/// Refuses layers in plane strain that do not have the same sides: a load on one would bear on a part of the
+/// width of the other.
+void check_layers(const std::vector<parameters::Body> &bodies) {
+  constexpr double rounding = 1e-9;
+  const parameters::Body *first = nullptr;
+  const auto side_of = [](const parameters::Mesh &mesh) {
+    const auto normal = mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.}));
+    return std::make_pair(normal, normal * mesh.translation);
+  };
+  for (const parameters::Body &body : bodies) {
+    const parameters::Mesh &mesh = body.mesh;
+    if (mesh.section.value != parameters::Mesh::Section::plane_strain)
+      continue;
+    if (first == nullptr)
+      first = &body;
+    const auto [normal, low] = side_of(mesh);
+    const auto [first_normal, first_low] = side_of(first->mesh);
+    const double width = mesh.scale * mesh.height, first_width = first->mesh.scale * first->mesh.height;
+    if ((normal - first_normal).norm() > rounding || std::abs(low - first_low) > rounding * width ||
+        std::abs(width - first_width) > rounding * width)
+      throw InputError(mesh.section.origin + ": body '" + body.name + "' is not the same layer as body '" +
+                       first->name +
+                       "'; allowed is 'Section = plane strain' with one 'Height', and with the same sides "
+                       "after scaling, rotation and translation");
+  }
+}
+
 WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
   using Section = parameters::Mesh::Section;
   check_wedges(bodies);
+  check_layers(bodies);
   WholeSection whole;
   if (bodies.empty())
     return whole;

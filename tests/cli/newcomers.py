@@ -279,6 +279,12 @@ def _() -> None:
         ("ring / Material: Hardening = tabel", r"did you mean 'table'\?"),
     ):
         says(pattern, complaints("bushing", edits))
+    # of a scene of two layers in plane strain
+    slide = read_text(HERE / "trials/pairs/slide.prm")
+    says(
+        "'pad' is not the same layer as body 'block'",
+        runner.run(slide, "pad / Mesh: + set Height = 2").complained,
+    )
     plane = (
         "face: Shape = plane & face: Point = 0, 0, 32 & face: - Centre & face: - Inner radius"
         " & face: - Radius & punch / Motion: - Removal time & punch / Motion: - Release time"
