@@ -383,7 +383,7 @@ std::vector<Finding> try_steps(const PointLaw &law, const CertificationSettings 
 std::vector<Finding> try_repeated_stretches(const PointLaw &law, const CertificationSettings &settings) {
   constexpr unsigned int n_cycles = 1000, n_holds = 20, n_paths = 4;
   constexpr double strain = 0.02, unloading = 0.2; // part of the deviator
-  const double dt = 1e-9 * settings.dt; // so that no stress relaxes
+  const double dt = 1e-9 * settings.dt;            // so that no stress relaxes
   TrialNumbers random;
   Worst worst;
   for (unsigned int path = 0; path < n_paths; ++path) {
