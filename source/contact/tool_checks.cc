@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -71,16 +73,37 @@ DiagnosticList ToolChecks::check_start() const {
 
 Explanation ToolChecks::describe_restless() const {
   std::vector<RestlessNode> nodes;
+  bool is_at_edge = false;
   parts_.restless.visit([&](const std::size_t i, const unsigned int n_changes) {
     nodes.push_back({parts_.states[i].position, n_changes});
+    is_at_edge = is_at_edge || is_at_sharp_edge(i);
   });
   const std::string what =
       describe_restless_nodes(nodes, parts_.pair.name, "status or surface", parts_.communicator);
   if (what.empty())
     return {};
-  return {
-      what,
-      "Try smaller bricks where the tool is curved, a lower penalty, or a radius where the tool has an edge"};
+  is_at_edge = dealii::Utilities::MPI::max(is_at_edge ? 1 : 0, parts_.communicator) != 0;
+  return {what, is_at_edge ? "Try a fillet at the sharp edge of the tool, or a lower penalty"
+                           : "Try smaller bricks where the tool is curved, or a lower penalty"};
+}
+
+bool ToolChecks::is_at_sharp_edge(const std::size_t i) const {
+  constexpr double near = 0.5, sharp = 0.7; // facet sizes; cosine of 45 degrees
+  const Tensor<1, 3> &position = parts_.states[i].position;
+  const ContactPoint &node = parts_.slaves.nodes[i];
+  if (parts_.step.is_removed || !std::isfinite(position.norm()))
+    return false;
+  const RigidSurface &surface = parts_.step.surface;
+  const Tensor<1, 3> x = parts_.step.placement.to_tool(position);
+  const auto here = surface.project(x, node.patch);
+  if (!here.exists || std::abs(here.gap) > node.size)
+    return false;
+  const Frame along = Frame::from_normal(here.normal);
+  const std::array<Tensor<1, 3>, 4> ways{along.q, -along.q, along.r, -along.r};
+  return std::any_of(ways.begin(), ways.end(), [&](const Tensor<1, 3> &way) {
+    const auto there = surface.project(x + near * node.size * way, node.patch);
+    return there.exists && there.normal * here.normal < sharp;
+  });
 }
 
 bool ToolChecks::has_node_on_edge(const Tensor<1, 3> &position) const {

@@ -61,13 +61,17 @@ std::string advise_on_cycling(const parameters::Scene &parameters, const NewtonR
 }
 
 /// Returns advice on the parameters that limit the steps and the iterations.
-std::string advise_on_steps(const parameters::Scene &parameters, const bool is_cycling) {
+std::string advise_on_steps(const parameters::Scene &parameters, const NewtonReport &newton) {
   if (parameters.time_stepping.control == parameters::TimeStepping::Control::fixed)
     return "Steps are fixed. Try a smaller 'Initial step' or 'Step control = automatic'";
   std::ostringstream text;
+  const bool has_advice = newton.is_cycling || !newton.advice.empty();
   text << "The step cannot be cut below 'Minimum step' = " << parameters.time_stepping.min_step << ". "
-       << (parameters.scheme().has_inertia ? "If accuracy cuts the step, increase 'Error tolerance'. " : "")
-       << (is_cycling                 ? ""
+       << (parameters.scheme().has_inertia ? "If accuracy cuts the step, increase 'Error tolerance'. "
+                                           : "If a body snaps or buckles there, no equilibrium is near: "
+                                             "'Scheme = implicit dynamics' follows "
+                                             "it. ")
+       << (has_advice                 ? ""
            : parameters.pairs.empty() ? "Try a larger 'Maximum iterations'. "
                                       : "Try a lower penalty or a larger 'Maximum iterations'. ")
        << "Check the last field output for an unstable or distorted mesh";
@@ -185,7 +189,7 @@ Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepRe
       .advice(has_cause ? join_sentences({newton.advice, results.str()})
                         : join_sentences({newton.advice, describe_limit_load(parameters),
                                           advise_on_cycling(parameters, newton),
-                                          advise_on_steps(parameters, newton.is_cycling),
+                                          advise_on_steps(parameters, newton),
                                           describe_incompressibility(parameters),
                                           describe_unstable_law(is_unstable), results.str()}));
   return diagnostic;

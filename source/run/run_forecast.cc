@@ -109,6 +109,14 @@ double count_steps(const Scene &scene, ExplicitDynamics &problem, const SceneRep
   return count_steps(end, end / (n + (end - before) / stable.shortest));
 }
 
+/// Whether loads, such as springs, make explicit steps shorter.
+bool limits_steps(const Scene &scene) {
+  return std::any_of(scene.bodies().begin(), scene.bodies().end(), [](const Body &body) {
+    return std::any_of(body.loads.begin(), body.loads.end(),
+                       [](const AppliedLoad &load) { return load.load.limits_steps(); });
+  });
+}
+
 } // namespace
 
 RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const SceneReport &of_scene) {
@@ -129,6 +137,9 @@ RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const Scen
     const double in_contact = std::ceil(growth * count_steps(scene, problem, of_scene, stable));
     if (in_contact > report.n_steps)
       report.max_steps = in_contact;
+    constexpr double part = 1. / 3.;
+    stable.is_short_by_contact = std::min(stable.step, stable.shortest) < part * stable.of_elements &&
+                                 scene.capabilities().contact && !limits_steps(scene);
     report.stable_step = stable;
   } catch (const SolutionFailure &) { // on all ranks
     report.is_minimum = true;

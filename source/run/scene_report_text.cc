@@ -134,6 +134,8 @@ void print(const RunReport &run, const double size, std::ostream &stream) {
          << number(stable.least_edge) << "; first steps " << number(stable.step);
   if (stable.shortest < stable.step)
     stream << ", by contact " << number(stable.shortest) << " from time " << number(stable.shortest_from);
+  if (stable.is_short_by_contact)
+    stream << "; 'Profile = fast', 'Contact resolution = 1' or a lower 'Normal penalty' make steps longer";
   stream << "\n";
 }
 

@@ -27,8 +27,9 @@ std::vector<Unneeded> list_unneeded(const RunCosts &costs) {
         {(1. - of_symmetric) * costs.unsymmetric_matrix, "the unsymmetric matrix, though nothing slides",
          "'Contact tangent = symmetrised upper' makes it symmetric; it is exact where nothing slides"});
   if (!costs.self_contact_touches && costs.self_contact > 0.)
-    list.push_back({costs.self_contact, "self-contact, though no surface touches itself",
-                    "leave such pairs out, with 'Contact = all' by 'Exclusions'"});
+    list.push_back(
+        {costs.self_contact, "self-contact, though no surface touches itself",
+         "leave such pairs out, with 'Contact = all' by 'Self-contact = false' in 'General contact'"});
   if (costs.fields > much * costs.all)
     list.push_back({costs.fields, "the output of fields", "a larger 'Interval' in 'Output' writes fewer"});
   constexpr double finer = 0.1;

@@ -1355,6 +1355,16 @@ def _() -> None:
     require(abs(steps - end / step) <= 1.0, f"{steps} steps of {step} do not end at {end}")
 
 
+@check("--check of an explicit scene tells how to make steps longer that contact makes short")
+def _() -> None:
+    touching, shorter = str(HERE.parent.parent / "prm/slab_rolling_explicit.prm"), []
+    for options in ([], ["--set", "Explicit dynamics/Contact resolution=1"]):
+        ended = run(*program.on(1, "--check", touching, *options))
+        shorter.append(says(r" first steps ([^\s;]+)(.*)$", ended.output))
+    require("'Contact resolution = 1'" in shorter[0][2], shorter[0][0])
+    require(float(shorter[1][1]) > 1.5 * float(shorter[0][1]), shorter[1][0])
+
+
 @check("--check --json tells the same in numbers")
 def _() -> None:
     write_text("scene.prm", edit(BLOCK, "Material: + set Density = 0.25").text)

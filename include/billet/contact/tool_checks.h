@@ -28,6 +28,9 @@ public:
   bool has_node_on_edge(const dealii::Tensor<1, 3> &position) const;
 
 private:
+  /// Whether the tool turns by 45 degrees within half a facet of a node of this rank.
+  bool is_at_sharp_edge(std::size_t i) const;
+
   const RigidContactParts &parts_;
 };
 

@@ -82,6 +82,7 @@ struct StableStepReport {
   /// Where contact makes later steps shorter, as the prescribed motions bring pairs together: the shortest,
   /// and when they begin.
   double shortest = 0., shortest_from = 0.;
+  bool is_short_by_contact = false; ///< whether steps are less than a third of that of the elements
 };
 
 /// What the run will be like.

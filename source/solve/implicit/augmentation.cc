@@ -361,13 +361,22 @@ DiagnosticList Augmentation::finish() const {
   for (std::size_t i = 0; i < unsettled.size(); ++i) {
     if (!(unsettled[i] > Limits::settled))
       continue;
+    const bool is_with_tool = i < parts_.scene().pairs().size();
     std::ostringstream text;
     text.precision(2);
     text << "Augmentation stops while it still changes the force by " << percent * unsettled[i]
-         << " % of the maximum. Facets of the two sides do not match, or a sharp edge carries the force";
-    messages.push_back(Diagnostic(diagnostic::contact_unsettled, text.str())
-                           .pair(parts_.contacts()[i].name())
-                           .measure("change / force", unsettled[i]));
+         << " % of the maximum. "
+         << (is_with_tool
+                 ? "Facets are coarse for the tool's fillets, or a sharp edge of it carries the force"
+                 : "Facets of the two sides do not match, or a sharp edge carries the force");
+    Diagnostic message(diagnostic::contact_unsettled, text.str());
+    message.pair(parts_.contacts()[i].name()).measure("change / force", unsettled[i]);
+    if (is_with_tool)
+      message.advice(
+          "Reduce 'Force tolerance', add a fillet to a sharp edge, or use a finer mesh where the tool "
+          "presses. 'Penetration tolerance = 1e-3' augments until convergence; it takes many more "
+          "iterations");
+    messages.push_back(message);
   }
   return messages;
 }

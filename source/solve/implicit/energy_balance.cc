@@ -175,7 +175,9 @@ std::optional<StepFailure> DynamicBalance::judge_accuracy(const double t) {
   std::ostringstream message;
   message.precision(3);
   message << "the time integration error of the step is " << time_error_ << " times the 'Error tolerance'";
-  std::string advice = "Try a smaller 'Minimum step' or a larger 'Error tolerance'";
+  std::string advice =
+      "If a tool, support or load starts or stops at once, use an amplitude with 'Interpolation "
+      "= smooth'. Try a smaller 'Minimum step' or a larger 'Error tolerance'";
   trial_imbalance_ = element_imbalance().unexplained;
   if (paths_.may_be_cut(t)) {
     const double error = energy_error(trial_imbalance_);

@@ -50,8 +50,12 @@ Explanation StepDiagnosis::describe_slipping_tools() const {
 
 Explanation StepDiagnosis::describe_contacts() {
   Explanation all;
-  for (const auto &contact : parts_.contacts())
-    all += contact.checks().describe_restless();
+  for (const auto &contact : parts_.contacts()) {
+    Explanation one = contact.checks().describe_restless();
+    if (all.advice.find(one.advice) != std::string::npos)
+      one.advice.clear(); // several pairs have the same
+    all += one;
+  }
   if (!all.empty())
     restless_ = all;
   else if (!restless_.empty())
