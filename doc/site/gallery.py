@@ -19,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 COSTS = ROOT / "doc/scenes/costs.csv"
 LOOP = ROOT / "doc/images/cyclic_coupon.png"
+STRIPS = ("free_bend", "u_bend")  # of which a picture shows the springback
 COLUMNS = (
     "scene",
     "method",
@@ -81,6 +82,37 @@ def draw_loop(program: str, folder: Path) -> None:
     pyplot.close(figure)
 
 
+def draw_strip(folder: Path, picture: Path) -> None:
+    """Draws the section of a strip when formed and after springback, in the colours of its plastic strain."""
+    from matplotlib import collections, pyplot  # the rest runs without these
+
+    sys.path.insert(0, str(ROOT / "tools"))
+    from billet_tools.output import pictures_of, read_grid
+
+    *_, formed, last = pictures_of(folder)
+    grids = [read_grid(file) for file in (formed, last)]
+    limit = max(float(grid["equivalent_plastic_strain"].max()) for grid in grids)
+    figure, axes = pyplot.subplots(1, 2, figsize=(8, 3), layout="constrained", sharex=True, sharey=True)
+    for part, grid, title in zip(axes, grids, ("formed", "after springback")):
+        corners = grid["points"].reshape(-1, 8, 3)[:, (0, 1, 3, 2), :2]  # of the lower face, around
+        half = collections.PolyCollection(corners, cmap="viridis", edgecolor="face", linewidth=1.2)
+        half.set_array(grid["equivalent_plastic_strain"][::8])
+        half.set_clim(0, limit)
+        mirrored = collections.PolyCollection(
+            corners * (-1, 1), facecolor="0.75", edgecolor="0.75", linewidth=1.2
+        )
+        for section in (half, mirrored):
+            part.add_collection(section)
+        part.set_aspect("equal")
+        part.autoscale_view()
+        part.set_title(title)
+        part.set_xlabel("x, mm")
+    axes[0].set_ylabel("y, mm")
+    figure.colorbar(half, ax=axes, label="equivalent plastic strain", shrink=0.7)
+    figure.savefig(picture, dpi=100, metadata={"Software": None})
+    pyplot.close(figure)
+
+
 def main() -> None:
     program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
     names = sys.argv[3:] or sorted(path.stem for path in (ROOT / "prm").glob("*.prm"))
@@ -97,6 +129,9 @@ def main() -> None:
             writer.writerows(rows[key] for key in sorted(rows))
         if name == LOOP.stem and not LOOP.exists():
             draw_loop(program, folder / f"{name}_loop")
+        strip = ROOT / f"doc/images/{name}.png"
+        if name in STRIPS and not strip.exists():
+            draw_strip(folder / name, strip)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: sheet_scenes.py BILLET
+
+Runs sheets that are bent and spring back in an empty current folder: pure bending beside its closed form,
+and coarse and short variants of the shipped U-bend and free bend beside what geometry and strip theory say.
+The scenes themselves run in tests/benchmarks.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+
+from checks import HERE, SHIPPED, Checks, enter_folder, near, require, run
+from pure_bending_theory import MILD_STEEL, bend_and_release, changes, read_release
+from shipped import Rows, history, require_balance, require_page, require_short
+
+program = sys.argv[1]
+check = Checks()
+enter_folder()
+
+
+def run_variant(scene: str, folder: str, changed: dict[str, object]) -> Rows:
+    """Runs a scene with changes to its end, and returns its history, in which forces balance."""
+    options = [part for item in changed.items() for part in ("--set", "{}={}".format(*item))]
+    ended = run(program, scene, "--output", folder, "--set", "Output/Format=none", *options)
+    require(ended.code == 0, ended.output + ended.errors)
+    rows = history(folder)
+    require_balance(rows)
+    return rows
+
+
+def slope(row: dict[str, float], i: int) -> float:
+    """Angle of the line of a scene between the points i and i + 1 of its probe, against x [degrees]."""
+    x, y = (row[f"line.{i + 1}.position_{c}"] - row[f"line.{i}.position_{c}"] for c in "xy")
+    return math.degrees(math.atan2(y, x))
+
+
+@check("moment and springback of pure bending are those of the closed form")
+def _() -> None:
+    for radius in (20.0, 50.0):
+        exact = bend_and_release(MILD_STEEL, radius)
+        for layers, points, tolerance in ((1, 7, 2e-2), (2, 5, 5e-3)):
+            name = f"bent_{radius:g}_{layers}"
+            rows = run_variant(str(HERE / "pure_bending.prm"), name, changes(radius, layers, points))
+            moment, part = read_release(rows)
+            near(f"{name}: moment", moment, exact[0], tolerance)
+            near(f"{name}: springback", part, exact[1], tolerance)
+
+
+@check("the free bend closes to the angle of its tools, and springs back")
+def _() -> None:
+    rows = run_variant(
+        str(SHIPPED / "free_bend.prm"), "free_bend", {"Bodies/strip/Mesh/Arguments": "60, 1 : 0, 0 : 60, 1"}
+    )
+    formed = next(row for row in rows if abs(row["time"] - 1) < 1e-9)
+    # The outer face of the strip, 24.5 around the punch, touches the shoulder of 4 along a straight leg.
+    distance, tilt = math.hypot(29, 1), math.atan2(1, 29)
+    tangent = 2 * math.degrees(math.acos((24.5 + 4) / distance) + tilt)
+    opening = 180 - 2 * slope(formed, 5)
+    require(abs(opening - tangent) < 6, f"the strip is formed to {opening}, tools allow {tangent}")
+    springback = 2 * (slope(formed, 5) - slope(rows[-1], 5))
+    require(30 < springback < 42, f"it springs back by {springback}")
+    require(abs(rows[-1]["energy_drift"]) < 1e-2 * rows[-1]["plastic_work"], "energies do not balance")
+
+
+@check("the wall of the U-bend bears what friction and bending take, and springs back")
+def _() -> None:
+    rows = run_variant(
+        str(SHIPPED / "u_bend.prm"),
+        "u_bend",
+        {
+            "Bodies/strip/Mesh/Arguments": "132, 1 : 0, 0 : 132, 0.78",
+            "Bodies/strip/Mesh/Positions": "2*min(x, 9) + max(0, min(x, 99) - 9) + 2*max(0, x - 99) ; y ; z",
+            "Tools/punch/Motion/Translation": "0 ; -14*t ; 0",
+        },
+    )
+    steady = [abs(row["punch.force_y"]) for row in rows if 0.9 < row["time"] <= 1]
+    # Friction on both faces of the flange, bending and unbending over the die, and friction there (Swift).
+    moment, capstan = bend_and_release(MILD_STEEL, 5.39)[0], math.exp(0.144 * math.pi / 2)
+    theory = (2 * 0.144 * 35 + moment / 5.39) * capstan + moment / 5.39
+    near("force of the punch", sum(steady) / len(steady), theory, 0.15)
+    formed = next(row for row in rows if abs(row["time"] - 1) < 1e-9)
+    near("force of the holder", abs(formed["holder.force_y"]), 35.0, 1e-2)
+    require(slope(rows[-1], 7) < slope(formed, 7) - 3, "the walls do not open")
+
+
+@check("pages")
+def _() -> None:
+    for name in ("u_bend", "free_bend"):
+        require_short(name)
+        require_page(name, name)
+
+
+sys.exit(check.finish())
