@@ -207,6 +207,7 @@ FREE_ROWS: list[tuple[str, Changes]] = [
     ("7 points", {POINTS: 7}),
     ("high-strength steel", STEEL_2002),
     ("backstress of 60 MPa, same curve in tension", combined(VOCE, 60, 25)),
+    ("penalty 0.01 E/h", {PENALTY: 0.01}),
     ("penalty 1 E/h", {PENALTY: 1}),
 ]
 COARSE = u_mesh(1.0, 1)
@@ -217,7 +218,6 @@ U_ROWS: list[tuple[str, Changes]] = [
 ]
 if options.large:
     FREE_ROWS += [
-        ("penalty 0.01 E/h", {PENALTY: 0.01}),
         ("penalty 10 E/h", {PENALTY: 10}),
         ("default contact", {PENALTY: None}),
         ("no friction", {MU: 0}),
