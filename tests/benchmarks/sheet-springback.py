@@ -291,8 +291,9 @@ publish(
     (
         "The scene is `prm/u_bend.prm`. θ1 is the angle from the bottom to the chord of the wall from 40 to"
         " 60 mm along the strip. θ2 is that from the chord from 60 to 80 mm to the flange. Both are 90°"
-        " before springback.\n\nThe flange is the chord from 120 to 140 mm, against the bottom. The curl radius"
-        " is that of the circle through the wall at 40, 60 and 80 mm.\n\n"
+        " before springback.\n\n"
+        "The flange is the chord from 120 to 140 mm, against the bottom. The curl radius is that of"
+        " the circle through the wall at 40, 60 and 80 mm.\n\n"
         + OF_LARGE * options.large
         + "The measured table was not found. At second hand, with low confidence, the flange of mild steel"
         " opens by 13 to 17° at 2.45 kN. The laboratories are said to range from 9 to 23°."
