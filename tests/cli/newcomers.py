@@ -291,7 +291,7 @@ def _() -> None:
     ):
         says(pattern, complaints("bushing", edits))
     # of a scene of two layers in plane strain
-    slide = read_text(HERE / "trials/pairs/slide.prm")
+    slide = read_text(HERE / "trials/pairs/slide.prm") + "subsection Output\nend\n"
     says(
         "'pad' is not the same layer as body 'block'",
         runner.run(slide, "pad / Mesh: + set Height = 2").complained,

@@ -1358,7 +1358,8 @@ def _() -> None:
 @check("--check of an explicit scene tells how to make steps longer that contact makes short")
 def _() -> None:
     touching, shorter = str(HERE.parent.parent / "prm/slab_rolling_explicit.prm"), []
-    for options in ([], ["--set", "Explicit dynamics/Contact resolution=1"]):
+    variants: tuple[tuple[str, ...], ...] = ((), ("--set", "Explicit dynamics/Contact resolution=1"))
+    for options in variants:
         ended = run(*program.on(1, "--check", touching, *options))
         shorter.append(says(r" first steps ([^\s;]+)(.*)$", ended.output))
     require("'Contact resolution = 1'" in shorter[0][2], shorter[0][0])
