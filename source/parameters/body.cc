@@ -654,11 +654,11 @@ void check_plane_of_section(const Reader &reader, const Mesh &mesh, const Symmet
                                      "those across it by itself");
 }
 
-/// Returns the elements with layers: "'Element = a' or 'Element = b'".
-std::string name_layered_elements() {
+/// Returns the elements for which `is_named` holds: "'Element = a' or 'Element = b'".
+template <class Condition> std::string name_elements(const Condition &is_named) {
   std::string names;
   for (const BrickElement element : all_elements())
-    if (element.has_layers())
+    if (is_named(element))
       names += std::string(names.empty() ? "" : " or ") + "'Element = " + element.name() + "'";
   return names;
 }
@@ -686,17 +686,21 @@ void Body::parse(Reader &reader) {
       });
   });
   element = reader.located("Element", make_selected(reader, "Element", element_types()));
-  if (element.value == BrickElement::one_point && find_user_subroutine(*material.law) != nullptr)
-    reader.reject("Element", "'assumed strain' or 'mean dilatation', since the law is a subroutine: 'one "
-                             "point' stabilises a body by its yield stress, which a subroutine does not "
-                             "tell, and forces would be several times too large");
+  if (element.value.is_stabilised() && find_user_subroutine(*material.law) != nullptr)
+    reader.reject("Element",
+                  name_elements([](const BrickElement other) { return !other.is_stabilised(); }) +
+                      ", since the law is a subroutine: '" + element.value.name() +
+                      "' stabilises a body by its yield stress, which a subroutine does not tell, and "
+                      "forces would be several times too large");
   points_through =
       reader.located("Points through thickness",
                      static_cast<unsigned int>(std::stoul(reader.text("Points through thickness"))));
   thickness_direction =
       reader.located("Thickness direction", split_vector(reader.text("Thickness direction")));
   if (points_through.value > 2 && !element.value.has_layers())
-    reader.reject("Points through thickness", "2, since only " + name_layered_elements() + " takes more");
+    reader.reject("Points through thickness", "2, since only " + name_elements([](const BrickElement other) {
+                                                return other.has_layers();
+                                              }) + " takes more");
   if (points_through.value > 2 && thickness_direction.value.size() != 3)
     reader.reject("Thickness direction",
                   "three expressions, separated by commas or semicolons, such as '0 ; 0 ; 1', since 'Points "

@@ -254,7 +254,7 @@ def _() -> None:
             refusal(scene),
             "'Element'",
             "'one point'",
-            "'assumed strain' or 'mean dilatation', since the law is a subroutine",
+            "'Element = assumed strain' or 'Element = mean dilatation', since the law is a subroutine",
         )
 
 
