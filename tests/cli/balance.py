@@ -21,7 +21,7 @@ from checks import SHIPPED, Checks, enter_folder, require, rows_of
 from shipped import require_short
 
 N_LINES = 2  # with forces, at least
-EXTRA = 0.6  # processor time after these lines [s]
+EXTRA = 0.25  # processor time after these lines [s]
 LIMIT = 1e-12  # over the sum of the forces' sizes
 SECONDS = 240.0  # for a scene on a busy machine
 
