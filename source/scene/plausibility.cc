@@ -23,6 +23,12 @@ using dealii::Triangulation;
 
 namespace {
 
+const DiagnosticKind bodies_coincide(
+    "bodies-coincide", Severity::warning,
+    "Two bodies take the same place. They pass through each other, since a pair sees no node that starts "
+    "inside another body.",
+    "Change 'Volumes', or the position of one of them");
+
 /// Bounding box of points, which may belong to several ranks.
 class Box {
 public:
@@ -42,6 +48,13 @@ public:
   double diagonal() const {
     return std::hypot(ends_[0] + ends_[3], ends_[1] + ends_[4], ends_[2] + ends_[5]);
   }
+  /// Returns the largest distance between corresponding faces.
+  double difference(const Box &other) const {
+    double largest = 0.;
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      largest = std::max(largest, std::abs(ends_[i] - other.ends_[i]));
+    return largest;
+  }
 
 private:
   std::vector<double> ends_ = std::vector<double>(6, -std::numeric_limits<double>::infinity());
@@ -49,16 +62,19 @@ private:
 
 /// Dimensions, speeds and penetrations of the scene at its start.
 struct Start {
-  std::vector<double> sizes, speeds, sections; ///< by body
+  std::vector<Box> boxes;                               ///< by body
+  std::vector<double> sizes, speeds, sections, volumes; ///< by body
   std::vector<double> steps; ///< by body: minimum time in which a wave crosses an element, up to a factor
   double size = 0.;          ///< of all bodies together
   std::vector<double> penetrations; ///< penetration by pair with a tool [facet sizes]
 };
 
 Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator) {
-  std::vector<Box> boxes(scene.bodies().size());
   Box all;
   Start start;
+  start.boxes.resize(scene.bodies().size());
+  std::vector<Box> &boxes = start.boxes;
+  start.volumes.resize(boxes.size());
   start.speeds.resize(boxes.size());
   start.penetrations.resize(scene.pairs().size());
   start.steps.resize(boxes.size(), std::numeric_limits<double>::infinity());
@@ -67,6 +83,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
       continue;
     const std::size_t b = cell->material_id();
     const Body &body = scene.bodies()[b];
+    start.volumes[b] += cell->measure();
     if (!scene.parameters().scheme().has_matrix) {
       double max_face = 0.;
       for (const unsigned int f : cell->face_indices())
@@ -111,6 +128,7 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
   }
   all.gather(communicator);
   start.size = all.diagonal();
+  dealii::Utilities::MPI::sum(start.volumes, communicator, start.volumes);
   dealii::Utilities::MPI::max(start.speeds, communicator, start.speeds);
   dealii::Utilities::MPI::max(start.penetrations, communicator, start.penetrations);
   dealii::Utilities::MPI::min(start.steps, communicator, start.steps);
@@ -118,12 +136,6 @@ Start measure_start(const Scene &scene, const Triangulation<3> &mesh, const MPI_
 }
 
 /// Maxima of the prescribed motion of a tool over the run.
-const DiagnosticKind bodies_coincide(
-    "bodies-coincide", Severity::warning,
-    "Two bodies take the same place. They pass through each other, since a pair sees no node that starts "
-    "inside another body.",
-    "Change 'Volumes', or the position of one of them");
-
 struct Course {
   double travel = 0., speed = 0., turn = 0.;
 };
@@ -367,35 +379,14 @@ bool have_common(const std::vector<unsigned int> &a, const std::vector<unsigned 
 }
 
 /// Warns of bodies that take the same place, such as a copy whose volume was not changed.
-void check_places(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
-                  DiagnosticList &diagnostics) {
+void check_places(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
   constexpr double same = 1e-9;
-  const std::size_t n_bodies = scene.bodies().size();
-  std::vector<double> boxes(6 * n_bodies, -std::numeric_limits<double>::infinity()), // -low, high
-      volumes(n_bodies);
-  for (const auto &cell : mesh.active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    double *box = &boxes[std::size_t{6} * cell->material_id()];
-    volumes[cell->material_id()] += cell->measure();
-    for (const unsigned int v : cell->vertex_indices())
-      for (unsigned int i = 0; i < 3; ++i) {
-        box[i] = std::max(box[i], -cell->vertex(v)[i]);
-        box[3 + i] = std::max(box[3 + i], cell->vertex(v)[i]);
-      }
-  }
-  dealii::Utilities::MPI::max(boxes, communicator, boxes);
-  dealii::Utilities::MPI::sum(volumes, communicator, volumes);
   const auto are_same = [&](const std::size_t a, const std::size_t b) {
-    double size = 0., difference = 0.;
-    for (std::size_t i = 0; i < 6; ++i) {
-      size = std::max(size, boxes[6 * a + i % 3] + boxes[6 * a + 3 + i % 3]);
-      difference = std::max(difference, std::abs(boxes[6 * a + i] - boxes[6 * b + i]));
-    }
-    return difference <= same * size && std::abs(volumes[a] - volumes[b]) <= same * volumes[a];
+    return start.boxes[a].difference(start.boxes[b]) <= same * start.sizes[a] &&
+           std::abs(start.volumes[a] - start.volumes[b]) <= same * start.volumes[a];
   };
-  for (std::size_t a = 0; a < n_bodies; ++a)
-    for (std::size_t b = a + 1; b < n_bodies; ++b)
+  for (std::size_t a = 0; a < scene.bodies().size(); ++a)
+    for (std::size_t b = a + 1; b < scene.bodies().size(); ++b)
       if (are_same(a, b))
         diagnostics.push_back(Diagnostic(bodies_coincide, "The body has the extent and volume of body '" +
                                                               scene.bodies()[a].name + "', at the same place")
@@ -456,7 +447,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   append(diagnostics, check_user_laws(scene));
   append(diagnostics, check_heating(scene));
   append(diagnostics, check_course(scene));
-  check_places(scene, mesh, communicator, diagnostics);
+  check_places(scene, start, diagnostics);
   append(diagnostics, check_sections(scene, mesh, communicator));
   if (scene.parameters().scheme().has_inertia)
     check_speeds(scene, start, diagnostics);

@@ -2,6 +2,7 @@
 #include "billet/solve/element_watch.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/discretization/body_volumes.h"
 #include "billet/material/user_subroutine.h"
 
 #include <algorithm>
@@ -53,15 +54,10 @@ ElementEnergies energies_in(const std::vector<double> &values, const std::size_t
 } // namespace
 
 ElementWatch::ElementWatch(const Scene &scene, const Discretization &discretization)
-    : scene_(scene), discretization_(discretization), energies_(scene.bodies().size()) {
-  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
-    comparisons_.emplace_back(scene.bodies()[b].law, scene.bodies()[b].formulation);
-    double volume = 0.;
-    for (const auto &element : discretization.elements(b))
-      volume += element.cell->measure();
-    volumes_.push_back(volume);
-  }
-  dealii::Utilities::MPI::sum(volumes_, discretization.communicator(), volumes_);
+    : scene_(scene), discretization_(discretization), volumes_(measure_body_volumes(discretization)),
+      energies_(scene.bodies().size()) {
+  for (const Body &body : scene.bodies())
+    comparisons_.emplace_back(body.law, body.formulation);
 }
 
 void ElementWatch::compare(const SolutionState &state) {

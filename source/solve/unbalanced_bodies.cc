@@ -2,8 +2,7 @@
 #include "billet/solve/unbalanced_bodies.h"
 
 #include "billet/diagnostic_kinds.h"
-
-#include <deal.II/base/mpi.h>
+#include "billet/discretization/body_volumes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +15,9 @@ using dealii::Tensor;
 UnbalancedBodies::UnbalancedBodies(const Scene &scene, const Discretization &discretization)
     : scene_(scene), bodies_(scene.bodies().size()) {
   constexpr double rounding = 1e-14;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    double volume = 0.;
-    for (const auto &element : discretization.elements(b))
-      volume += element.cell->measure();
-    volume = dealii::Utilities::MPI::sum(volume, discretization.communicator());
-    round_off_.push_back(rounding * scene.bodies()[b].young_modulus * std::pow(volume, 2. / 3.));
-  }
+  const std::vector<double> volumes = measure_body_volumes(discretization);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    round_off_.push_back(rounding * scene.bodies()[b].young_modulus * std::pow(volumes[b], 2. / 3.));
   for (const NamedSupport &support : named_supports(scene))
     bodies_of_supports_.push_back(support.body);
 }
