@@ -268,9 +268,13 @@ std::vector<TypeParameter> with_probed_axes(std::vector<TypeParameter> parameter
 
 ProbedPoints::Place read_place(const TypeInput &input) {
   const std::string place = input.text("Place");
-  return place == "space"          ? ProbedPoints::Place::space
-         : place == "nearest node" ? ProbedPoints::Place::nearest_node
-                                   : ProbedPoints::Place::material;
+  if (place == "space")
+    return ProbedPoints::Place::space;
+  if (place == "nearest node")
+    return ProbedPoints::Place::nearest_node;
+  if (place != "material")
+    input.reject("Place", "material, nearest node or space");
+  return ProbedPoints::Place::material;
 }
 
 std::vector<ProbeQuantity> read_quantities(const TypeInput &input) {

@@ -229,7 +229,8 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   const double energy = ledger.of_elements();
   const bool is_static = !scene_.parameters().scheme().has_inertia, is_first = compared_energy_ == 0.;
   // In springback the largest load counts; dynamic steps are many and short.
-  const double growth = is_static ? 1.1 : 2.;
+  constexpr double growth_in_statics = 1.1, growth_in_motion = 2.;
+  const double growth = is_static ? growth_in_statics : growth_in_motion;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||
        (is_last && energy >= (is_static ? still_loaded * max_energy_ : compared_energy_)))) {

@@ -5,10 +5,12 @@ iterations, instructions, and the outcomes of the scenes at the extremes."""
 from __future__ import annotations
 
 import io
+import json
 import math
 import os
 import re
 import subprocess
+import sys
 import tarfile
 import tempfile
 from pathlib import Path
@@ -23,6 +25,7 @@ COMMIT = "f6fd959e"  # the last one before the classes were divided
 BEFORE = os.environ.get("BILLET_BEFORE", "")
 ALLOWED = 1e-10
 ALLOWED_INSTRUCTIONS = 0.03
+PART = "1/16"  # of the scenes at the extremes
 
 # Parts of long runs.
 CUT: dict[str, Changes] = {
@@ -88,56 +91,79 @@ def group_of(column: str) -> str:
     return "energies" if is_energy(column) else re.sub("_[xyz]$", "", column)
 
 
-def differences(before: Rows, now: Rows) -> tuple[float, float]:
-    """The largest difference of forces and moments, and of energies, over the largest of the vector or of
-    the energies; infinite if the rows are at other times."""
-    if [float(row["time"]) for row in before] != [float(row["time"]) for row in now]:
+class Difference:
+    """The largest differences between two histories, at the times that both have: of forces and moments, over
+    the largest of the vector, and of energies, over the largest of them. `missing`: rows at other times."""
+
+    def __init__(self, before: Rows, now: Rows) -> None:
         times = {round(float(row["time"]), 12): row for row in now}
-        before = [row for row in before if round(float(row["time"]), 12) in times]
-        now = [times[round(float(row["time"]), 12)] for row in before]
-    columns = [
-        column
-        for column in before[0]
-        if column in now[0] and (is_energy(column) or re.search(r"\.(force|moment)_[xyz]$", column))
-    ]
-    largest: dict[str, float] = {}
-    apart: dict[str, float] = {}
-    for one, other in zip(before, now):
-        for column in columns:
-            a, b, group = float(one[column]), float(other[column]), group_of(column)
-            largest[group] = max(largest.get(group, 0.0), abs(a), abs(b))
-            apart[group] = max(apart.get(group, 0.0), abs(a - b))
-    ratios = {group: apart[group] / size if size else 0.0 for group, size in largest.items()}
-    return (
-        max((ratio for group, ratio in ratios.items() if group != "energies"), default=0.0),
-        ratios.get("energies", 0.0),
-    )
+        shared = [(row, times.get(round(float(row["time"]), 12))) for row in before]
+        pairs = [(one, other) for one, other in shared if other is not None]
+        self.missing = len(before) + len(now) - 2 * len(pairs)
+        columns = [
+            column
+            for column in before[0]
+            if column in now[0] and (is_energy(column) or re.search(r"\.(force|moment)_[xyz]$", column))
+        ]
+        largest: dict[str, float] = {}
+        apart: dict[str, float] = {}
+        for one, other in pairs:
+            for column in columns:
+                a, b, group = float(one[column]), float(other[column]), group_of(column)
+                largest[group] = max(largest.get(group, 0.0), abs(a), abs(b))
+                apart[group] = max(apart.get(group, 0.0), abs(a - b))
+        ratios = {group: apart[group] / size if size else 0.0 for group, size in largest.items()}
+        self.energies = ratios.pop("energies", 0.0)
+        self.forces = max(ratios.values(), default=0.0)
+
+    @property
+    def largest(self) -> float:
+        return max(self.forces, self.energies)
 
 
 def difference_text(value: float) -> str:
     return "0" if value == 0.0 else f"{value:.1e}"
 
 
-def scene_row(scenes: Path, scene: str) -> list[object]:
-    changes = CUT.get(scene, {})
-    before, now = run(BEFORE, scenes, scene, changes), run(PROGRAM, scenes, scene, changes)
-    forces, energies = differences(before, now)
-    again = ""
-    if max(forces, energies) > ALLOWED and scene in PENALTY_ALONE:
-        settings = {**changes, **PENALTY_ALONE[scene]}
-        pair = differences(run(BEFORE, scenes, scene, settings), run(PROGRAM, scenes, scene, settings))
-        again = difference_text(max(pair))
-    end = changes.get("Time stepping/End time")
-    last = [rows[-1].get("total_iterations", "") for rows in (before, now)]
-    return [
-        scene + (f", to {number(float(str(end)))}" if end else ""),
-        " / ".join(str(rows[-1]["step"]) for rows in (before, now)),
-        " / ".join(last) if last[0] else "",
-        difference_text(forces),
-        difference_text(energies),
-        again,
-        CAUSES.get(scene, "") if max(forces, energies) > ALLOWED or last[0] != last[1] else "",
-    ]
+class Compared:
+    """A scene with both programs."""
+
+    def __init__(self, scenes: Path, scene: str) -> None:
+        changes = CUT.get(scene, {})
+        before, now = run(BEFORE, scenes, scene, changes), run(PROGRAM, scenes, scene, changes)
+        end = changes.get("Time stepping/End time")
+        self.name = scene + (f", to {number(float(str(end)))}" if end else "")
+        self.difference = Difference(before, now)
+        self.steps = [rows[-1]["step"] for rows in (before, now)]
+        self.iterations = [rows[-1].get("total_iterations", "") for rows in (before, now)]
+        self.without = math.nan
+        if self.difference.largest > ALLOWED and scene in PENALTY_ALONE:
+            settings = {**changes, **PENALTY_ALONE[scene]}
+            self.without = Difference(
+                run(BEFORE, scenes, scene, settings), run(PROGRAM, scenes, scene, settings)
+            ).largest
+        self.cause = "" if self.is_same else CAUSES.get(scene, "unknown")
+
+    @property
+    def is_same(self) -> bool:
+        return (
+            self.difference.largest <= ALLOWED
+            and self.difference.missing == 0
+            and self.steps[0] == self.steps[1]
+            and self.iterations[0] == self.iterations[1]
+        )
+
+    def row(self) -> list[object]:
+        return [
+            self.name,
+            " / ".join(self.steps),
+            " / ".join(self.iterations) if self.iterations[0] else "",
+            self.difference.missing,
+            difference_text(self.difference.forces),
+            difference_text(self.difference.energies),
+            "" if math.isnan(self.without) else difference_text(self.without),
+            self.cause,
+        ]
 
 
 def count(program: str, scenes: Path, scene: str) -> int:
@@ -161,12 +187,25 @@ def count_row(scenes: Path, scene: str) -> list[object]:
     ]
 
 
-def outcomes(page: str) -> dict[str, str]:
-    """The outcomes of all scenes at the extremes, by name."""
-    lines = page.splitlines()
-    at = next(i for i, line in enumerate(lines) if line.startswith("| all |"))
-    cells = [[cell.strip() for cell in lines[i].strip("|").split("|")] for i in (at - 2, at)]
-    return dict(zip(cells[0][1:], cells[1][1:]))
+def outcomes(program: str, tests: Path, folder: Path) -> dict[str, tuple[str, str]]:
+    """The outcomes of scenes at the extremes by name, with their steps and iterations. The plan and
+    the checks are those of that version."""
+    subprocess.run(
+        [
+            sys.executable,
+            str(tests / "tests/extremes/run.py"),
+            "--program",
+            program,
+            "--folder",
+            str(folder),
+            "--part",
+            PART,
+        ],
+        check=True,
+        env={**os.environ, **ALONE},
+    )
+    kept = [json.loads(path.read_text()) for path in sorted((folder / "kept").glob("*.json"))]
+    return {one["name"]: (one["outcome"], f"{one.get('steps')}, {one.get('iterations')}") for one in kept}
 
 
 def git(*command: str) -> bytes:
@@ -181,23 +220,27 @@ if not BEFORE:
     )
     raise SystemExit(0)
 with tempfile.TemporaryDirectory() as folder:
-    with tarfile.open(fileobj=io.BytesIO(git("archive", COMMIT, "prm"))) as archive:
-        archive.extractall(folder)
-    scenes = Path(folder) / "prm"
-    names = sorted(path.stem for path in scenes.glob("*.prm"))
+    place = Path(folder)
+    with tarfile.open(
+        fileobj=io.BytesIO(git("archive", COMMIT, "prm", "tests/extremes", "tools"))
+    ) as archive:
+        archive.extractall(place)
+    names = sorted(path.stem for path in (place / "prm").glob("*.prm"))
     if options.quick:
         names = ["billet_upsetting", "press_fit"]
-    rows = [scene_row(scenes, name) for name in names]
-    counts = [] if options.quick else [count_row(scenes, name) for name in COUNTED]
-same = sum(max(float(str(row[3])), float(str(row[4]))) <= ALLOWED for row in rows)
-exact = sum(row[3] == row[4] == "0" for row in rows)
-pages = (
-    git("show", f"{COMMIT}:doc/results/extremes.md").decode(),
-    (ROOT / "doc/results/extremes.md").read_text(),
-)
-extremes = [outcomes(page) for page in pages]
-kinds = [kind for kind in extremes[1] if kind != "scenes"] + ["scenes"]
+    compared = [Compared(place / "prm", name) for name in names]
+    counts = [] if options.quick else [count_row(place / "prm", name) for name in COUNTED]
+    extremes = (
+        []
+        if options.quick
+        else [outcomes(BEFORE, place, place / "before"), outcomes(PROGRAM, place, place / "now")]
+    )
+same = [scene for scene in compared if scene.is_same]
+exact = [scene for scene in same if scene.difference.largest == 0.0]
 worst = max((abs(float(str(row[4]).split()[0])) for row in counts), default=math.nan)
+shared = [name for name in extremes[0] if name in extremes[1]] if extremes else []
+other = [name for name in shared if extremes[0][name][0] != extremes[1][name][0]]
+as_many = sum(extremes[0][name][1] == extremes[1][name][1] for name in shared)
 
 publish(
     "earlier-version",
@@ -207,17 +250,18 @@ publish(
         f"This page compares the program with that of commit {COMMIT}, before its classes were divided. The"
         " numbers should not change with the form of the code. The scenes are those of that commit, which"
         " this program still reads.\n\n"
-        "Differences are those of all forces and moments, and of all energies, in all rows of the history."
-        " They are relative to the largest vector of that name, or to the largest energy."
+        "Differences are those of all forces and moments, and of all energies, in all rows that both"
+        " histories have. They are relative to the largest vector of that name, or to the largest energy."
         f" Steps and iterations are those of before / now. Allowed is {ALLOWED:g}."
     ),
     (
-        f"{same} of {len(rows)} scenes keep their forces and energies, {exact} of them to the last bit."
+        f"{len(same)} of {len(compared)} scenes keep forces, energies, steps and iterations;"
+        f" {len(exact)} of them to the last bit."
         " The column 'without it' has the larger difference where both programs run without the cause."
     ),
     table(
-        ["scene", "steps", "iterations", "forces", "energies", "without it", "cause"],
-        rows,
+        ["scene", "steps", "iterations", "other rows", "forces", "energies", "without it", "cause"],
+        [scene.row() for scene in compared],
     ),
     (
         "## Instructions\n\n"
@@ -227,10 +271,22 @@ publish(
     table(["scene", "part", "before", "now", "change"], counts),
     (
         "## Scenes at the extremes\n\n"
-        "What became of them, as the page of each version says. This version has more of them."
+        f"Part {PART} of the {COMMIT} plan, {len(shared)} scenes, ran with both programs. They were judged by"
+        f" the checks of that version. {len(shared) - len(other)} have the same outcome,"
+        f" {as_many} as many steps"
+        " and iterations. The others are:"
     ),
     table(
-        ["version", *kinds],
-        [[name, *(of.get(kind, "") for kind in kinds)] for name, of in zip(("before", "now"), extremes)],
+        ["scene", "outcome before", "now", "steps, iterations before", "now"],
+        [
+            [
+                f"`{name}`",
+                extremes[0][name][0],
+                extremes[1][name][0],
+                extremes[0][name][1],
+                extremes[1][name][1],
+            ]
+            for name in other
+        ],
     ),
 )
