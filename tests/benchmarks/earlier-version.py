@@ -222,7 +222,7 @@ if not BEFORE:
 with tempfile.TemporaryDirectory() as folder:
     place = Path(folder)
     with tarfile.open(
-        fileobj=io.BytesIO(git("archive", COMMIT, "prm", "tests/extremes", "tools"))
+        fileobj=io.BytesIO(git("archive", COMMIT, "prm", "tests/extremes", "trade"))
     ) as archive:
         archive.extractall(place)
     names = sorted(path.stem for path in (place / "prm").glob("*.prm"))
