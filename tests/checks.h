@@ -17,9 +17,9 @@ inline unsigned int &n_failures() {
 
 inline int exit_code() { return n_failures() == 0 ? 0 : 1; }
 
-inline void check(const std::string &name, const bool constraints) {
-  std::cout << name << ": " << (constraints ? "ok" : "FAILED") << std::endl;
-  n_failures() += constraints ? 0 : 1;
+inline void check(const std::string &name, const bool holds) {
+  std::cout << name << ": " << (holds ? "ok" : "FAILED") << std::endl;
+  n_failures() += holds ? 0 : 1;
 }
 
 } // namespace billet::testing

@@ -269,9 +269,9 @@ void report(const std::string &name, const double error, const double bound) {
     check(name, error, bound);
 }
 
-void report(const std::string &name, const bool constraints) {
+void report(const std::string &name, const bool holds) {
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    check(name, constraints);
+    check(name, holds);
 }
 
 /// Whether enough hanging nodes press, and some of them depend on dofs of other ranks.

@@ -30,9 +30,9 @@ double integer_of(const unsigned int rank, const unsigned int node, const unsign
 }
 
 void report(const std::string &name, const bool holds_here) {
-  const bool constraints = dealii::Utilities::MPI::min(holds_here ? 1 : 0, MPI_COMM_WORLD) == 1;
+  const bool holds = dealii::Utilities::MPI::min(holds_here ? 1 : 0, MPI_COMM_WORLD) == 1;
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    check(name, constraints);
+    check(name, holds);
 }
 
 template <class IsMine>

@@ -133,8 +133,8 @@ int main(int argc, char *argv[]) {
         hanging_count_first = hanging_count_first && constraints.get_constraint_entries(line.dof)->size() > 1;
       }
   }
-  const auto all = [&](const bool constraints) {
-    return dealii::Utilities::MPI::min(constraints ? 1 : 0, communicator) == 1;
+  const auto all = [&](const bool holds) {
+    return dealii::Utilities::MPI::min(holds ? 1 : 0, communicator) == 1;
   };
   n_both = dealii::Utilities::MPI::sum(n_both, communicator);
   n_foreign = dealii::Utilities::MPI::sum(n_foreign, communicator);

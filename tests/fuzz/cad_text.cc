@@ -64,12 +64,12 @@ bool is_sound_step(const std::string &bytes) {
     (next != std::string::npos && text[next] == '=' ? defined : named)
         .insert(text.substr(first, end - first));
   }
-  bool constraints = text.find("END-ISO-10303-21") != std::string::npos;
+  bool holds = text.find("END-ISO-10303-21") != std::string::npos;
   for (const std::string &name : defined)
-    constraints = constraints && defined.count(name) == 1;
+    holds = holds && defined.count(name) == 1;
   for (const std::string &name : named)
-    constraints = constraints && defined.count(name) == 1;
-  return constraints;
+    holds = holds && defined.count(name) == 1;
+  return holds;
 }
 
 bool is_sound_iges(const std::string &bytes) {
@@ -79,10 +79,10 @@ bool is_sound_iges(const std::string &bytes) {
   while (std::getline(lines, line) && (line.size() < 73 || line[72] != 'T'))
     if (line.size() > 72)
       ++n[line[72]];
-  bool constraints = line.size() > 72;
-  for (std::size_t i = 0; constraints && i < 4; ++i)
-    constraints = line[8 * i] == "SGDP"[i] && std::atoi(line.substr(8 * i + 1, 7).c_str()) == n["SGDP"[i]];
-  return constraints;
+  bool holds = line.size() > 72;
+  for (std::size_t i = 0; holds && i < 4; ++i)
+    holds = line[8 * i] == "SGDP"[i] && std::atoi(line.substr(8 * i + 1, 7).c_str()) == n["SGDP"[i]];
+  return holds;
 }
 
 } // namespace

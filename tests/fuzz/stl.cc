@@ -66,16 +66,15 @@ bool is_sound(const TriangleMesh &mesh, const std::string &bytes) {
   if (bytes.size() >= 84)
     std::memcpy(&announced, bytes.data() + 80, sizeof announced);
   const bool is_binary = bytes.size() == 84 + std::size_t{50} * announced;
-  bool constraints =
-      is_binary ? mesh.facets.size() == announced : mesh.facets.size() <= n_words(bytes, "endfacet");
-  constraints = constraints && mesh.points.size() == 3 * mesh.facets.size() && !mesh.facets.empty();
+  bool holds = is_binary ? mesh.facets.size() == announced : mesh.facets.size() <= n_words(bytes, "endfacet");
+  holds = holds && mesh.points.size() == 3 * mesh.facets.size() && !mesh.facets.empty();
   for (const auto &facet : mesh.facets)
     for (const unsigned int point : facet)
-      constraints = constraints && point < mesh.points.size();
+      holds = holds && point < mesh.points.size();
   for (const auto &point : mesh.points)
     for (unsigned int i = 0; i < 3; ++i)
-      constraints = constraints && std::isfinite(point[i]);
-  return constraints;
+      holds = holds && std::isfinite(point[i]);
+  return holds;
 }
 
 } // namespace

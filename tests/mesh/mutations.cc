@@ -13,28 +13,28 @@ namespace {
 /// Whether all indices of a mesh are sound, all coordinates finite, and all groups there.
 bool is_sound(const MeshFile &mesh) {
   const std::size_t n_nodes = mesh.positions.size();
-  bool constraints = mesh.node_numbers.size() == n_nodes && !mesh.hexahedra.empty();
+  bool holds = mesh.node_numbers.size() == n_nodes && !mesh.hexahedra.empty();
   const auto is_node = [&](const unsigned int node) { return node < n_nodes; };
   for (const auto &position : mesh.positions)
     for (const double x : position)
-      constraints = constraints && std::abs(x) <= 1e61;
+      holds = holds && std::abs(x) <= 1e61;
   std::set<long long> numbers(mesh.node_numbers.begin(), mesh.node_numbers.end());
-  constraints = constraints && numbers.size() == n_nodes;
+  holds = holds && numbers.size() == n_nodes;
   for (const auto &hexahedron : mesh.hexahedra)
-    constraints = constraints && std::all_of(hexahedron.nodes.begin(), hexahedron.nodes.end(), is_node);
+    holds = holds && std::all_of(hexahedron.nodes.begin(), hexahedron.nodes.end(), is_node);
   for (const auto &face : mesh.faces)
-    constraints = constraints && std::all_of(face.nodes.begin(), face.nodes.end(), is_node) &&
-                  face.group < mesh.groups.size();
+    holds = holds && std::all_of(face.nodes.begin(), face.nodes.end(), is_node) &&
+            face.group < mesh.groups.size();
   for (const auto &set : mesh.node_sets)
-    constraints = constraints && std::all_of(set.members.begin(), set.members.end(), is_node) &&
-                  set.group < mesh.groups.size();
+    holds = holds && std::all_of(set.members.begin(), set.members.end(), is_node) &&
+            set.group < mesh.groups.size();
   for (const auto &set : mesh.element_sets)
     for (const unsigned int element : set.members)
-      constraints = constraints && element < mesh.hexahedra.size() && set.group < mesh.groups.size();
+      holds = holds && element < mesh.hexahedra.size() && set.group < mesh.groups.size();
   for (const auto &volume : mesh.volumes)
     for (const unsigned int element : volume.members)
-      constraints = constraints && element < mesh.hexahedra.size();
-  return constraints;
+      holds = holds && element < mesh.hexahedra.size();
+  return holds;
 }
 
 } // namespace

@@ -16,11 +16,11 @@ std::string replaced(std::string text, const std::string &from, const std::strin
 
 void check_refusal(const std::string &name, const std::string &bytes, const std::vector<std::string> &words) {
   const std::string message = refusal(bytes);
-  bool constraints = true;
+  bool holds = true;
   for (const std::string &word : words)
-    constraints = constraints && message.find(word) != std::string::npos;
-  check(name, constraints);
-  if (!constraints)
+    holds = holds && message.find(word) != std::string::npos;
+  check(name, holds);
+  if (!holds)
     std::cout << "  says: " << message << std::endl;
 }
 

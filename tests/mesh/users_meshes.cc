@@ -65,14 +65,13 @@ bool is_as_expected(const MeshFile &mesh, const Expected &expected, const std::s
     return near(found, wanted);
   };
   const auto count = [](const std::size_t n) { return static_cast<double>(n); };
-  bool constraints = agrees("elements", count(mesh.hexahedra.size()), count(expected.n_elements));
-  constraints =
-      agrees("nodes", count(mesh.positions.size()), count(n_layers * expected.n_nodes)) && constraints;
-  constraints = agrees("volume", volume(mesh) / height, expected.volume) && constraints;
+  bool holds = agrees("elements", count(mesh.hexahedra.size()), count(expected.n_elements));
+  holds = agrees("nodes", count(mesh.positions.size()), count(n_layers * expected.n_nodes)) && holds;
+  holds = agrees("volume", volume(mesh) / height, expected.volume) && holds;
   const BoundaryGroups groups(mesh);
   for (const auto &[name, wanted] : expected.areas)
-    constraints = agrees(name, area(mesh, groups, ids_of(groups, name)) / height, wanted) && constraints;
-  return constraints;
+    holds = agrees(name, area(mesh, groups, ids_of(groups, name)) / height, wanted) && holds;
+  return holds;
 }
 
 bool is_as_expected_of_section(const MeshFile &mesh, const Expected &expected) {
@@ -86,22 +85,22 @@ int main() {
   const auto all = expected_meshes();
   for (const Expected &expected : all) {
     std::string message;
-    bool constraints = false;
+    bool holds = false;
     try {
       const bool is_section = expected.name.rfind("section_", 0) == 0;
       const std::string text = text_of(expected.name);
       MeshFile mesh = is_section ? parse_plane_mesh(text, &text_of) : parse_mesh(text, &text_of);
       mend_and_check(mesh, DoubledNodes::refused, 0.);
-      constraints = expected.message.empty() &&
-                    (is_section ? is_as_expected_of_section(mesh, expected) : is_as_expected(mesh, expected));
+      holds = expected.message.empty() &&
+              (is_section ? is_as_expected_of_section(mesh, expected) : is_as_expected(mesh, expected));
     } catch (const std::invalid_argument &error) {
       message = error.what();
-      constraints = !expected.message.empty() && message.find(expected.message) != std::string::npos;
+      holds = !expected.message.empty() && message.find(expected.message) != std::string::npos;
       ++n_refused;
     }
-    if (!constraints && !message.empty())
+    if (!holds && !message.empty())
       std::cout << expected.name << ": " << message << std::endl;
-    check(expected.name, constraints);
+    check(expected.name, holds);
   }
   check("sixty meshes and more", all.size() >= 60 && n_refused >= 10);
   return exit_code();

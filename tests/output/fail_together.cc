@@ -34,7 +34,7 @@ bool is_same(const Diagnostic &a, const Diagnostic &b) {
 
 /// Whether the action, on the last rank alone, makes every rank throw an `Error` that `holds`.
 template <class Error>
-bool all_throw(const std::function<void()> &action, const std::function<bool(const Error &)> &constraints) {
+bool all_throw(const std::function<void()> &action, const std::function<bool(const Error &)> &holds) {
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   int passes = 0;

@@ -18,8 +18,8 @@ namespace {
 constexpr double depth = 0.01, tolerance = 1e-3, round_off = 1e-10;
 constexpr std::size_t lower = 0, upper = 1;
 
-void check(const std::string &name, const bool constraints) {
-  const bool all_hold = dealii::Utilities::MPI::min(constraints ? 1 : 0, MPI_COMM_WORLD) == 1;
+void check(const std::string &name, const bool holds) {
+  const bool all_hold = dealii::Utilities::MPI::min(holds ? 1 : 0, MPI_COMM_WORLD) == 1;
   if (testing::is_first_rank())
     testing::check(name, all_hold);
 }
