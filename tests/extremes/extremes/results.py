@@ -93,16 +93,20 @@ class Result:
         self.history, self.fields = in_base_units(history, setup.frame), (
             upright(fields, setup.frame) if fields else {}
         )
+        self.before: Fields = {}
 
     @classmethod
     def read(cls, setup: Setup, folder: Path) -> Result:
         pictures = pictures_of(folder)
-        return cls(
+        result = cls(
             setup,
             read_history(folder / "history.csv"),
             read_grid(pictures[-1]) if pictures else {},
             read_estimates(folder),
         )
+        if setup.sections["Output"].get("Step interval") == 1 and len(pictures) > 1:
+            result.before = upright(read_grid(pictures[-2]), setup.frame)
+        return result
 
     @cached_property
     def named(self) -> list[str]:
