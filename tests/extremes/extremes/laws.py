@@ -188,7 +188,7 @@ def relaxing(
             whole = tuple(p + rest * t[i] + sum(one[i] for one in h) for i in range(3))
             return whole, t, h  # type: ignore[return-value]
 
-        bound = 4 * abs(strain - last) + 1e-3 * abs(strain) + 1e-12
+        bound = 4 * abs(strain - last) + abs(strain)
         side = closed_forms.root(lambda a: made(a)[0][free], side - bound, side + bound)
         total, before, held = made(side)
     return total, side

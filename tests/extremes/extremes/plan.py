@@ -161,11 +161,10 @@ def far(
 
 def in_other_words(name: str, along: Changes) -> Iterator[Case]:
     """A law in other units, and turned in space."""
-    for base in ("upset", "slide", "drop.explicit", "drop.implicit"):
+    for base in ("upset", "drop.explicit"):
         more = {**FAR.get(base, {}), **along}
-        loose = 1e-9 if base != "drop.implicit" else 1e-5
         units = {"length": 2.0**20, "stress": 2.0**-30, "time": 2.0**10}
-        yield Case(base, {**more, **units}, ("units",), (f"{name}, powers of 2",), more, "exact", loose)
+        yield Case(base, {**more, **units}, ("units",), (f"{name}, powers of 2",), more, "exact", 1e-9)
         turned = {**more, "turned": 50.0}
         yield Case(base, turned, ("turned",), (50.0,), more, "", 1e-3)
 
@@ -196,16 +195,18 @@ def of_rubber() -> Iterator[Case]:
         yield from single(row, ("membrane",), [1e-4, 1.0, 1.5, -1.0, -1.5], "strain", along)
         yield from single(row, ("shear",), [1e-4, 0.1, 3.0, 10.0], "strain", along)
         yield from single(row, ("upset",), [-1e-4, -1.0, -2.0], "strain", {**along, "strained": True})
-        yield from single(row, STRETCHED, [-1.0, 1e-4, 1.0, 2.0], "strain", along)
+        yield from single(row, STRETCHED[:1], [-1.0, 1e-4, 2.0], "strain", along)
+        yield from single(row, STRETCHED[1:], [-1.0, 1.0], "strain", along)
         yield from far(
             f"nu, {law}",
-            ("pull", "upset", "membrane", "stack", "stretch.implicit"),
-            [0.0, 0.4999, 0.49999],
+            ("pull", "upset", "membrane", "stack"),
+            [0.0, 0.49999],
             "nu",
             {"kinematics": law},
         )
         for element in ELEMENTS[1:]:
-            yield from far("element", ("upset", "shear", "drop.explicit"), [element], along=along)
+            more = {**along, "nu": 0.49999}
+            yield from far("element", ("upset", "shear"), [element], along=more)
         yield from in_other_words(law, along)
     constants = {
         "Mooney-Rivlin": [1e-6, 0.5, 0.9, 0.999],
@@ -216,18 +217,25 @@ def of_rubber() -> Iterator[Case]:
     for law, values in constants.items():
         yield from far(
             f"constant, {law}",
-            ("pull", "membrane", "shear", "upset", "stretch.explicit", "stack"),
+            ("pull", "membrane", "shear"),
             values,
+            "constant",
+            {"kinematics": law, "nu": 0.49},
+        )
+        yield from far(
+            f"constant, {law}",
+            ("upset", "stretch.explicit", "stack"),
+            [values[0], values[-1]],
             "constant",
             {"kinematics": law, "nu": 0.49},
         )
     for law in RUBBER:
         for volumetric in VOLUMETRIC:
             for nu in (0.1, 0.499):
-                for base in ("pull", "membrane", "upset") + (("stretch.explicit",) if law == "Yeoh" else ()):
+                for base in ("pull", "membrane") + (("upset", "stack", *STRETCHED) if law == "Yeoh" else ()):
                     yield Case(
                         base,
-                        {**FAR[base], "kinematics": law, "volumetric": volumetric, "nu": nu},
+                        {**FAR.get(base, {}), "kinematics": law, "volumetric": volumetric, "nu": nu},
                         ("volumetric", "nu"),
                         (volumetric, nu),
                     )
@@ -242,8 +250,8 @@ def of_viscosity() -> Iterator[Case]:
             "relaxation", ("pull",), [1e-3, 0.1, 10.0], along={"prony": 0.6, "kinematics": law, "ramp": 0.01}
         )
     yield from far("relaxation", ("pull", "membrane", "shear"), times, along={**viscous, "ramp": 0.01})
-    yield from far("relaxation", ("upset", "shear", *STRETCHED), times[::2], along=viscous)
-    yield from far("relaxation", ("drop.explicit", "drop.implicit"), times[::2], along={"prony": 0.6})
+    yield from far("relaxation", ("upset", "stretch.explicit"), times[::2], along=viscous)
+    yield from far("relaxation", ("drop.explicit", "drop.implicit"), [1e-6, 1.0, 1e6], along={"prony": 0.6})
     yield from far("prony", ("pull", "shear", "stretch.explicit"), [1e-6, 0.1, 0.999], along={"relaxation": 0.1})
     for g in (0.01, 0.9, 0.999):
         for time in (1e-3, 0.1, 10.0):
@@ -261,9 +269,9 @@ def of_rates() -> Iterator[Case]:
         along: Changes = {**PLASTIC, "rate factor": factor}
         yield from far("rate factor", KINDS_OF_LAWS, [factor], along=PLASTIC)
         row = f"rate, {factor}"
-        rates = [1e-6, 1e-3, 1.0, 1e3, 1e6]
-        yield from far(row, ("pull", "membrane", "shear"), rates, "rate", along)
-        yield from far(row, ("upset", "stack", *STRETCHED, "drop.explicit"), rates[::2], "rate", along)
+        rates = [1e-6, 1e-3, 1e3, 1e6]
+        yield from far(row, ("pull", "shear"), rates, "rate", along)
+        yield from far(row, ("upset", "stack", *STRETCHED, "drop.explicit"), rates[::3], "rate", along)
         yield from in_other_words(factor, along)
     cowper: Changes = {**PLASTIC, "rate factor": "Cowper-Symonds"}
     yield from far("rate exponent", ("pull", "shear", "stretch.explicit"), [1.0, 20.0, 100.0], along=cowper)
@@ -293,12 +301,12 @@ def of_heat() -> Iterator[Case]:
         yield from far("thermal factor", KINDS_OF_LAWS, [factor], along=PLASTIC)
         temperatures = [-1.0, 0.0, 0.9, 0.999, 1.0, 2.0]
         yield from far(row, ("pull", "shear"), temperatures, "temperature", along)
-        yield from far(row, ("upset", "stack", *STRETCHED, "drop.explicit"), temperatures[::2], "temperature", along)
+        yield from far(row, ("upset", "stack", "stretch.explicit"), [-1.0, 0.9, 2.0], "temperature", along)
         warm: Changes = {**along, "temperature": 0.0}
         heats = [1e-3, 0.1, 1.0, 10.0, 1e3]
-        yield from far(f"heat, {factor}", ("pull", "membrane", "shear"), heats, "heat", warm)
+        yield from far(f"heat, {factor}", ("pull", "shear"), heats, "heat", warm)
         yield from far(
-            f"heat, {factor}", ("upset", *STRETCHED, "drop.explicit", "drop.implicit"), heats[1:4], "heat", warm
+            f"heat, {factor}", ("upset", *STRETCHED, "drop.explicit", "drop.implicit"), [0.1, 10.0], "heat", warm
         )
         yield from in_other_words(f"{factor} of temperature", {**warm, "heat": 0.1})
     along = {**PLASTIC, "thermal factor": "Johnson-Cook"}
@@ -310,14 +318,15 @@ def of_heat() -> Iterator[Case]:
         "temperature": 0.1,
         "heat": 0.3,
     }
-    yield from far("rate, Johnson and Cook's law", KINDS_OF_LAWS, [1e-6, 1e3], "rate", whole)
+    yield from far("rate, Johnson and Cook's law", KINDS_OF_LAWS, [1e3], "rate", whole)
 
 
 def of_flow_rules() -> Iterator[Case]:
     back: Changes = {**PLASTIC, "flow rule": "backstress"}
     yield from far("flow rule", KINDS_OF_LAWS, ["backstress", "Hill"], along=PLASTIC)
-    yield from far("backstress", ("pull", "shear", "upset", *STRETCHED), [1e-3, 1.0, 1e3], along=back)
-    yield from far("recovery", ("pull", "shear", "upset", *STRETCHED), [0.0, 1.0, 1e3, 1e5], along=back)
+    yield from far("backstress", ("pull", "shear", "stretch.explicit"), [1e-3, 1.0, 1e3], along=back)
+    yield from far("recovery", ("pull", "shear"), [0.0, 1.0, 1e3, 1e5], along=back)
+    yield from far("recovery", ("upset", *STRETCHED), [0.0, 1e3], along=back)
     yield from far("recovery", ("stack", "drag"), [0.0, 1e3], along=back)
     for cycles in (1, 3, 10):
         for recovery in (0.0, 20.0, 1e3):
@@ -332,7 +341,7 @@ def of_flow_rules() -> Iterator[Case]:
     yield from in_other_words("backstress", back)
     for axis in ("first", "second", "third"):
         for r in (0.1, 0.5, 2.0, 10.0):
-            for base in ("pull", "upset", *STRETCHED):
+            for base in ("pull", "upset", "stretch.explicit"):
                 yield Case(
                     base,
                     {**PLASTIC, **FAR[base], "r value": r, "pulled": axis},
@@ -340,7 +349,8 @@ def of_flow_rules() -> Iterator[Case]:
                     (r, axis),
                 )
     hill: Changes = {**PLASTIC, "r value": 3.0}
-    yield from far("r value", KINDS_OF_LAWS, [0.1, 1.0, 10.0], along=PLASTIC)
+    yield from far("r value", KINDS_OF_LAWS, [10.0], along=PLASTIC)
+    yield from far("r value", ("shear", "slide", "stretch.implicit", "drop.implicit"), [0.1], along=PLASTIC)
     yield from single("strain, Hill", ("pull", "shear"), [1e-2, 2.0], "strain", hill)
     yield from in_other_words("Hill", hill)
 
