@@ -752,7 +752,8 @@ def membrane_stress(r: Result) -> list[Finding]:
         Finding(
             "stress of the membrane",
             max(
-                float(numpy.max(numpy.abs(r.fields[f"stress_{i}"] - wanted))) / abs(wanted) for i in ("xx", "yy")
+                float(numpy.max(numpy.abs(r.fields[f"stress_{i}"] - wanted))) / abs(wanted)
+                for i in ("xx", "yy")
             ),
             1e-4 + 10 * ROUNDING / min(abs(strain), 1),
         ),

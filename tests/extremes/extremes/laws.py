@@ -8,7 +8,7 @@ import math
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence, Union
 
 import numpy
 from billet_tools.output import Array
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .scenes import Knobs
 
 Three = tuple[float, float, float]
+Steps = Union[Sequence[float], Array]
 RUBBER = ("Mooney-Rivlin", "Yeoh", "Ogden", "Arruda-Boyce")
 VOLUMETRIC = ("logarithmic", "quadratic", "Ogden")
 RATE_FACTORS = ("Cowper-Symonds", "Johnson-Cook", "table")
@@ -47,6 +48,30 @@ def loaded(k: Knobs, times: Array) -> Array:
     if k.cycles:
         return numpy.asarray(numpy.sin(2 * math.pi * (k.cycles + 0.25) * times))
     return numpy.minimum(times / k.ramp, 1.0)
+
+
+def solve(function: Callable[[float], float], low: float, high: float) -> float:
+    """The root of a function with one change of sign between low and high, by the rule of Illinois; by
+    bisection where that is slow."""
+    f_low, f_high, side = function(low), function(high), 0
+    if (f_low > 0) == (f_high > 0):
+        return closed_forms.root(function, low, high)
+    for count in range(200):
+        x = 0.5 * (low + high) if count % 8 == 7 else (low * f_high - high * f_low) / (f_high - f_low)
+        if not low < x < high:
+            x = 0.5 * (low + high)
+        f = function(x)
+        if f == 0 or x in (low, high) or high - low <= 1e-15 * max(abs(low), abs(high)):
+            return x
+        if (f > 0) == (f_low > 0):
+            low, f_low = x, f
+            f_high *= 0.5 if side < 0 else 1.0
+            side = -1
+        else:
+            high, f_high = x, f
+            f_low *= 0.5 if side > 0 else 1.0
+            side = 1
+    return x
 
 
 # --- elasticity -----------------------------------------------------------------------------------
@@ -162,8 +187,8 @@ def free_of(mode: Mode) -> int:
 def relaxing(
     law: Elastic,
     mode: Mode,
-    strains: Sequence[float],
-    times: Sequence[float],
+    strains: Steps,
+    times: Steps,
     terms: Sequence[tuple[float, float]] = (),
 ) -> tuple[Three, float]:
     """(stresses, strain of the free direction) at the last of the strains, which are reached at these times
@@ -189,7 +214,7 @@ def relaxing(
             return whole, t, h  # type: ignore[return-value]
 
         bound = 4 * abs(strain - last) + abs(strain)
-        side = closed_forms.root(lambda a: made(a)[0][free], side - bound, side + bound)
+        side = solve(lambda a: made(a)[0][free], side - bound, side + bound)
         total, before, held = made(side)
     return total, side
 
@@ -315,11 +340,11 @@ class Flow:
         if not self.k.heat or after <= before:
             return temperature
         rise = HEATS / capacity(self.k, self.young) * factor * self.work(before, after)
-        return closed_forms.root(
+        return solve(
             lambda t: t - temperature - rise * thermal_factor(self.k, t), temperature, temperature + rise
         )
 
-    def bar(self, strains: Sequence[float], times: Sequence[float]) -> tuple[float, Three, float, float]:
+    def bar(self, strains: Steps, times: Steps) -> tuple[float, Three, float, float]:
         """(stress, strains, equivalent plastic strain, temperature) at the last of the strains, reached at
         these times from 0 on; each step is monotone."""
         k, e = self.k, self.young
@@ -347,7 +372,7 @@ class Flow:
             da = 0.0
             if after(0.0)[0] > 0:
                 most = abs(e * (strain - plastic) - sum(backs)) * self.strength / e
-                da = closed_forms.root(lambda x: after(x)[0], 0.0, most)
+                da = solve(lambda x: after(x)[0], 0.0, most)
             _, plastic, backs, temperature = after(da)
             alpha += da
             stress = e * (strain - plastic)

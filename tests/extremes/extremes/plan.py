@@ -244,7 +244,9 @@ def of_rubber() -> Iterator[Case]:
 def of_viscosity() -> Iterator[Case]:
     times = [1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3, 1e6]
     viscous: Changes = {"prony": 0.6, "kinematics": "Yeoh", "nu": 0.49}
-    yield from far("prony", KINDS_OF_LAWS, [0.6], along={"kinematics": "Ogden", "nu": 0.49, "relaxation": 0.1})
+    yield from far(
+        "prony", KINDS_OF_LAWS, [0.6], along={"kinematics": "Ogden", "nu": 0.49, "relaxation": 0.1}
+    )
     for law in ("Hencky", "neo-Hookean", *RUBBER):
         yield from far(
             "relaxation", ("pull",), [1e-3, 0.1, 10.0], along={"prony": 0.6, "kinematics": law, "ramp": 0.01}
@@ -252,7 +254,9 @@ def of_viscosity() -> Iterator[Case]:
     yield from far("relaxation", ("pull", "membrane", "shear"), times, along={**viscous, "ramp": 0.01})
     yield from far("relaxation", ("upset", "stretch.explicit"), times[::2], along=viscous)
     yield from far("relaxation", ("drop.explicit", "drop.implicit"), [1e-6, 1.0, 1e6], along={"prony": 0.6})
-    yield from far("prony", ("pull", "shear", "stretch.explicit"), [1e-6, 0.1, 0.999], along={"relaxation": 0.1})
+    yield from far(
+        "prony", ("pull", "shear", "stretch.explicit"), [1e-6, 0.1, 0.999], along={"relaxation": 0.1}
+    )
     for g in (0.01, 0.9, 0.999):
         for time in (1e-3, 0.1, 10.0):
             yield Case(
@@ -306,7 +310,11 @@ def of_heat() -> Iterator[Case]:
         heats = [1e-3, 0.1, 1.0, 10.0, 1e3]
         yield from far(f"heat, {factor}", ("pull", "shear"), heats, "heat", warm)
         yield from far(
-            f"heat, {factor}", ("upset", *STRETCHED, "drop.explicit", "drop.implicit"), [0.1, 10.0], "heat", warm
+            f"heat, {factor}",
+            ("upset", *STRETCHED, "drop.explicit", "drop.implicit"),
+            [0.1, 10.0],
+            "heat",
+            warm,
         )
         yield from in_other_words(f"{factor} of temperature", {**warm, "heat": 0.1})
     along = {**PLASTIC, "thermal factor": "Johnson-Cook"}

@@ -281,7 +281,15 @@ class Runner:
         library = self.folder / laws.LIBRARY
         if not library.exists() or library.stat().st_mtime < source.stat().st_mtime:
             built = library.with_suffix(f".{os.getpid()}")  # another process may need it now
-            command = [laws.compiler() or "gfortran", "-O2", "-shared", "-fPIC", "-o", str(built), str(source)]
+            command = [
+                laws.compiler() or "gfortran",
+                "-O2",
+                "-shared",
+                "-fPIC",
+                "-o",
+                str(built),
+                str(source),
+            ]
             subprocess.run(command, check=True)
             built.replace(library)
         return library

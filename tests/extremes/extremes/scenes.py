@@ -588,7 +588,7 @@ def membrane(k: Knobs) -> Setup:
         },
         **statics(k, f, first=stops[0] / 4 if stops else None, stops=stops),
     }
-    checks = [
+    checks: list[must.Check] = [
         must.finite,
         must.yields,
         must.diagonal_symmetry,
@@ -619,7 +619,14 @@ def shear(k: Knobs) -> Setup:
         },
         **statics(k, f, first=stops[0] / 4 if stops else None, stops=stops),
     }
-    checks = [must.finite, must.yields, must.uniform_stress, must.sheared, must.energies, must.jacobians]
+    checks: list[must.Check] = [
+        must.finite,
+        must.yields,
+        must.uniform_stress,
+        must.sheared,
+        must.energies,
+        must.jacobians,
+    ]
     return Setup(k, f, sections, checks, strain=k.strain)
 
 
