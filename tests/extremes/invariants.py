@@ -405,6 +405,16 @@ class Invariants(unittest.TestCase):
         elastic = lambda: made_up("pull", history={"plastic_work": 0.0, "elastic_energy": 1.0})  # noqa: E731
         self.about(must.dissipates, elastic, lambda r: r.history.update(plastic_work=1e-3 * t))
 
+    def test_heats(self) -> None:
+        # of ten per cent of plastic strain at the first yield stress, 10
+        knobs = {"law": "elastoplastic", "thermal factor": "table", "heat": 1.0}
+        make = lambda: made_up(  # noqa: E731
+            "pull", knobs, state_temperature_rise=100.0, history={"plastic_work": 1.0}
+        )
+        self.about(
+            must.heats, make, lambda r: r.history.update(plastic_work=1.01 * r.history["plastic_work"])
+        )
+
     def test_membrane(self) -> None:
         knobs = {"kinematics": "Mooney-Rivlin", "strain": 0.5}
         law = laws.Elastic.of(scenes.Knobs(knobs))

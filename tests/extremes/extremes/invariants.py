@@ -564,6 +564,16 @@ def dissipates(r: Result) -> list[Finding]:
     return found
 
 
+def heats(r: Result) -> list[Finding]:
+    """A part of the plastic work is the heat of the body."""
+    k = r.knobs
+    volumes = determinants(r.fields["places"][r.fields["cells"]]).sum(axis=1)
+    rise = r.fields["state_temperature_rise"][r.fields["cells"][:, 0]]
+    heat = float(numpy.sum(volumes / 8 * rise)) * laws.capacity(k)
+    work = laws.HEATS * float(r.history["plastic_work"][-1])
+    return [Finding("heat of the work", part(abs(heat - work), work), 1e-4)]
+
+
 def hill_sides(r: Result) -> list[Finding]:
     """The two sides of a bar move in as its r-values say."""
     strain, known = stretch(r)

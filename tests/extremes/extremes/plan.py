@@ -985,6 +985,16 @@ FIXED = (
     "stretch.explicit/kinematics=Hencky,strain=0.5",
     "stretch.implicit/kinematics=neo-Hookean,strain=-1",
     "upset/strained=True,aspect=0.001,strain=-2.99573",
+    "pull/kinematics=Yeoh,nu=0.49,strain=2.99573",
+    "membrane/strain=0.5,kinematics=Arruda-Boyce,nu=0.49,constant=1.05",
+    "shear/kinematics=Ogden,nu=0.49,strain=10",
+    "stack/kinematics=Ogden,nu=0.49999",
+    "pull/strain=0.5,prony=0.6,kinematics=Yeoh,ramp=0.01,relaxation=0.1",
+    "pull/strain=0.5,law=elastoplastic,rate factor=Cowper-Symonds,rate=1e+06",
+    "shear/strain=1,law=elastoplastic,thermal factor=Johnson-Cook,temperature=0,heat=10",
+    "pull/law=elastoplastic,flow rule=backstress,strain=0.1,cycles=3,recovery=20",
+    "pull/law=elastoplastic,strain=0.5,r value=0.1,pulled=second",
+    "shear/strain=5,law=UMAT,kinematics=hypoelastic",
     (
         "slide/target error=0.1,mu=0.2 like mu=0.2,augmentation=0.0001,first step=0.005,largest"
         " step=0.005,tolerance=1e-09"

@@ -44,6 +44,8 @@ def upright(fields: Fields, frame: Frame) -> Fields:
                 f[name] = f[name] @ frame.turn
         f["points"] = f["points"] @ frame.turn
     f["places"] = f["points"] - f["displacement"]
+    if "state_equivalent_plastic_strain" in f:  # of a UMAT
+        f["equivalent_plastic_strain"] = f["state_equivalent_plastic_strain"]
     if "body" in f:
         f["body"] = f["body"] - f["body"].min()
     return f

@@ -1871,10 +1871,12 @@ def equip(setup: Setup) -> None:
         of_body["Material"] = laws.parameters(k, f, of_body["Material"], young, end, strain_rate(setup))
     if k.law == "UMAT":
         setup.library = laws.UMAT
+        setup.sections["Output"]["State fields"] = "equivalent plastic strain"
     if k.rate_factor != "none" and not setup.sections["Time stepping"].get("Scheme") == "explicit":
         setup.sections["Output"]["Step interval"] = 1  # the rate of the last step
     if k.heat:
         setup.sections["Output"]["State fields"] = "temperature rise"
+        setup.checks.append(must.heats)
     if must.energies not in setup.checks:
         setup.checks.append(must.dissipates)
     if k.r_value is not None:
