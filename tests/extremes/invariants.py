@@ -927,6 +927,8 @@ class Laws(unittest.TestCase):
                 if knob in case.changes:
                     kinds.setdefault(knob, set()).add(case.base)
         self.assertGreaterEqual(len(kinds), 20)
+        for case in plan.of_laws():
+            self.assertTrue(scene_text(scenes.make(case.base, case.changes).sections), case.name)
         for name, bases in kinds.items():
             self.assertGreaterEqual(len(bases), 5, name)
             self.assertTrue(any(b in ("stack", "drag") or b.startswith("bars") for b in bases), name)

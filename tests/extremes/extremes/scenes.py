@@ -1881,8 +1881,8 @@ def equip(setup: Setup) -> None:
         setup.checks.append(must.dissipates)
     if k.r_value is not None:
         if k.pulled != "third":
-            setup.checks.remove(must.diagonal_symmetry)
-        if "strain" in setup.facts and k.mu == 0:
+            setup.checks = [check for check in setup.checks if check is not must.diagonal_symmetry]
+        if "height" in setup.facts and k.mu == 0:
             setup.checks.append(must.hill_sides)
 
 
