@@ -493,7 +493,9 @@ def yields(r: Result) -> list[Finding]:
             for a, b, rate, t in zip(plastic, body, rates, temperatures)
         ]
     )
-    loose = 3e-2 if k.hardening != "linear" or k.rate_factor != "none" or k.heat else 3e-3
+    is_uniform = "strain" in r.setup.facts and k.mu == 0 and not k.distortion
+    is_curved = k.hardening != "linear" or k.rate_factor != "none" or k.heat
+    loose = 3e-2 if is_curved and not is_uniform else 3e-3
     if k.flow_rule == "Hill":
         loose += 0.3  # von Mises' stress over Hill's
     gentle = (
@@ -549,7 +551,7 @@ def flows_at_limit(r: Result) -> list[Finding]:
         laws.yield_limit(k, float(a), None, float(rate), r.setup.facts.get("reference rate", 1.0), float(t))
         for a, rate, t in zip(alpha[first], plastic_rates(r)[first], temperature(r)[first])
     ]
-    return [Finding("flows at the limit", float(numpy.max(numpy.abs(stress * j / found - 1))), 2e-3)]
+    return [Finding("flows at the limit", float(numpy.max(numpy.abs(stress * j / found - 1))), 1e-5)]
 
 
 def dissipates(r: Result) -> list[Finding]:
@@ -588,7 +590,7 @@ def hill_sides(r: Result) -> list[Finding]:
             Finding(
                 f"strain along {'xy'[i]}",
                 abs(reached - expected[i]) / abs(strain),
-                (5e-2 if "kinetic_energy" in r.history else 1e-3) + part(2 * known, abs(strain)),
+                (2e-3 if "kinetic_energy" in r.history else 1e-4) + part(2 * known, abs(strain)),
                 f"{reached:.4g} for {expected[i]:.4g}",
             )
         )
@@ -636,11 +638,13 @@ def bar_in_motion(r: Result) -> list[Finding]:
         return []
     stress, across, loose = expected
     cauchy = stress / math.exp(strain + 2 * across)
+    k = r.knobs
+    waves = 0.01 if k.kinematics in laws.RUBBER or k.prony or laws.is_special(k) else 0.1
     return [
         Finding(
             "stress of the bar",
             abs(float(numpy.mean(r.fields["stress_zz"])) - cauchy) / abs(cauchy),
-            0.1 + loose + 3 * part(known, abs(strain)),
+            waves + loose + 3 * part(known, abs(strain)),
         )
     ]
 
