@@ -266,6 +266,9 @@ def of_viscosity() -> Iterator[Case]:
                 ("prony", "relaxation"),
                 (g, time),
             )
+    turning: Changes = {"prony": 0.9, "kinematics": "Yeoh", "nu": 0.49, "relaxation": 0.1}
+    yield from single("strain, Prony", ("pull",), [1e-4, STRETCHES[-1], STRAINS[0]], "strain", turning)
+    yield from single("strain, Prony", ("shear",), [1e-4, 10.0], "strain", turning)
     yield from in_other_words("Prony", {**viscous, "relaxation": 0.1})
 
 
@@ -313,7 +316,7 @@ def of_heat() -> Iterator[Case]:
         yield from far(
             f"heat, {factor}",
             ("upset", *STRETCHED, "drop.explicit", "drop.implicit"),
-            [0.1, 10.0],
+            [0.1, 10.0, 1e3],
             "heat",
             warm,
         )
