@@ -990,7 +990,6 @@ FIXED = (
     "upset/strained=True,aspect=0.001,strain=-2.99573",
     "pull/kinematics=Yeoh,nu=0.49,strain=2.99573",
     "membrane/strain=0.5,kinematics=Arruda-Boyce,nu=0.49,constant=1.05",
-    "shear/kinematics=Ogden,nu=0.49,strain=10",
     "stack/kinematics=Ogden,nu=0.49999",
     "pull/strain=0.5,prony=0.6,kinematics=Yeoh,ramp=0.01,relaxation=0.1",
     "pull/strain=0.5,law=elastoplastic,rate factor=Cowper-Symonds,rate=1e+06",
