@@ -19,7 +19,7 @@ import modules  # noqa: F401
 from billet_tools.output import Array
 from billet_tools.records import Record
 from billet_tools.scene import scene_text
-from extremes import closed_forms, invariants as must, messages, plan, report, scenes
+from extremes import closed_forms, invariants as must, laws, messages, plan, report, scenes
 from extremes.frame import Frame
 from extremes.results import Result, in_base_units, upright
 from extremes.runner import AT_MOST, PATIENCE, Runner
@@ -52,6 +52,7 @@ def made_up(
     r = Result.__new__(Result)
     r.setup = scenes.make(base, changes or {})
     r.knobs = r.setup.knobs
+    r.before = {}
     places, cells = grid(n, low, high)
     u = numpy.array([move(x) for x in places], float)
     size = len(places)
@@ -340,6 +341,154 @@ class Invariants(unittest.TestCase):
             equivalent_plastic_strain=0.1,
         )
         self.assertTrue(all(f.holds for f in must.yields(small)))
+
+    def test_yields_at_a_rate(self) -> None:
+        # At the reference rate Cowper and Symonds' factor is 2, and half way to melting the other one is 1/2.
+        changes = {"law": "elastoplastic", "rate factor": "Cowper-Symonds", "strain": 1.0}
+        hot = {**changes, "thermal factor": "Johnson-Cook", "temperature": 0.5}
+        for knobs, stress in ((changes, 40.0), (hot, 20.0)):
+
+            def make() -> Result:
+                r = made_up(
+                    "pull", knobs, von_mises_stress=stress, equivalent_plastic_strain=0.1
+                )  # noqa: B023
+                r.before = {"equivalent_plastic_strain": 0 * r.fields["equivalent_plastic_strain"]}
+                return r
+
+            self.about(
+                must.yields,
+                make,
+                lambda r: r.fields.update(von_mises_stress=1.04 * r.fields["von_mises_stress"]),
+                lambda r: r.before.update(r.fields),
+                lambda r: r.history["step_length"].__setitem__(-1, 10.0),
+            )
+        heated = lambda: made_up(  # noqa: E731
+            "pull",
+            {**hot, "rate factor": "none", "heat": 1.0, "temperature": 0.0},
+            von_mises_stress=10.0,
+            equivalent_plastic_strain=0.1,
+            state_temperature_rise=500.0,
+        )
+        self.about(
+            must.yields,
+            heated,
+            lambda r: r.fields.update(von_mises_stress=1.04 * r.fields["von_mises_stress"]),
+            lambda r: r.fields.update(state_temperature_rise=1.1 * r.fields["state_temperature_rise"]),
+        )
+        # without a picture of the step before, in motion, rates are a bound
+        self.assertEqual(must.plastic_rates(made_up("pull", {}, equivalent_plastic_strain=0.1))[0], 0.0)
+        bound = must.plastic_rates(
+            made_up("stretch.explicit", {**changes, "rate": 1e3}, equivalent_plastic_strain=0.1)
+        )
+        self.assertGreater(float(bound[0]), 1.0)
+
+    def test_flows_at_limit(self) -> None:
+        make = lambda: made_up(  # noqa: E731
+            "shear",
+            {"law": "elastoplastic", "hardening": "Voce"},
+            von_mises_stress=20 - 10 * math.exp(-2.0) + 20,
+            equivalent_plastic_strain=0.2,
+        )
+        self.about(
+            must.flows_at_limit,
+            make,
+            lambda r: r.fields["von_mises_stress"].__setitem__(0, 30.0),
+            lambda r: r.fields.update(von_mises_stress=1.01 * r.fields["von_mises_stress"]),
+        )
+
+    def test_dissipates(self) -> None:
+        t = numpy.linspace(0.1, 1, 10)
+        rising = lambda: made_up(  # noqa: E731
+            "pull", {"law": "elastoplastic"}, history={"plastic_work": t, "elastic_energy": 1.0}
+        )
+        self.about(must.dissipates, rising, lambda r: r.history["plastic_work"].__setitem__(5, 0.4))
+        elastic = lambda: made_up("pull", history={"plastic_work": 0.0, "elastic_energy": 1.0})  # noqa: E731
+        self.about(must.dissipates, elastic, lambda r: r.history.update(plastic_work=1e-3 * t))
+
+    def test_heats(self) -> None:
+        # of ten per cent of plastic strain at the first yield stress, 10
+        knobs = {"law": "elastoplastic", "thermal factor": "table", "heat": 1.0}
+        make = lambda: made_up(  # noqa: E731
+            "pull", knobs, state_temperature_rise=100.0, history={"plastic_work": 1.0}
+        )
+        self.about(
+            must.heats, make, lambda r: r.history.update(plastic_work=1.01 * r.history["plastic_work"])
+        )
+
+    def test_membrane(self) -> None:
+        knobs = {"kinematics": "Mooney-Rivlin", "strain": 0.5}
+        law = laws.Elastic.of(scenes.Knobs(knobs))
+        stresses, side = laws.relaxing(law, laws.equibiaxial, [0.5], [1.0])
+        make = lambda: made_up(  # noqa: E731
+            "membrane",
+            knobs,
+            move=lambda x: numpy.expm1([0.5, 0.5, side]) * x,
+            stress_xx=stresses[0] / math.exp(1 + side),
+            stress_yy=stresses[0] / math.exp(1 + side),
+            history={"elastic_energy": law.energy((0.5, 0.5, side))},
+        )
+        self.about(
+            must.membrane_stress,
+            make,
+            lambda r: r.fields["stress_yy"].__setitem__(3, 1.0),
+            lambda r: r.fields.update(displacement=0.99 * r.fields["displacement"]),
+            lambda r: r.history.update(elastic_energy=1.001 * r.history["elastic_energy"]),
+        )
+
+    def test_shear(self) -> None:
+        # Rivlin: the shear stress is G γ, and neo-Hooke's normal stress G γ²
+        gamma, g = 2.0, 1000 / 2.6
+        mises = math.sqrt(g**2 * gamma**4 + 3 * g**2 * gamma**2)
+        knobs = {"kinematics": "neo-Hookean", "strain": gamma}
+        make = lambda: made_up(  # noqa: E731
+            "shear",
+            knobs,
+            von_mises_stress=mises,
+            pressure=0.0,
+            history={**force("block.support head", x=1.0), "elastic_energy": 0.5 * g * gamma**2},
+        )
+        self.about(
+            must.sheared,
+            make,
+            lambda r: r.fields.update(von_mises_stress=1.001 * r.fields["von_mises_stress"]),
+            lambda r: r.fields["pressure"].__setitem__(0, 1.0),
+            lambda r: r.history["block.support head.force_x"].__setitem__(4, -0.1),
+            lambda r: r.history.update(elastic_energy=1.001 * r.history["elastic_energy"]),
+        )
+        relaxed = lambda: made_up(  # noqa: E731
+            "shear",
+            {**knobs, "prony": 0.6, "relaxation": 1e-4, "ramp": 0.01},
+            von_mises_stress=0.4 * mises,
+            pressure=0.0,
+            history=force("block.support head", x=1.0),
+        )
+        self.about(
+            must.sheared,
+            relaxed,
+            lambda r: r.fields.update(von_mises_stress=1.1 * r.fields["von_mises_stress"]),
+        )
+
+    def test_sides_of_hill(self) -> None:
+        knobs = {"law": "elastoplastic", "strain": 0.5, "r value": 3.0}
+
+        def make() -> Result:
+            strains = numpy.log1p(math.expm1(0.5) * numpy.linspace(0.1, 1, 10))
+            _, e, _, _ = laws.Flow(scenes.Knobs(knobs)).bar(strains, numpy.linspace(0.1, 1, 10))
+            return made_up("pull", knobs, move=lambda x: numpy.expm1(e) * x)
+
+        self.about(
+            must.hill_sides,
+            make,
+            lambda r: r.fields["displacement"].__setitem__(
+                (slice(None), 0), r.fields["displacement"][:, 1].copy()
+            ),
+        )
+
+    def test_path(self) -> None:
+        strains, times = must.path(made_up("pull", {"strain": 0.5, "cycles": 1}), 0.5)
+        self.assertEqual(len(strains), len(times))
+        self.assertAlmostEqual(strains[-1], 0.5)
+        self.assertLess(min(strains), -0.5)
 
     def test_bar(self) -> None:
         strain, across = -0.1, 0.03
@@ -633,6 +782,158 @@ class ClosedForms(unittest.TestCase):
         self.assertEqual(limit("shear limited", 2.0, 0.0, 0.3, largest=0.5), 0.5)
         self.assertAlmostEqual(limit("static-kinetic", 2.0, 1e3, 0.3, kinetic=0.1, decay=1.0), 0.2)
         self.assertAlmostEqual(limit("pressure dependent", 4.0, 0.0, 0.3, reference=1.0, exponent=0.5), 0.6)
+
+
+TRIED_ELSEWHERE = ("elastoplastic", "Hencky", "neo-Hookean", "hypoelastic", "plain", "thermal")
+
+
+class Laws(unittest.TestCase):
+    def elastic(self) -> list[tuple[str, laws.Elastic]]:
+        found = []
+        for law in ("Hencky", "neo-Hookean", *laws.RUBBER):
+            for volumetric in laws.VOLUMETRIC if law in laws.RUBBER else ("logarithmic",):
+                knobs = {"kinematics": law, "volumetric": volumetric, "nu": 0.4}
+                found.append((f"{law}, {volumetric}", laws.Elastic.of(scenes.Knobs(knobs))))
+        return found
+
+    def test_stresses_are_derivatives(self) -> None:
+        e, h = (0.4, -0.3, 0.15), 1e-6
+        for name, law in self.elastic():
+            for i, stress in enumerate(law.stresses(e)):
+                there, back = (
+                    law.energy((e[0] + s * (i == 0), e[1] + s * (i == 1), e[2] + s * (i == 2)))
+                    for s in (h, -h)
+                )
+                self.assertAlmostEqual((there - back) / (2 * h), stress, 4, name)
+
+    def test_small_strains(self) -> None:
+        for name, law in self.elastic():
+            (_, _, along), side = laws.relaxing(law, laws.uniaxial, [1e-6], [1.0])
+            self.assertAlmostEqual(along / 1e-3, 1, 4, name)
+            self.assertAlmostEqual(side / 1e-6, -0.4, 4, name)
+
+    def test_incompressible(self) -> None:
+        # Rivlin, Treloar: λσ of tension and equibiaxial tension
+        c10, c01, stretch = 2.0, 1.0, 1.7
+        shear = 2 * (c10 + c01)
+        knobs = {"kinematics": "Mooney-Rivlin", "constant": 1 / 3, "nu": 0.4999999, "young": 3 * shear}
+        law = laws.Elastic.of(scenes.Knobs(knobs))
+        (_, _, along), _ = laws.relaxing(law, laws.uniaxial, [math.log(stretch)], [1.0])
+        self.assertAlmostEqual(along, 2 * (stretch**2 - 1 / stretch) * (c10 + c01 / stretch), 3)
+        (both, _, _), _ = laws.relaxing(law, laws.equibiaxial, [math.log(stretch)], [1.0])
+        self.assertAlmostEqual(both, 2 * (stretch**2 - stretch**-4) * (c10 + c01 * stretch**2), 3)
+
+    def test_relaxation(self) -> None:
+        # Confined, so that strains are known: the hereditary integral of a ramp, in closed form.
+        law = laws.Elastic(bulk=0.0, hencky=1.0)
+        terms = [(0.5, 0.2), (0.3, 3.0)]
+        times = numpy.linspace(0, 1, 5)[1:]
+        confined = lambda strain, side: (0.0, 0.0, strain)  # noqa: E731
+        (_, _, along), _ = laws.relaxing(law, confined, 0.3 * times, times, terms)
+        instant = 2 * 0.3 * 2 / 3
+        self.assertAlmostEqual(along, instant * (0.2 + sum(g * t * -math.expm1(-1 / t) for g, t in terms)))
+        # free across, and in few steps: to the second order
+        law = laws.Elastic.of(scenes.Knobs({"kinematics": "Yeoh"}))
+        found = []
+        for n in (10, 20, 400):
+            times = numpy.linspace(0, 1, n + 1)[1:]
+            found.append(laws.relaxing(law, laws.uniaxial, 0.5 * times, times, terms)[0][2])
+        self.assertAlmostEqual((found[0] - found[2]) / (found[1] - found[2]), 4, delta=0.2)
+
+    def bar(self, **knobs: Any) -> tuple[float, Any, float, float]:
+        times = numpy.linspace(0, 1, 201)[1:]
+        k = scenes.Knobs({"law": "elastoplastic", **{n.replace("_", " "): v for n, v in knobs.items()}})
+        return laws.Flow(k, 0.5).bar(0.5 * times, times)
+
+    def test_plastic_bar(self) -> None:
+        stress, plastic = closed_forms.uniaxial_hencky(1000, 0.5, 10, 100)
+        found = self.bar()
+        self.assertAlmostEqual(found[0], stress)
+        self.assertAlmostEqual(found[2], plastic)
+        # half the rate of the strain is elastic, nearly none of it here
+        self.assertAlmostEqual(self.bar(rate_factor="Cowper-Symonds", hardening_modulus=0.0)[0], 20, 6)
+        cook = self.bar(rate_factor="Johnson-Cook", hardening_modulus=0.0)
+        self.assertAlmostEqual(cook[0], 10, 6)
+        self.assertAlmostEqual(self.bar(rate_factor="table", hardening_modulus=0.0)[0], 20, 6)
+
+    def test_adiabatic_bar(self) -> None:
+        # (H17) of doc/theory: without hardening the factor is exp(-heat α)
+        stress, _, alpha, temperature = self.bar(
+            hardening_modulus=0.0, thermal_factor="Johnson-Cook", temperature=0.0, heat=1.0
+        )
+        self.assertAlmostEqual(stress / 10, math.exp(-alpha), 2)
+        self.assertAlmostEqual(temperature, 1300 - 1000 * stress / 10)
+        molten = self.bar(hardening_modulus=0.0, thermal_factor="Johnson-Cook", temperature=2.0)
+        self.assertAlmostEqual(molten[0], 1e-5)
+
+    def test_backstress(self) -> None:
+        # saturates at C/g, with the linear term; two cycles: (C/g) tanh(g Δεp/2) about the mean
+        stress, _, alpha, _ = self.bar(hardening_modulus=0.0, flow_rule="backstress", recovery=100.0)
+        self.assertAlmostEqual(stress, 10 + 10 * 20 / 100 + 5 * alpha)
+        self.assertAlmostEqual(
+            laws.largest_backstress(scenes.Knobs({"flow rule": "backstress", "recovery": 100.0}), 10.0), 52.0
+        )
+        k = scenes.Knobs(
+            {
+                "law": "elastoplastic",
+                "flow rule": "backstress",
+                "hardening modulus": 0.0,
+                "young": 1e9,
+                "yield": 1e-8,
+            }
+        )
+        strains = [0.05 * (-1) ** i for i in range(60)]
+        stress = laws.Flow(k).bar(strains, numpy.arange(1.0, 61))[0]
+        self.assertAlmostEqual(stress, -(10 + 10 * math.tanh(20 * 0.05) + 5 * 0.05), 4)
+
+    def test_hill(self) -> None:
+        for pulled, ratio in (("first", 3.0), ("second", 3.0), ("third", 1.0)):
+            flow = laws.Flow(scenes.Knobs({"law": "elastoplastic", "r value": 3.0, "pulled": pulled}))
+            self.assertAlmostEqual(sum(flow.sides), -1)
+            self.assertAlmostEqual(max(flow.sides) / min(flow.sides), 1 / ratio)
+        # through the sheet: σ² (F + G) = Y²
+        self.assertAlmostEqual(flow.strength, math.sqrt(2.0))
+        self.assertAlmostEqual(laws.mises_over_hill(scenes.Knobs({"r value": 1.0})), 1)
+        self.assertGreater(laws.mises_over_hill(scenes.Knobs({"r value": 3.0})), math.sqrt(2.0) - 1e-9)
+
+    def test_in_a_scene(self) -> None:
+        m = scenes.make("pull", {"kinematics": "Yeoh", "constant": 0.5}).sections["Bodies"]["block"][
+            "Material"
+        ]
+        self.assertNotIn("Young modulus", m)
+        self.assertAlmostEqual(float(m["C20"]) / float(m["C10"]), 0.5)
+        scene = scenes.make("pull", {"law": "UMAT"})
+        self.assertEqual(scene.library, laws.UMAT)
+        self.assertTrue(laws.UMAT.exists())
+        slow = {
+            "law": "elastoplastic",
+            "rate factor": "Cowper-Symonds",
+            "strain": 0.5,
+            "time": 10.0,
+            "rate": 1e3,
+        }
+        m = scenes.make("pull", slow).sections["Bodies"]["block"]["Material"]
+        self.assertAlmostEqual(float(m["Reference rate"]), 0.5e-3 / 10)
+        setup = scenes.make("drop.explicit", {"law": "elastoplastic", "r value": 3.0})
+        self.assertNotIn(must.diagonal_symmetry, setup.checks)
+
+    def test_five_scenes_a_law(self) -> None:
+        kinds: dict[str, set[str]] = {}
+        for case in plan.of_laws():
+            for knob in ("kinematics", "law", "hardening", "flow rule", "rate factor", "thermal factor"):
+                if case.changes.get(knob, "elastoplastic") not in TRIED_ELSEWHERE:
+                    kinds.setdefault(f"{knob} {case.changes[knob]}", set()).add(case.base)
+            for knob in ("r value", "prony", "heat", "volumetric"):
+                if knob in case.changes:
+                    kinds.setdefault(knob, set()).add(case.base)
+        self.assertGreaterEqual(len(kinds), 20)
+        for case in plan.of_laws():
+            self.assertTrue(scene_text(scenes.make(case.base, case.changes).sections), case.name)
+        for name, bases in kinds.items():
+            self.assertGreaterEqual(len(bases), 5, name)
+            self.assertTrue(any(b in ("stack", "drag") or b.startswith("bars") for b in bases), name)
+            self.assertTrue(any(b.endswith("explicit") for b in bases), name)
+            self.assertTrue(any(b.endswith("implicit") for b in bases), name)
 
 
 class Frames(unittest.TestCase):

@@ -145,7 +145,8 @@ def yield_stress_of(k: Knobs, plastic: float, young: float | None = None) -> flo
         return 0.75 * hardened_stress_of(k, plastic, young)
     if k.flow_rule == "backstress":
         y = k.all["yield"] * (young or k.young)
-        return hardened_stress_of(k, plastic, young) - y * math.expm1(-20 * plastic) + 0.5 * y * plastic
+        saturated = -math.expm1(-k.recovery * plastic) / k.recovery if k.recovery else plastic
+        return hardened_stress_of(k, plastic, young) + y * (k.backstress * saturated + 0.5 * plastic)
     return hardened_stress_of(k, plastic, young)
 
 
@@ -156,7 +157,10 @@ def hardened_stress_of(k: Knobs, plastic: float, young: float | None = None) -> 
     if k.hardening == "linear":
         return y + h * plastic
     if k.hardening == "Voce":
-        return 2 * y - y * math.exp(-10 * plastic) + h * plastic
+        return y - (k.saturation - 1) * y * math.expm1(-k.saturation_rate * plastic) + h * plastic
     if k.hardening == "power law":
-        return 3 * y * (1e-3 + plastic) ** 0.2
+        return 3 * y * (1e-3 + plastic) ** k.exponent
+    if k.hardening == "Ludwik":
+        first = 1e-6
+        return y + h * (plastic**k.exponent if plastic > first else first ** (k.exponent - 1) * plastic)
     return y + h * min(plastic, 5)

@@ -15,7 +15,7 @@ from billet_tools import UserError
 from billet_tools.kept import hash_of
 from billet_tools.program import find_program
 
-from . import plan, report
+from . import laws, plan, report
 from .runner import OUTCOMES, Runner, read_kept
 
 BAD = ("wrong", "crashed", "hung", "unhelpful")
@@ -88,6 +88,10 @@ def chosen(options: argparse.Namespace, runner: Runner) -> list[plan.Case]:
         ]
     if options.outcome:
         cases = [case for case in cases if (runner.kept(case) or {}).get("outcome") in options.outcome]
+    umats = sum(case.changes.get("law") == "UMAT" for case in cases)
+    if umats and not laws.compiler():
+        print(f"no gfortran: {umats} scenes with a UMAT are left out")
+        cases = [case for case in cases if case.changes.get("law") != "UMAT"]
     # In an order of no meaning: what is stopped half-way has tried all parameters, and the time to go is
     # right.
     cases.sort(key=lambda case: hash_of(case.name))

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Collection, Iterable, Iterator, Mapping, Union
 
+from .laws import RATE_FACTORS, RUBBER, THERMAL_FACTORS, VOLUMETRIC
 from .scenes import FEATURES
 
 Value = Union[float, str]
@@ -122,8 +123,273 @@ def cases() -> list[Case]:
     return result
 
 
+STRETCHED = ("stretch.explicit", "stretch.implicit")
+# Each law in all of them: tools, none, explicit, implicit dynamics, pairs of bodies.
+KINDS_OF_LAWS = (
+    "upset",
+    "pull",
+    "membrane",
+    "shear",
+    "slide",
+    "stack",
+    "drag",
+    *STRETCHED,
+    "drop.explicit",
+    "drop.implicit",
+    "bars.explicit",
+    "bars.implicit",
+)
+# How far a brick goes in these scenes, where nothing else is turned.
+FAR: Mapping[str, Changes] = {
+    "upset": {"strained": True, "strain": -0.5},
+    **dict.fromkeys(("pull", "membrane", *STRETCHED), {"strain": 0.5}),
+    "shear": {"strain": 1.0},
+}
+
+
+def far(
+    parameter: str,
+    bases: Iterable[str],
+    values: Iterable[Value],
+    knob: str | None = None,
+    along: Changes | None = None,
+) -> Iterator[Case]:
+    """One parameter alone, at strains that are large."""
+    for base in bases:
+        yield from single(parameter, (base,), values, knob, {**FAR.get(base, {}), **(along or {})})
+
+
+def in_other_words(name: str, along: Changes) -> Iterator[Case]:
+    """A law in other units, and turned in space."""
+    for base in ("upset", "drop.explicit"):
+        more = {**FAR.get(base, {}), **along}
+        units = {"length": 2.0**20, "stress": 2.0**-30, "time": 2.0**10}
+        yield Case(base, {**more, **units}, ("units",), (f"{name}, powers of 2",), more, "exact", 1e-9)
+        turned = {**more, "turned": 50.0}
+        yield Case(base, turned, ("turned",), (50.0,), more, "", 1e-3)
+
+
+def of_laws() -> Iterator[Case]:
+    """Laws beyond linear hardening and the three elastic ones, at the extremes of their parameters."""
+    yield from of_rubber()
+    yield from of_viscosity()
+    yield from of_rates()
+    yield from of_heat()
+    yield from of_flow_rules()
+    yield from of_hardening()
+    umat: Changes = {"law": "UMAT", "kinematics": "hypoelastic"}
+    for base in KINDS_OF_LAWS:
+        yield Case(base, {**FAR.get(base, {}), **umat}, ("user law",), ("UMAT",))
+    for base, strains in (("pull", [1e-4, -1.0, 2.0]), ("upset", [-1e-4, -1.0, -2.0]), ("shear", [0.1, 5.0])):
+        yield from far("strain, UMAT", (base,), strains, "strain", umat)
+    yield from far("yield, UMAT", ("pull", "upset", "stretch.explicit"), [1e-8, 1e-4, 0.1], "yield", umat)
+    yield from far("nu, UMAT", ("pull", "upset", "stack"), [-0.9, 0.0, 0.4999], "nu", umat)
+    yield from in_other_words("UMAT", umat)
+
+
+def of_rubber() -> Iterator[Case]:
+    for law in RUBBER:
+        along: Changes = {"kinematics": law, "nu": 0.49}
+        yield from far("law", KINDS_OF_LAWS, [law], "kinematics", {"nu": 0.49})
+        row = strain_of(law)
+        yield from single(row, ("pull",), [1e-6, 1e-2, 1.0, STRETCHES[-1], -1.0, STRAINS[0]], "strain", along)
+        yield from single(row, ("membrane",), [1e-4, 1.0, 1.5, -1.0, -1.5], "strain", along)
+        yield from single(row, ("shear",), [1e-4, 0.1, 3.0, 10.0], "strain", along)
+        yield from single(row, ("upset",), [-1e-4, -1.0, -2.0], "strain", {**along, "strained": True})
+        yield from single(row, STRETCHED[:1], [-1.0, 1e-4, 2.0], "strain", along)
+        yield from single(row, STRETCHED[1:], [-1.0, 1.0], "strain", along)
+        yield from far(
+            f"nu, {law}",
+            ("pull", "upset", "membrane", "stack"),
+            [0.0, 0.49999],
+            "nu",
+            {"kinematics": law},
+        )
+        for element in ELEMENTS[1:]:
+            more = {**along, "nu": 0.49999}
+            yield from far("element", ("upset", "shear"), [element], along=more)
+        yield from in_other_words(law, along)
+    constants = {
+        "Mooney-Rivlin": [1e-6, 0.5, 0.9, 0.999],
+        "Yeoh": [1e-6, 0.1, 1.0, 100.0],
+        "Ogden": [-10.0, -2.0, 0.1, 2.0, 10.0, 25.0],
+        "Arruda-Boyce": [1.05, 1.5, 10.0, 100.0],
+    }
+    for law, values in constants.items():
+        yield from far(
+            f"constant, {law}",
+            ("pull", "membrane", "shear"),
+            values,
+            "constant",
+            {"kinematics": law, "nu": 0.49},
+        )
+        yield from far(
+            f"constant, {law}",
+            ("upset", "stretch.explicit", "stack"),
+            [values[0], values[-1]],
+            "constant",
+            {"kinematics": law, "nu": 0.49},
+        )
+    for law in RUBBER:
+        for volumetric in VOLUMETRIC:
+            for nu in (0.1, 0.499):
+                for base in ("pull", "membrane") + (("upset", "stack", *STRETCHED) if law == "Yeoh" else ()):
+                    yield Case(
+                        base,
+                        {**FAR.get(base, {}), "kinematics": law, "volumetric": volumetric, "nu": nu},
+                        ("volumetric", "nu"),
+                        (volumetric, nu),
+                    )
+
+
+def of_viscosity() -> Iterator[Case]:
+    times = [1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3, 1e6]
+    viscous: Changes = {"prony": 0.6, "kinematics": "Yeoh", "nu": 0.49}
+    yield from far(
+        "prony", KINDS_OF_LAWS, [0.6], along={"kinematics": "Ogden", "nu": 0.49, "relaxation": 0.1}
+    )
+    for law in ("Hencky", "neo-Hookean", *RUBBER):
+        yield from far(
+            "relaxation", ("pull",), [1e-3, 0.1, 10.0], along={"prony": 0.6, "kinematics": law, "ramp": 0.01}
+        )
+    yield from far("relaxation", ("pull", "membrane", "shear"), times, along={**viscous, "ramp": 0.01})
+    yield from far("relaxation", ("upset", "stretch.explicit"), times[::2], along=viscous)
+    yield from far("relaxation", ("drop.explicit", "drop.implicit"), [1e-6, 1.0, 1e6], along={"prony": 0.6})
+    yield from far(
+        "prony", ("pull", "shear", "stretch.explicit"), [1e-6, 0.1, 0.999], along={"relaxation": 0.1}
+    )
+    for g in (0.01, 0.9, 0.999):
+        for time in (1e-3, 0.1, 10.0):
+            yield Case(
+                "pull",
+                {"prony": g, "relaxation": time, "strain": 0.5, "cycles": 2},
+                ("prony", "relaxation"),
+                (g, time),
+            )
+    turning: Changes = {"prony": 0.9, "kinematics": "Yeoh", "nu": 0.49, "relaxation": 0.1}
+    yield from single("strain, Prony", ("pull",), [1e-4, STRETCHES[-1], STRAINS[0]], "strain", turning)
+    yield from single("strain, Prony", ("shear",), [1e-4, 10.0], "strain", turning)
+    yield from in_other_words("Prony", {**viscous, "relaxation": 0.1})
+
+
+def of_rates() -> Iterator[Case]:
+    for factor in RATE_FACTORS:
+        along: Changes = {**PLASTIC, "rate factor": factor}
+        yield from far("rate factor", KINDS_OF_LAWS, [factor], along=PLASTIC)
+        row = f"rate, {factor}"
+        rates = [1e-6, 1e-3, 1e3, 1e6]
+        yield from far(row, ("pull", "shear"), rates, "rate", along)
+        yield from far(row, ("upset", "stack", *STRETCHED, "drop.explicit"), rates[::3], "rate", along)
+        yield from in_other_words(factor, along)
+    cowper: Changes = {**PLASTIC, "rate factor": "Cowper-Symonds"}
+    yield from far("rate exponent", ("pull", "shear", "stretch.explicit"), [1.0, 20.0, 100.0], along=cowper)
+    cook: Changes = {**PLASTIC, "rate factor": "Johnson-Cook", "rate": 1e3}
+    yield from far("rate coefficient", ("pull", "shear", "stretch.explicit"), [1e-4, 0.2, 1.0], along=cook)
+    for hardening in ("Voce", "power law", "Ludwik", "table"):
+        for factor in RATE_FACTORS:
+            yield Case(
+                "pull",
+                {**PLASTIC, "strain": 0.5, "hardening": hardening, "rate factor": factor},
+                ("hardening", "rate factor"),
+                (hardening, factor),
+            )
+    for rule in ("backstress", "Hill", "thermal"):
+        yield Case(
+            "pull",
+            {**cowper, "strain": 0.5, "flow rule": rule},
+            ("flow rule", "rate factor"),
+            (rule, "Cowper-Symonds"),
+        )
+
+
+def of_heat() -> Iterator[Case]:
+    for factor in THERMAL_FACTORS:
+        along: Changes = {**PLASTIC, "thermal factor": factor}
+        row = f"temperature, {factor}"
+        yield from far("thermal factor", KINDS_OF_LAWS, [factor], along=PLASTIC)
+        temperatures = [-1.0, 0.0, 0.9, 0.999, 1.0, 2.0]
+        yield from far(row, ("pull", "shear"), temperatures, "temperature", along)
+        yield from far(row, ("upset", "stack", "stretch.explicit"), [-1.0, 0.9, 2.0], "temperature", along)
+        warm: Changes = {**along, "temperature": 0.0}
+        heats = [1e-3, 0.1, 1.0, 10.0, 1e3]
+        yield from far(f"heat, {factor}", ("pull", "shear"), heats, "heat", warm)
+        yield from far(
+            f"heat, {factor}",
+            ("upset", *STRETCHED, "drop.explicit", "drop.implicit"),
+            [0.1, 10.0, 1e3],
+            "heat",
+            warm,
+        )
+        yield from in_other_words(f"{factor} of temperature", {**warm, "heat": 0.1})
+    along = {**PLASTIC, "thermal factor": "Johnson-Cook"}
+    yield from far("thermal exponent", ("pull", "shear"), [0.01, 0.3, 3.0, 100.0], along=along)
+    whole: Changes = {
+        **along,
+        "hardening": "Ludwik",
+        "rate factor": "Johnson-Cook",
+        "temperature": 0.1,
+        "heat": 0.3,
+    }
+    yield from far("rate, Johnson and Cook's law", KINDS_OF_LAWS, [1e3], "rate", whole)
+
+
+def of_flow_rules() -> Iterator[Case]:
+    back: Changes = {**PLASTIC, "flow rule": "backstress"}
+    yield from far("flow rule", KINDS_OF_LAWS, ["backstress", "Hill"], along=PLASTIC)
+    yield from far("backstress", ("pull", "shear", "stretch.explicit"), [1e-3, 1.0, 1e3], along=back)
+    yield from far("recovery", ("pull", "shear"), [0.0, 1.0, 1e3, 1e5], along=back)
+    yield from far("recovery", ("upset", *STRETCHED), [0.0, 1e3], along=back)
+    yield from far("recovery", ("stack", "drag"), [0.0, 1e3], along=back)
+    for cycles in (1, 3, 10):
+        for recovery in (0.0, 20.0, 1e3):
+            yield Case(
+                "pull",
+                {**back, "strain": 0.1, "cycles": cycles, "recovery": recovery},
+                ("load cycles", "recovery"),
+                (cycles, recovery),
+            )
+    yield from single("strain, backstress", ("pull",), [1e-3, 2.0, -2.0], "strain", back)
+    yield from single("strain, backstress", ("shear",), [0.1, 3.0, 10.0], "strain", back)
+    yield from in_other_words("backstress", back)
+    for axis in ("first", "second", "third"):
+        for r in (0.1, 0.5, 2.0, 10.0):
+            for base in ("pull", "upset", "stretch.explicit"):
+                yield Case(
+                    base,
+                    {**PLASTIC, **FAR[base], "r value": r, "pulled": axis},
+                    ("r value", "pulled"),
+                    (r, axis),
+                )
+    hill: Changes = {**PLASTIC, "r value": 3.0}
+    yield from far("r value", KINDS_OF_LAWS, [10.0], along=PLASTIC)
+    yield from far("r value", ("shear", "slide", "stretch.implicit", "drop.implicit"), [0.1], along=PLASTIC)
+    yield from single("strain, Hill", ("pull", "shear"), [1e-2, 2.0], "strain", hill)
+    yield from in_other_words("Hill", hill)
+
+
+def of_hardening() -> Iterator[Case]:
+    for hardening in ("Voce", "power law", "Ludwik", "table"):
+        along: Changes = {**PLASTIC, "hardening": hardening}
+        yield from far("hardening", KINDS_OF_LAWS, [hardening], along=PLASTIC)
+        yield from in_other_words(hardening, along)
+        yield from single(f"strain, {hardening}", ("pull",), [1e-3, 2.0, -2.0], "strain", along)
+        yield from single(f"strain, {hardening}", ("shear",), [0.1, 10.0], "strain", along)
+    for hardening in ("power law", "Ludwik"):
+        yield from far(
+            f"exponent, {hardening}",
+            ("pull", "upset", "stretch.explicit"),
+            [0.0, 0.01, 0.5, 1.0],
+            "exponent",
+            {**PLASTIC, "hardening": hardening},
+        )
+    voce: Changes = {**PLASTIC, "hardening": "Voce"}
+    yield from far("saturation", ("pull", "upset", "stretch.explicit"), [1.0, 10.0, 100.0], along=voce)
+    yield from far("saturation rate", ("pull", "upset", "stretch.explicit"), [1e-3, 1e3, 1e6], along=voce)
+
+
 def everything() -> Iterator[Case]:  # noqa: C901
     more: Changes
+    yield from of_laws()
     # contact
     yield from single(
         "penalty",
@@ -722,6 +988,15 @@ FIXED = (
     "stretch.explicit/kinematics=Hencky,strain=0.5",
     "stretch.implicit/kinematics=neo-Hookean,strain=-1",
     "upset/strained=True,aspect=0.001,strain=-2.99573",
+    "pull/kinematics=Yeoh,nu=0.49,strain=2.99573",
+    "membrane/strain=0.5,kinematics=Arruda-Boyce,nu=0.49,constant=1.05",
+    "stack/kinematics=Ogden,nu=0.49999",
+    "pull/strain=0.5,prony=0.6,kinematics=Yeoh,ramp=0.01,relaxation=0.1",
+    "pull/strain=0.5,law=elastoplastic,rate factor=Cowper-Symonds,rate=1e+06",
+    "shear/strain=1,law=elastoplastic,thermal factor=Johnson-Cook,temperature=0,heat=10",
+    "pull/law=elastoplastic,flow rule=backstress,strain=0.1,cycles=3,recovery=20",
+    "pull/law=elastoplastic,strain=0.5,r value=0.1,pulled=second",
+    "shear/strain=5,law=UMAT,kinematics=hypoelastic",
     (
         "slide/target error=0.1,mu=0.2 like mu=0.2,augmentation=0.0001,first step=0.005,largest"
         " step=0.005,tolerance=1e-09"

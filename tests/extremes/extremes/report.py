@@ -18,6 +18,7 @@ from billet_tools.text import table, wrapped
 
 from .invariants import NUDGE, SYMMETRIES
 from .runner import AT_MOST, DEEP, OUTCOMES, PATIENCE
+from .laws import RATE_FACTORS, RUBBER, THERMAL_FACTORS, VOLUMETRIC
 from .plan import FRICTION_LAWS
 from .scenes import KINDS, KNOBS
 
@@ -93,6 +94,34 @@ WORDS = {
     "predictor": "`Predictor`",
     "line search": "`Line search`",
     "material tangent": "`Material tangent`",
+    "hardening": "`Hardening`",
+    "user law": "law of a user's library",
+    "rate factor": "`Rate factor`",
+    "rate exponent": "exponent of Cowper and Symonds",
+    "rate coefficient": "coefficient of Johnson and Cook",
+    "thermal factor": "`Thermal factor`",
+    "thermal exponent": "exponent of the thermal factor",
+    "volumetric": "`Volumetric law`",
+    "prony": "share of the stress that relaxes",
+    "relaxation": "relaxation time, of the scene's",
+    "backstress": "modulus of the backstress, yield stresses",
+    "recovery": "recovery rate of the backstress",
+    "r value": "r-values of Hill's function",
+    "pulled": "material axis that is pulled",
+    "saturation": "saturation stress, yield stresses",
+    "saturation rate": "saturation rate of Voce's hardening",
+    "load cycles": "cycles of a bar that yields",
+}
+# Rows of a knob for each law that has it: 'rate, table'.
+WORDS_OF_LAWS = {
+    "constant": "constant of rubber",
+    "exponent": "hardening exponent",
+    "heat": "heat, ways to melting per strain",
+    "nu": "Poisson's ratio",
+    "rate": "rate of strain over the reference rate",
+    "strain": "logarithmic strain",
+    "temperature": "temperature, 0 at room, 1 at melting",
+    "yield": "yield stress, E",
 }
 COLUMNS = {
     "statics": lambda base: "." not in base,
@@ -111,14 +140,30 @@ STRAINS = (
     ),
 )
 WORDS |= {row: "logarithmic strain" + row[len("strain") :] for row in STRAINS}
-KNOB_OF: dict[str, str] = {"augmented penalty": "penalty", **dict.fromkeys(STRAINS, "strain")}
+KNOB_OF: dict[str, str] = {
+    "augmented penalty": "penalty",
+    **dict.fromkeys(STRAINS, "strain"),
+    "user law": "law",
+    "load cycles": "cycles",
+}
 DEFAULTS: dict[str, Any] = {**KNOBS, "law": "Hencky"}
 PENALTIES = ("penalty", "augmented penalty")
 STRAINED = (*STRAINS, "aspect")  # a penalty that is soft would hide what they do
 
 
+def knob_of(parameter: str) -> str:
+    first = parameter.partition(", ")[0]
+    return KNOB_OF.get(parameter, first if first in WORDS_OF_LAWS else parameter)
+
+
+def words_of(parameter: str) -> str:
+    first, comma, law = parameter.partition(", ")
+    known = WORDS.get(parameter)
+    return known or (f"{WORDS_OF_LAWS[first]}{comma}{law}" if first in WORDS_OF_LAWS else parameter)
+
+
 def shown(value: object) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+    return f"{value:.5g}" if isinstance(value, float) else str(value)
 
 
 def alone(records: Records, parameter: str) -> list[Record]:
@@ -140,14 +185,13 @@ def outcome_of(record: Record) -> str | None:
 
 def is_default(record: Record, but: str | None = None) -> bool:
     return all(
-        p == but or v == DEFAULTS.get(KNOB_OF.get(p, p))
-        for p, v in zip(record["parameters"], record["values"])
+        p == but or v == DEFAULTS.get(knob_of(p)) for p, v in zip(record["parameters"], record["values"])
     )
 
 
 def variant(record: Record) -> str:
     """The scene in which its parameters are turned: the base, with what is set beside."""
-    turned = {KNOB_OF.get(p, p) for p in record["parameters"]}
+    turned = {knob_of(p) for p in record["parameters"]}
     return "/".join(
         [
             record.get("base", ""),
@@ -170,7 +214,7 @@ def safe(records: Records, parameter: str, soft: AbstractSet[str] = frozenset())
     if not own:
         pairs = alone(records, parameter)
         return f"{span(pairs, parameter)}, in pairs" if pairs else ""
-    is_strict = parameter in PENALTIES + STRAINED
+    is_strict = parameter in PENALTIES + STRAINED or knob_of(parameter) == "strain"
     return span(
         [
             (
@@ -201,7 +245,7 @@ def span(own: Records, parameter: str) -> str:
     values = sorted(by_value)
     if not good:
         return "-"
-    default = DEFAULTS.get(KNOB_OF.get(parameter, parameter))
+    default = DEFAULTS.get(knob_of(parameter))
     runs, row = [], []
     for v in values + [None]:
         if v in good:
@@ -359,6 +403,40 @@ def reason_for(name: str) -> str:
     return next((reason for pattern, reason in REASONS if re.match(pattern, name)), "")
 
 
+LAWS = {
+    **{f"rubber, {law}": ("kinematics", law) for law in RUBBER},
+    **{f"volumetric law, {law}": ("volumetric", law) for law in VOLUMETRIC[1:]},
+    "Prony's series": ("prony", None),
+    **{f"rate factor, {factor}": ("rate factor", factor) for factor in RATE_FACTORS},
+    **{f"thermal factor, {factor}": ("thermal factor", factor) for factor in THERMAL_FACTORS},
+    "heat of plastic work": ("heat", None),
+    "backstress": ("flow rule", "backstress"),
+    "Hill, r-values": ("r value", None),
+    "Hill, ratios of stresses": ("flow rule", "Hill"),
+    **{f"hardening, {name}": ("hardening", name) for name in ("Voce", "power law", "Ludwik", "table")},
+    "UMAT": ("law", "UMAT"),
+}
+
+
+def of_laws(records: Records, outcomes: Sequence[str | None]) -> list[str]:
+    """A table of the laws beyond linear hardening and the three elastic ones, in words and numbers."""
+    rows = []
+    for law, (knob, value) in LAWS.items():
+        mine = [r for r in records if knob in r["changes"] and value in (None, r["changes"][knob])]
+        if mine:
+            count = Counter(map(outcome_of, mine))
+            kinds = [kind for kind, bases in KINDS.items() if any(r["base"] in bases for r in mine)]
+            rows.append([law, len(mine), *[count[o] or "" for o in outcomes], len(kinds)])
+    if not rows:
+        return []
+    return [
+        "## By law",
+        "A scene with several of these laws counts in each of their rows. *Kinds* is the number of kinds of"
+        " run, of those in the table of outcomes.",
+        table(["law", "scenes", *outcomes, "kinds"], rows),
+    ]
+
+
 def changed(records: Records, before: Records) -> list[str]:
     """A section on the scenes that have come out otherwise than an older version's."""
     then = {r["name"]: r for r in before}
@@ -409,8 +487,10 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         "This page shows in which range of each parameter the program gives right results, and what it does"
         " beyond. Each parameter goes over its range, alone and in pairs, in every kind of run. What must"
         " hold is computed from what the run wrote:\n\n"
-        "- equilibrium, and closed forms of bars and columns\n"
-        "- the yield condition, and the friction cone of nodes and of whole forces\n"
+        "- equilibrium, and closed forms of bars, columns, membranes and simple shear\n"
+        "- relaxation by Prony's series, and flow at a rate, at a temperature and with its own heat\n"
+        "- the yield condition, and dissipation that never falls\n"
+        "- the friction cone of nodes and of whole forces\n"
         "- the ledger of energies, momentum, impulse, and mirror symmetry\n"
         "- penetration, and elements inside out\n"
         "- the same scene in other units takes as many steps and iterations, and turned in space gives the"
@@ -445,6 +525,7 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
             ],
         ),
         *(said for said in (slow(records), forgetful(records)) if said),
+        *of_laws(records, outcomes),
         "## By parameter",
         "*Safe* is the widest range around the default, for each kind of run; of words it is those that are"
         " safe. In this range every scene that turns this parameter alone is right or told, and not soft."
@@ -469,7 +550,7 @@ def write(records: Records, folder: Path, planned: int = 0, program: str = "", b
         count = Counter(map(outcome_of, mine))
         rows.append(
             [
-                WORDS.get(name, name),
+                words_of(name),
                 tried(records, name),
                 len(mine),
                 *[count[o] or "" for o in outcomes],

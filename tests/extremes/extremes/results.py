@@ -44,6 +44,8 @@ def upright(fields: Fields, frame: Frame) -> Fields:
                 f[name] = f[name] @ frame.turn
         f["points"] = f["points"] @ frame.turn
     f["places"] = f["points"] - f["displacement"]
+    if "state_equivalent_plastic_strain" in f:  # of a UMAT
+        f["equivalent_plastic_strain"] = f["state_equivalent_plastic_strain"]
     if "body" in f:
         f["body"] = f["body"] - f["body"].min()
     return f
@@ -93,16 +95,20 @@ class Result:
         self.history, self.fields = in_base_units(history, setup.frame), (
             upright(fields, setup.frame) if fields else {}
         )
+        self.before: Fields = {}
 
     @classmethod
     def read(cls, setup: Setup, folder: Path) -> Result:
         pictures = pictures_of(folder)
-        return cls(
+        result = cls(
             setup,
             read_history(folder / "history.csv"),
             read_grid(pictures[-1]) if pictures else {},
             read_estimates(folder),
         )
+        if setup.sections["Output"].get("Step interval") == 1 and len(pictures) > 1:
+            result.before = upright(read_grid(pictures[-2]), setup.frame)
+        return result
 
     @cached_property
     def named(self) -> list[str]:

@@ -21,7 +21,7 @@ from billet_tools.program import ALONE
 from billet_tools.records import Record, read_records, warnings_of
 from billet_tools.scene import scene_text
 
-from . import invariants, messages
+from . import invariants, laws, messages
 from .plan import Case, Changes
 from .results import Result
 from .scenes import Setup, make, nudged
@@ -60,7 +60,7 @@ STALLED_AT_MOST = 2.01e-2  # the program's limit
 NOTED_AT_MOST = 1e-8  # the program's limit
 ROUND_OFF_AT_MOST = 1e-2  # a run whose forces are worth less than this is not right, whatever it says
 # what outcomes depend on beside the program
-JUDGES = ("closed_forms", "invariants", "messages", "runner", "scenes")
+JUDGES = ("closed_forms", "invariants", "laws", "messages", "runner", "scenes")
 FORGETS = 10.0  # a symmetry may be off by as many times what a nudge makes of the motion
 # Corners that are inside out are doubtful where the run names them, and wrong in silence.
 INSIDE_OUT = ("inverted-at-end", "inverted-elements")
@@ -161,7 +161,7 @@ class Runner:
         setup = make(case.base, case.changes)
         text = scene_text(setup.sections)
         work = self.folder / "work" / slug(case.name)
-        told = self._execute(text, work)
+        told = self._execute(text, work, setup.library)
         scene = self.folder / "scenes" / (slug(case.name) + ".prm")
         scene.unlink(missing_ok=True)
         verdict: Record = {**self._verdict(case, setup, work, told), "processor seconds": round(told[3], 3)}
@@ -259,7 +259,7 @@ class Runner:
         if sections is None:
             return 0.0
         beside = work.with_name(work.name + "-nudged")
-        code, _, _, _ = self._execute(scene_text(sections), beside)
+        code, _, _, _ = self._execute(scene_text(sections), beside, setup.library)
         differs = (
             invariants.sensitivity(result, Result.read(setup, beside / "results")) if code in (0, 7) else 0.0
         )
@@ -271,17 +271,37 @@ class Runner:
         if key not in self._references:
             setup = make(base, changes)
             work = self.folder / "work" / slug(f"{base} {key[1]} as reference")
-            code, _, _, _ = self._execute(scene_text(setup.sections), work)
+            code, _, _, _ = self._execute(scene_text(setup.sections), work, setup.library)
             self._references[key] = Result.read(setup, work / "results") if code in (0, 7) else None
             shutil.rmtree(work, ignore_errors=True)
         return self._references[key]
 
-    def _execute(self, text: str, work: Path) -> tuple[int, str, str, float]:
+    def _library(self, source: Path) -> Path:
+        """The shared library of this source, built if need be."""
+        library = self.folder / laws.LIBRARY
+        if not library.exists() or library.stat().st_mtime < source.stat().st_mtime:
+            built = library.with_suffix(f".{os.getpid()}")  # another process may need it now
+            command = [
+                laws.compiler() or "gfortran",
+                "-O2",
+                "-shared",
+                "-fPIC",
+                "-o",
+                str(built),
+                str(source),
+            ]
+            subprocess.run(command, check=True)
+            built.replace(library)
+        return library
+
+    def _execute(self, text: str, work: Path, source: Path | None = None) -> tuple[int, str, str, float]:
         """Exit code, what was said on standard error, why it was given up ('': it was not), and seconds of
-        the processor."""
+        the processor. `source`: of the library that the scene names."""
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         (work / "scene.prm").write_text(text)
+        if source is not None:
+            (work / laws.LIBRARY).symlink_to(self._library(source))
 
         def bounded() -> None:
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -6,9 +6,10 @@ not set have the defaults below. Base units: block sizes about 1, E = 1000; dyna
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
-from . import invariants as must
+from . import invariants as must, laws
 from .closed_forms import bar_speed
 from .frame import Frame, number
 
@@ -32,6 +33,25 @@ KNOBS: dict[str, Any] = {
     "yield": 0.01,
     "hardening modulus": 0.1,
     "flow rule": "plain",
+    "exponent": 0.2,
+    "saturation": 2.0,  # yield stresses
+    "saturation rate": 10.0,
+    "backstress": 20.0,  # modulus of the first term, yield stresses
+    "recovery": 20.0,
+    "r value": None,
+    "pulled": "first",  # the material axis along z
+    "rate factor": "none",
+    "rate": 1.0,  # of the scene's strains, over the reference rate
+    "rate exponent": 5.0,
+    "rate coefficient": 0.02,
+    "thermal factor": "none",
+    "temperature": 0.5,  # 0: room, 1: melting
+    "thermal exponent": 1.0,
+    "heat": 0.0,  # parts of the way to melting, per plastic strain
+    "volumetric": "logarithmic",
+    "constant": None,  # of a rubber
+    "prony": 0.0,  # share of the stress that relaxes
+    "relaxation": 1.0,  # its time, parts of the scene's
     "density": 1e-3,
     "bricks": None,
     "aspect": 1.0,
@@ -45,6 +65,7 @@ KNOBS: dict[str, Any] = {
     "press": 0.02,
     "slide": 0.2,
     "speed": 0.01,
+    "ramp": 1.0,  # part of the scene until the load is full
     "turns": 0.1,
     "oscillations": 0.0,
     "cycles": 0,
@@ -118,6 +139,7 @@ class Setup:
         self, knobs: Knobs, frame: Frame, sections: Sections, checks: list[must.Check], **facts: Any
     ) -> None:
         self.knobs, self.frame, self.sections, self.checks, self.facts = knobs, frame, sections, checks, facts
+        self.library: Path | None = None  # source of the shared library that the scene names
 
 
 def nudged(setup: Setup, part: float) -> Sections | None:
@@ -179,13 +201,25 @@ def material(k: Knobs, f: Frame, young: float | None = None, density: float | No
                 {
                     "Yield stress": number(y),
                     "Hardening modulus": number(h),
-                    "Saturation stress": number(2 * y),
-                    "Saturation rate": 10,
+                    "Saturation stress": number(k.saturation * y),
+                    "Saturation rate": number(k.saturation_rate),
                 }
             )
         elif k.hardening == "power law":
             m.update(
-                {"Strength coefficient": number(3 * y), "Prestrain": number(1e-3), "Hardening exponent": 0.2}
+                {
+                    "Strength coefficient": number(3 * y),
+                    "Prestrain": number(1e-3),
+                    "Hardening exponent": number(k.exponent),
+                }
+            )
+        elif k.hardening == "Ludwik":
+            m.update(
+                {
+                    "Yield stress": number(y),
+                    "Hardening coefficient": number(h),
+                    "Hardening exponent": number(k.exponent),
+                }
             )
         elif k.hardening == "table":
             m["Table"] = ", ".join(f"{number(s)} : {number(y + h * s)}" for s in (0, 0.1, 0.5, 5))
@@ -196,7 +230,10 @@ def material(k: Knobs, f: Frame, young: float | None = None, density: float | No
 def flow_rule(k: Knobs, f: Frame, y: float) -> Sections:
     """What plasticity has beside isotropic hardening; tension along z yields as closed_forms.py says."""
     if k.flow_rule == "backstress":
-        return {"Backstress moduli": f"{number(20 * y)}, {number(0.5 * y)}", "Backstress rates": "20, 0"}
+        return {
+            "Backstress moduli": f"{number(k.backstress * y)}, {number(0.5 * y)}",
+            "Backstress rates": f"{number(k.recovery)}, 0",
+        }
     if k.flow_rule == "Hill":
         return {
             "Anisotropy": "Hill",
@@ -466,9 +503,11 @@ def upset(k: Knobs) -> Setup:
 
 
 def pull(k: Knobs) -> Setup:
-    """One brick stretched by supports, free across: no contact."""
+    """One brick stretched by supports, free across: no contact. With a `ramp` it is held from then on; with
+    `cycles` it goes to and fro."""
     f, n, h = frame_of(k), k.bricks or 1, k.aspect
     top_moves = h * (math.exp(k.strain) - 1)
+    moves, stops = loading(k)
     sections = {
         "Bodies": {
             "block": body(
@@ -481,13 +520,13 @@ def pull(k: Knobs) -> Setup:
                         "Boundary ids": 5,
                         "Components": "z",
                         "Displacement": (
-                            f"0 ; 0 ; {f.expression(number(top_moves) + '*{t}', number(f.length) + '*')}"
+                            f"0 ; 0 ; {f.expression(f'{number(top_moves)}*{moves}', number(f.length) + '*')}"
                         ),
                     }
                 },
             )
         },
-        **statics(k, f, end=reach(k, 1.0)),
+        **statics(k, f, end=reach(k, 1.0), first=stops[0] / 4 if stops else None, stops=stops),
     }
     return Setup(
         k,
@@ -499,12 +538,96 @@ def pull(k: Knobs) -> Setup:
             must.diagonal_symmetry,
             must.uniform_stress,
             must.bar_stress,
+            must.energies,
             must.jacobians,
         ],
         height=h,
         strain=k.strain,
         layers=n,
     )
+
+
+def loading(k: Knobs) -> tuple[str, list[float]]:
+    """How a brick is stretched over time, and when that turns."""
+    if k.cycles:
+        whole = k.cycles + 0.25
+        return (
+            f"sin({number(2 * math.pi * whole)}*{{t}})",
+            [(0.5 * i + 0.25) / whole for i in range(2 * k.cycles)],
+        )
+    if k.ramp < 1:
+        return f"if({{t}} < {number(k.ramp)}, {{t}}/{number(k.ramp)}, 1)", [k.ramp]
+    return "{t}", []
+
+
+def membrane(k: Knobs) -> Setup:
+    """One brick stretched by supports in two directions, free in the third one."""
+    f = frame_of(k)
+    moves, stops = loading(k)
+    pulled = f"{number(math.expm1(k.strain))}*{moves}"
+    sections = {
+        "Bodies": {
+            "sheet": body(
+                k,
+                f,
+                box((1, 1, 1), (0, 0, 0), (1, 1, 1)),
+                [((1, 0, 0), 0), ((0, 1, 0), 0), ((0, 0, 1), 0)],
+                Supports={
+                    "along": {
+                        "Boundary ids": 1,
+                        "Components": "x",
+                        "Displacement": f.expressions((pulled, "0", "0"), f.length),
+                    },
+                    "across": {
+                        "Boundary ids": 3,
+                        "Components": "y",
+                        "Displacement": f.expressions(("0", pulled, "0"), f.length),
+                    },
+                },
+            )
+        },
+        **statics(k, f, first=stops[0] / 4 if stops else None, stops=stops),
+    }
+    checks: list[must.Check] = [
+        must.finite,
+        must.yields,
+        must.diagonal_symmetry,
+        must.uniform_stress,
+        must.membrane_stress,
+        must.energies,
+        must.jacobians,
+    ]
+    return Setup(k, f, sections, checks, strain=k.strain)
+
+
+def shear(k: Knobs) -> Setup:
+    """One brick in simple shear: its top goes along by `strain` times its height."""
+    f = frame_of(k)
+    moves, stops = loading(k)
+    along = f"{number(k.strain)}*{moves}"
+    sections = {
+        "Bodies": {
+            "block": body(
+                k,
+                f,
+                box((1, 1, 1), (0, 0, 0), (1, 1, 1)),
+                Supports={
+                    "foot": {"Boundary ids": 4},
+                    "head": {"Boundary ids": 5, "Displacement": f.expressions((along, "0", "0"), f.length)},
+                },
+            )
+        },
+        **statics(k, f, first=stops[0] / 4 if stops else None, stops=stops),
+    }
+    checks: list[must.Check] = [
+        must.finite,
+        must.yields,
+        must.uniform_stress,
+        must.sheared,
+        must.energies,
+        must.jacobians,
+    ]
+    return Setup(k, f, sections, checks, strain=k.strain)
 
 
 def slide(k: Knobs) -> Setup:
@@ -1622,6 +1745,8 @@ def with_scheme(scene: Callable[[Knobs, str], Setup], scheme: str) -> Callable[[
 BASES: dict[str, Callable[[Knobs], Setup]] = {
     "upset": upset,
     "pull": pull,
+    "membrane": membrane,
+    "shear": shear,
     "slide": slide,
     "ball": ball,
     "twist": twist,
@@ -1668,7 +1793,7 @@ BASES: dict[str, Callable[[Knobs], Setup]] = {
 
 KINDS = {  # what kind of run a base scene is
     "statics, tools": ("upset", "slide", "ball", "twist", "place", "rest"),
-    "statics, no contact": ("pull",),
+    "statics, no contact": ("pull", "membrane", "shear"),
     "statics, bodies": ("stack", "touching", "drag"),
     "statics, self-contact": ("clip",),
     "explicit, tools": (
@@ -1696,6 +1821,18 @@ KINDS = {  # what kind of run a base scene is
 }
 
 
+# Knobs of laws beyond linear hardening and the three elastic ones.
+OF_LAWS = (
+    "r value",
+    "pulled",
+    "rate factor",
+    "thermal factor",
+    "volumetric",
+    "constant",
+    "prony",
+)
+
+
 # Edge of the largest facet of each pair or tool whose contacts may be augmented.
 FACETS = {
     "upset": (("die", "ram"), 0.5),
@@ -1714,8 +1851,44 @@ YIELD = {
 }
 
 
+def strain_rate(setup: Setup) -> float:
+    """Of a scene, about; in motion without a strain that of an impact on a block."""
+    k, end = setup.knobs, float(setup.sections["Time stepping"]["End time"]) / setup.frame.time
+    if "strain" in setup.facts:
+        return float(abs(k.strain) / end / k.ramp * max(4 * k.cycles, 1))
+    return float(setup.facts.get("speed", 0.1 / end))
+
+
+def equip(setup: Setup) -> None:
+    """Gives the bodies what their law has beyond `material`, and what must hold of it."""
+    k, f = setup.knobs, setup.frame
+    if not set(k.chosen) & set(OF_LAWS) and k.kinematics not in laws.RUBBER and k.law != "UMAT":
+        return
+    end = float(setup.sections["Time stepping"]["End time"]) / f.time
+    setup.facts["end"], setup.facts["reference rate"] = end, strain_rate(setup) / k.rate
+    for name, of_body in setup.sections["Bodies"].items():
+        young = k.young * (k.modulus_ratio if name == "upper" or name == "high" else 1.0)
+        of_body["Material"] = laws.parameters(k, f, of_body["Material"], young, end, strain_rate(setup))
+    if k.law == "UMAT":
+        setup.library = laws.UMAT
+        setup.sections["Output"]["State fields"] = "equivalent plastic strain"
+    if k.rate_factor != "none" and not setup.sections["Time stepping"].get("Scheme") == "explicit":
+        setup.sections["Output"]["Step interval"] = 1  # the rate of the last step
+    if k.heat:
+        setup.sections["Output"]["State fields"] = "temperature rise"
+        setup.checks.append(must.heats)
+    if must.energies not in setup.checks:
+        setup.checks.append(must.dissipates)
+    if k.r_value is not None:
+        if k.pulled != "third":
+            setup.checks = [check for check in setup.checks if check is not must.diagonal_symmetry]
+        if "height" in setup.facts and k.mu == 0:
+            setup.checks.append(must.hill_sides)
+
+
 def make(base: str, changes: Mapping[str, Any]) -> Setup:
     setup = BASES[base](Knobs({"yield": YIELD.get(base, KNOBS["yield"]), **changes}))
+    equip(setup)
     if setup.knobs.augmentation is not None and base in FACETS and setup.knobs.bricks is None:
         names, facet = FACETS[base]
         setup.checks = setup.checks + [must.augmented(name, facet) for name in names]
