@@ -163,7 +163,7 @@ def _() -> None:
     finish(scene, "fields")
     files = sorted(Path("fields").rglob("*.vtu"))
     text = "".join(file.read_bytes().decode("latin-1") for file in files)
-    says(text, "state_equivalent_plastic_strain", "state_clock_time")
+    says(text, "state_equivalent_plastic_strain", "state_clock_time", '"equivalent_plastic_strain"')
 
 
 def pulled_cube(element: str, material: str) -> str:
