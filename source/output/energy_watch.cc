@@ -47,6 +47,10 @@ std::string EnergyWatch::advise(const Cause cause) {
            "in "
            "them. " +
            choose_exact_elasticity() + "increase 'Maximum energy drift'";
+  case Cause::softening:
+    return "Heat makes the flow stress fall faster than stresses unload, and energy is lost with any step. "
+           "Check 'Specific heat' and 'Taylor-Quinney fraction', or give the temperature by 'Temperature' "
+           "instead";
   case Cause::steps:
     break;
   }

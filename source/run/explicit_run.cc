@@ -278,6 +278,8 @@ std::string ExplicitRun::advise_on_law(RunOutput &output) {
   output.report(stability_.check(problem_.state()));
   if (stability_.has_unstable_bodies())
     return EnergyWatch::advise(EnergyWatch::Cause::unstable_law);
+  if (softening_.has_softened())
+    return EnergyWatch::advise(EnergyWatch::Cause::softening);
   if (!problem_.has_low_penalties() && has_inexact_dissipation(scene_, discretization_, problem_))
     return EnergyWatch::advise(EnergyWatch::Cause::inexact_dissipation);
   return "";

@@ -43,6 +43,7 @@ DiagnosticList SofteningWatch::check(const Solution &solution) {
       ++heated;
       continue;
     }
+    has_softened_ = true;
     std::ostringstream text;
     text.precision(2);
     text << "At a plastic strain of " << strain << " the flow stress falls by " << -100. * slope

@@ -27,7 +27,8 @@ public:
     sticking_overlaps,
     contact_edges,
     unstable_law,
-    inexact_dissipation
+    inexact_dissipation,
+    softening
   };
   /// Returns a description of the cause and its remedy, as sentences without the last full stop.
   static std::string advise(Cause cause);

@@ -20,6 +20,8 @@ public:
   /// Returns messages at this state, one for each body that newly softens. An element counts if it has flowed
   /// since the last call; so the first call finds none. Collective.
   DiagnosticList check(const Solution &solution);
+  /// Whether a body has softened so far.
+  bool has_softened() const { return has_softened_; }
 
 private:
   /// Body whose law may soften.
@@ -36,6 +38,7 @@ private:
 
   const Scene &scene_;
   std::vector<Heated> bodies_; ///< without those that are reported
+  bool has_softened_ = false;
 };
 
 } // namespace billet
