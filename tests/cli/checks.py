@@ -256,7 +256,8 @@ class Run:
     def require_record(self) -> None:
         """Raises a fault unless diagnostics.jsonl, if there is one, ends with the exit code of the run and
         has all messages of the console. What is told of earlier results is none of the run."""
-        if not Path(self.folder, "diagnostics.jsonl").is_file():
+        is_ended = self.ended.code in (0, 3, 5, 6, 7)  # rather than killed
+        if not is_ended or not Path(self.folder, "diagnostics.jsonl").is_file():
             return
         lines = [json.loads(line) for line in self.text("diagnostics.jsonl").splitlines()]
         require(
