@@ -45,13 +45,25 @@ const DiagnosticKind subroutine_error(
 
 const DiagnosticKind implausible_heating(
     "implausible-heating", Severity::warning,
-    "Plastic work heats the material by more than 20,000 or less than 0.05 degrees per strain of 1. Metals "
-    "warm by 5 to 1,000 degrees. Usually the specific heat has other units than stress and density.",
+    "Young's modulus times the 'Taylor-Quinney fraction', over density and specific heat, is above 1e6 or "
+    "below 200 degrees. Metals have 1e4 to 2e5. Usually the specific heat has other units than stress and "
+    "density.",
     "Give 'Specific heat' in energy per mass and degree. Steel has 460 in J/(kg K), or 4.6e8 in mm, t and s");
 
-/// Returns the rise of the temperature per plastic strain; nothing if the law does not heat or flow.
-std::optional<double> measure_heating(const PointLaw &law, const double temperature, const double dt) {
-  constexpr double plastic_strain = 0.01;
+const DiagnosticKind molten_at_start(
+    "molten-at-start", Severity::warning,
+    "At the temperature at which a body starts, its flow stress is less than a thousandth of that without "
+    "thermal factor.",
+    "Check 'Temperature' against 'Melting temperature': both have the same unit and zero");
+
+/// Heating of a point that flows, at the start of the run.
+struct Heating {
+  double per_energy; ///< rise of the temperature by dissipated energy per volume [temperature/stress]
+  double strength;   ///< flow stress over that without the factors of rate and temperature
+};
+
+/// Measures the heating; returns nothing if the law does not heat or flow.
+std::optional<Heating> measure_heating(const PointLaw &law, const double temperature, const double dt) {
   std::size_t place = 0;
   bool is_found = false;
   for (const StateField &field : law.fields()) {
@@ -62,15 +74,22 @@ std::optional<double> measure_heating(const PointLaw &law, const double temperat
   }
   if (!is_found || !law.has_plasticity())
     return {};
-  const double strain = plastic_strain + law.flow_stress()->stress(0.) / (3. * law.elastic().shear);
-  dealii::Tensor<2, 3> F;
-  F[0][0] = std::exp(strain);
-  F[1][1] = F[2][2] = std::exp(-0.5 * strain);
-  LawPoint point(law, temperature);
-  if (!point.evaluate(F, dt))
-    return {};
-  const double flown = law.equivalent_plastic_strain(point.state().data());
-  return flown > 0. ? std::optional<double>(point.state()[place] / flown) : std::nullopt;
+  const double flow_stress = law.flow_stress()->stress(0.);
+  // A law that heats far too much refuses all but tiny strains.
+  for (const double plastic_strain : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const double strain = plastic_strain + flow_stress / (3. * law.elastic().shear);
+    dealii::Tensor<2, 3> F;
+    F[0][0] = std::exp(strain);
+    F[1][1] = F[2][2] = std::exp(-0.5 * strain);
+    LawPoint point(law, temperature);
+    if (!point.evaluate(F, dt))
+      continue;
+    const double flown = law.equivalent_plastic_strain(point.state().data()),
+                 dissipated = point.dissipated_energy();
+    if (flown > 0. && dissipated > 0.)
+      return Heating{point.state()[place] / dissipated, dissipated / flown / flow_stress};
+  }
+  return {};
 }
 
 Diagnostic describe_tangent(const UserSubroutine &law, const TangentError &found) {
@@ -130,21 +149,31 @@ DiagnosticList check_user_laws(const Scene &scene) {
 }
 
 DiagnosticList check_heating(const Scene &scene) {
-  constexpr double least = 0.05, most = 2e4;
-  constexpr double part = 0.01; // of the end time, and of strain
+  constexpr double least = 200., most = 1e6; // [temperature]
+  constexpr double molten = 1e-3;            // part of the flow stress
+  constexpr double part = 0.01;              // of the end time
   DiagnosticList diagnostics;
   for (const Body &body : scene.bodies()) {
     if (body.temperature == nullptr)
       continue;
-    const auto rise = measure_heating(*body.law, body.temperature->value(0.),
-                                      part * scene.parameters().time_stepping.end_time);
-    if (!rise || *rise == 0. || (*rise > least && *rise < most))
+    const auto heating = measure_heating(*body.law, body.temperature->value(0.),
+                                         part * scene.parameters().time_stepping.end_time);
+    if (!heating)
       continue;
+    const double rise = heating->per_energy * body.young_modulus;
     std::ostringstream text;
     text.precision(2);
-    text << "The material warms by " << part * *rise << " degrees at a plastic strain of " << part;
-    diagnostics.push_back(
-        Diagnostic(implausible_heating, text.str()).body(body.name).measure("rise per strain", *rise));
+    if (rise > 0. && !(rise > least && rise < most)) {
+      text << "Young's modulus times the 'Taylor-Quinney fraction', over density and specific heat, is "
+           << rise << " degrees";
+      diagnostics.push_back(
+          Diagnostic(implausible_heating, text.str()).body(body.name).measure("E / heat capacity", rise));
+    } else if (heating->strength < molten) {
+      text << "At 'Temperature' the flow stress is " << heating->strength
+           << " of that without thermal factor";
+      diagnostics.push_back(
+          Diagnostic(molten_at_start, text.str()).body(body.name).measure("flow stress", heating->strength));
+    }
   }
   return diagnostics;
 }

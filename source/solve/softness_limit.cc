@@ -25,6 +25,8 @@ struct Limits {
   static constexpr double max_ratio = 0.8;
   /// Minimum part that springs hold for ρ to be measured. Smaller parts of a force are not significant.
   static constexpr double min_held = 1e-4;
+  /// The same for sheets, where less is not significant beside the residual.
+  static constexpr double min_held_of_sheet = 0.01;
 };
 
 double max_force(const std::vector<ContactSprings> &springs) {
@@ -41,17 +43,24 @@ double SoftnessLimit::Direction::missing(const ContactSprings::Direction &spring
   return std::min(changed, springs.held > Limits::unlike * force ? springs.held : in_all * springs.held);
 }
 
-void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change) {
+void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, const Change &change,
+                                     const Rule rule) {
   // Only the first augmentation counts: facets that do not fit keep gaps.
   const bool is_first = std::isinf(changed);
   changed = change.in_all;
   if (is_first && before.held > Limits::min_held * before.force && before.held > 0.)
     counts = std::min(1., change.of_nodes / before.held);
+  if (rule == Rule::sheet) {
+    const double ratio = before.held > Limits::min_held_of_sheet * before.force
+                             ? std::min(change.in_all / before.held, Limits::max_ratio)
+                             : 0.5; // unknown
+    changed *= ratio / (1. - ratio);
+  }
 }
 
-SoftnessLimit::SoftnessLimit(const std::vector<bool> &limits) : pairs_(limits.size()) {
-  for (std::size_t i = 0; i < limits.size(); ++i)
-    pairs_[i].limits = limits[i];
+SoftnessLimit::SoftnessLimit(const std::vector<Rule> &rules) : pairs_(rules.size()) {
+  for (std::size_t i = 0; i < rules.size(); ++i)
+    pairs_[i].rule = rules[i];
   begin();
 }
 
@@ -61,7 +70,7 @@ void SoftnessLimit::begin() {
 }
 
 bool SoftnessLimit::is_used() const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.limits; });
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair &pair) { return pair.rule != Rule::none; });
 }
 
 std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &springs,
@@ -70,7 +79,7 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
   std::vector<double> result(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair &pair = pairs_[i];
-    if (!pair.limits)
+    if (pair.rule == Rule::none)
       continue;
     const auto &[normal, tangential] = springs[i];
     const double pressure = std::max(minimum, normal.force),
@@ -81,7 +90,7 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
                                  Limits::allowed * friction - pair.let_in);
     if (of_pressure > 0.)
       result[i] += of_pressure / (Limits::allowed * pressure);
-    if (of_friction > resolved * pressure)
+    if (pair.rule == Rule::general && of_friction > resolved * pressure)
       result[i] += of_friction / left;
   }
   return result;
@@ -90,8 +99,8 @@ std::vector<double> SoftnessLimit::excess(const std::vector<ContactSprings> &spr
 void SoftnessLimit::learn(const std::vector<ContactSprings> &before,
                           const std::vector<std::array<Change, 2>> &changes) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    pairs_[i].normal.learn(before[i].normal, changes[i][0]);
-    pairs_[i].tangential.learn(before[i].tangential, changes[i][1]);
+    pairs_[i].normal.learn(before[i].normal, changes[i][0], pairs_[i].rule);
+    pairs_[i].tangential.learn(before[i].tangential, changes[i][1], pairs_[i].rule);
   }
 }
 
@@ -103,8 +112,10 @@ void SoftnessLimit::commit(const std::vector<ContactSprings> &springs, const dou
     Pair &pair = pairs_[i];
     pair.let_in += pair.tangential.counts * springs[i].tangential.held;
     pair.max_force = std::max(pair.max_force, springs[i].normal.force);
-    if (excess_left[i] > 1. && std::isfinite(pair.normal.changed))
-      pair.unsettled = std::max(pair.unsettled, pair.normal.changed);
+    if (excess_left[i] > 1.) // without a change if the first augmentation has failed
+      pair.unsettled = std::max(pair.unsettled, std::isfinite(pair.normal.changed)
+                                                    ? pair.normal.changed
+                                                    : pair.normal.missing(springs[i].normal, pair.max_force));
   }
 }
 

@@ -86,6 +86,34 @@ def _() -> None:
     require(slope(rows[-1], 7) < slope(formed, 7) - 3, "the walls do not open")
 
 
+@check("the default penalty of a sheet between tools takes few iterations")
+def _() -> None:
+    rows = run_variant(
+        str(SHIPPED / "u_bend.prm"),
+        "default_penalty",
+        {
+            "General contact/Normal penalty": "",
+            "Bodies/strip/Mesh/Arguments": "132, 1 : 0, 0 : 132, 0.78",
+            "Bodies/strip/Mesh/Positions": "2*min(x, 9) + max(0, min(x, 99) - 9) + 2*max(0, x - 99) ; y ; z",
+            "Tools/punch/Motion/Translation": "0 ; -2*t ; 0",
+        },
+    )
+    pressed = [row for row in rows if row["time"] <= 1]
+    # With 10 E/h nodes open and close in turn: it takes thousands.
+    iterations = sum(row["iterations"] for row in pressed)
+    require(iterations < 800, f"{iterations} iterations")
+    near("force of the holder", abs(pressed[-1]["holder.force_y"]), 35.0, 1e-2)
+
+
+@check("a stack of sheets is as stiff as its closed form")
+def _() -> None:
+    rows = run_variant(str(HERE / "three_sheets.prm"), "three_sheets", {})
+    for row in rows[1:]:
+        stretch = 1 - 0.03 * row["time"] / 0.15
+        theory = 10 * 1000 * math.log(1 / stretch) / stretch
+        near(f"force at time {row['time']}", abs(row["lid.force_y"]), theory, 5e-3)
+
+
 @check("pages")
 def _() -> None:
     for name in ("u_bend", "free_bend"):

@@ -44,12 +44,15 @@ public:
   double stiffening_left() const { return limits_.normal / stiffening(); }
   /// Returns the same factor for tangential penalties; infinite without friction.
   double tangential_stiffening_left() const { return limits_.tangential / tangential_stiffening(); }
+  /// Whether the pair is that of a sheet, whose default penalty is low.
+  bool is_of_sheet() const { return is_of_sheet_; }
   /// Returns the maximum of penalty times facet size squared [force/length].
   virtual double max_spring() const = 0;
 
 protected:
   /// `tolerance` is PairSettings::penetration_tolerance, 0 without one.
-  ContactPenalties(const double tolerance, const Limits &limits) : tolerance_(tolerance), limits_(limits) {}
+  ContactPenalties(const double tolerance, const Limits &limits, const bool is_of_sheet = false)
+      : tolerance_(tolerance), limits_(limits), is_of_sheet_(is_of_sheet) {}
 
 private:
   /// Returns the maximum gap of a node that presses, and elastic slip of one that sticks [facet sizes].
@@ -57,6 +60,7 @@ private:
 
   double tolerance_; ///< [facet sizes]
   Limits limits_;
+  bool is_of_sheet_;
 };
 
 } // namespace billet

@@ -14,7 +14,8 @@ public:
   /// The parts must outlive this object.
   explicit ToolPenalties(RigidContactParts &parts)
       : ContactPenalties(parts.pair.penetration_tolerance.value_or(0.),
-                         {parts.slaves.max_stiffening, parts.slaves.max_tangential_stiffening}),
+                         {parts.slaves.max_stiffening, parts.slaves.max_tangential_stiffening},
+                         parts.slaves.is_sheet),
         parts_(parts) {}
 
   void augment() override;

@@ -14,8 +14,9 @@ namespace billet {
 /// follows from the change by the last augmentation; (L7) of doc/theory.md.
 class SoftnessLimit {
 public:
-  /// `limits`: whether each pair limits its softness.
-  explicit SoftnessLimit(const std::vector<bool> &limits);
+  /// What limits the softness of a pair: nothing, both directions, or, for sheets, the normal one alone.
+  enum class Rule { none, general, sheet };
+  explicit SoftnessLimit(const std::vector<Rule> &rules);
 
   /// Whether any pair limits its softness.
   bool is_used() const;
@@ -44,14 +45,15 @@ public:
 
 private:
   struct Direction {
-    double counts = 1.;  ///< change of the force by an augmentation, over the force that springs hold
-    double changed = 0.; ///< change of the force by the last augmentation of the step [force]
+    double counts = 1.; ///< change of the force by an augmentation, over the force that springs hold
+    /// Change of the force by the last augmentation of the step; of sheets, by all that would follow [force]
+    double changed = 0.;
 
     double missing(const ContactSprings::Direction &springs, double force) const;
-    void learn(const ContactSprings::Direction &before, const Change &change);
+    void learn(const ContactSprings::Direction &before, const Change &change, Rule rule);
   };
   struct Pair {
-    bool limits = false;
+    Rule rule = Rule::none;
     Direction normal, tangential;
     double let_in = 0.;                    ///< missing friction by the slip of all steps so far [force]
     double max_force = 0., unsettled = 0.; ///< over the run [force]

@@ -47,6 +47,9 @@ struct Augmentation::Limits {
   /// If an augmentation leaves more than `slow_error` of the error, residuals may cause the gaps: their
   /// tolerance is reduced by `accuracy`, down to `min_accuracy`.
   static constexpr double slow_error = 0.5, accuracy = 0.1, min_accuracy = 0.01;
+  /// The same for sheets, unless the residual is below this part of the largest force of a pair: it cannot
+  /// change forces then.
+  static constexpr double noise = 2e-3;
   /// An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's. A
   /// contact that leaves more than `slow` becomes stiffer, so that `wanted` is left (Bertsekas, Constrained
   /// Optimization, 1982, sec. 2.2.5).
@@ -61,6 +64,8 @@ struct Augmentation::Limits {
   /// springs hold less than `min_held` of the force, this is not significant: friction may be augmented
   /// instead.
   static constexpr double min_held = 0.05, kept = 0.9;
+  /// The same for the stiffness of sheets, whose forces change little beside the residual.
+  static constexpr double min_held_of_sheet = 0.01;
   /// Change of the force, as part of the largest, up to which a pair is settled.
   static constexpr double settled = 5e-3;
   /// Penalty above which the user is told of a raise [E/h].
@@ -68,15 +73,19 @@ struct Augmentation::Limits {
 };
 
 struct Augmentation::Series {
-  explicit Series(const std::size_t n_contacts) : stiffer(n_contacts, 1.), added(n_contacts, 0.) {}
+  explicit Series(const std::size_t n_contacts)
+      : stiffer(n_contacts, 1.), added(n_contacts, 0.), granted(n_contacts, 1.) {}
 
   Pace pace;
   std::vector<ContactSprings> springs;
   std::vector<double> before;         ///< demands before the last augmentation
   std::vector<double> stiffer, added; ///< see stiffen_slow_contacts(); of all augmentations, of the last
-  std::unique_ptr<Vector> soft;       ///< the state from which augmentations are for softness alone
+  /// Of sheets: change of the normal force by the last augmentation over the force that springs held; else 1
+  std::vector<double> granted;
+  std::unique_ptr<Vector> soft; ///< the state from which augmentations are for softness alone
   std::vector<double> soft_offsets;
-  std::size_t hardest = 0; ///< of the report before
+  unsigned int n_from_soft = 0; ///< augmentations from there that converged
+  std::size_t hardest = 0;      ///< of the report before
 };
 
 namespace {
@@ -93,26 +102,39 @@ bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size
          !parts.scheme().tools().has_mass(*tool);
 }
 
+double max_force(const std::vector<ContactSprings> &springs) {
+  double maximum = 0.;
+  for (const ContactSprings &of_pair : springs)
+    maximum = std::max(maximum, of_pair.normal.force);
+  return maximum;
+}
+
 } // namespace
 
 Augmentation::Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver,
                            PenetrationMeasurement &measurement)
     : problem_(problem), solver_(solver), measurement_(measurement),
-      softness_(parts_.contacts().collect(
-          [](const auto &contact) { return contact.settings().limits_softness(); })) {}
+      softness_(parts_.contacts().collect([](const auto &contact) {
+        using Rule = SoftnessLimit::Rule;
+        return !contact.settings().limits_softness() ? Rule::none
+               : contact.penalties().is_of_sheet()   ? Rule::sheet
+                                                     : Rule::general;
+      })) {
+  for (const auto &contact : parts_.contacts())
+    has_sheets_ = has_sheets_ || contact.penalties().is_of_sheet();
+}
 
-std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double> &before,
-                                                        const std::vector<double> &errors,
-                                                        const std::vector<double> &added) {
+std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double> &errors,
+                                                        const Series &series) {
   ContactSet &contacts = parts_.contacts();
   std::vector<double> room = contacts.stiffening_left(), factors(errors.size(), 1.);
   bool is_stiffer = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double left = errors[i] / before[i];
+    const double left = std::min(errors[i] / series.before[i], series.granted[i]);
     if (contacts[i].settings().limits_softness())
-      room[i] *= added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
-                 : contacts[i].rigid_tool()                                ? Limits::more_of_tools
-                                                                           : 1.;
+      room[i] *= series.added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
+                 : contacts[i].rigid_tool()                                       ? Limits::more_of_tools
+                                                                                  : 1.;
     if (!(errors[i] > 1. && left > Limits::slow && room[i] >= 2.))
       continue;
     factors[i] = whole_octaves(
@@ -259,7 +281,10 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
     const bool is_of_softness = demands.by_tolerances <= 1.;
     if (error <= 1.)
       break;
-    if (error > Limits::slow_error * last_error)
+    const bool is_resolved =
+        has_sheets_ && is_of_softness &&
+        report.force * problem_.scales().force <= Limits::noise * max_force(series.springs);
+    if (error > Limits::slow_error * last_error && !is_resolved)
       solver_.set_accuracy(std::max(Limits::accuracy * solver_.accuracy(), Limits::min_accuracy * accuracy));
     last_error = error;
     series.pace.add(error);
@@ -290,17 +315,32 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
     if (contact.settings().is_augmented())
       contact.penalties().augment();
   if (!series.before.empty()) {
-    const std::vector<double> factors =
-        stiffen_slow_contacts(series.before, demands.of_contacts, series.added);
+    const std::vector<double> factors = stiffen_slow_contacts(demands.of_contacts, series);
     for (std::size_t i = 0; i < factors.size(); ++i)
       series.stiffer[i] *= factors[i];
   }
   series.before = demands.of_contacts;
   report.append(solver_.iterate(offsets, displacements));
-  if (!report.converged && series.soft && is_of_softness) { // restore the former state
-    for (std::size_t i = 0; i < series.stiffer.size(); ++i)
-      if (series.stiffer[i] != 1.)
-        contacts[i].penalties().scale(1. / series.stiffer[i], 1. / series.stiffer[i]);
+  if (!report.converged && series.soft && is_of_softness) {
+    repeat_from_soft_state(series, report, offsets, displacements);
+    return false;
+  }
+  if (report.converged) {
+    series.n_from_soft += series.soft ? 1 : 0;
+    learn(series);
+    if (!solver_.is_probing())
+      note_stiff_contacts(series, report.diagnostics);
+  }
+  return true;
+}
+
+void Augmentation::repeat_from_soft_state(Series &series, NewtonReport &report, std::vector<double> &offsets,
+                                          Vector &displacements) {
+  ContactSet &contacts = parts_.contacts();
+  for (std::size_t i = 0; i < series.stiffer.size(); ++i)
+    if (series.stiffer[i] != 1.)
+      contacts[i].penalties().scale(1. / series.stiffer[i], 1. / series.stiffer[i]);
+  const auto restore = [&] {
     contacts.take_back_augmentation();
     displacements = *series.soft;
     offsets = series.soft_offsets;
@@ -308,14 +348,21 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
     report.append(again);
     // If this does not converge, a shorter step does not help either.
     report.hardest = std::max(series.hardest, again.hardest);
-    return false;
+  };
+  restore();
+  for (unsigned int n = 0; report.converged && n < series.n_from_soft; ++n) {
+    for (auto &contact : contacts)
+      if (contact.settings().is_augmented())
+        contact.penalties().augment();
+    const NewtonReport again = solver_.iterate(offsets, displacements);
+    report.append(again);
+    if (!report.converged) {
+      restore();
+      break;
+    }
   }
-  if (report.converged) {
-    learn(series);
-    if (!solver_.is_probing())
-      note_stiff_contacts(series, report.diagnostics);
-  }
-  return true;
+  if (!solver_.is_probing())
+    has_failed_ = true;
 }
 
 void Augmentation::note_stiff_contacts(const Series &series, DiagnosticList &messages) {
@@ -345,11 +392,16 @@ void Augmentation::learn(Series &series) {
     return;
   const auto changes = changes_of(series.springs, after);
   softness_.learn(series.springs, changes);
+  const ContactSet &contacts = parts_.contacts();
   for (std::size_t i = 0; i < series.added.size(); ++i) {
     const ContactSprings::Direction &then = series.springs[i].normal, &now = after[i].normal;
     series.added[i] = then.held > Limits::min_held * then.force && now.held > Limits::kept * then.held
                           ? changes[i][0].in_all / then.held
                           : 0.;
+    if (contacts[i].penalties().is_of_sheet())
+      series.granted[i] = then.held > Limits::min_held_of_sheet * then.force
+                              ? std::min(1., changes[i][0].in_all / then.held)
+                              : 0.;
   }
   series.springs = after;
 }
@@ -366,12 +418,15 @@ DiagnosticList Augmentation::finish() const {
     text.precision(2);
     text << "Augmentation stops while it still changes the force by " << percent * unsettled[i]
          << " % of the maximum. "
-         << (is_with_tool
+         << (has_failed_ ? "Newton's method fails with more of it in some steps, where the force is too small"
+             : is_with_tool
                  ? "Facets are coarse for the tool's fillets, or a sharp edge of it carries the force"
                  : "Facets of the two sides do not match, or a sharp edge carries the force");
     Diagnostic message(diagnostic::contact_unsettled, text.str());
     message.pair(parts_.contacts()[i].name()).measure("change / force", unsettled[i]);
-    if (is_with_tool)
+    if (has_failed_)
+      message.advice("Compare with a run with 'Normal penalty = 1000', or with finer facets that match");
+    else if (is_with_tool)
       message.advice(
           "Reduce 'Force tolerance', add a fillet to a sharp edge, or use a finer mesh where the tool "
           "presses. 'Penetration tolerance = 1e-3' augments until convergence; it takes many more "

@@ -57,19 +57,20 @@ private:
   /// Returns the changes of the forces of each contact by an augmentation. Collective.
   std::vector<std::array<SoftnessLimit::Change, 2>>
   changes_of(const std::vector<ContactSprings> &before, const std::vector<ContactSprings> &after) const;
-  /// Raises the penalties of contacts whose errors are above 1 and fell little since `before`. `added`: the
-  /// increase of the normal force by the last augmentation, over the force that springs held. Collective.
-  /// Returns the factors, all 1 if none is raised.
-  std::vector<double> stiffen_slow_contacts(const std::vector<double> &before,
-                                            const std::vector<double> &errors,
-                                            const std::vector<double> &added);
+  /// Raises the penalties of contacts whose errors are above 1 and fell little in the last augmentation.
+  /// Returns the factors, all 1 if none is raised. Collective.
+  std::vector<double> stiffen_slow_contacts(const std::vector<double> &errors, const Series &series);
   /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair that is
   /// farthest from its own.
   void give_up(const Series &series, unsigned int n, const Demands &demands, NewtonReport &report) const;
-  /// Augments once and iterates. If that fails and only softness required it, restores the former state.
+  /// Augments once and iterates. If that fails and only softness required it, calls repeat_from_soft_state().
   /// Returns whether to continue.
   bool augment_once(Series &series, const Demands &demands, bool is_of_softness, NewtonReport &report,
                     std::vector<double> &offsets, Vector &displacements);
+  /// Restores the state before augmentations for softness, and repeats those that converged, with the
+  /// penalties of that state. If one fails now, all are undone.
+  void repeat_from_soft_state(Series &series, NewtonReport &report, std::vector<double> &offsets,
+                              Vector &displacements);
   void learn(Series &series);
   /// Appends a note on each pair whose penalty augmentation has made very stiff, once. Collective.
   void note_stiff_contacts(const Series &series, DiagnosticList &messages);
@@ -80,7 +81,8 @@ private:
   PenetrationMeasurement &measurement_;
   SoftnessLimit softness_;
   double penetration_allowed_ = 1.;
-  bool may_leave_penetration_ = false;
+  bool may_leave_penetration_ = false, has_failed_ = false; ///< has_failed_: for softness, in some step
+  bool has_sheets_ = false;
   std::vector<bool> is_noted_; ///< contacts of note_stiff_contacts()
 };
 
