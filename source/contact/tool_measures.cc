@@ -132,6 +132,11 @@ StartGaps ToolMeasures::start_gaps() const {
     gaps.add(reports[i].pressure * reports[i].area, reports[i].area, (way - (way * normal) * normal).norm(),
              node.size, InitialOverlap::counted(node.initial_penetration, parts_.step.allowed_part));
   }
+  for (std::size_t i = reports.size(); i < parts_.slaves.nodes.size(); ++i) { // points inside facets
+    const ContactPoint &point = parts_.slaves.nodes[i];
+    gaps.add(0., 0., 0., point.size,
+             InitialOverlap::counted(point.initial_penetration, parts_.step.allowed_part));
+  }
   return gaps;
 }
 
