@@ -12,8 +12,9 @@ using dealii::Tensor;
 
 namespace {
 
-/// Maximum number of failures in a row that count; each doubles the number of steps without a trial.
-constexpr unsigned int max_failures = 6;
+/// Maximum number of failures in a row that count; each beyond the first doubles the number of steps without
+/// a trial, and adds one.
+constexpr unsigned int max_failures = 7;
 
 } // namespace
 
@@ -59,7 +60,7 @@ void ResultantGuard::commit() {
     return;
   }
   n_failed_ = has_failed_ ? std::min(n_failed_ + 1, max_failures) : 0;
-  n_left_out_ = has_failed_ ? (1U << n_failed_) - 1 : 0;
+  n_left_out_ = has_failed_ ? (1U << (n_failed_ - 1)) - 1 : 0;
   has_failed_ = false;
 }
 

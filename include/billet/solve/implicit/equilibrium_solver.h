@@ -17,8 +17,8 @@ public:
   /// Iterates from these displacements and offsets of the tools, and overwrites them. Collective.
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
 
-  /// Continues from a solution with tolerances that are smaller by this factor, in a few iterations.
-  /// Collective.
+  /// Continues from a solution with tolerances that are smaller by this factor, in a limited number of
+  /// iterations. Collective.
   NewtonReport refine(double factor, std::vector<double> &offsets, Vector &displacements);
 
   /// Returns the factor of the tolerances of residuals and their work; in (0, 1].
@@ -35,7 +35,7 @@ private:
   /// Maximum number of iterations of a probe, which limits its cost.
   static constexpr unsigned int max_iterations_of_probe = 8;
   /// Maximum number of iterations of refine().
-  static constexpr unsigned int max_iterations_of_refinement = 4;
+  static constexpr unsigned int max_iterations_of_refinement = 10;
 
   NewtonReport solve(const parameters::Solver &settings, bool accepts_stalled, double accuracy,
                      std::vector<double> &offsets, Vector &displacements);
