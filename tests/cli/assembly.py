@@ -4,10 +4,10 @@
 
 Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
 
-Bodies that fit each other. slider.prm, drawn with a gap or an overlap that counts as none, has the force of faces
-in contact wherever it slides. bolt.prm, drawn with play that 'Initial gap' closes, has the forces of the scene
-without play. pin.prm, a pin in a lug whose facets miss each other, has the force of a fine mesh with 'Surface
-correction', and a warning without; --check warns of the same as the run.
+Bodies that fit each other. slider.prm, drawn with a gap or an overlap that counts as none, has the force
+of faces in contact wherever it slides. bolt.prm, drawn with play that 'Initial gap' closes, has the
+forces of the scene without play. pin.prm, a pin in a lug whose facets miss each other, has the force of a
+fine mesh with 'Surface correction', and a warning without; --check warns of the same as the run.
 """
 
 from __future__ import annotations
@@ -70,8 +70,9 @@ UP, DOWN = (
 TOOL = (
     "slider: delete & slide: - Second body & slide: - Second boundary ids & slide: Tool = shoe"
     " & + subsection Tools\nsubsection shoe\nsubsection Surfaces\nsubsection face\nset Shape = rectangle"
-    "\nset Centre = 2.5, 2, 0.5\nset Direction = 1, 0, 0\nset Normal = 0, -1, 0\nset Length = 3\nset Width = 2"
-    "\nend\nend\nsubsection Motion\nset Translation = 3*max(0, t - 1) ; -0.03*min(1, t) ; 0\nend\nend\nend"
+    "\nset Centre = 2.5, 2, 0.5\nset Direction = 1, 0, 0\nset Normal = 0, -1, 0\nset Length = 3"
+    "\nset Width = 2\nend\nend\nsubsection Motion"
+    "\nset Translation = 3*max(0, t - 1) ; -0.03*min(1, t) ; 0\nend\nend\nend"
 )
 UP_TOOL = f"{TOOL} & face: Centre = 2.5, 2.01, 0.5 & slide: + set Initial gap = close within 0.02"
 DOWN_TOOL = f"{TOOL} & face: Centre = 2.5, 1.98, 0.5 & slide: + set Initial penetration = shift"
