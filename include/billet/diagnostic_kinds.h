@@ -423,6 +423,12 @@ inline const DiagnosticKind mesh_levels(
     "of = everything' asks for.",
     "For a smaller error choose a smaller 'Target error', or a larger 'Finest mesh level'");
 
+inline const DiagnosticKind mesh_level_failed(
+    "mesh-level-failed", Severity::note,
+    "A mesh coarser than the given one cannot run the scene. 'Target error of = everything' begins with the "
+    "next finer one.",
+    "Nothing, if the error that 'mesh-levels' reports is known");
+
 inline const DiagnosticKind mesh_target_missed(
     "mesh-target-missed", Severity::warning,
     "On the finest mesh that 'Finest mesh level' and the memory allow, the error of the mesh exceeds its "

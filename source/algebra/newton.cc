@@ -325,8 +325,9 @@ RCP<Teuchos::ParameterList> make_options(const NewtonOptions &settings) {
     newton.set("Forcing Term Initial Tolerance", settings.max_linear_tolerance);
     newton.set("Forcing Term Maximum Tolerance", settings.max_linear_tolerance);
     newton.set("Forcing Term Minimum Tolerance", settings.linear_tolerance);
-    newton.set("Forcing Term Alpha", 2.);
-    newton.set("Forcing Term Gamma", 0.9);
+    constexpr double alpha = 2., gamma = 0.9;
+    newton.set("Forcing Term Alpha", alpha);
+    newton.set("Forcing Term Gamma", gamma);
   } else
     newton.set("Forcing Term Method", "Constant");
   auto &line_search = options->sublist("Line Search");

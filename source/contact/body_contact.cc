@@ -42,8 +42,8 @@ void BodyContact::start_step(const ContactStep &step) {
                                    parts_.pair.overlap.allowed_part(step.end));
 }
 
-void BodyContact::set_friction_account(const double start_weight, const bool is_static) {
-  parts_.contact->set_friction_account(start_weight, is_static);
+void BodyContact::set_friction_account(const double start_weight, const FrictionAccounting &accounting) {
+  parts_.contact->set_friction_account(start_weight, accounting);
 }
 
 void BodyContact::restart() { parts_.contact->restart(); }

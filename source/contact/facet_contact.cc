@@ -71,9 +71,9 @@ void FacetContact::add_forces(const Positions &positions_n, const Positions &pos
     forces[i] += parts_.nodal_forces[i];
 }
 
-void FacetContact::set_friction_account(const double start_weight, const bool is_static) {
+void FacetContact::set_friction_account(const double start_weight, const FrictionAccounting &accounting) {
   if (parts_.friction)
-    parts_.friction->set_account(start_weight, is_static);
+    parts_.friction->set_account(start_weight, accounting);
 }
 
 std::size_t FacetContact::history_size() const {

@@ -30,7 +30,8 @@ std::array<Tensor<1, 3>, 8> directions(const Tensor<1, 3> &normal) {
 
 FacetDivision::FacetDivision(const RigidSurface &surface, const OutputRegion &region) : surface_(surface) {
   const SurfaceMesh surface_mesh = surface.surface_mesh(region);
-  const double distance = 1e-3 * region.radius;
+  constexpr double relative_distance = 1e-3; // of the samples beside a point, to find edges
+  const double distance = relative_distance * region.radius;
   const std::size_t stride = 1 + surface_mesh.points.size() / max_points;
   for (std::size_t i = 0; i < surface_mesh.points.size(); i += stride)
     add_samples(surface_mesh.points[i], distance);
@@ -46,6 +47,7 @@ FacetDivision::FacetDivision(const RigidSurface &surface, const OutputRegion &re
 }
 
 void FacetDivision::add_samples(const Tensor<1, 3> &position, const double distance) {
+  constexpr double fixed_foot = 0.1; // on a smooth surface the foot point moves by about the distance
   const auto at = surface_.project(position);
   const Tensor<1, 3> &normal = at.normal;
   if (at.exists)
@@ -56,14 +58,15 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
     const Tensor<1, 3> foot = x - beside.gap * beside.normal;
     // On smooth surfaces the foot point moves along; at a convex edge the normal rotates about a fixed foot
     // point.
-    if (beside.exists && beside.gap > 0. && (foot - position).norm() < 0.1 * distance)
+    if (beside.exists && beside.gap > 0. && (foot - position).norm() < fixed_foot * distance)
       samples_.push_back({position, beside.normal});
   }
 }
 
 bool FacetDivision::is_seen(const double spacing, const double length) const {
   constexpr double round_off = 1e-9;
-  constexpr double opposing = 0.5; // cosine: contact on a steeper flank lets the tool pass
+  constexpr double least_unseen = 0.1 * unseen; // the smallest depth tried, for thin tools
+  constexpr double opposing = 0.5;              // cosine: contact on a steeper flank lets the tool pass
   const auto is_met_at = [&](const Tensor<1, 3> &x, const Tensor<1, 3> &normal) {
     const auto projection = surface_.project(x);
     return projection.exists && projection.gap <= round_off * length &&
@@ -75,7 +78,7 @@ bool FacetDivision::is_seen(const double spacing, const double length) const {
       bool is_met = false;
       for (unsigned int corner = turned; corner < 8 && !is_met; corner += 2)
         // For thin tools, only some of the depths are inside.
-        for (double penetration = unseen; penetration > 0.1 * unseen && !is_met; penetration *= 0.5)
+        for (double penetration = unseen; penetration > least_unseen && !is_met; penetration *= 0.5)
           is_met = is_met_at(sample.position + diagonal * spacing * around[corner] -
                                  penetration * length * sample.normal,
                              sample.normal);

@@ -10,7 +10,10 @@ namespace billet {
 
 using dealii::Tensor;
 
-bool meet_smoothly(const Tensor<1, 3> &normal, const Tensor<1, 3> &other) { return normal * other > 0.5; }
+bool meet_smoothly(const Tensor<1, 3> &normal, const Tensor<1, 3> &other) {
+  constexpr double cosine_of_edge = 0.5; // facets that meet at more than 60 degrees have an edge between them
+  return normal * other > cosine_of_edge;
+}
 
 template <class Facet>
 SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, const Tensor<1, 3> &x,

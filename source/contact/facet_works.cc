@@ -23,7 +23,7 @@ void sum_over_ranks(FacetContactLoad &load, MPI_Comm communicator) {
 } // namespace
 
 bool FacetWorks::hands_over() const {
-  if (!parts_.friction->is_static())
+  if (!parts_.friction->accounting().counts_hand_over)
     return false;
   bool presses = false;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)

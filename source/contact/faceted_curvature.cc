@@ -79,6 +79,8 @@ bool fit(const SmoothFacet &facet, const SmoothFacet &other) {
              difference * std::max(std::abs(facet.curvature), std::abs(other.curvature));
 }
 
+/// Angle that a facet turns, below which it is flat.
+constexpr double least_turn = 1e-6;
 /// Part of the clearance above which a chord gap counts.
 constexpr double part_of_clearance = 0.2;
 
@@ -98,7 +100,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
   bool fits = false;
   for (std::size_t f = 0; f < n_own_facets; ++f) {
     const SmoothFacet &facet = facets[f];
-    if (!(std::abs(facet.curvature) * facet.size > 1e-6)) // flat
+    if (!(std::abs(facet.curvature) * facet.size > least_turn))
       continue;
     for (const double xi : along)
       for (const double eta : along) {

@@ -8,7 +8,7 @@ namespace billet {
 
 namespace {
 
-FrictionAccount compute_static_account(const FrictionStep &step, const FrictionRule &rule) {
+FrictionAccount compute_account_of_equilibria(const FrictionStep &step, const FrictionRule &rule) {
   const bool enters_or_leaves = step.part_in_contact < 1.;
   double work_n = 0., work = 0., stored_n = 0., stored = 0., by_slip_n = 0., by_slip = 0., slip_squared = 0.;
   for (unsigned int i = 0; i < 2; ++i) {
@@ -41,20 +41,7 @@ FrictionAccount compute_static_account(const FrictionStep &step, const FrictionR
   return account;
 }
 
-} // namespace
-
-FrictionAccount FrictionAccount::handed_over() const {
-  FrictionAccount account = *this;
-  account.dissipation_n = std::max(0., dissipation_n + beyond_n);
-  account.dissipation = std::max(0., dissipation + beyond);
-  account.beyond_n += dissipation_n - account.dissipation_n;
-  account.beyond += dissipation - account.dissipation;
-  return account;
-}
-
-FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule) {
-  if (rule.is_static)
-    return compute_static_account(step, rule);
+FrictionAccount compute_account_of_motion(const FrictionStep &step, const FrictionRule &rule) {
   double work_n = 0., work = 0., stored_n = 0., stored = 0., relaxed = 0.;
   for (unsigned int i = 0; i < 2; ++i) {
     const double t_n = step.traction_n[i], t = step.traction[i];
@@ -69,6 +56,20 @@ FrictionAccount compute_friction_account(const FrictionStep &step, const Frictio
     account.damping = (1. - 2. * rule.start_weight) * relaxed;
   account.dissipation_n = rule.start_weight * work_n + (rule.stores_n ? stored_n : 0.);
   account.dissipation = (1. - rule.start_weight) * work - (rule.stores ? stored : 0.) - account.damping;
+  return account;
+}
+
+} // namespace
+
+const FrictionAccounting FrictionAccounting::of_motion{&compute_account_of_motion, false};
+const FrictionAccounting FrictionAccounting::of_equilibria{&compute_account_of_equilibria, true};
+
+FrictionAccount FrictionAccount::handed_over() const {
+  FrictionAccount account = *this;
+  account.dissipation_n = std::max(0., dissipation_n + beyond_n);
+  account.dissipation = std::max(0., dissipation + beyond);
+  account.beyond_n += dissipation_n - account.dissipation_n;
+  account.beyond += dissipation - account.dissipation;
   return account;
 }
 

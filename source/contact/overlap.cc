@@ -278,7 +278,7 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
 std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, const std::size_t body,
                                                  const std::vector<Hold> &holds) {
   std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization, body);
-  const double tolerance = 1e-8 * discretization.radius();
+  const double tolerance = Hold::rounding * discretization.radius();
   facets.erase(std::remove_if(facets.begin(), facets.end(),
                               [&](const BoundaryFacet &facet) {
                                 return std::any_of(holds.begin(), holds.end(), [&](const Hold &hold) {

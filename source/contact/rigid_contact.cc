@@ -27,9 +27,9 @@ void RigidContact::start_step(const ContactStep &step) {
   parts_.step.allowed_part = parts_.allowed_part(step.end);
 }
 
-void RigidContact::set_friction_account(const double start_weight, const bool is_static) {
+void RigidContact::set_friction_account(const double start_weight, const FrictionAccounting &accounting) {
   if (parts_.friction)
-    parts_.friction->set_account(start_weight, is_static);
+    parts_.friction->set_account(start_weight, accounting);
 }
 
 void RigidContact::link_neighbours(std::deque<RigidContact> &contacts) {

@@ -33,18 +33,18 @@ void SlaveFriction::release(const std::size_t s) {
 
 void SlaveFriction::account_for(const std::size_t s, const SlaveTraction &traction,
                                 const SlaveMotion &motion) {
-  const FrictionRule rule{penalties_[s].tangential, start_weight_, is_static_,
+  const FrictionRule rule{penalties_[s].tangential, start_weight_, accounting_,
                           offsets_.augmentation.was_empty(), offsets_.augmentation.is_empty()};
   const SlaveStart::Pressure &pressed_n = start_.pressed(s);
   double part = 1.; // part of the step in contact
-  if (is_static_ && history_[s].is_active && !history_n_[s].is_active)
+  if (history_[s].is_active && !history_n_[s].is_active)
     part =
         part_in_contact(slaves_[s].contact.gap + motion.multiplier_offset, slaves_[s].contact.normal, motion);
-  else if (is_static_ && !history_[s].is_active)
+  else if (!history_[s].is_active)
     part = part_before_leaving(pressed_n.penetration,
                                motion.displacement * (motion.rotation * pressed_n.normal));
   double limit_n = 0.;
-  if (is_static_ && history_[s].is_active && traction.slip > 0. && traction.pressure > 0.)
+  if (history_[s].is_active && traction.slip > 0. && traction.pressure > 0.)
     limit_n = std::hypot(history_[s].tangential[0], history_[s].tangential[1]) * pressed_n.pressure /
               traction.pressure;
   const FrictionAccount account =

@@ -129,6 +129,7 @@ void SlaveSurface::divide_facets(const Tool &tool, const Discretization &discret
   const Placement placement = tool.placement(0.);
   const FacetDivision division(tool.surface(),
                                {placement.to_tool(discretization.centre()), 1.5 * discretization.radius()});
+  constexpr double round_off = 1e-6; // of lengths that are whole numbers of parts
   std::map<int, FacetDivision::Parts> parts_of_class;
   std::vector<std::array<unsigned int, 2>> n_parts;
   double unresolved = 0.;
@@ -149,7 +150,8 @@ void SlaveSurface::divide_facets(const Tool &tool, const Discretization &discret
     std::array<unsigned int, 2> n_of_facet{};
     for (unsigned int i = 0; i < 2; ++i) // shorter sides have fewer parts, of about the same length
       n_of_facet[i] =
-          n == 1. ? 1 : std::max(1U, static_cast<unsigned int>(std::ceil(n * lengths[i] / length - 1e-6)));
+          n == 1. ? 1
+                  : std::max(1U, static_cast<unsigned int>(std::ceil(n * lengths[i] / length - round_off)));
     n_parts.push_back(n_of_facet);
     if (!found->second.is_enough)
       unresolved = std::max(unresolved, length);

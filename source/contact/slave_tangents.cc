@@ -90,11 +90,19 @@ public:
   explicit SlaveTangentsOf(const FacetContactParts &parts) : parts_(parts), touching_(parts.touching) {}
 
   void visit(const ContactTangent kind, const Add &add) const override {
-    if (kind == ContactTangent::numerical)
+    switch (kind) {
+    case ContactTangent::numerical:
       visit_slaves([&](const std::size_t s) { add_numerical_tangent(s, add); });
-    else if (kind == ContactTangent::exact)
+      break;
+    case ContactTangent::exact:
       visit_slaves([&](const std::size_t s) { add_exact_tangent(s, add); });
-    else {
+      break;
+    case ContactTangent::automatic: // resolved by the scene
+    case ContactTangent::consistent:
+    case ContactTangent::continuum:
+    case ContactTangent::symmetrised_upper:
+    case ContactTangent::symmetrised_lower:
+    case ContactTangent::symmetrised_mean:
       const FrictionTangent friction = FrictionTangent::of(kind);
       visit_slaves([&](const std::size_t s) { add_closed_tangent(friction, s, add); });
     }
@@ -385,7 +393,7 @@ void SlaveTangentsOf<Facet, Law>::add_numerical_tangent(const std::size_t s, con
   for (const unsigned int node : nodes)
     x.push_back(positions[node]);
   FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
-  const double h = 1e-7 * parts_.slaves.facet_size(s);
+  const double h = difference_step * parts_.slaves.facet_size(s);
   for (std::size_t b = 0; b < nodes.size(); ++b)
     for (unsigned int j = 0; j < 3; ++j)
       for (const double sign : {1., -1.}) {

@@ -82,7 +82,7 @@ void ToolFriction::press(const std::size_t i, const ContactPoint &node, const Fr
   state.tangential_energy = 0.5 * (t.tangential[0] * t.tangential[0] + t.tangential[1] * t.tangential[1]) /
                             node.stiffness.tangential;
   double limit_n = 0.;
-  if (is_static_ && pressures_.is_known() && state.slip_increment > 0. && t.pressure > 0.)
+  if (pressures_.is_known() && state.slip_increment > 0. && t.pressure > 0.)
     limit_n = std::hypot(t.tangential[0], t.tangential[1]) * pressures_[i].pressure / t.pressure;
   state.friction = compute_friction_account(
       {history_n.tangential, t.tangential, increment.value, true, fraction, limit_n}, rule_of(node));
@@ -105,7 +105,7 @@ void ToolFriction::release(const std::size_t i, const ContactPoint &node, const 
       return (step_.placement.rotation * (dealii::transpose(step_.placement_n.rotation) * axis)) *
              (state.position - step_.placement.to_space(history_n.tool_position));
     };
-    const double part = !is_static_ || !pressures_.is_known()
+    const double part = !pressures_.is_known()
                             ? 1.
                             : part_before_leaving(pressures_[i].penetration, along(history_n.frame.n));
     state.friction = compute_friction_account(

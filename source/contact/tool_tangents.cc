@@ -44,7 +44,7 @@ public:
   void add(const ContactFacet &facet, FullMatrix<double> &matrix) const {
     ToolFriction::History ignored;
     for (unsigned int b = 0; b < 4; ++b) {
-      const double h = 1e-7 * parts_.slaves.nodes[facet.nodes[b]].size;
+      const double h = difference_step * parts_.slaves.nodes[facet.nodes[b]].size;
       for (unsigned int j = 0; j < 3; ++j)
         for (const double sign : {1., -1.}) {
           Tensor<1, 3> position = parts_.states[facet.nodes[b]].position;
@@ -136,15 +136,24 @@ void ToolTangents::add_divided(const DividedFacet &divided, const TangentSystem 
 
 std::unique_ptr<ToolTangents> make_tool_tangents(const RigidContactParts &parts, const ContactTangent kind) {
   std::unique_ptr<ToolTangents> result;
-  if (kind == ContactTangent::numerical)
+  switch (kind) {
+  case ContactTangent::numerical:
     visit_tool_node(parts, kind, [&](const auto &node) {
       using Tangent = NumericalTangent<std::decay_t<decltype(node)>>;
       result = std::make_unique<ToolTangentsOf<Tangent>>(parts, Tangent(parts, node));
     });
-  else if (kind == ContactTangent::exact)
+    break;
+  case ContactTangent::exact:
     result = std::make_unique<ToolTangentsOf<ClosedTangent<true>>>(parts, ClosedTangent<true>(parts));
-  else
+    break;
+  case ContactTangent::automatic: // resolved by the scene
+  case ContactTangent::consistent:
+  case ContactTangent::continuum:
+  case ContactTangent::symmetrised_upper:
+  case ContactTangent::symmetrised_lower:
+  case ContactTangent::symmetrised_mean:
     result = std::make_unique<ToolTangentsOf<ClosedTangent<false>>>(parts, ClosedTangent<false>(parts));
+  }
   return result;
 }
 

@@ -35,7 +35,8 @@ template Tensor<1, 3> ToolWorks::add_corner(const ToolSprings<true> &, const Con
                                             double, ContactLoad &) const;
 
 ContactLoad ToolWorks::compute_load() const {
-  const bool hands_over = parts_.friction && parts_.friction->is_static() && presses_at_both_ends();
+  const bool hands_over =
+      parts_.friction && parts_.friction->accounting().counts_hand_over && presses_at_both_ends();
   const ContactLoad load =
       with_tool_springs(parts_, [&](const auto &springs) { return local_load(springs, hands_over); });
   return sum_over_ranks(load, parts_.communicator);
@@ -145,7 +146,8 @@ StepWorks ToolWorks::compute_step_works(const double weight) const {
   StepWorks works;
   if (has_moved())
     add_pressure_works(weight, works);
-  if (parts_.friction && parts_.friction->is_static() && !parts_.step.is_removed) // the same on all ranks
+  if (parts_.friction && parts_.friction->accounting().counts_hand_over &&
+      !parts_.step.is_removed) // the same on all ranks
     visit_friction(presses_at_both_ends(),
                    [&](const FrictionAccount &account, const double area_n, const double area) {
                      works.touching -= account.taken_beyond(area_n, area) - account.missed(area_n);

@@ -26,14 +26,16 @@ double solve_slip(const FrictionLaw &law, const double pressure, const double tr
   // The excess is positive at γ = 0, and not positive where the slip has consumed the trial traction.
   double low = 0., high = trial / k_t;
   double slip = std::max(0., (trial - law.limit(pressure, 0.).value) / k_t);
-  for (unsigned int i = 0; i < 100; ++i) {
+  constexpr unsigned int max_iterations = 100; // bisection alone takes 50
+  constexpr double round_off = 1e-15;
+  for (unsigned int i = 0; i < max_iterations; ++i) {
     const double value = excess(slip);
     (value > 0. ? low : high) = slip;
     const double slope = -k_t - per_time * law.limit(pressure, slip * per_time).rate_slope;
     double next = slope < 0. ? slip - value / slope : low;
     if (!(next > low && next < high))
       next = 0.5 * (low + high);
-    if (std::abs(next - slip) <= 1e-15 * trial / k_t)
+    if (std::abs(next - slip) <= round_off * trial / k_t)
       return next;
     slip = next;
   }

@@ -32,7 +32,8 @@ void HeldMotion::rebuild() {
     Node node{local_.find(dof), held.position, {}};
     if (node.node == dealii::numbers::invalid_unsigned_int) // only at ghost cells
       continue;
-    // Gram-Schmidt on the planes' normals. A dependent normal adds nothing.
+    // Gram-Schmidt on the planes' unit normals. A dependent normal adds nothing.
+    constexpr double least_independent = 1e-8;
     for (const Hold *hold : held.holds) {
       const Tensor<1, 3> normal = hold->direction(held.position);
       Direction direction{normal, {}, start_of(*hold, held, node.node)};
@@ -46,7 +47,7 @@ void HeldMotion::rebuild() {
           direction.terms.push_back({term.hold, -part * term.weight});
       }
       const double length = direction.e.norm();
-      if (length < 1e-8) // unit normals
+      if (length < least_independent)
         continue;
       direction.e /= length;
       direction.start /= length;

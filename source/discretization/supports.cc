@@ -47,7 +47,7 @@ std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discre
                                                 const HoldFilter &acts) {
   // Ghost cells are included: every rank knows all faces around the nodes of its own cells.
   std::map<DofIndex, HeldNode> nodes;
-  const double tolerance = 1e-8 * discretization.radius();
+  const double tolerance = Hold::rounding * discretization.radius();
   const auto add = [&](const Hold &hold, const auto &object, const unsigned int v) {
     if (!hold.has_direction(object->vertex(v), tolerance))
       return;
@@ -151,6 +151,7 @@ double Supports::start_of(const Hold &hold, const HeldNode &node) const {
 }
 
 std::vector<HoldRow> solve_for_pivots(const HeldNode &node) {
+  constexpr double least_pivot = 1e-10; // of unit normals
   const std::vector<const Hold *> &holds = node.holds;
   std::vector<HoldRow> rows(holds.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -163,7 +164,7 @@ std::vector<HoldRow> solve_for_pivots(const HeldNode &node) {
       if (row.pivot < 0 || std::abs(row.n[i]) > std::abs(row.n[static_cast<unsigned int>(row.pivot)]))
         row.pivot = static_cast<int>(i);
     const double pivot = row.n[static_cast<unsigned int>(row.pivot)];
-    if (std::abs(pivot) < 1e-10) { // for unit normals: this one depends on earlier ones
+    if (std::abs(pivot) < least_pivot) { // this one depends on earlier ones
       row.pivot = -1;
       continue;
     }
@@ -190,6 +191,7 @@ std::string names_in(const HoldRow &row, const HeldNode &node) {
 }
 
 void Supports::eliminate(const HeldNode &node) {
+  constexpr double least_weight = 1e-14; // of unit normals: round-off
   const std::vector<const Hold *> &holds = node.holds;
   const std::array<DofIndex, 3> &dofs = node.dofs;
   const dealii::Point<3> &position = node.position;
@@ -213,7 +215,7 @@ void Supports::eliminate(const HeldNode &node) {
     }
     ConstraintLine line{dofs[static_cast<unsigned int>(row.pivot)], {}};
     for (unsigned int i = 0; i < 3; ++i)
-      if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > 1e-14)
+      if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > least_weight)
         line.others.emplace_back(dofs[i], -row.n[i]);
     lines_.push_back(line);
     prescriptions_.push_back({terms, position, start});

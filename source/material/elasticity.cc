@@ -83,7 +83,6 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
                                          SharedLaw (*make_with_rule)(const ElasticModuli &, SharedFlow,
                                                                      const FlowRule &)) {
   using Kind = TypeParameter::Kind;
-  const SharedLaw law = make({1., 1.}, nullptr);
   ElasticityType type;
   type.name = std::move(name);
   type.meaning = std::move(meaning);
@@ -99,7 +98,7 @@ ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
     return std::make_shared<const IsotropicElasticity>(young, poisson, make, make_with_rule);
   };
   type.make_law = make;
-  type.depends_on_path = law != nullptr && law->is_rate_form();
+  type.has_flow_rules = make_with_rule != nullptr;
   return type;
 }
 

@@ -3,6 +3,7 @@
 #include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace billet {
@@ -40,8 +41,30 @@ bool compare(const ElementComparison &comparison, const ComparedBrick &brick, El
   return true;
 }
 
-constexpr ElementKind kind = {"assumed strain", &make_block, false, true, LaneElement::assumed_strain,
-                              &compare};
+/// (B19)
+PlaneFactors find_plane_factors(const ElasticModuli &elastic, const ElementFormulation &formulation,
+                                const ElementVectors &positions, const unsigned int direction) {
+  if (formulation.points_through > AssumedStrainElement<>::points_through)
+    return {3., std::sqrt(1. + 0.5 * kept_shear_of_layers * kept_shear_of_layers)}; // of plane stress
+  const auto modes = compute_modes(positions);
+  const auto constants =
+      compute_strain_constants(elastic, {2. * modes[0].norm(), 2. * modes[1].norm(), 2. * modes[2].norm()});
+  const double share = std::sqrt(constants.share[(direction + 1) % 3][direction] *
+                                 constants.share[(direction + 2) % 3][direction]);
+  const PlaneFactors of_displacements = plane_factors_of_displacements(elastic);
+  return {of_displacements.mean / (share * (1. + 2. * constants.thinning[direction])),
+          of_displacements.rest / share};
+}
+
+constexpr ElementKind kind = {"assumed strain",
+                              &make_block,
+                              /*is_stabilised=*/false,
+                              /*has_layers=*/true,
+                              LaneElement::assumed_strain,
+                              &compare,
+                              /*may_lock_in_bending=*/false,
+                              /*may_be_soft=*/false,
+                              &find_plane_factors};
 
 } // namespace
 

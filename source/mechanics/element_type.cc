@@ -56,4 +56,11 @@ std::unique_ptr<ElementBlock> BrickElement::make_block(const std::shared_ptr<con
   return kind_->make_block(law, formulation);
 }
 
+PlaneFactors BrickElement::plane_factors(const ElasticModuli &elastic, const ElementFormulation &formulation,
+                                         const ElementVectors &positions,
+                                         const unsigned int direction) const {
+  return kind_->plane_factors != nullptr ? kind_->plane_factors(elastic, formulation, positions, direction)
+                                         : plane_factors_of_displacements(elastic);
+}
+
 } // namespace billet

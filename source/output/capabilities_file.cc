@@ -5,12 +5,11 @@
 #include "billet/usage.h"
 
 #include <fstream>
-#include <iostream>
 #include <vector>
 
 namespace billet {
 
-void write_capabilities(const std::string &folder, MPI_Comm communicator) {
+DiagnosticList write_capabilities(const std::string &folder, MPI_Comm communicator) {
   constexpr auto n = static_cast<std::size_t>(Capability::n);
   std::vector<std::uint64_t> calls, sums(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -22,16 +21,15 @@ void write_capabilities(const std::string &folder, MPI_Comm communicator) {
   MPI_Allreduce(MPI_IN_PLACE, calls.data(), static_cast<int>(n), MPI_UINT64_T, MPI_MAX, communicator);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(2 * n), MPI_UINT64_T, MPI_SUM, communicator);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
-    return;
+    return {};
   std::ofstream file(folder + "/capabilities.csv");
   file << "capability,calls,items,bytes\n";
   for (std::size_t i = 0; i < n; ++i)
     file << name_of(static_cast<Capability>(i)) << "," << calls[i] << "," << sums[2 * i] << ","
          << sums[2 * i + 1] << "\n";
   if (!file.flush())
-    std::cerr
-        << Diagnostic(diagnostic::file_failed, "'" + folder + "/capabilities.csv' cannot be written").text()
-        << std::endl;
+    return {Diagnostic(diagnostic::file_failed, "'" + folder + "/capabilities.csv' cannot be written")};
+  return {};
 }
 
 } // namespace billet

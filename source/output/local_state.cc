@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/output/local_state.h"
 
-#include "billet/mechanics/assumed_strain_element.h"
+#include "billet/mechanics/modal_geometry.h"
 #include "billet/output/element_fields.h"
 
 #include <algorithm>
@@ -107,26 +107,6 @@ double von_mises(const SymmetricTensor<2, 3> &deviator) { return std::sqrt(1.5) 
 
 } // namespace
 
-LocalStates::PlaneFactors LocalStates::plane_factors(const ElementVectors &positions,
-                                                     const unsigned int direction) const {
-  constexpr double of_plane_stress = 3.; // with layers the points' stresses are plane
-  if (formulation_.points_through > 2)
-    return {of_plane_stress, std::sqrt(1. + 0.5 * kept_shear_of_layers * kept_shear_of_layers)};
-  const ElasticModuli elastic = law_->elastic();
-  double share = 1., thinning = 0.;
-  if (formulation_.element == BrickElement::assumed_strain) {
-    const auto modes = compute_modes(positions);
-    const auto constants =
-        compute_strain_constants(elastic, {2. * modes[0].norm(), 2. * modes[1].norm(), 2. * modes[2].norm()});
-    share = std::sqrt(constants.share[(direction + 1) % 3][direction] *
-                      constants.share[(direction + 2) % 3][direction]);
-    thinning = constants.thinning[direction];
-  }
-  // (1 + ν)/(1 − ν)
-  const double of_poisson = 9. * elastic.bulk / (3. * elastic.bulk + 4. * elastic.shear);
-  return {of_plane_stress * of_poisson / (share * (1. + 2. * thinning)), 1. / share};
-}
-
 double LocalStates::find_share(const ElementData &element, const double volume_ratio,
                                const double equivalent_plastic_strain,
                                const SymmetricTensor<2, 3> &bending) const {
@@ -164,7 +144,8 @@ LocalState LocalStates::evaluate(const ElementData &element, const dealii::Point
     const PointStress variation = PointColumn(*element.points, k).variation(2. * coordinates[k] - 1.);
     const SymmetricTensor<2, 3> plane = plane_part(variation.deviator, normals[k]) / volume_ratio,
                                 mean = 0.5 * dealii::trace(plane) * unit_of_plane(normals[k]);
-    const PlaneFactors factors = plane_factors(element.positions, k);
+    const PlaneFactors factors =
+        formulation_.element.plane_factors(law_->elastic(), formulation_, element.positions, k);
     stresses[k] = factors.mean * mean + factors.rest * (plane - mean);
     bending += stresses[k];
     state.equivalent_plastic_strain += variation.equivalent_plastic_strain;

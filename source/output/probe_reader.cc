@@ -526,36 +526,26 @@ std::vector<double> ProbeReader::read_motion(const Placed &placed, const State &
   return values;
 }
 
-ProbeRows ProbeReader::read_rows(const Placed &placed, const State &state) const {
+std::vector<double> ProbeReader::read(const ProbedPoints &points, const Placed &placed,
+                                      const State &state) const {
   const Probe &probe = placed.probe();
-  if (const auto *points = std::get_if<ProbedPoints>(&probe.where))
-    return points->place == ProbedPoints::Place::space ? read_space(placed, state)
-                                                       : read_points(placed, state);
-  if (std::holds_alternative<ProbedThickness>(probe.where))
-    return read_thickness(placed, state);
-  if (std::holds_alternative<ProbedTravel>(probe.where))
-    return read_travel(placed, state);
-  return probe.quantities.front().is_nodal() ? read_nodes(placed, state) : read_faces(placed, state);
+  // A point in space at which there is nothing has no row.
+  std::vector<std::vector<double>> values(points.points.size(),
+                                          std::vector<double>(probe.components().size(), nan));
+  const ProbeRows rows =
+      points.place == ProbedPoints::Place::space ? read_space(placed, state) : read_points(placed, state);
+  for (auto &row : rows.gather(discretization_.communicator()))
+    values[row.site] = std::move(row.values);
+  SiteWeights weights;
+  weights.all.assign(points.points.size(), 1.);
+  return evaluate_columns(probe, values, weights);
 }
 
-std::vector<double> ProbeReader::read(const Placed &placed, const State &state) const {
+std::vector<double> ProbeReader::evaluate(const Placed &placed, const ProbeRows &rows) const {
   const Probe &probe = placed.probe();
-  if (const auto *energies = std::get_if<ProbedEnergies>(&probe.where))
-    return {energy_ratio(*energies, state.energies())};
-  if (std::holds_alternative<ProbedMotion>(probe.where))
-    return read_motion(placed, state);
   std::vector<std::vector<double>> values;
   SiteWeights weights;
-  // A point in space at which there is nothing has no row.
-  if (const auto *points = std::get_if<ProbedPoints>(&probe.where)) {
-    values.assign(points->points.size(), std::vector<double>(probe.components().size(), nan));
-    weights.all.assign(points->points.size(), 1.);
-  }
-  for (auto &row : read_rows(placed, state).gather(discretization_.communicator())) {
-    if (std::holds_alternative<ProbedPoints>(probe.where)) {
-      values[row.site] = std::move(row.values);
-      continue;
-    }
+  for (auto &row : rows.gather(discretization_.communicator())) {
     if (row.values.size() > probe.components().size()) {
       weights.contact_areas.push_back(row.values.back());
       row.values.pop_back();
@@ -564,6 +554,33 @@ std::vector<double> ProbeReader::read(const Placed &placed, const State &state) 
     weights.all.push_back(row.weight);
   }
   return evaluate_columns(probe, values, weights);
+}
+
+std::vector<double> ProbeReader::read(const ProbedFaces &, const Placed &placed, const State &state) const {
+  return evaluate(placed, placed.probe().quantities.front().is_nodal() ? read_nodes(placed, state)
+                                                                       : read_faces(placed, state));
+}
+
+std::vector<double> ProbeReader::read(const ProbedThickness &, const Placed &placed,
+                                      const State &state) const {
+  return evaluate(placed, read_thickness(placed, state));
+}
+
+std::vector<double> ProbeReader::read(const ProbedTravel &, const Placed &placed, const State &state) const {
+  return evaluate(placed, read_travel(placed, state));
+}
+
+std::vector<double> ProbeReader::read(const ProbedEnergies &energies, const Placed &,
+                                      const State &state) const {
+  return {energy_ratio(energies, state.energies())};
+}
+
+std::vector<double> ProbeReader::read(const ProbedMotion &, const Placed &placed, const State &state) const {
+  return read_motion(placed, state);
+}
+
+std::vector<double> ProbeReader::read(const Placed &placed, const State &state) const {
+  return std::visit([&](const auto &place) { return read(place, placed, state); }, placed.probe().where);
 }
 
 std::vector<double> ProbeReader::read(const Solution &solution) const {

@@ -32,6 +32,11 @@ namespace Patterns = dealii::Patterns;
 
 namespace {
 
+/// Adds a choice to a list "'key = a' or 'key = b'".
+void add_choice(std::string &list, const std::string &key, const std::string &name) {
+  list += (list.empty() ? "'" : " or '") + key + " = " + name + "'";
+}
+
 const NamedValues<Mesh::Source> mesh_sources = {{"primitive", Mesh::Source::primitive},
                                                 {"extruded primitive", Mesh::Source::extruded},
                                                 {"file", Mesh::Source::file}};
@@ -256,6 +261,15 @@ void Mesh::parse(Reader &reader) {
 
 namespace {
 
+/// Returns the elasticities that take flow rules: "'Elasticity = a' or 'Elasticity = b'".
+std::string names_with_flow_rules() {
+  std::string names;
+  for (const ElasticityType &type : elasticity_types())
+    if (type.has_flow_rules)
+      add_choice(names, "Elasticity", type.name);
+  return names;
+}
+
 /// Returns the parameters of flow rules that no type brings.
 std::vector<TypeParameter> flow_rule_parameters() {
   std::vector<TypeParameter> all = FlowRule::backstress_parameters();
@@ -293,9 +307,10 @@ void Material::declare(ParameterHandler &prm) {
                     "of the scene is that of the process.");
   declare_selection(prm, "Thermal factor", "none", thermal_factor_types(),
                     "Factor of the yield stress over the temperature, 'Temperature' and what plastic work "
-                    "adds to it. 'Elasticity = Hencky' alone has it.");
+                    "adds to it. Needs " +
+                        names_with_flow_rules() + ".");
   declare_selection(prm, "Anisotropy", "none", anisotropy_types(),
-                    "Yield function. 'Elasticity = Hencky' alone takes others than von Mises'.");
+                    "Yield function. Others than von Mises' need " + names_with_flow_rules() + ".");
   for (const TypeParameter &parameter : flow_rule_parameters())
     declare_parameter(prm, parameter, parameter.meaning);
   for (const TypeParameter &parameter : FormingLimit::parameters())
@@ -376,8 +391,8 @@ SharedLaw read_plastic_law(const Reader &reader, const Elasticity &elasticity, c
     reader.reject(!rule.backstress.empty()     ? "Backstress moduli"
                   : rule.anisotropy != nullptr ? "Anisotropy"
                                                : "Thermal factor",
-                  "no value with 'Elasticity = " + reader.text("Elasticity") +
-                      "'; choose 'Elasticity = Hencky'");
+                  "no value with 'Elasticity = " + reader.text("Elasticity") + "'; choose " +
+                      names_with_flow_rules());
   return law;
 }
 
@@ -532,6 +547,15 @@ void Load::parse(Reader &reader) {
 
 namespace {
 
+/// Returns the elements for which `is_named` holds: "'Element = a' or 'Element = b'".
+template <class Condition> std::string name_elements(const Condition &is_named) {
+  std::string names;
+  for (const BrickElement element : all_elements())
+    if (is_named(element))
+      add_choice(names, "Element", element.name());
+  return names;
+}
+
 /// Returns "2|3|5|7".
 std::string numbers_through() {
   std::string text;
@@ -547,9 +571,10 @@ void Body::declare(ParameterHandler &prm, const std::vector<std::string> &suppor
   declare_selection(prm, "Element", BrickElement::assumed_strain.name(), element_types(),
                     "Formulation of the bricks.");
   prm.declare_entry("Points through thickness", "2", Patterns::Selection(numbers_through()),
-                    "Gauss points of each brick along the thickness direction. More than 2 need 'Element = "
-                    "assumed strain' and a static scene or implicit dynamics. Use 5 for the springback of "
-                    "sheets, with two bricks through the thickness rather than one.");
+                    "Gauss points of each brick along the thickness direction. More than 2 need " +
+                        name_elements([](const BrickElement other) { return other.has_layers(); }) +
+                        " and a static scene or implicit dynamics. Use 5 for the springback of sheets, with "
+                        "two bricks through the thickness rather than one.");
   prm.declare_entry(
       "Thickness direction", "", Patterns::Anything(),
       "Direction from the inner to the outer side, for more than 2 points through the thickness. Three "
@@ -652,15 +677,6 @@ void check_plane_of_section(const Reader &reader, const Mesh &mesh, const Symmet
   if (mesh.section.value == Mesh::Section::plane_strain && along > rounding)
     reader.reject("Symmetry planes", "planes along the width, such as x = 0: 'Section = plane strain' has "
                                      "those across it by itself");
-}
-
-/// Returns the elements for which `is_named` holds: "'Element = a' or 'Element = b'".
-template <class Condition> std::string name_elements(const Condition &is_named) {
-  std::string names;
-  for (const BrickElement element : all_elements())
-    if (is_named(element))
-      names += std::string(names.empty() ? "" : " or ") + "'Element = " + element.name() + "'";
-  return names;
 }
 
 } // namespace

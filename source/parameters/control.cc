@@ -195,6 +195,15 @@ void TimeStepping::declare(ParameterHandler &prm) {
                     "> 0 and < 1. Part of its length with which a failed step is repeated.");
 }
 
+namespace {
+
+/// Automatic lengths of steps, as parts of the end time.
+struct AutomaticSteps {
+  static constexpr double largest = 0.1, first = 0.01, least = 1e-6;
+};
+
+} // namespace
+
 void TimeStepping::parse(Reader &reader) {
   end_time = reader.positive("End time");
   stops = reader.numbers("Stops");
@@ -219,8 +228,8 @@ void TimeStepping::parse(Reader &reader) {
     text << time;
     return text.str();
   };
-  max_step = step("Maximum step", 0.1 * end_time);
-  initial_step = step("Initial step", std::min(0.01 * end_time, max_step));
+  max_step = step("Maximum step", AutomaticSteps::largest * end_time);
+  initial_step = step("Initial step", std::min(AutomaticSteps::first * end_time, max_step));
   if (initial_step > end_time)
     reader.reject("Initial step", "a number not above the end time, " + print(end_time));
   if (reader.text("Maximum step") == "automatic")
@@ -230,7 +239,7 @@ void TimeStepping::parse(Reader &reader) {
                                   "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key))
         reader.reject(key, "no value: steps are fixed");
-  min_step = step("Minimum step", std::min(1e-6 * end_time, initial_step));
+  min_step = step("Minimum step", std::min(AutomaticSteps::least * end_time, initial_step));
   if (control == Control::automatic) {
     if (min_step > initial_step)
       reader.reject("Minimum step", "a number not above the initial step, " + print(initial_step));
@@ -314,8 +323,8 @@ void Solver::declare(ParameterHandler &prm) {
       "symmetrised: upper triangle, lower triangle or mean of the consistent tangent in the contact frame, "
       "for mu <= 0.1.");
   prm.declare_entry("Material tangent", "automatic", Patterns::Selection(selection(material_tangents)),
-                    "Tangent of bodies whose exact one is unsymmetric: hypoelastic ones, and plastic ones "
-                    "that are neo-Hookean. Scenes without such bodies allow automatic only. automatic: "
+                    "Tangent of bodies whose exact one is unsymmetric. Scenes without such bodies allow "
+                    "automatic only. automatic: "
                     "symmetric part if the rest of the matrix is symmetric, otherwise exact.");
   prm.declare_entry(
       "Force tolerance", "5e-3", Patterns::Double(),

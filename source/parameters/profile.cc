@@ -9,6 +9,7 @@
 #include "billet/parameters/control.h"
 #include "billet/parameters/reader.h"
 #include "billet/parameters/registered.h"
+#include "billet/parameters/tool.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -185,7 +186,8 @@ bool has_friction(const SceneFile &file) {
   const std::vector<std::string> pairs = file.names_below({"Contact pairs"});
   return std::any_of(pairs.begin(), pairs.end(), [&file](const std::string &name) {
     const Path path = {"Contact pairs", name};
-    const FrictionLawType *type = friction_law_types().find(file.value(path, "Friction law", "Coulomb"));
+    const FrictionLawType *type =
+        friction_law_types().find(file.value(path, "Friction law", default_friction_law));
     return type == nullptr || type->vanishes_with.empty() ||
            number_in(file.value(path, type->vanishes_with, "0"), 1.) != 0.;
   });
@@ -332,7 +334,8 @@ void check_contradictions(const SceneFile &file, const double target) {
   if (file.value({"Time stepping"}, "Step control", "automatic") == "fixed")
     refuse(file, {"Time stepping"}, "Step control", "automatic" + reason);
   for (const auto &[path, key] : limited) {
-    const double maximum = key == "Force tolerance" ? 0.3 * target : target;
+    constexpr double part_of_residuals = 0.3; // larger residuals hide what the steps do
+    const double maximum = key == "Force tolerance" ? part_of_residuals * target : target;
     if (file.is_set(path, key) && number_in(file.value(path, key, ""), 0.) > maximum)
       refuse(file, path, key, "a number not above " + print(maximum) + ", or none" + reason);
   }

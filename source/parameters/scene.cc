@@ -431,6 +431,11 @@ void set_explicit_intervals(Scene &scene, const bool has_interval) {
 
 } // namespace
 
+double Scene::automatic_fade_time() const {
+  constexpr double part_of_time = 0.01;
+  return scheme().has_inertia ? 0. : part_of_time * time_stepping.end_time;
+}
+
 std::size_t Scene::body_index(const ContactPair &pair) const { return index_of(bodies, pair.body); }
 
 std::size_t Scene::second_body_index(const ContactPair &pair) const {
@@ -481,8 +486,9 @@ Scene Scene::read(SceneFile file, const std::string &restart_file) {
   load_libraries(file);
   const std::vector<std::string> generated = add_general_contact(file);
   ParameterHandler prm;
-  declare_all(prm, {[&file](const SceneFile::Path &path) { return file.names_below(path); },
-                    [&file](const SceneFile::Path &path) { return file.value(path, "Shape", "plane"); }});
+  declare_all(prm,
+              {[&file](const SceneFile::Path &path) { return file.names_below(path); },
+               [&file](const SceneFile::Path &path) { return file.value(path, "Shape", default_shape); }});
   file.set_all(prm);
 
   Scene scene{};

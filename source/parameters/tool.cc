@@ -112,9 +112,9 @@ namespace {
 void declare_surface(ParameterHandler &prm, const std::string &shape) {
   const SurfaceType *type = surface_types().find(shape);
   // An unknown shape is refused when the entry is set.
-  prm.declare_entry("Shape", type != nullptr ? shape : "plane", Patterns::Selection(surface_types().names()),
-                    (type != nullptr ? type->meaning + " " : "") +
-                        "The other parameters are those of the shape.");
+  prm.declare_entry(
+      "Shape", type != nullptr ? shape : default_shape, Patterns::Selection(surface_types().names()),
+      (type != nullptr ? type->meaning + " " : "") + "The other parameters are those of the shape.");
   if (type != nullptr)
     for (const auto &parameter : type->parameters)
       declare_parameter(prm, parameter, parameter.meaning);
@@ -247,7 +247,7 @@ void ContactPair::declare_values_of_bodies(ParameterHandler &prm) {
 
 void ContactPair::declare_values(ParameterHandler &prm) {
   declare_values_of_bodies(prm);
-  declare_selection(prm, "Friction law", "Coulomb", friction_law_types(),
+  declare_selection(prm, "Friction law", default_friction_law, friction_law_types(),
                     "Shear stress at which nodes slide under a pressure p.");
   prm.declare_entry("Penalty unit", "factor", Patterns::Selection(selection(penalty_units)),
                     "factor: penalties are multiples of E/h, Young's modulus over the facet's size; "

@@ -114,36 +114,60 @@ bool Probe::reads(const ProbeQuantity::Kind kind) const {
                      [kind](const ProbeQuantity &quantity) { return quantity.kind == kind; });
 }
 
-bool Probe::has_faces() const {
-  return std::holds_alternative<ProbedFaces>(where) || std::holds_alternative<ProbedThickness>(where) ||
-         std::holds_alternative<ProbedTravel>(where);
-}
+namespace {
 
-std::vector<std::string> Probe::components() const {
-  if (std::holds_alternative<ProbedThickness>(where))
-    return {"thickness"};
-  if (std::holds_alternative<ProbedTravel>(where))
-    return {"draw_in"};
-  if (std::holds_alternative<ProbedEnergies>(where))
-    return {"ratio"};
-  if (std::holds_alternative<ProbedMotion>(where))
-    return {"velocity_x", "velocity_y", "velocity_z",     "momentum_x",
-            "momentum_y", "momentum_z", "kinetic_energy", "internal_energy"};
-  std::vector<std::string> names;
+// One function for each alternative of Probe::where: the compiler finds a missing one.
+using Names = std::vector<std::string>;
+
+bool reads_faces(const ProbedPoints &) { return false; }
+bool reads_faces(const ProbedFaces &) { return true; }
+bool reads_faces(const ProbedThickness &) { return true; }
+bool reads_faces(const ProbedTravel &) { return true; }
+bool reads_faces(const ProbedEnergies &) { return false; }
+bool reads_faces(const ProbedMotion &) { return false; }
+
+Names components_of(const std::vector<ProbeQuantity> &quantities) {
+  Names names;
   for (const ProbeQuantity &quantity : quantities)
     names.insert(names.end(), quantity.components.begin(), quantity.components.end());
   return names;
 }
+Names components_of(const Probe &probe, const ProbedPoints &) { return components_of(probe.quantities); }
+Names components_of(const Probe &probe, const ProbedFaces &) { return components_of(probe.quantities); }
+Names components_of(const Probe &, const ProbedThickness &) { return {"thickness"}; }
+Names components_of(const Probe &, const ProbedTravel &) { return {"draw_in"}; }
+Names components_of(const Probe &, const ProbedEnergies &) { return {"ratio"}; }
+Names components_of(const Probe &, const ProbedMotion &) {
+  return {"velocity_x", "velocity_y", "velocity_z",     "momentum_x",
+          "momentum_y", "momentum_z", "kinetic_energy", "internal_energy"};
+}
+
+/// Number of sites whose values `each` writes; 0: the probe has no sites.
+std::size_t count_sites(const ProbedPoints &points) { return points.points.size(); }
+std::size_t count_sites(const ProbedFaces &) { return 1; }
+std::size_t count_sites(const ProbedThickness &) { return 1; }
+std::size_t count_sites(const ProbedTravel &) { return 1; }
+std::size_t count_sites(const ProbedEnergies &) { return 0; }
+std::size_t count_sites(const ProbedMotion &) { return 0; }
+
+} // namespace
+
+bool Probe::has_faces() const {
+  return std::visit([](const auto &place) { return reads_faces(place); }, where);
+}
+
+std::vector<std::string> Probe::components() const {
+  return std::visit([this](const auto &place) { return components_of(*this, place); }, where);
+}
 
 std::vector<std::string> Probe::columns() const {
   const std::vector<std::string> names = components();
-  if (std::holds_alternative<ProbedEnergies>(where) || std::holds_alternative<ProbedMotion>(where))
+  const std::size_t n_each = std::visit([](const auto &place) { return count_sites(place); }, where);
+  if (n_each == 0)
     return names;
-  const auto *points = std::get_if<ProbedPoints>(&where);
   std::vector<std::string> columns;
   for (const ProbeStatistic statistic : statistics) {
-    const std::size_t n_sites =
-        statistic == ProbeStatistic::each && points != nullptr ? points->points.size() : 1;
+    const std::size_t n_sites = statistic == ProbeStatistic::each ? n_each : 1;
     const auto named = std::find_if(named_statistics().begin(), named_statistics().end(),
                                     [&](const auto &one) { return one.statistic == statistic; });
     for (std::size_t site = 0; site < n_sites; ++site)
@@ -244,9 +268,13 @@ std::vector<TypeParameter> with_probed_axes(std::vector<TypeParameter> parameter
 
 ProbedPoints::Place read_place(const TypeInput &input) {
   const std::string place = input.text("Place");
-  return place == "space"          ? ProbedPoints::Place::space
-         : place == "nearest node" ? ProbedPoints::Place::nearest_node
-                                   : ProbedPoints::Place::material;
+  if (place == "space")
+    return ProbedPoints::Place::space;
+  if (place == "nearest node")
+    return ProbedPoints::Place::nearest_node;
+  if (place != "material")
+    input.reject("Place", "material, nearest node or space");
+  return ProbedPoints::Place::material;
 }
 
 std::vector<ProbeQuantity> read_quantities(const TypeInput &input) {

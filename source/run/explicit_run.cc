@@ -18,6 +18,8 @@ namespace billet {
 namespace {
 
 constexpr unsigned int steps_between_checks = ExplicitDynamics::steps_between_checks;
+/// Least number of steps between two watched states, each of which costs about four steps.
+constexpr unsigned int steps_between_watches = 20;
 /// Steps between two states of (W4), each of which costs eleven steps.
 constexpr unsigned int steps_between_estimates = 400;
 /// Number of intervals of (W4) in a run: waves pass the bodies meanwhile.
@@ -79,6 +81,8 @@ void ExplicitRun::load(Resumption &resumption) {
     if (reader.number("interval of checks") == watch_times_.interval())
       watch_times_.begin_after(reader.number("last check"));
     last_.balanced_step = reader.count("balanced step");
+    if (reader.has("watched step")) // checkpoints of older programs lack it
+      last_.watched_step = reader.count("watched step");
     if (reader.has("estimated step")) { // checkpoints of older programs lack it
       last_.estimated_step = reader.count("estimated step");
       last_.interval_start = reader.number("interval start");
@@ -99,6 +103,7 @@ void ExplicitRun::save_method(StateWriter &writer) const {
     writer.write("last", {history_times_.last()});
     writer.write("interval of checks", {watch_times_.interval()});
     writer.write("last check", {watch_times_.last()});
+    writer.write("watched step", {static_cast<double>(last_.watched_step)});
     writer.write("balanced step", {static_cast<double>(last_.balanced_step)});
     writer.write("estimated step", {static_cast<double>(last_.estimated_step)});
     writer.write("interval start", {last_.interval_start});
@@ -163,23 +168,34 @@ void ExplicitRun::report_change(RunOutput &output) {
   change_.reset();
 }
 
+bool ExplicitRun::is_watch_due() {
+  const unsigned int n = problem_.n_steps();
+  const bool is_near = n > 0 && n < last_.watched_step + steps_between_watches;
+  if (is_near && !is_finished_)
+    return false;
+  const bool is_due = watch_times_.is_due(problem_.time()) || n == 0;
+  if (is_due)
+    last_.watched_step = n;
+  return is_due;
+}
+
 void ExplicitRun::after_step(RunOutput &output) {
   report_change(output);
   if (problem_.n_steps() == 0)
     show_number_of_steps(output);
   const bool is_start = problem_.n_steps() == 0;
   const bool is_row_due = history_times_.is_due(problem_.time()) || is_start;
-  const bool is_watch_due = watch_times_.is_due(problem_.time()) || is_start;
+  const bool is_watched = is_watch_due();
   const bool is_check_due = problem_.n_steps() % steps_between_checks == 0;
-  if (is_watch_due)
+  if (is_watched)
     estimate_mesh_error();
   if (is_row_due)
     write_row(output);
-  if (is_watch_due)
+  if (is_watched)
     watch(output);
-  if (!is_row_due && !is_watch_due && is_check_due)
+  if (!is_row_due && !is_watched && is_check_due)
     problem_.update_ledger();
-  if (is_row_due || is_watch_due || is_check_due) {
+  if (is_row_due || is_watched || is_check_due) {
     output.report(problem_.check_steps());
     check_stability(output);
     check_drift(output);

@@ -2,13 +2,13 @@
 #include "billet/run/run_output.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/output/console_log.h"
 #include "billet/run/output_folder.h"
 
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <unistd.h>
-#include <utility>
 
 namespace billet {
 
@@ -35,16 +35,13 @@ double seconds_between_checks(const parameters::Scene &parameters) {
 } // namespace
 
 RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostics &diagnostics,
-                     Resumption *resumption, std::ostream *const steps, std::string changes)
-    : scene_(scene), changes_(std::move(changes)), communicator_(communicator),
+                     Resumption *resumption, const RunOptions &options)
+    : scene_(scene), options_(options), communicator_(communicator),
       is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
       writer_(scene, communicator, scene.parameters().output.folder.value),
       snapshots_(scene.parameters(), writer_),
-      progress_(scene,
-                steps != nullptr ? *steps
-                : is_first_      ? std::cout
-                                 : silence_,
-                is_first_ ? std::cout : silence_, steps == nullptr && is_first_ && console_is_terminal()),
+      progress_(scene, stream_of_steps(), is_first_ ? std::cout : silence_,
+                &stream_of_steps() == &std::cout && console_is_terminal()),
       diagnostics_(diagnostics), checkpoints_(scene.parameters().output, communicator),
       signals_(communicator, seconds_between_checks(scene.parameters())) {
   const std::string &folder = scene.parameters().output.folder.value;
@@ -74,6 +71,14 @@ RunOutput::RunOutput(const Scene &scene, const MPI_Comm communicator, Diagnostic
   });
 }
 
+std::ostream &RunOutput::stream_of_steps() {
+  if (options_.is_quiet && options_.log != nullptr)
+    return options_.log->file();
+  if (options_.steps != nullptr)
+    return *options_.steps;
+  return is_first_ ? std::cout : silence_;
+}
+
 void RunOutput::write_row(const std::function<void(HistoryFile &)> &write) {
   fail_together(communicator_, [&] {
     if (is_first_)
@@ -89,10 +94,13 @@ void RunOutput::write_estimate(const ErrorReport &report) {
 }
 
 ExitCode RunOutput::finish() {
+  if (options_.judge)
+    report(options_.judge());
   ExitCode code = ExitCode::success;
   if (scene_.parameters().warnings_are_errors && diagnostics_.count(Severity::warning) > 0)
     code = ExitCode::warnings;
-  else if (diagnostics_.has(diagnostic::target_error_missed))
+  else if (diagnostics_.has(diagnostic::target_error_missed) ||
+           diagnostics_.has(diagnostic::mesh_target_missed))
     code = ExitCode::target_missed;
   progress_.finish(diagnostics_.repetitions(), diagnostics_.count_in_words(), writer_.file_to_open());
   return code;
@@ -122,7 +130,7 @@ bool RunOutput::write_checkpoint(const double time, const std::function<void(Sta
   return failure.empty();
 }
 
-ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bool has_checkpoint) const {
+ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bool has_checkpoint) {
   std::ostringstream message;
   message << scene_.parameters().file_name << ": " << signals_.name() << " stops the run at time " << time
           << " after " << n_steps << " steps";
@@ -131,12 +139,12 @@ ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bo
     throw SolutionFailure(
         what + ", and the program cannot write a checkpoint" +
         (checkpoints_.last().empty() ? "" : "; the last complete one is " + checkpoints_.last()));
-  if (is_first_)
-    std::cerr << Diagnostic(diagnostic::run_stopped, what)
-                     .advice("Resume by: billet --restart " + checkpoints_.last() + " " + changes_ +
-                             scene_.parameters().file_name)
-                     .text()
-              << std::endl;
+  // Also on a quiet console.
+  diagnostics_.set_print(
+      [this](Severity, const std::string &text) { progress_.show_diagnostic(Severity::warning, text); });
+  report(Diagnostic(diagnostic::run_stopped, what)
+             .advice("Resume by: billet --restart " + checkpoints_.last() + " " + options_.changes +
+                     scene_.parameters().file_name));
   return ExitCode::stopped;
 }
 

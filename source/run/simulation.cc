@@ -46,15 +46,14 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
         options.log->open(parameters.output.folder.value + "/" + log_file,
                           earlier == EarlierResults::continued);
     });
-    std::ostream *const steps =
-        options.is_quiet && options.log != nullptr ? &options.log->file() : options.steps;
-    RunOutput output(scene, communicator, diagnostics, resumption.get(), steps, options.changes);
+    RunOutput output(scene, communicator, diagnostics, resumption.get(), options);
     if (!moved.empty()) // no message of the run: it depends on what was there before
       output.progress().show_diagnostic(
           Severity::note,
           Diagnostic(diagnostic::results_moved, "The results of an earlier run are now in '" + moved + "'")
               .text());
     code = run_to_end(std::move(run), scene, output, resumption.get());
+    output.report(write_capabilities(parameters.output.folder.value, communicator));
   } catch (const AlreadyComplete &complete) { // on all ranks
     if (is_first)
       std::cout << complete.diagnostic.text() << std::endl;
@@ -68,7 +67,6 @@ ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicat
     if (!diagnostics.write_summary(static_cast<int>(code)))
       throw file_lost("'" + diagnostics.file_name() + "'");
   });
-  write_capabilities(parameters.output.folder.value, communicator);
   return code;
 }
 

@@ -51,7 +51,6 @@ struct Level {
   double seconds = 0.;    ///< of all processors
   double difference = 0.; ///< from the level before; 0: there is none
   MeshLevelError error;   ///< of this level, if there is one before it
-  ExitCode code = ExitCode::success;
 };
 
 /// Returns the largest memory that this process has held over that of the machine for each process.
@@ -83,21 +82,14 @@ public:
     begin();
     constexpr unsigned int coarsest = 2; // below it meshes tell little of the given one
     int level = -static_cast<int>(count_coarser_levels(given_, coarsest));
-    const int finest = static_cast<int>(given_.mesh_target.finest_level);
     for (;; ++level) {
-      run(level);
-      if (levels_.empty())
-        continue;
-      if (levels_.back().code == ExitCode::stopped)
-        return ExitCode::stopped;
-      if (levels_.size() > 1 && levels_.back().error.is_known &&
-          levels_.back().error.error <= given_.mesh_target.error)
-        return finish("");
-      if (level >= finest)
-        return finish("'Finest mesh level' is " + std::to_string(finest));
-      constexpr double growth = 9.; // elements grow by 8, factors of matrices by more
-      if (level >= 0 && growth * part_of_memory(communicator_) > 1.)
-        return finish("the next level does not fit in memory");
+      const ExitCode code = run(level);
+      if (code == ExitCode::stopped)
+        return code;
+      if (is_last_) {
+        finish();
+        return code;
+      }
     }
   }
 
@@ -127,7 +119,8 @@ private:
     });
   }
 
-  void run(const int level) {
+  /// Runs on a level. Returns the exit code, also of a coarse level that fails.
+  ExitCode run(const int level) {
     parameters::Scene scene = at_mesh_level(given_, level);
     scene.output.folder.value = folder_of(level);
     RunOptions options = options_;
@@ -141,23 +134,47 @@ private:
                     : level < 0 ? ", coarser than given"
                                 : ", finer than given")
                 << std::endl;
-    Level result;
-    result.level = level;
     const double start = processor_time();
+    options.judge = [&] { return judge(level, processor_time() - start); };
     try {
-      result.code = run_simulation(scene, communicator_, options);
+      return run_simulation(scene, communicator_, options);
     } catch (const SolutionFailure &failure) { // on all ranks
       if (level >= 0)
         throw;
-      if (is_first_)
-        std::cout << failure.diagnostic().text() << std::endl;
-      levels_.clear(); // too coarse: the ladder begins above
-      return;
+      // Too coarse: the ladder begins above.
+      levels_.clear();
+      messages_.push_back(
+          Diagnostic(diagnostic::mesh_level_failed,
+                     "Mesh level " + std::to_string(level) + " is left out: " + failure.diagnostic().what()));
+      return ExitCode::failed_solution;
     }
-    result.seconds = dealii::Utilities::MPI::sum(processor_time() - start, communicator_);
+  }
+
+  /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it is the
+  /// last one. Then it returns the messages for the user.
+  DiagnosticList judge(const int number, const double seconds) {
+    Level level;
+    level.level = number;
+    level.seconds = dealii::Utilities::MPI::sum(seconds, communicator_);
     if (!levels_.empty())
-      compare(result);
-    levels_.push_back(result);
+      compare(level);
+    levels_.push_back(level);
+    const int finest = static_cast<int>(given_.mesh_target.finest_level);
+    constexpr double growth = 9.; // elements grow by 8, factors of matrices by more
+    const bool is_met =
+        levels_.size() > 1 && level.error.is_known && level.error.error <= given_.mesh_target.error;
+    const std::string limit = is_met             ? ""
+                              : number >= finest ? "'Finest mesh level' is " + std::to_string(finest)
+                              : number >= 0 && growth * part_of_memory(communicator_) > 1.
+                                  ? "the next level does not fit in memory"
+                                  : "";
+    is_last_ = is_met || !limit.empty();
+    if (!is_last_)
+      return {};
+    messages_.push_back(describe());
+    if (!limit.empty())
+      messages_.push_back(describe_miss(limit));
+    return messages_;
   }
 
   /// Computes the difference from the level before. All ranks read the files: they are the same.
@@ -176,9 +193,8 @@ private:
     level.error = extrapolate(differences);
   }
 
-  /// Moves the results of the last level into the output folder, and reports. `limit`: what kept the run from
-  /// a finer mesh; empty: the target is met.
-  ExitCode finish(const std::string &limit) {
+  /// Moves the results of the last level into the output folder.
+  void finish() {
     fail_together(communicator_, [&] {
       if (!is_first_)
         return;
@@ -186,11 +202,7 @@ private:
         fs::rename(entry.path(), fs::path(folder_) / entry.path().filename());
       fs::remove(folder_of(levels_.back().level));
       write_table();
-      std::cout << describe().text() << std::endl;
-      if (!limit.empty())
-        std::cout << describe_miss(limit).text() << std::endl;
     });
-    return limit.empty() ? levels_.back().code : ExitCode::target_missed;
   }
 
   void write_table() const {
@@ -260,6 +272,8 @@ private:
   bool is_first_;
   std::string folder_, of_what_ = "results";
   std::vector<Level> levels_;
+  DiagnosticList messages_; ///< for the run on the last level
+  bool is_last_ = false;    ///< whether the latest level is
 };
 
 } // namespace

@@ -77,7 +77,7 @@ InputError lacks_support(const std::string &body, const std::string &motion) {
 void Scene::check_axes(const Triangulation<3> &mesh) const {
   std::set<const Hold *> on_line, off_line;
   const auto visit = [&](const Hold &hold, const dealii::Point<3> &position, const double size) {
-    (hold.has_direction(position, 1e-8 * size) ? off_line : on_line).insert(&hold);
+    (hold.has_direction(position, Hold::rounding * size) ? off_line : on_line).insert(&hold);
   };
   for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
     for (const Hold &hold : bodies_[body].holds)
@@ -212,7 +212,7 @@ bool Scene::check_support_times(const std::size_t b, const Triangulation<3> &mes
     if (time < last_removal || !std::isfinite(time)) // tools may hold it
       continue;
     std::vector<Resistance> holding;
-    add_supports(body, b, mesh, time, 1e-8 * size, holding);
+    add_supports(body, b, mesh, time, Hold::rounding * size, holding);
     const auto motion = find_free_motion(holding, centre, size);
     if (!motion)
       continue;
@@ -234,7 +234,7 @@ void Scene::check_planes(const Triangulation<3> &mesh, const std::size_t b) cons
   for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
     if (body == b)
       for (const Hold &hold : bodies_[b].holds)
-        if (hold.on_plane && holds_face(hold, face, 1e-8 * size))
+        if (hold.on_plane && holds_face(hold, face, Hold::rounding * size))
           used.insert(&hold);
   });
   for (const Hold &hold : bodies_[b].holds)
@@ -250,7 +250,7 @@ void Scene::check_planes(const Triangulation<3> &mesh, const std::size_t b) cons
 void Scene::check_support(const Triangulation<3> &mesh, const std::size_t b) const {
   const auto [centre, size] = find_extent(mesh, b);
   std::vector<Resistance> holding, touching; // resistances of supports, of tools
-  add_supports(bodies_[b], b, mesh, 0., 1e-8 * size, holding);
+  add_supports(bodies_[b], b, mesh, 0., Hold::rounding * size, holding);
   for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
     if (body != b)
       return;

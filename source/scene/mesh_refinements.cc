@@ -27,7 +27,7 @@ struct Fade {
 };
 
 std::vector<Fade> find_fades(const parameters::Scene &scene, const parameters::Body &body) {
-  const double automatic = scene.scheme().has_inertia ? 0. : 0.01 * scene.time_stepping.end_time;
+  const double automatic = scene.automatic_fade_time();
   std::vector<Fade> fades;
   for (const auto &support : body.supports)
     fades.push_back({"support '" + support.name + "'", support.until,

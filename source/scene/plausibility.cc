@@ -303,7 +303,7 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
           continue;
         for (std::size_t h = 0; h < holds.size(); ++h)
           if (holds[h].times.from < tool.removal_time() &&
-              holds_face(holds[h], face, 1e-8 * face->diameter()))
+              holds_face(holds[h], face, Hold::rounding * face->diameter()))
             for (const unsigned int v : face->vertex_indices())
               if (std::abs(holds[h].direction(face->vertex(v)) * tool.force_direction()) > along)
                 held[h].insert(face->vertex_index(v));

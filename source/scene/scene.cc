@@ -316,8 +316,7 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
   const std::vector<std::size_t> materials = parameters::number_materials(parameters);
   for (std::size_t i = 0; i < parameters.bodies.size(); ++i) {
     bodies_.push_back(
-        make_body(parameters.bodies[i], parameters.amplitudes,
-                  parameters.scheme().has_inertia ? 0. : 0.01 * parameters.time_stepping.end_time));
+        make_body(parameters.bodies[i], parameters.amplitudes, parameters.automatic_fade_time()));
     bodies_.back().material = materials[i];
     bodies_.back().boundary_names = std::move(resolved.names[i]);
     if (!errors.note([&] { select_nodes(parameters.bodies[i], bodies_.back()); }))

@@ -79,7 +79,7 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
   paths_ = find_load_paths(scene);
   softness_.resize(paths_.size());
 
-  const double tolerance = 1e-8 * discretization.radius();
+  const double tolerance = Hold::rounding * discretization.radius();
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> box(6, -infinity); // −low, high

@@ -21,12 +21,17 @@ bool is_of_taper(const ElementEnergies &energies) {
 /// Subroutines of users do not tell whether they have plasticity.
 bool may_yield(const PointLaw &law) { return law.has_plasticity() || find_user_subroutine(law) != nullptr; }
 
+/// Advice to take the element that neither locks nor is soft.
+std::string use_assumed_strain() {
+  return std::string("Use 'Element = ") + BrickElement::assumed_strain.name() + "'";
+}
+
 /// Returns advice for a body whose elements are too stiff; never an element that is as stiff.
 std::string advise_on_stiffness(const ElementFormulation &formulation, const ElementEnergies &energies) {
   return is_of_taper(energies) || !formulation.element.may_lock_in_bending()
              ? "Use bricks whose opposite edges are parallel, also in plan, or bricks shorter relative to "
                "their thickness"
-             : "Use 'Element = assumed strain'";
+             : use_assumed_strain();
 }
 
 constexpr std::size_t n_energies = 9;
@@ -133,7 +138,7 @@ DiagnosticList ElementWatch::judge(const bool is_first) const {
                        text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("factor", factor);
     const std::string advice =
-        is_stiff ? advise_on_stiffness(formulation, energies_[b]) : "Use 'Element = assumed strain'";
+        is_stiff ? advise_on_stiffness(formulation, energies_[b]) : use_assumed_strain();
     message.advice(is_first ? "If it remains until the end: " + advice : advice);
     diagnostics.push_back(message);
   }
@@ -212,7 +217,7 @@ DiagnosticList ElementWatch::judge_probes() const {
          << readers[b];
     Diagnostic message(diagnostic::probe_without_bending, text.str());
     message.body(scene_.bodies()[b].name).time(compared_time_).measure("part", part);
-    message.advice("Use 'Element = assumed strain', or four or more bricks through the thickness");
+    message.advice(use_assumed_strain() + ", or four or more bricks through the thickness");
     diagnostics.push_back(message);
   }
   return diagnostics;
@@ -224,7 +229,8 @@ DiagnosticList ElementWatch::watch(const SolutionState &state, const bool is_las
   const double energy = ledger.of_elements();
   const bool is_static = !scene_.parameters().scheme().has_inertia, is_first = compared_energy_ == 0.;
   // In springback the largest load counts; dynamic steps are many and short.
-  const double growth = is_static ? 1.1 : 2.;
+  constexpr double growth_in_statics = 1.1, growth_in_motion = 2.;
+  const double growth = is_static ? growth_in_statics : growth_in_motion;
   if (std::isfinite(energy) && energy > 0. &&
       (energy > growth * compared_energy_ ||
        (is_last && energy >= (is_static ? still_loaded * max_energy_ : compared_energy_)))) {

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 import os
 import re
@@ -252,6 +253,26 @@ class Run:
         file = Path(self.folder, "history.csv")
         require(file.is_file() and file.stat().st_size > 0, "no history")
 
+    def require_record(self) -> None:
+        """Raises a fault unless diagnostics.jsonl, if there is one, ends with the exit code of the run and
+        has all messages of the console. What is told of earlier results is none of the run."""
+        if not Path(self.folder, "diagnostics.jsonl").is_file():
+            return
+        lines = [json.loads(line) for line in self.text("diagnostics.jsonl").splitlines()]
+        require(
+            lines and "summary" in lines[-1], f"{self.folder}/diagnostics.jsonl has no summary at its end"
+        )
+        code = lines[-1]["summary"]["exit code"]
+        require(code == self.ended.code, f"exit code {self.ended.code}, but {code} in diagnostics.jsonl")
+        if list(Path(self.folder).glob("mesh_level_*")):
+            return  # messages of coarser levels are in their folders
+        printed = re.findall(
+            r"^(?:note|warning|error)\[([\w-]+)\]:", self.said + self.complained, re.MULTILINE
+        )
+        recorded = {line.get("key") for line in lines} | {"results-moved"}
+        missing = sorted(set(printed) - recorded)
+        require(not missing, f"{self.folder}/diagnostics.jsonl lacks {', '.join(missing)}")
+
     def pictured(self, index: str = "scene.pvd") -> str:
         """Returns the times of the bodies' field output. All files that the index names must be there."""
         text = self.text(index)
@@ -278,4 +299,7 @@ class Runner:
         """Runs scene.prm with these edits."""
         folder, text = self.scene(base, edits)
         write_text("scene.prm", text)
-        return Run(folder, run(*self.program.on(ranks, *options, "scene.prm")))
+        ran = Run(folder, run(*self.program.on(ranks, *options, "scene.prm")))
+        if "--check" not in options:
+            ran.require_record()
+        return ran

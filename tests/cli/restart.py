@@ -335,6 +335,9 @@ for sent, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGUSR1, 2)
         shutil.rmtree(folder, ignore_errors=True)
         code, text = signalled(sent, f"{folder}/history.csv", *program.on(ranks, "long.prm"))
         require(code == 5, f"exit code is '{code}', not '5'\n{text}")
+        record = read_text(f"{folder}/diagnostics.jsonl")
+        require('"key":"run-stopped"' in record, "diagnostics.jsonl does not tell that the run was stopped")
+        require('{"summary":{"exit code":5,' in record, "diagnostics.jsonl has another exit code")
         how = (
             rf"^note\[run-stopped\]: long.prm: {sent.name} stops the run at time \S+ after \d+ steps."
             r" Resume by: billet (--restart \S+ .*\S+)\.$"

@@ -77,6 +77,11 @@ def _() -> None:
         r"At this order it would take level \d",
         ran.said,
     )
+    before = ran.said.rsplit("Completed in", 1)[0]
+    says(r"^warning\[mesh-target-missed\]", before)
+    for key in ("mesh-levels", "mesh-target-missed"):
+        says(f'"key":"{key}"', ran.text("diagnostics.jsonl"))
+    says(r"^Completed in .* with \d warnings?\.", ran.said)
 
 
 @check("what makes no sense is refused")

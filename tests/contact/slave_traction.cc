@@ -324,7 +324,7 @@ void check_parts_of_steps() {
   Random random;
   const Coulomb law{0.6};
   constexpr double depth = 0.01, height = 0.02, slide = 0.3;
-  const FrictionRule rule{stiffness.tangential, 0.5, true};
+  const FrictionRule rule{stiffness.tangential, 0.5, &FrictionAccounting::of_equilibria};
   const auto dissipated = [&](const bool enters, const unsigned int n_steps) {
     Random same;
     Pair pair{random_facet(same, 1., 0.), {}, {}};

@@ -152,7 +152,8 @@ void check_augmentation() {
 void check_release() {
   for (const bool is_static : {false, true}) {
     Node node;
-    node.friction_.set_account(is_static ? 0. : 0.5, is_static);
+    node.friction_.set_account(is_static ? 0. : 0.5,
+                               is_static ? FrictionAccounting::of_equilibria : FrictionAccounting::of_motion);
     node.press(at(0.01));
     node.commit();
     // It rises to three times its penetration: φ = 1/4.

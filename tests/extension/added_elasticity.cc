@@ -6,6 +6,7 @@
 #include "pulled_cube.h"
 
 #include "billet/material/elasticity.h"
+#include "billet/material/flow_rule.h"
 #include "billet/material/hardening.h"
 #include "billet/material/law_adapter.h"
 #include "billet/material/neo_hookean.h"
@@ -72,6 +73,38 @@ std::string material(const double poisson) {
          std::to_string(poisson);
 }
 
+/// Returns the message that refuses an anisotropy with this elasticity; "" if it is accepted.
+std::string refusal_of_anisotropy(const std::string &elasticity) {
+  std::ofstream("anisotropic.prm") << R"(
+subsection Bodies
+  subsection cube
+    subsection Material
+      set Young modulus = 200e3
+      set Yield stress = 300
+      set Anisotropy = Hill
+      set r-values = 2, 1, 1
+      set Elasticity = )" << elasticity
+                                   << "\n    end\n  end\nend\n";
+  try {
+    parameters::Scene::read("anisotropic.prm");
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Flow rules are refused with an elasticity that takes none; the message names those that do, with an added
+/// one.
+void check_flow_rules() {
+  elasticity_types().add(
+      isotropic_elasticity_type("another Hencky", "Hencky's, once more", &make_hencky_law, &make_hencky_law));
+  const std::string choices = "choose 'Elasticity = Hencky' or 'Elasticity = another Hencky'";
+  check("an elasticity without flow rules refuses them, and the added one is named",
+        refusal_of_anisotropy("neo-Hookean").find(choices) != std::string::npos);
+  check("the added one takes them",
+        refusal_of_anisotropy("another Hencky").find("Anisotropy") == std::string::npos);
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -83,8 +116,6 @@ int main(int argc, char *argv[]) {
         type.find_law(moduli) != nullptr && type.find_law(moduli)->name() == "quadratic volume" &&
             type.find_law(moduli)->elastic().bulk == moduli.bulk);
   check("it has no plastic law", type.find_law(moduli, make_hardening(LinearHardening{1., 0.})) == nullptr);
-  check("its stresses do not depend on the path",
-        !type.depends_on_path && elasticity_types().find("hypoelastic")->depends_on_path);
   for (const std::string element : testing::all_element_names)
     for (const double poisson : {0.1, 0.4}) {
       const std::string name = element + ", Poisson ratio " + std::to_string(poisson).substr(0, 3);
@@ -97,5 +128,6 @@ int main(int argc, char *argv[]) {
             std::abs(testing::pull_explicitly(element, material(poisson), 1.8, 2e-4).elastic / exact - 1.),
             1e-2);
     }
+  check_flow_rules();
   return testing::exit_code();
 }

@@ -9,6 +9,7 @@
 #include "billet/material/elasticity.h"
 #include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
+#include "billet/output/local_state.h"
 #include "billet/scene/plausibility.h"
 #include "billet/solve/element_watch.h"
 
@@ -142,6 +143,44 @@ void check_bending() {
             std::abs(energies.factor() / exact - 1.) < 1e-3);
 }
 
+/// The factors of a probe at a face are those that the kind tells, and without any those of displacements.
+PlaneFactors twice(const ElasticModuli &, const ElementFormulation &, const ElementVectors &, unsigned int) {
+  return {2., 3.};
+}
+constexpr ElementKind kind_with_factors = {
+    "with factors", &make_law_block<FullyIntegratedElement>, false, false, {}, nullptr, false, false, &twice};
+
+/// Returns the stress at the upper face of the unit cube, whose points have the deviator diag(2, 0, −2) above
+/// and the opposite below.
+dealii::SymmetricTensor<2, 3> stress_at_face(const BrickElement element) {
+  ElementFormulation formulation;
+  formulation.element = element;
+  ElementPoints points;
+  ElementData data{{}, {}, {}, &points};
+  for (unsigned int a = 0; a < n_element_nodes; ++a) {
+    for (unsigned int i = 0; i < 3; ++i)
+      data.positions[3 * a + i] = (a >> i) & 1U;
+    points.stress[a].deviator[0][0] = (a & 4U) != 0U ? 2. : -2.;
+    points.stress[a].deviator[2][2] = -points.stress[a].deviator[0][0];
+  }
+  const SharedLaw law = make_hencky_law(ElasticModuli::from_young_poisson(1e9, 0.25));
+  return LocalStates(law, formulation).evaluate(data, dealii::Point<3>(0.5, 0.5, 1.)).cauchy_stress;
+}
+
+void check_plane_factors() {
+  // At the face, √3 times the points: deviator 2 √3 along x, 0 along y; half its trace in both, and the rest.
+  const double mean = std::sqrt(3.), rest = std::sqrt(3.);
+  const auto own = stress_at_face(BrickElement(kind_with_factors)), none = stress_at_face(fully_integrated),
+             other = stress_at_face(BrickElement::mean_dilatation);
+  check("a probe at a face uses the factors of the added element",
+        std::abs(own[0][0] - (2. * mean + 3. * rest)) + std::abs(own[1][1] - (2. * mean - 3. * rest)), 1e-12);
+  const double of_poisson = 3. * 1.25 / 0.75; // 3 (1 + ν)/(1 − ν)
+  check("without any, those of displacements",
+        std::abs(none[0][0] - (of_poisson * mean + rest)) + std::abs(none[1][1] - (of_poisson * mean - rest)),
+        1e-12);
+  check("as mean dilatation", (none - other).norm() == 0.);
+}
+
 /// A cantilever with one brick through its thickness.
 void check_advice() {
   std::ofstream("cantilever.prm") << R"(
@@ -231,6 +270,7 @@ int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   element_types().add(make_element_type(fully_integrated, "eight points, for comparisons"));
   check_bending();
+  check_plane_factors();
   check_advice();
   check_number_type();
   for (const std::string law : {"Hencky", "neo-Hookean", "hypoelastic"}) {

@@ -66,8 +66,6 @@ public:
   std::string name() const override;
   unsigned int take_iterations() override;
   double memory() const override;
-  /// Returns |b − A x| / |b| of the last solve, computed anew.
-  double relative_residual() const { return relative_residual_; }
   /// Returns the number of hierarchies set up so far.
   unsigned int n_hierarchies() const { return n_hierarchies_; }
 
@@ -89,7 +87,7 @@ private:
   bool is_lagging_ = false;                 ///< the hierarchy is that of an earlier matrix
   double fresh_pace_ = 0., last_pace_ = 0.; ///< −ln of the residual reduction per iteration; 0: unknown
   unsigned int iterations_ = 0, n_hierarchies_ = 0;
-  double relative_residual_ = 0.;
+  double relative_residual_ = 0.; ///< |b − A x| / |b| of the last solve
 };
 
 } // namespace billet

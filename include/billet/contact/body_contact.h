@@ -35,7 +35,7 @@ public:
   const ContactChecks &checks() const override;
 
   void start_step(const ContactStep &step) override;
-  void set_friction_account(double start_weight, bool is_static) override;
+  void set_friction_account(double start_weight, const FrictionAccounting &accounting) override;
   void restart() override;
   void commit() override;
   /// Records the initial penetration if the scene allows it, after update(). Closes initial gaps if the scene

@@ -18,6 +18,8 @@
 
 namespace billet {
 
+struct FrictionAccounting;
+
 /// A contact pair: a body and a rigid tool, two bodies, or a body with itself.
 ///
 /// A step calls start_step(), then update() at any displacements and queries about the last update(), then
@@ -57,8 +59,8 @@ public:
   // Steps.
 
   virtual void start_step(const ContactStep &step) = 0;
-  /// Sets how FrictionRule accounts for friction: ½ and false unless they are set.
-  virtual void set_friction_account(double start_weight, bool is_static) = 0;
+  /// Sets how works of friction are counted: with ½, and those of a motion, by default.
+  virtual void set_friction_account(double start_weight, const FrictionAccounting &accounting) = 0;
   /// Returns to the start of the step.
   virtual void restart() = 0;
   /// The state of the last update() becomes the start of the next step.

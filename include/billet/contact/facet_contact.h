@@ -63,8 +63,8 @@ public:
   const FacetSearch &search() const { return parts_.surfaces.search(); }
   FacetMethod method() const { return parts_.settings.method; }
 
-  /// Sets how FrictionRule accounts for friction: ½ and false by default.
-  void set_friction_account(double start_weight, bool is_static);
+  /// Sets how works of friction are counted: with ½, and those of a motion, by default.
+  void set_friction_account(double start_weight, const FrictionAccounting &accounting);
   /// Returns the number of doubles of history on this rank.
   std::size_t history_size() const;
 

@@ -6,12 +6,26 @@
 
 namespace billet {
 
+struct FrictionAccount;
+struct FrictionStep;
+struct FrictionRule;
+
+/// How the works of friction in a step are counted. Each is one of those below, chosen by the scheme.
+struct FrictionAccounting {
+  FrictionAccount (*compute)(const FrictionStep &, const FrictionRule &);
+  /// Whether a load that nodes which leave hand over to others counts by FrictionAccount::handed_over().
+  bool counts_hand_over;
+
+  static const FrictionAccounting of_motion; ///< by the rule with which an integrator computes works
+  /// For the path between two equilibria, whose works no integrator uses.
+  static const FrictionAccounting of_equilibria;
+};
+
 /// Weights of the tractions at the ends of a step in its works, and storage in a node's tangential springs.
 struct FrictionRule {
   double stiffness;          ///< k_t [stress/length]
   double start_weight = 0.5; ///< θ: ½ is the trapezoidal rule, 0 the value at the end of the step
-  /// In statics no integrator uses works by this rule: it is a rule for the path between two equilibria.
-  bool is_static = false;
+  const FrictionAccounting *accounting = &FrictionAccounting::of_motion;
   /// Whether springs store energy, at the start and at the end: multipliers do not stretch them.
   bool stores_n = true, stores = true;
 };
@@ -22,7 +36,8 @@ struct FrictionStep {
   std::array<double, 2> traction;   ///< 0 where it does not touch any longer
   std::array<double, 2> motion;     ///< Δg_t of the whole step, relative to the touched or left surface
   bool touches;                     ///< at the end
-  double part_in_contact = 1.;      ///< φ: part of the step, if it enters or leaves in it
+  // Only of_equilibria uses these:
+  double part_in_contact = 1.; ///< φ: part of the step, if it enters or leaves in it
   /// τ_n: friction limit at the start, |t| p_n/p; 0 where the node does not slip in the step.
   double limit_n = 0.;
 };
@@ -67,7 +82,9 @@ inline double part_before_leaving(const double penetration, const double opening
   return opening > penetration ? penetration / opening : 1.;
 }
 
-FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule);
+inline FrictionAccount compute_friction_account(const FrictionStep &step, const FrictionRule &rule) {
+  return rule.accounting->compute(step, rule);
+}
 
 } // namespace billet
 

@@ -62,7 +62,7 @@ public:
   const ToolDrive &drive() const { return drive_; }
 
   void start_step(const ContactStep &step) override;
-  void set_friction_account(double start_weight, bool is_static) override;
+  void set_friction_account(double start_weight, const FrictionAccounting &accounting) override;
   /// Sets the placement of the tool at the end of the step.
   void set_placement(const Placement &to) { parts_.step.placement = to; }
   void restart() override {

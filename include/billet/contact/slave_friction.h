@@ -23,12 +23,12 @@ public:
   SlaveFriction(const FrictionLaw &law, const TouchingSlaves &slaves, const SlavePenalties &penalties,
                 const GapOffsets &offsets, const SlaveStart &start);
 
-  /// Sets how FrictionRule accounts for friction: ½ and false by default.
-  void set_account(const double start_weight, const bool is_static) {
+  /// Sets how works are counted: with ½, and those of a motion, by default.
+  void set_account(const double start_weight, const FrictionAccounting &accounting) {
     start_weight_ = start_weight;
-    is_static_ = is_static;
+    accounting_ = &accounting;
   }
-  bool is_static() const { return is_static_; }
+  const FrictionAccounting &accounting() const { return *accounting_; }
   const FrictionLaw &law() const { return law_; }
 
   /// Computes traction and works of a slave that presses.
@@ -79,7 +79,7 @@ private:
   std::vector<SlaveHistory> history_n_, history_, base_;
   std::vector<FrictionWorks> works_;
   double start_weight_ = 0.5;
-  bool is_static_ = false;
+  const FrictionAccounting *accounting_ = &FrictionAccounting::of_motion;
   HeldMemory memory_{Capability::friction};
 };
 

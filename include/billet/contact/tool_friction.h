@@ -25,12 +25,12 @@ public:
   ToolFriction(const FrictionLaw &law, bool stores, std::size_t n_nodes, const ToolStep &step,
                const PressureRecord &pressures);
 
-  /// Sets how FrictionRule accounts for friction: ½ and false by default.
-  void set_account(const double start_weight, const bool is_static) {
+  /// Sets how works are counted: with ½, and those of a motion, by default.
+  void set_account(const double start_weight, const FrictionAccounting &accounting) {
     start_weight_ = start_weight;
-    is_static_ = is_static;
+    accounting_ = &accounting;
   }
-  bool is_static() const { return is_static_; }
+  const FrictionAccounting &accounting() const { return *accounting_; }
 
   /// Returns the history at the end of the step.
   History &operator[](const std::size_t i) { return now_[i]; }
@@ -74,7 +74,7 @@ public:
 
 private:
   FrictionRule rule_of(const ContactPoint &node) const {
-    return {node.stiffness.tangential, start_weight_, is_static_, stores_, stores_};
+    return {node.stiffness.tangential, start_weight_, accounting_, stores_, stores_};
   }
 
   const FrictionLaw &law_;
@@ -84,7 +84,7 @@ private:
   std::vector<History> n_, now_;            ///< at the start of the step, and at its end
   std::vector<std::array<double, 2>> base_; ///< augmented initial tractions of this step; empty: those of n_
   double start_weight_ = 0.5;
-  bool is_static_ = false;
+  const FrictionAccounting *accounting_ = &FrictionAccounting::of_motion;
   HeldMemory memory_{Capability::friction};
 };
 

@@ -10,6 +10,9 @@
 
 namespace billet {
 
+/// Step of central differences for ContactTangent::numerical, over the size of a facet.
+constexpr double difference_step = 1e-7;
+
 using parameters::ContactTangent;
 
 enum class ContactStatus { open = 0, stick = 1, slip = 2 };

@@ -41,7 +41,7 @@ struct ElasticityType : RegisteredType<std::shared_ptr<const Elasticity>> {
   /// Makes the law with two moduli, elastic if the flow stress is null. It returns null if this elasticity
   /// does not support plasticity. A null pointer: two moduli do not determine the law.
   SharedLaw (*make_law)(const ElasticModuli &, SharedFlow) = nullptr;
-  bool depends_on_path = false;    ///< whether stresses of elastic bodies depend on the path
+  bool has_flow_rules = false; ///< whether its plastic law takes a FlowRule; messages and the manual name it
   bool has_volumetric_law = false; ///< whether a scene can choose its volumetric law
 
   /// Returns the law with these moduli; null if there is none.

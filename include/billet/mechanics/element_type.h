@@ -4,6 +4,8 @@
 
 #include "billet/material/point_law.h"
 #include "billet/mechanics/lane_element.h"
+#include "billet/mechanics/mean_dilatation.h"
+#include "billet/mechanics/plane_factors.h"
 #include "billet/registered_type.h"
 
 #include <memory>
@@ -35,6 +37,10 @@ struct ElementKind {
   bool may_lock_in_bending = false;
   /// Whether it has modes with too little energy that nothing stabilises: messages then warn of them.
   bool may_be_soft = false;
+  /// Returns the factors of what varies along a direction, 0 to 2, of a brick with these undeformed
+  /// positions. Null: plane_factors_of_displacements().
+  PlaneFactors (*plane_factors)(const ElasticModuli &, const ElementFormulation &, const ElementVectors &,
+                                unsigned int direction) = nullptr;
 };
 
 /// Handle of an ElementKind, which lives as long as the program.
@@ -53,6 +59,8 @@ public:
   std::unique_ptr<ElementBlock> make_block(const std::shared_ptr<const PointLaw> &law,
                                            const ElementFormulation &formulation) const;
   auto comparison() const { return kind_->compare; } ///< ElementKind::compare
+  PlaneFactors plane_factors(const ElasticModuli &elastic, const ElementFormulation &formulation,
+                             const ElementVectors &positions, unsigned int direction) const;
 
   bool operator==(const BrickElement &other) const { return kind_ == other.kind_; }
   bool operator!=(const BrickElement &other) const { return kind_ != other.kind_; }

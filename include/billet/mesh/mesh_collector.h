@@ -37,8 +37,6 @@ struct CellShape {
 /// the file, which may follow later.
 class MeshCollector {
 public:
-  static constexpr std::size_t no_group = static_cast<std::size_t>(-1);
-
   /// `node_word`: "node", or words for a format that does not number its nodes.
   explicit MeshCollector(std::string node_word = "node") : node_word_(std::move(node_word)) {}
 

@@ -38,11 +38,6 @@ public:
   LocalState evaluate(const ElementData &element, const dealii::Point<3> &coordinates) const;
 
 private:
-  /// Factors of the plane part of a deviator that varies along a direction.
-  struct PlaneFactors {
-    double mean, rest; ///< of its trace, and of what is left
-  };
-  PlaneFactors plane_factors(const ElementVectors &positions, unsigned int direction) const;
   /// Returns the part of `bending` that the yield stress at this plastic strain allows, from 0 to 1.
   double find_share(const ElementData &element, double volume_ratio, double equivalent_plastic_strain,
                     const dealii::SymmetricTensor<2, 3> &bending) const;

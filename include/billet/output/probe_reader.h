@@ -41,7 +41,15 @@ private:
   ProbeRows read_thickness(const Placed &placed, const State &state) const;
   ProbeRows read_travel(const Placed &placed, const State &state) const;
   std::vector<double> read_motion(const Placed &placed, const State &state) const;
-  ProbeRows read_rows(const Placed &placed, const State &state) const;
+  /// Returns the columns of these rows.
+  std::vector<double> evaluate(const Placed &placed, const ProbeRows &rows) const;
+  // One function for each alternative of Probe::where: the compiler finds a missing one.
+  std::vector<double> read(const ProbedPoints &points, const Placed &placed, const State &state) const;
+  std::vector<double> read(const ProbedFaces &, const Placed &placed, const State &state) const;
+  std::vector<double> read(const ProbedThickness &, const Placed &placed, const State &state) const;
+  std::vector<double> read(const ProbedTravel &, const Placed &placed, const State &state) const;
+  std::vector<double> read(const ProbedEnergies &energies, const Placed &, const State &state) const;
+  std::vector<double> read(const ProbedMotion &, const Placed &placed, const State &state) const;
   std::vector<double> read(const Placed &placed, const State &state) const;
 
   const Scene &scene_;

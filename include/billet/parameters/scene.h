@@ -51,6 +51,8 @@ struct Scene {
   static Scene read(SceneFile file, const std::string &restart_file);
 
   const SchemeType &scheme() const { return type_of(time_stepping.scheme); }
+  /// Returns the time over which a support or load fades if it has no 'Fade time' [time].
+  double automatic_fade_time() const;
   std::size_t body_index(const ContactPair &pair) const;
   std::size_t second_body_index(const ContactPair &pair) const;
   std::size_t tool_index(const ContactPair &pair) const;

@@ -15,6 +15,9 @@
 
 namespace billet::parameters {
 
+/// Registered types that a scene has without naming one.
+constexpr const char *default_shape = "plane", *default_friction_law = "Coulomb";
+
 /// Subsection Motion of a tool: it rotates about an axis through its centre, then translates.
 struct Motion {
   Located<std::array<std::string, 3>> translation; ///< expressions of t and the amplitudes

@@ -40,6 +40,7 @@ private:
   /// Steps and times of what does not happen in each step.
   struct LastTimes {
     unsigned int balanced_step = 0;  ///< last step with a balance of energies
+    unsigned int watched_step = 0;   ///< that of the last watch()
     unsigned int estimated_step = 0; ///< that of the last estimate_mesh_error()
     double interval_start = 0.;      ///< of (W4) [time]
     double next_check = 0.;          ///< time of the next check_stability() [time]
@@ -50,6 +51,9 @@ private:
   template <class Part> void attempt(RunOutput &output, const Part &part);
   /// Reports the refinement with which the run began, after its first forces.
   void report_change(RunOutput &output);
+  /// Whether the state is to be watched: at the start, at regular times unless the last one is too near, and
+  /// at the end. Call it once for each step.
+  bool is_watch_due();
   /// Adds a state to the error of the mesh, unless the last one is too near.
   void estimate_mesh_error();
   void show_number_of_steps(RunOutput &output) const;

@@ -8,6 +8,7 @@
 #include "billet/output/history_file.h"
 #include "billet/output/progress.h"
 #include "billet/run/resumption.h"
+#include "billet/run/run_options.h"
 #include "billet/run/snapshots.h"
 
 #include <functional>
@@ -21,11 +22,10 @@ namespace billet {
 /// signals that request a checkpoint or the end.
 class RunOutput {
 public:
-  /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0. `steps`
-  /// gets lines of steps in place of the console; null: the console gets them. `changes`: see RunOptions.
+  /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0.
   /// Collective.
   RunOutput(const Scene &scene, MPI_Comm communicator, Diagnostics &diagnostics, Resumption *resumption,
-            std::ostream *steps = nullptr, std::string changes = {});
+            const RunOptions &options = {});
   ~RunOutput() { diagnostics_.set_print({}); }
   RunOutput(const RunOutput &) = delete;
   RunOutput &operator=(const RunOutput &) = delete;
@@ -49,14 +49,16 @@ public:
   /// Ends a run that has reached its end time. Collective.
   ExitCode finish();
   /// Ends the run as a signal requests. Throws SolutionFailure if there is no checkpoint.
-  ExitCode stop(unsigned int n_steps, double time, bool has_checkpoint) const;
+  ExitCode stop(unsigned int n_steps, double time, bool has_checkpoint);
 
 private:
+  /// Returns the stream for lines of steps.
+  std::ostream &stream_of_steps();
   /// Returns the name of the field output format.
   std::string format() const;
 
   const Scene &scene_;
-  std::string changes_;
+  RunOptions options_;
   MPI_Comm communicator_;
   bool is_first_;
   std::ostringstream silence_; ///< console of the other ranks

@@ -66,6 +66,9 @@ struct Hold {
   unsigned int component = 0;        ///< of these axes
   SupportTimes times;
 
+  /// What is nearer to a plane or an axis, relative to the size of the body, is on it.
+  static constexpr double rounding = 1e-8;
+
   /// Returns the unit normal at an undeformed position.
   dealii::Tensor<1, 3> direction(const dealii::Tensor<1, 3> &position) const {
     return axes ? axes->at(position)[component] : normal;

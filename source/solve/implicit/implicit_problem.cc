@@ -250,7 +250,9 @@ void ImplicitProblem::start_step(const double t) {
   const std::vector<Placement> placements = parts_.tools().placements(t);
   for (auto &contact : parts_.contacts()) {
     contact.start_step({state_.time, t, step_.duration, state_.placements, placements});
-    contact.set_friction_account(parts_.scheme().contact().at_start(), !parts_.scheme().has_inertia());
+    contact.set_friction_account(parts_.scheme().contact().at_start(),
+                                 parts_.scheme().has_inertia() ? FrictionAccounting::of_motion
+                                                               : FrictionAccounting::of_equilibria);
   }
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef BILLET_RUN_RUN_OPTIONS_H
+#define BILLET_RUN_RUN_OPTIONS_H
+
+#include "billet/diagnostics.h"
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+namespace billet {
+
+class ConsoleLog;
+
+/// Options of a run that its parameters do not have, such as those of the command line.
+struct RunOptions {
+  bool replaces_results = false; ///< rather than to move those of an earlier run aside
+  ConsoleLog *log = nullptr;     ///< to be opened in the output folder; null: none
+  bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
+  std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
+  std::ostream *steps = nullptr; ///< gets lines of steps if the console is quiet and the log is open already
+  /// Returns messages about a run that has reached its end; its history is complete. Collective. Empty: none.
+  std::function<DiagnosticList()> judge = {};
+};
+
+} // namespace billet
+
+#endif

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The shipped scenes of an earlier version with its program and with this one: forces, energies, steps and
+iterations, instructions, and the outcomes of the scenes at the extremes."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import tempfile
+from pathlib import Path
+
+import billet_runs
+from billet_runs import PROGRAM, ROOT, Changes, arguments, count_instructions, number, publish, table
+from billet_tools.output import read_rows
+from billet_tools.program import ALONE, Measured
+from billet_tools.scene import read_scene, variant, with_absolute_files
+
+COMMIT = "f6fd959e"  # the last one before the classes were divided
+BEFORE = os.environ.get("BILLET_BEFORE", "")
+ALLOWED = 1e-10
+ALLOWED_INSTRUCTIONS = 0.03
+PART = "1/16"  # of the scenes at the extremes
+
+# Parts of long runs.
+CUT: dict[str, Changes] = {
+    "tube_crush": {"Time stepping/End time": 2.5e-4},
+    "cartridge": {"Time stepping/End time": 1e-4},
+    "twisted_hemisphere": {"Time stepping/End time": 2.2, "Time stepping/Stops": "1, 2"},
+}
+# Changed on purpose since; and settings of both programs without the change.
+ON_PURPOSE = "friction is augmented no further than equilibrium is resolved"
+PENALTY_ALONE: dict[str, Changes] = {
+    "ironing": {"Contact pairs/face/Penetration tolerance": 0, "Solver/Force tolerance": 1e-10},
+    "twisted_hemisphere": {"Contact pairs/face/Penetration tolerance": 0, "Time stepping/End time": 1.4},
+}
+CAUSES = {
+    "ironing": ON_PURPOSE,
+    "twisted_hemisphere": ON_PURPOSE,
+    "billet_deformable_dies": "rattles when it is released: a change of 1e-13 in E does as much",
+}
+COUNTED: dict[str, tuple[Changes, str, str]] = {
+    "billet_upsetting": ({}, "billet::run_simulation(*", "the whole run"),
+    "ironing": (
+        {
+            "Time stepping/End time": 0.15,
+            "Time stepping/Stops": "",
+            "Contact pairs/face/Penetration tolerance": 0,
+        },
+        "billet::run_simulation(*",
+        "to time 0.15, penalty alone",
+    ),
+    "tube_crush": (
+        {"Time stepping/End time": 2e-5},
+        "billet::ExplicitDynamics::prepare_step(*",
+        "forces and velocities of 256 steps",
+    ),
+}
+Rows = list[dict[str, str]]
+
+
+def write(scenes: Path, scene: str, changes: Changes, place: Path) -> None:
+    text = variant(
+        with_absolute_files(read_scene(scenes / f"{scene}.prm"), scenes),
+        {"Output/Folder": "results", "Output/Format": "none", "Output/Verbosity": "quiet", **changes},
+    )
+    (place / "scene.prm").write_text(text)
+
+
+def run(program: str, scenes: Path, scene: str, changes: Changes) -> Rows:
+    with tempfile.TemporaryDirectory() as folder:
+        write(scenes, scene, changes, Path(folder))
+        done = Measured([program, "scene.prm"], folder, environment=ALONE)
+        if done.code not in (0, 6):
+            raise SystemExit(f"{program} {scene}: {done.stderr}")
+        print(f"[{scene}] {done.seconds:.3g} s", flush=True)
+        return read_rows(Path(folder) / "results/history.csv")
+
+
+def is_energy(column: str) -> bool:
+    return bool(re.search("energy|work|dissipation", column)) and "error" not in column
+
+
+def group_of(column: str) -> str:
+    """Components of a vector are measured together, and all energies."""
+    return "energies" if is_energy(column) else re.sub("_[xyz]$", "", column)
+
+
+class Difference:
+    """The largest differences between two histories, at the times that both have: of forces and moments, over
+    the largest of the vector, and of energies, over the largest of them. `missing`: rows at other times."""
+
+    def __init__(self, before: Rows, now: Rows) -> None:
+        times = {round(float(row["time"]), 12): row for row in now}
+        shared = [(row, times.get(round(float(row["time"]), 12))) for row in before]
+        pairs = [(one, other) for one, other in shared if other is not None]
+        self.missing = len(before) + len(now) - 2 * len(pairs)
+        columns = [
+            column
+            for column in before[0]
+            if column in now[0] and (is_energy(column) or re.search(r"\.(force|moment)_[xyz]$", column))
+        ]
+        largest: dict[str, float] = {}
+        apart: dict[str, float] = {}
+        for one, other in pairs:
+            for column in columns:
+                a, b, group = float(one[column]), float(other[column]), group_of(column)
+                largest[group] = max(largest.get(group, 0.0), abs(a), abs(b))
+                apart[group] = max(apart.get(group, 0.0), abs(a - b))
+        ratios = {group: apart[group] / size if size else 0.0 for group, size in largest.items()}
+        self.energies = ratios.pop("energies", 0.0)
+        self.forces = max(ratios.values(), default=0.0)
+
+    @property
+    def largest(self) -> float:
+        return max(self.forces, self.energies)
+
+
+def difference_text(value: float) -> str:
+    return "0" if value == 0.0 else f"{value:.1e}"
+
+
+class Compared:
+    """A scene with both programs."""
+
+    def __init__(self, scenes: Path, scene: str) -> None:
+        changes = CUT.get(scene, {})
+        before, now = run(BEFORE, scenes, scene, changes), run(PROGRAM, scenes, scene, changes)
+        end = changes.get("Time stepping/End time")
+        self.name = scene + (f", to {number(float(str(end)))}" if end else "")
+        self.difference = Difference(before, now)
+        self.steps = [rows[-1]["step"] for rows in (before, now)]
+        self.iterations = [rows[-1].get("total_iterations", "") for rows in (before, now)]
+        self.without = math.nan
+        if self.difference.largest > ALLOWED and scene in PENALTY_ALONE:
+            settings = {**changes, **PENALTY_ALONE[scene]}
+            self.without = Difference(
+                run(BEFORE, scenes, scene, settings), run(PROGRAM, scenes, scene, settings)
+            ).largest
+        self.cause = "" if self.is_same else CAUSES.get(scene, "unknown")
+
+    @property
+    def is_same(self) -> bool:
+        return (
+            self.difference.largest <= ALLOWED
+            and self.difference.missing == 0
+            and self.steps[0] == self.steps[1]
+            and self.iterations[0] == self.iterations[1]
+        )
+
+    def row(self) -> list[object]:
+        return [
+            self.name,
+            " / ".join(self.steps),
+            " / ".join(self.iterations) if self.iterations[0] else "",
+            self.difference.missing,
+            difference_text(self.difference.forces),
+            difference_text(self.difference.energies),
+            "" if math.isnan(self.without) else difference_text(self.without),
+            self.cause,
+        ]
+
+
+def count(program: str, scenes: Path, scene: str) -> int:
+    changes, function, _ = COUNTED[scene]
+    billet_runs.PROGRAM = program
+    with tempfile.TemporaryDirectory() as folder:
+        write(scenes, scene, changes, Path(folder))
+        instructions = count_instructions(folder, function)
+    print(f"[{scene}] {instructions} instructions", flush=True)
+    return instructions
+
+
+def count_row(scenes: Path, scene: str) -> list[object]:
+    before, now = count(BEFORE, scenes, scene), count(PROGRAM, scenes, scene)
+    return [
+        scene,
+        COUNTED[scene][2],
+        f"{before / 1e6:.1f}",
+        f"{now / 1e6:.1f}",
+        f"{100 * (now / before - 1):+.2f} %",
+    ]
+
+
+def outcomes(program: str, tests: Path, folder: Path) -> dict[str, tuple[str, str]]:
+    """The outcomes of scenes at the extremes by name, with their steps and iterations. The plan and
+    the checks are those of that version."""
+    subprocess.run(
+        [
+            sys.executable,
+            str(tests / "tests/extremes/run.py"),
+            "--program",
+            program,
+            "--folder",
+            str(folder),
+            "--part",
+            PART,
+        ],
+        check=True,
+        env={**os.environ, **ALONE},
+    )
+    kept = [json.loads(path.read_text()) for path in sorted((folder / "kept").glob("*.json"))]
+    return {one["name"]: (one["outcome"], f"{one.get('steps')}, {one.get('iterations')}") for one in kept}
+
+
+def git(*command: str) -> bytes:
+    return subprocess.run(["git", *command], cwd=ROOT, check=True, capture_output=True).stdout
+
+
+options = arguments("earlier-version")
+if not BEFORE:
+    print(
+        f"earlier-version: left out. Build the program of commit {COMMIT}, and name it in BILLET_BEFORE.",
+        flush=True,
+    )
+    raise SystemExit(0)
+with tempfile.TemporaryDirectory() as folder:
+    place = Path(folder)
+    with tarfile.open(
+        fileobj=io.BytesIO(git("archive", COMMIT, "prm", "tests/extremes", "tools"))
+    ) as archive:
+        archive.extractall(place)
+    names = sorted(path.stem for path in (place / "prm").glob("*.prm"))
+    if options.quick:
+        names = ["billet_upsetting", "press_fit"]
+    compared = [Compared(place / "prm", name) for name in names]
+    counts = [] if options.quick else [count_row(place / "prm", name) for name in COUNTED]
+    extremes = (
+        []
+        if options.quick
+        else [outcomes(BEFORE, place, place / "before"), outcomes(PROGRAM, place, place / "now")]
+    )
+same = [scene for scene in compared if scene.is_same]
+exact = [scene for scene in same if scene.difference.largest == 0.0]
+worst = max((abs(float(str(row[4]).split()[0])) for row in counts), default=math.nan)
+shared = [name for name in extremes[0] if name in extremes[1]] if extremes else []
+other = [name for name in shared if extremes[0][name][0] != extremes[1][name][0]]
+as_many = sum(extremes[0][name][1] == extremes[1][name][1] for name in shared)
+
+publish(
+    "earlier-version",
+    "Beside an earlier version",
+    options,
+    (
+        f"This page compares the program with that of commit {COMMIT}, before its classes were divided. The"
+        " numbers should not change with the form of the code. The scenes are those of that commit, which"
+        " this program still reads.\n\n"
+        "Differences are those of all forces and moments, and of all energies, in all rows that both"
+        " histories have. They are relative to the largest vector of that name, or to the largest energy."
+        f" Steps and iterations are those of before / now. Allowed is {ALLOWED:g}."
+    ),
+    (
+        f"{len(same)} of {len(compared)} scenes keep forces, energies, steps and iterations;"
+        f" {len(exact)} of them to the last bit."
+        " The column 'without it' has the larger difference where both programs run without the cause."
+    ),
+    table(
+        ["scene", "steps", "iterations", "other rows", "forces", "energies", "without it", "cause"],
+        [scene.row() for scene in compared],
+    ),
+    (
+        "## Instructions\n\n"
+        "Millions of instructions by callgrind, with the same steps and iterations. Allowed is"
+        f" {100 * ALLOWED_INSTRUCTIONS:g} %; the most is {number(worst)} %."
+    ),
+    table(["scene", "part", "before", "now", "change"], counts),
+    (
+        "## Scenes at the extremes\n\n"
+        f"Part {PART} of the {COMMIT} plan, {len(shared)} scenes, ran with both programs. They were judged by"
+        f" the checks of that version. {len(shared) - len(other)} have the same outcome,"
+        f" {as_many} as many steps"
+        " and iterations. The others are:"
+    ),
+    table(
+        ["scene", "outcome before", "now", "steps, iterations before", "now"],
+        [
+            [
+                f"`{name}`",
+                extremes[0][name][0],
+                extremes[1][name][0],
+                extremes[0][name][1],
+                extremes[1][name][1],
+            ]
+            for name in other
+        ],
+    ),
+)
