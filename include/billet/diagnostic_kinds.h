@@ -30,6 +30,11 @@ inline const DiagnosticKind keywords_unread(
     "of a deck, and leaves out its other keywords.",
     "Give in the scene what the message names for each of them");
 
+inline const DiagnosticKind nodes_on_no_face(
+    "nodes-on-no-face", Severity::warning,
+    "A set of nodes stands for the faces with all their nodes in it. Other nodes of the set are left out.",
+    "Use 'Nodes = set' of a support or a force for all nodes of the set, or complete its faces");
+
 inline const DiagnosticKind
     nodes_not_joined("nodes-not-joined", Severity::warning,
                      "Nodes of a mesh file are closer to each other than a thousandth of an edge, but no "
@@ -200,6 +205,14 @@ inline const DiagnosticKind contact_unsettled(
     "more than 0.5 % of the maximum force. The error of the force may be several times that.",
     "Let the softer or finer body be 'Body', reduce 'Force tolerance', or use a finer mesh where the pair "
     "touches. 'Penetration tolerance = 1e-3' augments until convergence; it takes many more iterations");
+
+inline const DiagnosticKind uneven_start_gaps(
+    "uneven-start-gaps", Severity::warning,
+    "A contact pair counts initial gaps or overlaps as none, and these differ from node to node by more than "
+    "10 % of the elastic indentation. The partner has slid by more than a facet, so they no longer fit it. "
+    "Forces are off by about that part.",
+    "Place the faces in contact without gaps, resolve overlaps by 'Initial penetration = ramp', or let the "
+    "part that slides be 'Body'");
 
 inline const DiagnosticKind
     tangential_penalty_too_low("tangential-penalty-too-low", Severity::warning,
@@ -570,7 +583,7 @@ inline const DiagnosticKind solution_failed("solution-failed", Severity::error,
 inline const DiagnosticKind force_unresolved(
     "force-unresolved", Severity::warning,
     "'Force tolerance' is a part of all nodal forces. A force that is small beside them is off by more than "
-    "5 %, though each step has converged. An example is the friction of a press fit beside its pressure.",
+    "2 %, though each step has converged. An example is the friction of a press fit beside its pressure.",
     "Reduce 'Force tolerance'");
 
 inline const DiagnosticKind forces_do_not_balance(

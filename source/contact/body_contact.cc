@@ -53,6 +53,13 @@ void BodyContact::commit() {
   parts_.positions_n = parts_.positions;
 }
 
+StartGaps BodyContact::start_gaps() const {
+  FacetSearch::Positions undeformed;
+  for (const unsigned int node : parts_.surfaces.local_nodes)
+    undeformed.push_back(get_vector(parts_.nodes.positions().data(), node));
+  return parts_.contact->measures().start_gaps(undeformed);
+}
+
 void BodyContact::save(StateWriter &writer, const NodeKeys & /*keys*/) const {
   parts_.contact->save(writer);
   std::vector<double> rows;

@@ -2,6 +2,7 @@
 #include "billet/contact/body_contact_parts.h"
 
 #include "billet/contact/facet_contact.h"
+#include "billet/contact/facing_gaps.h"
 #include "billet/contact/overlap.h"
 #include "billet/friction/friction_of_pass.h"
 
@@ -56,6 +57,15 @@ void BodyContactParts::allow_overlap() {
   }
   if (!pair.overlap.is_allowed && !(pair.overlap.closed_gap > 0.))
     return;
+  allow_penetrations();
+  if (!changes_gaps(pair.overlap) || pair.is_self_contact)
+    return;
+  contact->carry_initial_gaps(positions);
+  evaluate(0.);
+  allow_penetrations();
+}
+
+void BodyContactParts::allow_penetrations() {
   // A node's mean gap over overlapping facets hides larger penetrations in parts of them. Repetition reduces
   // these until none remain.
   constexpr unsigned int max_times = 200;

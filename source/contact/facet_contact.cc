@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/facet_contact.h"
 
+#include "billet/contact/facing_gaps.h"
 #include "billet/spent_time.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace billet {
@@ -98,17 +100,32 @@ void FacetContact::commit() {
     parts_.edges->commit();
 }
 
-void FacetContact::close_initial_gaps(const Positions &positions, const double within) {
+void FacetContact::record_start(const std::size_t s) {
+  start_directions_.resize(parts_.slaves.size());
+  if (!start_directions_[s])
+    start_directions_[s] = -parts_.touching[s].contact.normal;
+}
+
+std::vector<double> FacetContact::measure_gaps(const Positions &positions, const double lowered) {
   Positions ignored(parts_.surfaces.exchange().n_own_nodes());
-  // The mean gap of overlaps is known only for facets that overlap; they are therefore lowered.
-  const double lowered = parts_.overlaps ? within : 0.;
   parts_.offsets.penetrations.assign(parts_.slaves.size(), -lowered);
   add_forces(positions, positions, 0., ignored);
+  std::vector<double> gaps;
   for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
     const SlaveState &state = parts_.touching[s];
-    const bool is_before = state.touched.exists() || state.is_near;
-    const double gap = is_before ? state.contact.gap + lowered : 0.;
-    parts_.offsets.penetrations.set(s, gap > 0. && gap <= within ? -gap : 0.);
+    gaps.push_back(state.touched.exists() || state.is_near ? state.contact.gap + lowered
+                                                           : FacingGaps::unknown);
+  }
+  return gaps;
+}
+
+void FacetContact::close_initial_gaps(const Positions &positions, const double within) {
+  // The mean gap of overlaps is known only for facets that overlap; they are therefore lowered.
+  const std::vector<double> gaps = measure_gaps(positions, parts_.overlaps ? within : 0.);
+  for (std::size_t s = 0; s < gaps.size(); ++s) {
+    if (gaps[s] <= within)
+      record_start(s);
+    parts_.offsets.penetrations.set(s, gaps[s] > 0. && gaps[s] <= within ? -gaps[s] : 0.);
   }
 }
 
@@ -118,10 +135,41 @@ double FacetContact::allow_initial_penetrations() {
   for (std::size_t s = 0; s < parts_.touching.size(); ++s)
     if (const SlaveState &state = parts_.touching[s]; state.presses()) {
       const double penetration = std::max(0., -state.contact.gap);
+      record_start(s);
       parts_.offsets.penetrations.add(s, penetration);
       deepest = std::max(deepest, penetration / parts_.slaves.facet_size(s));
     }
   return deepest;
+}
+
+void FacetContact::carry_initial_gaps(const Positions &positions) {
+  const std::size_t n = parts_.slaves.size();
+  start_directions_.resize(n);
+  const InitialPenetrations &found = parts_.offsets.penetrations;
+  std::array<FacingGaps, 2> facing; // of the two surfaces
+  std::vector<double> penetrations(n);
+  double deepest = 0.;
+  for (std::size_t s = 0; s < n; ++s) {
+    penetrations[s] = found[s];
+    if (start_directions_[s])
+      facing[parts_.slaves.surface(s)].add(*start_directions_[s], -penetrations[s]);
+    deepest = std::max(deepest, penetrations[s]);
+  }
+  for (FacingGaps &of_surface : facing)
+    of_surface.reduce(parts_.surfaces.communicator());
+  deepest = dealii::Utilities::MPI::max(deepest, parts_.surfaces.communicator());
+  const std::vector<double> gaps = measure_gaps(positions, parts_.overlaps ? 2. * deepest : 0.);
+  for (std::size_t s = 0; s < n; ++s) {
+    if (!start_directions_[s]) {
+      Tensor<1, 3> outward;
+      parts_.surfaces.search().visit_around(parts_.slaves.node(s), [&](const unsigned int f) {
+        const FacetCorners corners = corners_of(parts_.surfaces.facet(f), parts_.surfaces.positions());
+        outward += dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]);
+      });
+      penetrations[s] = facing[parts_.slaves.surface(s)].carried_penetration(outward, gaps[s]);
+    }
+    parts_.offsets.penetrations.set(s, penetrations[s]);
+  }
 }
 
 void FacetContact::restart() {

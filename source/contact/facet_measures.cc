@@ -142,6 +142,29 @@ std::vector<FacetMeasures::NodeReport> FacetMeasures::report() const {
   return reports;
 }
 
+StartGaps FacetMeasures::start_gaps(const ContactSurfaces::Positions &undeformed) const {
+  StartGaps gaps;
+  ContactSurfaces::Positions X = undeformed;
+  parts_.surfaces.exchange().update(X);
+  for (std::size_t s = 0; s < parts_.touching.size(); ++s) {
+    const SlaveState &state = parts_.touching[s];
+    double slide = 0.;
+    if (state.has_pressure()) {
+      const FacetShare *largest = &parts_.touching.shares()[state.first_share];
+      for (std::size_t i = state.first_share; i < state.end_of_shares; ++i)
+        if (const FacetShare &share = parts_.touching.shares()[i]; share.share > largest->share)
+          largest = &share;
+      const FacetCorners target = corners_of(parts_.surfaces.facet(largest->facet), X);
+      slide =
+          (parts_.touching.point_of(s, *largest, X) - facet::interpolate(largest->projection.weights, target))
+              .norm();
+    }
+    const double force = state.has_pressure() ? state.traction.pressure * state.own_area : 0.;
+    gaps.add(force, state.own_area, slide, parts_.slaves.facet_size(s), parts_.offsets.penetrations.now(s));
+  }
+  return gaps;
+}
+
 std::vector<RestlessNode> FacetMeasures::find_restless() const {
   std::vector<RestlessNode> restless;
   parts_.restless.visit([&](const std::size_t s, const unsigned int n_changes) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/rigid_contact_parts.h"
 
+#include "billet/contact/facing_gaps.h"
 #include "billet/contact/spring_energy.h"
 
 #include <deal.II/base/mpi.h>
@@ -15,9 +16,9 @@ namespace billet {
 using dealii::Tensor;
 
 RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_pair,
-                                     const Discretization &discretization)
-    : pair(of_pair), tool(scene.tools()[pair.tool]), communicator(discretization.communicator()),
-      has_inertia(scene.parameters().scheme().has_inertia),
+                                     const Discretization &of_discretization)
+    : pair(of_pair), tool(scene.tools()[pair.tool]), discretization(of_discretization),
+      communicator(discretization.communicator()), has_inertia(scene.parameters().scheme().has_inertia),
       is_explicit(!scene.parameters().scheme().has_matrix),
       slaves(pair, tool, discretization, scene.bodies()[pair.body].young_modulus,
              has_inertia && !is_explicit ? 0. : touching_gap),
@@ -34,15 +35,9 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
   for (unsigned int i = 0; i < 3; ++i)
     for (const double end : {box.low[i], box.high[i]})
       tool_size = std::max(tool_size, std::isfinite(end) ? std::abs(end) : 0.);
-  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
-    const auto projection = tool.surface().project(step.placement.to_tool(slaves.nodes[i].reference));
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i)
     states[i].position = slaves.nodes[i].reference;
-    states[i].gap = slaves.nodes[i].gap_n = projection.gap;
-    if (allows(projection)) {
-      slaves.nodes[i].initial_penetration = -projection.gap;
-      states[i].gap = slaves.nodes[i].gap_n = 0.;
-    }
-    slaves.nodes[i].patch = projection.patch;
+  for (const auto &projection : start_gaps()) {
     const double curvature = projection.turning.norm();
     if (curvature > 0.)
       tool_reach = std::max(tool_reach, std::min(1. / curvature, tool_size));
@@ -60,6 +55,41 @@ RigidContactParts::RigidContactParts(const Scene &scene, const ContactPair &of_p
   record_pressures();
   memory.set(slaves.nodes.size() * (sizeof(ContactPoint) + sizeof(ToolContactState)) +
              slaves.facets.size() * sizeof(ContactFacet));
+}
+
+std::vector<RigidSurface::Projection> RigidContactParts::start_gaps() {
+  std::vector<RigidSurface::Projection> projections;
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i) {
+    ContactPoint &node = slaves.nodes[i];
+    projections.push_back(tool.surface().project(step.placement.to_tool(states[i].position)));
+    node.patch = projections.back().patch;
+    node.initial_penetration = allows(projections.back()) ? -projections.back().gap : 0.;
+  }
+  if (changes_gaps(pair.overlap))
+    carry_gaps(projections);
+  for (std::size_t i = 0; i < slaves.nodes.size(); ++i)
+    states[i].gap = slaves.nodes[i].gap_n = projections[i].gap - step.gap_offset(slaves.nodes[i]);
+  return projections;
+}
+
+void RigidContactParts::carry_gaps(const std::vector<RigidSurface::Projection> &projections) {
+  const auto starts_in_contact = [&](const std::size_t i) {
+    return projections[i].exists && projections[i].gap <= pair.overlap.closed_gap;
+  };
+  FacingGaps facing;
+  for (std::size_t i = 0; i < projections.size(); ++i)
+    if (starts_in_contact(i))
+      facing.add(-projections[i].normal,
+                 pair.overlap.is_allowed ? projections[i].gap : std::max(projections[i].gap, 0.));
+  facing.reduce(communicator);
+  std::vector<Tensor<1, 3>> positions;
+  for (const auto &state : states)
+    positions.push_back(step.placement.to_tool(state.position));
+  const std::vector<Tensor<1, 3>> outward = slaves.sum_normals(positions, discretization);
+  for (std::size_t i = 0; i < projections.size(); ++i)
+    if (!starts_in_contact(i))
+      slaves.nodes[i].initial_penetration = facing.carried_penetration(
+          outward[i], projections[i].exists ? projections[i].gap : FacingGaps::unknown);
 }
 
 bool RigidContactParts::allows(const RigidSurface::Projection &projection) const {
@@ -124,17 +154,12 @@ void RigidContactParts::begin(const ContactStep &at, const std::vector<Tensor<1,
     const Tensor<1, 3> position = slaves.nodes[i].reference + slaves.at(i, [&](const std::size_t parent) {
       return displacements[parent];
     });
-    const auto projection = tool.surface().project(placement.to_tool(position));
     states[i] = ToolContactState();
     states[i].position = position;
-    slaves.nodes[i].multiplier_offset = slaves.nodes[i].multiplier_offset_n =
-        slaves.nodes[i].initial_penetration = 0.;
+    slaves.nodes[i].multiplier_offset = slaves.nodes[i].multiplier_offset_n = 0.;
     slaves.nodes[i].is_behind = false;
-    if (allows(projection))
-      slaves.nodes[i].initial_penetration = -projection.gap;
-    states[i].gap = slaves.nodes[i].gap_n = projection.gap - step.gap_offset(slaves.nodes[i]);
-    slaves.nodes[i].patch = projection.patch;
   }
+  start_gaps();
   start_friction();
   record_positions();
   record_pressures();

@@ -282,6 +282,28 @@ void SlaveSurface::divide(const std::array<unsigned int, 4> &corners,
   divided.push_back(whole);
 }
 
+std::vector<Tensor<1, 3>> SlaveSurface::sum_normals(const std::vector<Tensor<1, 3>> &positions,
+                                                    const Discretization &discretization) const {
+  std::vector<Tensor<1, 3>> normals(nodes.size());
+  for (const ContactFacet &facet : facets) {
+    const auto x = [&](const unsigned int a) { return positions[facet.nodes[a]]; };
+    const Tensor<1, 3> area = 0.5 * dealii::cross_product_3d(x(3) - x(0), x(2) - x(1));
+    for (const unsigned int node : facet.nodes)
+      normals[node] += area;
+  }
+  Vector sums = discretization.make_additive_vector();
+  for (std::size_t i = 0; i < n_mesh_nodes; ++i) {
+    const std::array<double, 3> values{normals[i][0], normals[i][1], normals[i][2]};
+    sums.add(3, nodes[i].dofs.data(), values.data());
+  }
+  sums.compress(dealii::VectorOperation::add);
+  Vector ghosted = discretization.make_ghosted_vector();
+  ghosted = sums;
+  for (std::size_t i = 0; i < n_mesh_nodes; ++i)
+    normals[i] = nodes[i].displacement_in(ghosted);
+  return normals;
+}
+
 void SlaveSurface::harden_springs(const double tool_thickness) {
   constexpr double hardening = 0.002; // part of the distance between points, or of the tool's thickness
   for (auto &node : nodes)

@@ -120,6 +120,26 @@ std::vector<ContactNodeReport> ToolMeasures::report() const {
   return reports;
 }
 
+StartGaps ToolMeasures::start_gaps() const {
+  StartGaps gaps;
+  const Placement &now = parts_.step.placement, at_start = parts_.tool.placement(0.);
+  const std::vector<ContactNodeReport> reports = report();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const ContactPoint &node = parts_.slaves.nodes[i];
+    const ToolContactState &state = parts_.states[i];
+    const Tensor<1, 3> way = now.to_tool(state.position) - at_start.to_tool(node.reference),
+                       normal = dealii::transpose(now.rotation) * state.normal;
+    gaps.add(reports[i].pressure * reports[i].area, reports[i].area, (way - (way * normal) * normal).norm(),
+             node.size, InitialOverlap::counted(node.initial_penetration, parts_.step.allowed_part));
+  }
+  for (std::size_t i = reports.size(); i < parts_.slaves.nodes.size(); ++i) { // points inside facets
+    const ContactPoint &point = parts_.slaves.nodes[i];
+    gaps.add(0., 0., 0., point.size,
+             InitialOverlap::counted(point.initial_penetration, parts_.step.allowed_part));
+  }
+  return gaps;
+}
+
 std::vector<ContactNodeReport> ToolMeasures::report_nodes() const {
   std::vector<ContactNodeReport> reports;
   for (std::size_t i = 0; i < parts_.slaves.n_mesh_nodes; ++i) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <sstream>
 
@@ -63,14 +64,23 @@ void Progress::find_loads() {
   }
   const std::vector<NamedSupport> supports = named_supports(scene_);
   const std::string support = "support ", plane = "symmetry plane ";
-  for (const std::string *kind : {&support, &plane}) {
-    if (kind == &plane && !loads_.empty()) // most symmetry planes balance what is shown already
-      break;
+  const auto find_of_kind = [&](const std::string &kind) {
+    std::map<std::string, unsigned int> n_of_name;
+    for (const Load &load : loads_)
+      ++n_of_name[load.name];
+    for (const NamedSupport &of_body : supports)
+      if (of_body.name.rfind(kind, 0) == 0)
+        ++n_of_name[of_body.name.substr(kind.size())];
     for (std::size_t i = 0; i < supports.size(); ++i)
-      if (supports[i].name.rfind(*kind, 0) == 0)
-        loads_.push_back({supports[i].name.substr(kind->size()),
+      if (supports[i].name.rfind(kind, 0) == 0) {
+        const std::string name = supports[i].name.substr(kind.size());
+        loads_.push_back({(n_of_name[name] > 1 ? scene_.bodies()[supports[i].body].name + "." : "") + name,
                           [i](const Solution &s) { return s.reactions().of_supports[i]; }});
-  }
+      }
+  };
+  find_of_kind(support);
+  if (loads_.empty()) // else most symmetry planes balance what is shown already
+    find_of_kind(plane);
 }
 
 ForceChoice::Load Progress::size_of(const Resultant &load) const {

@@ -310,6 +310,7 @@ void ExplicitRun::control_errors() {
 
 void ExplicitRun::end(RunOutput &output) {
   output.report(review_.finish());
+  output.report(problem_.finish());
   output.report(check_mass_scaling(problem_, review_));
   if (errors_) {
     ErrorReport report = make_report(*errors_, "Reduce 'Safety factor'");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/scene/boundary_names.h"
 
+#include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/mesh/loose_nodes.h"
 #include "billet/mesh/mesh_cursor.h"
 #include "billet/nearest_name.h"
 #include "billet/scene/mesh_builder.h"
@@ -16,6 +18,11 @@
 namespace billet {
 
 namespace {
+
+/// Names of a body's boundaries, and the nodes of sets that these leave out.
+struct KnownNames : GroupNames {
+  std::map<std::string, LooseNodes> loose;
+};
 
 void add_once(std::vector<unsigned int> &ids, const unsigned int id) {
   if (std::find(ids.begin(), ids.end(), id) == ids.end())
@@ -32,19 +39,21 @@ void add_once(std::vector<unsigned int> &ids, const unsigned int id) {
                    "' has several times, with different faces; allowed are " + list);
 }
 
+using NamedIds = std::pair<const std::string, std::vector<unsigned int>>;
+
 /// Returns the name of the body that a scene means, though in other letters: Abaqus does not tell upper case
 /// from lower case. Throws InputError if there is none.
-const std::vector<unsigned int> &find_ids(const std::string &name, const GroupNames &known,
-                                          const std::string &origin, const std::string &body) {
+const NamedIds &find_ids(const std::string &name, const GroupNames &known, const std::string &origin,
+                         const std::string &body) {
   const auto exact = known.ids_of_name.find(name);
-  const std::vector<unsigned int> *found = exact != known.ids_of_name.end() ? &exact->second : nullptr;
+  const NamedIds *found = exact != known.ids_of_name.end() ? &*exact : nullptr;
   std::vector<std::string> names;
   std::size_t n_similar = 0;
-  for (const auto &[other, ids] : known.ids_of_name) {
-    names.push_back(other);
-    if (exact == known.ids_of_name.end() && lower_case(other) == lower_case(name)) {
+  for (const NamedIds &named : known.ids_of_name) {
+    names.push_back(named.first);
+    if (exact == known.ids_of_name.end() && lower_case(named.first) == lower_case(name)) {
       ++n_similar;
-      found = &ids;
+      found = &named;
     }
   }
   if (const auto several = known.ambiguous.find(lower_case(name));
@@ -61,7 +70,7 @@ const std::vector<unsigned int> &find_ids(const std::string &name, const GroupNa
                                     : "allowed are ids, and the names of body '" + body + "': " + list) +
                      did_you_mean(name, names));
   }
-  if (found->empty())
+  if (found->second.empty())
     throw InputError(origin + " names boundary '" + name +
                      "', which has no whole face on the outside of body '" + body +
                      "'; allowed are groups of exterior faces. 'Nodes = set " + name +
@@ -69,11 +78,42 @@ const std::vector<unsigned int> &find_ids(const std::string &name, const GroupNa
   return *found;
 }
 
-void resolve(BoundaryIds &boundaries, const GroupNames &known, const std::string &body) {
+/// Adds a warning if a node set of this name has nodes that are on none of its faces.
+void warn_of_loose_nodes(const std::string &name, const KnownNames &known, const std::string &origin,
+                         const std::string &body, DiagnosticList &warnings) {
+  const auto found = known.loose.find(lower_case(name));
+  if (found == known.loose.end())
+    return;
+  constexpr std::size_t max_listed = 10;
+  const LooseNodes &loose = found->second;
+  const bool is_one = loose.numbers.size() == 1;
+  std::string list;
+  std::size_t n_listed = 0;
+  for (const long long number : loose.numbers)
+    if (n_listed++ < max_listed)
+      list += (list.empty() ? "" : ", ") + std::to_string(number);
+  warnings.push_back(
+      Diagnostic(diagnostic::nodes_on_no_face,
+                 std::to_string(loose.numbers.size()) + " of the " + std::to_string(loose.n_nodes) +
+                     " nodes of set '" + name + "' " + (is_one ? "is" : "are") +
+                     " on no face with all nodes in the set, and " + (is_one ? "is" : "are") + " left out: " +
+                     (is_one ? "node " : "nodes ") + list + (n_listed > max_listed ? ", ..." : ""))
+          .body(body)
+          .origin(origin)
+          .advice(
+              "'Nodes = set " + name +
+              "' of a support or a force takes all nodes of the set. Elsewhere complete its faces, or leave "
+              "these nodes out")
+          .value("nodes", static_cast<double>(loose.numbers.size())));
+}
+
+void resolve(BoundaryIds &boundaries, const KnownNames &known, const std::string &body,
+             DiagnosticList &warnings) {
   std::vector<unsigned int> ids;
   for (const unsigned int number : boundaries.value) {
     if (const auto several = known.ambiguous.find(std::to_string(number)); several != known.ambiguous.end())
       refuse_ambiguous(std::to_string(number), several->second, boundaries.origin, body);
+    warn_of_loose_nodes(std::to_string(number), known, boundaries.origin, body, warnings);
     const auto group = known.ids_of_number.find(number);
     if (group == known.ids_of_number.end())
       add_once(ids, number);
@@ -81,9 +121,12 @@ void resolve(BoundaryIds &boundaries, const GroupNames &known, const std::string
       for (const unsigned int id : group->second)
         add_once(ids, id);
   }
-  for (const std::string &name : boundaries.names)
-    for (const unsigned int id : find_ids(name, known, boundaries.origin, body))
+  for (const std::string &name : boundaries.names) {
+    const auto &[found, of_name] = find_ids(name, known, boundaries.origin, body);
+    warn_of_loose_nodes(found, known, boundaries.origin, body, warnings);
+    for (const unsigned int id : of_name)
       add_once(ids, id);
+  }
   boundaries.value = std::move(ids);
 }
 
@@ -106,13 +149,14 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
 /// gives. Adds what is to be said of the mesh file to the notes.
-GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
+KnownNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
   unsigned int new_id = min_new_id(mesh) + 1;
-  GroupNames names;
+  KnownNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
     const LoadedMesh loaded = load_mesh_file(mesh);
     notes.add(loaded, mesh, body);
-    names = loaded.groups.names();
+    static_cast<GroupNames &>(names) = loaded.groups.names();
+    names.loose = find_loose_nodes(loaded.mesh);
     new_id = loaded.groups.new_id();
     if (mesh.section.value != parameters::Mesh::Section::solid)
       new_id += 2; // both sides of the section
@@ -197,9 +241,10 @@ unsigned int min_new_id(const parameters::Mesh &mesh) {
 namespace {
 
 /// Resolves the boundaries of supports and loads. Returns the names of each body.
-std::vector<GroupNames> resolve_of_bodies(ResolvedScene &result) {
-  std::vector<GroupNames> known;
+std::vector<KnownNames> resolve_of_bodies(ResolvedScene &result) {
+  std::vector<KnownNames> known;
   MeshFileNotes notes;
+  DiagnosticList warnings;
   for (std::size_t b = 0; b < result.parameters.bodies.size(); ++b) {
     parameters::Body &body = result.parameters.bodies[b];
     known.emplace_back();
@@ -208,13 +253,14 @@ std::vector<GroupNames> resolve_of_bodies(ResolvedScene &result) {
     if (!result.has_meshes)
       continue;
     const auto resolve_of = [&](auto &of) {
-      if (!result.errors.note([&] { resolve(of.boundary_ids, known.back(), body.name); }))
+      if (!result.errors.note([&] { resolve(of.boundary_ids, known.back(), body.name, warnings); }))
         result.unsound_bodies.insert(b);
     };
     std::for_each(body.supports.begin(), body.supports.end(), resolve_of);
     std::for_each(body.loads.begin(), body.loads.end(), resolve_of);
   }
   append(result.parameters.warnings, notes.all());
+  append(result.parameters.warnings, warnings);
   return known;
 }
 
@@ -222,7 +268,7 @@ std::vector<GroupNames> resolve_of_bodies(ResolvedScene &result) {
 
 ResolvedScene resolve_boundaries(parameters::Scene scene) {
   ResolvedScene result{std::move(scene)};
-  const std::vector<GroupNames> known = resolve_of_bodies(result);
+  const std::vector<KnownNames> known = resolve_of_bodies(result);
   result.names.assign(known.begin(), known.end());
   if (!result.has_meshes)
     return result;
@@ -233,7 +279,7 @@ ResolvedScene resolve_boundaries(parameters::Scene scene) {
       if (boundaries.are_all)
         boundaries.value = exterior.of(body);
       else
-        resolve(boundaries, known[body], resolved.bodies[body].name);
+        resolve(boundaries, known[body], resolved.bodies[body].name, resolved.warnings);
     });
   };
   for (auto &pair : resolved.pairs) {
@@ -244,7 +290,7 @@ ResolvedScene resolve_boundaries(parameters::Scene scene) {
   for (auto &probe : resolved.probes) {
     const std::size_t body = resolved.body_index(probe);
     for (BoundaryIds *const ids : {&probe.boundary_ids, &probe.opposite_ids})
-      result.errors.note([&] { resolve(*ids, known[body], resolved.bodies[body].name); });
+      result.errors.note([&] { resolve(*ids, known[body], resolved.bodies[body].name, resolved.warnings); });
   }
   if (!result.errors.is_empty())
     return result;

@@ -13,13 +13,25 @@ namespace billet {
 using dealii::Tensor;
 
 UnbalancedBodies::UnbalancedBodies(const Scene &scene, const Discretization &discretization)
-    : scene_(scene), bodies_(scene.bodies().size()) {
-  constexpr double rounding = 1e-14;
-  const std::vector<double> volumes = measure_body_volumes(discretization);
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    round_off_.push_back(rounding * scene.bodies()[b].young_modulus * std::pow(volumes[b], 2. / 3.));
+    : scene_(scene), round_off_(find_round_off(scene, discretization)), bodies_(scene.bodies().size()) {
   for (const NamedSupport &support : named_supports(scene))
     bodies_of_supports_.push_back(support.body);
+}
+
+std::vector<double> UnbalancedBodies::find_round_off(const Scene &scene,
+                                                     const Discretization &discretization) {
+  constexpr double rounding = 1e-14;
+  const std::vector<double> volumes = measure_body_volumes(discretization);
+  std::vector<double> result;
+  for (std::size_t b = 0; b < volumes.size(); ++b)
+    result.push_back(rounding * scene.bodies()[b].young_modulus * std::pow(volumes[b], 2. / 3.));
+  return result;
+}
+
+double UnbalancedBodies::least_force(const double round_off, const double nodal,
+                                     const parameters::Solver &settings) {
+  constexpr double of_tolerance = 0.1;
+  return std::max(round_off, of_tolerance * settings.force_tolerance * nodal);
 }
 
 void UnbalancedBodies::add(const Solution &solution) {
@@ -53,7 +65,7 @@ void UnbalancedBodies::add(const Solution &solution) {
 }
 
 DiagnosticList UnbalancedBodies::judge() const {
-  constexpr double much = 0.02, of_tolerance = 0.1;
+  constexpr double much = 0.02, along = 0.999; // `along`: cosine of the angle to the axis of a circle
   const double tolerance = scene_.parameters().solver.force_tolerance;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -61,7 +73,7 @@ DiagnosticList UnbalancedBodies::judge() const {
     unsigned int axis = 3;
     for (unsigned int i = 0; i < 3; ++i) {
       const Course &course = bodies_[b].axes[i];
-      if (course.force > std::max(round_off_[b], of_tolerance * tolerance * bodies_[b].size) &&
+      if (course.force > least_force(round_off_[b], bodies_[b].size, scene_.parameters().solver) &&
           course.rest > worst * course.force) {
         worst = course.rest / course.force;
         axis = i;
@@ -72,11 +84,19 @@ DiagnosticList UnbalancedBodies::judge() const {
     const Course &course = bodies_[b].axes[axis];
     std::ostringstream text, advice;
     text.precision(3);
-    text << "The accepted residuals leave up to " << course.rest << " along "
+    const WholeSection &whole = scene_.whole_section();
+    const bool is_circle = whole.kind == WholeSection::Kind::full_circle,
+               is_across = is_circle && !(std::abs(whole.axis[axis]) > along);
+    const double factor = is_across ? 1. : whole.factor;
+    text << "The accepted residuals leave up to " << factor * course.rest << " along "
          << "xyz"[axis] << " out of balance, " << 100. * worst
          << " % of the largest force of a tool, pair or support along "
-         << "xyz"[axis] << ", " << course.force << ", which is small beside all nodal forces, "
-         << bodies_[b].size << ": these forces are off by as much";
+         << "xyz"[axis] << ", " << factor * course.force << ", which is small beside all nodal forces, "
+         << factor * bodies_[b].size << ": these forces are off by as much";
+    if (is_circle)
+      text << (is_across ? " (forces of the wedge)" : " (forces of the full circle)");
+    else if (whole.kind == WholeSection::Kind::per_width)
+      text << " (forces per unit of width)";
     advice.precision(1);
     constexpr double aim = 0.01;
     advice << "Set 'Force tolerance' to " << tolerance * aim / worst << " or less";

@@ -4,19 +4,21 @@
 
 Runs in an empty current folder; LAUNCHER is mpirun with its option -n.
 
-Bodies that fit each other. bolt.prm, drawn with play that 'Initial gap' closes, has the forces of the scene
-without play. pin.prm, a pin in a lug whose facets miss each other, has the force of a fine mesh with 'Surface
-correction', and a warning without; --check warns of the same as the run.
+Bodies that fit each other. slider.prm, drawn with a gap or an overlap that counts as none, has the force
+of faces in contact wherever it slides. bolt.prm, drawn with play that 'Initial gap' closes, has the
+forces of the scene without play. pin.prm, a pin in a lug whose facets miss each other, has the force of a
+fine mesh with 'Surface correction', and a warning without; --check warns of the same as the run.
 """
 
 from __future__ import annotations
 
 import re
 import sys
+from pathlib import Path
 
 from checks import HERE, Checks, Program, Run, Runner, enter_folder, near, read_text, require, says
 
-BOLT, PIN = (read_text(HERE / f"{name}.prm") for name in ("bolt", "pin"))
+BOLT, PIN, SLIDER = (read_text(HERE / f"{name}.prm") for name in ("bolt", "pin", "slider"))
 runner = Runner(Program(sys.argv[1:]))
 check = Checks()
 enter_folder()
@@ -54,6 +56,70 @@ for facets in ("overlap", "bilinear", "planed"):
 def _() -> None:
     force = billet(BOLT, f"{CLOSED} & Motion: Translation = 0 ; 0 ; 0").last("press.force_z")
     require(abs(force) < 1e-9, f"the force is {force}")
+
+
+# --- gaps and overlaps on the way of a slider ------------------------------------------------------
+
+UP, DOWN = (
+    f"slider / Mesh: Arguments = 6, 3 : 1, {low} : 4, {low + 3} : true & slide: {change}"
+    for low, change in (
+        (2.01, "+ set Initial gap = close within 0.02"),
+        (1.98, "+ set Initial penetration = shift"),
+    )
+)
+TOOL = (
+    "slider: delete & slide: - Second body & slide: - Second boundary ids & slide: Tool = shoe"
+    " & + subsection Tools\nsubsection shoe\nsubsection Surfaces\nsubsection face\nset Shape = rectangle"
+    "\nset Centre = 2.5, 2, 0.5\nset Direction = 1, 0, 0\nset Normal = 0, -1, 0\nset Length = 3"
+    "\nset Width = 2\nend\nend\nsubsection Motion"
+    "\nset Translation = 3*max(0, t - 1) ; -0.03*min(1, t) ; 0\nend\nend\nend"
+)
+UP_TOOL = f"{TOOL} & face: Centre = 2.5, 2.01, 0.5 & slide: + set Initial gap = close within 0.02"
+DOWN_TOOL = f"{TOOL} & face: Centre = 2.5, 1.98, 0.5 & slide: + set Initial penetration = shift"
+for name, drawn, changed in (
+    ("slider", "", (UP, DOWN)),
+    ("slider, nodes and facets", "slide: + set Facets = bilinear", (UP, DOWN)),
+    ("tool", TOOL, (UP_TOOL, DOWN_TOOL)),
+):
+    touching = billet(SLIDER, drawn).last("base.support foot.force_y")
+    for edits, what, ranks in ((changed[0], "gap", 1), (changed[0], "gap", 2), (changed[1], "overlap", 1)):
+        both = edits if name != "slider, nodes and facets" else f"{drawn} & {edits}"
+
+        @check(f"{name} on a base, {what} on {ranks} ranks: the force after a slide")
+        def _() -> None:
+            ran = billet(SLIDER, both, ranks)
+            near("the force", ran.last("base.support foot.force_y"), touching, 0.01)
+            require("uneven-start-gaps" not in ran.said, "uneven gaps")
+
+
+@check("the gaps at the start hold after a restart")
+def _() -> None:
+    stopped = f"{UP} & Output: + subsection Checkpoint\nset Step interval = 5\nend"
+    whole = billet(SLIDER, stopped)
+    first = sorted(Path(whole.folder).glob("checkpoint_*.h5"))[0]
+    resumed = billet(SLIDER, UP, 1, "--restart", str(first))
+    near(
+        "the force", resumed.last("base.support foot.force_y"), whole.last("base.support foot.force_y"), 1e-6
+    )
+
+
+@check("the console tells supports of one name apart")
+def _() -> None:
+    ran = billet(SLIDER.replace("subsection top", "subsection foot"), "Time stepping: End time = 0.1")
+    says(r"^ +step .* \|F\| base\.foot +\|F\| slider\.foot", ran.said)
+    says(r"^ +step .* \|F\| foot +\|F\| top", billet(SLIDER, "Time stepping: End time = 0.1").said)
+
+
+UNEVEN = "slider / Mesh: Positions = x ; y + 0.006*(y < 2.1)*(1 + cos(2*pi*x)) ; z"
+
+
+@check("uneven gaps are warned of after a slide")
+def _() -> None:
+    says(
+        r"^warning\[uneven-start-gaps\]: .* the partner has slid by", billet(SLIDER, f"{UP} & {UNEVEN}").said
+    )
+    still = billet(SLIDER, f"{UP} & {UNEVEN} & Time stepping: End time = 1")
+    require("uneven-start-gaps" not in still.said, "warns without a slide")
 
 
 # --- curved faces of one radius -------------------------------------------------------------------

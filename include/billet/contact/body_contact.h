@@ -4,6 +4,7 @@
 
 #include "billet/contact/body_contact_parts.h"
 #include "billet/contact/contact_interface.h"
+#include "billet/contact/start_gaps.h"
 
 #include <memory>
 
@@ -40,6 +41,9 @@ public:
   /// Records the initial penetration if the scene allows it, after update(). Closes initial gaps if the scene
   /// requests it. Collective.
   void allow_overlap() { parts_.allow_overlap(); }
+
+  /// Returns what is to be judged of the gaps at the start. Collective.
+  StartGaps start_gaps() const;
 
   void save(StateWriter &writer, const NodeKeys &keys) const override;
   void load(const StateReader &reader, const NodeKeys &keys) override;

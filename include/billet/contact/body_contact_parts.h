@@ -33,6 +33,9 @@ struct BodyContactParts {
   /// Records the initial penetration if the scene allows it, after evaluate(). Closes initial gaps if the
   /// scene requests it. Collective.
   void allow_overlap();
+
+private:
+  void allow_penetrations();
 };
 
 /// Returns which surfaces a pair searches for the facets that its nodes touch.

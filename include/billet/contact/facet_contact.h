@@ -13,6 +13,7 @@
 #include "billet/state.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -80,6 +81,9 @@ public:
   /// penetration, which another call after another add_forces() allows. Returns the maximum new penetration
   /// on this rank [facet sizes].
   double allow_initial_penetrations();
+  /// After these two: carries what they have found to the nodes that had no partner at the start, (C15). A
+  /// surface in contact with itself has no such nodes. Collective.
+  void carry_initial_gaps(const Positions &positions);
   /// Sets the allowed part at the start and the end of the step.
   void set_allowed_part(const double at_start, const double at_end) {
     parts_.offsets.penetrations.set_allowed_part(at_start, at_end);
@@ -95,9 +99,14 @@ public:
 private:
   void update_surfaces(const Positions &positions_n, const Positions &positions);
   void count_changes();
+  void record_start(std::size_t s);
+  /// Returns the gaps of all slaves at the start, less `lowered` [length]. Collective.
+  std::vector<double> measure_gaps(const Positions &positions, double lowered);
   std::vector<std::uint64_t> slave_keys() const;
 
   FacetContactParts parts_;
+  /// Directions to the partner, of the slaves that start in contact; empty unless initial gaps are changed.
+  std::vector<std::optional<dealii::Tensor<1, 3>>> start_directions_;
   std::unique_ptr<SlaveEvaluation> evaluation_;
   std::unique_ptr<SlaveTangents> tangents_;
   FacetCouplings couplings_;

@@ -6,6 +6,7 @@
 #include "billet/contact/facet_contact_parts.h"
 #include "billet/contact/friction_use.h"
 #include "billet/contact/restless_report.h"
+#include "billet/contact/start_gaps.h"
 #include "billet/contact/status_changes.h"
 #include "billet/contact/supporting_point.h"
 
@@ -44,6 +45,9 @@ public:
   };
   /// Reports each of this rank's nodes.
   std::vector<NodeReport> report() const;
+  /// Returns what is to be judged of the gaps at the start, by the undeformed positions of this rank's nodes.
+  /// Collective.
+  StartGaps start_gaps(const ContactSurfaces::Positions &undeformed) const;
 
   /// Returns the nodes that have exceeded the maximum number of changes of facet or status since restart().
   std::vector<RestlessNode> find_restless() const;

@@ -33,6 +33,7 @@ struct RigidContactParts {
 
   const ContactPair &pair;
   const Tool &tool;
+  const Discretization &discretization;
   const MPI_Comm communicator;
   const bool has_inertia;
   const bool is_explicit; ///< works are those of the trapezoidal rule
@@ -83,8 +84,13 @@ private:
   void keep_gaps();
   /// Takes from a node that is open the depth that it does not need any more.
   void leave_depth(std::size_t i);
+  /// Sets the gaps of nodes at their positions, and those that the pair changes at the start. Returns the
+  /// projections of the nodes. Collective.
+  std::vector<RigidSurface::Projection> start_gaps();
   /// Whether an initial gap counts as closed, or an initial penetration as allowed.
   bool allows(const RigidSurface::Projection &projection) const;
+  /// Carries changed initial gaps to the nodes that had no partner at the start, (C15). Collective.
+  void carry_gaps(const std::vector<RigidSurface::Projection> &projections);
   /// Starts the histories of friction at the current positions.
   void start_friction();
   /// Stores the positions of nodes that might pass through a thin tool, for the next step.

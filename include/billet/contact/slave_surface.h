@@ -92,6 +92,10 @@ struct SlaveSurface {
   double max_stiffening = std::numeric_limits<double>::infinity(),
          max_tangential_stiffening = std::numeric_limits<double>::infinity();
 
+  /// Returns the sums of the area vectors of facets around each node or point, at these positions [length²].
+  /// Collective.
+  std::vector<dealii::Tensor<1, 3>> sum_normals(const std::vector<dealii::Tensor<1, 3>> &positions,
+                                                const Discretization &discretization) const;
   /// Makes springs at divided facets harden with penetration (T11), for a tool of this thickness [length].
   void harden_springs(double tool_thickness);
   /// Calls add(node of the mesh, weight) for the parents of a node or point.

@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_TOOL_MEASURES_H
 
 #include "billet/contact/contact_measures.h"
+#include "billet/contact/start_gaps.h"
 #include "billet/contact/tool_works.h"
 
 namespace billet {
@@ -34,6 +35,8 @@ public:
   /// Adds the resistances; none if the tool is removed.
   void add_resistances(std::size_t body, std::vector<Resistance> &resistances) const override;
   void visit_supporting(const VisitSupporting &visit) const override;
+  /// Returns what is to be judged of the gaps at the start.
+  StartGaps start_gaps() const;
   /// Whether a node of this rank touches the tool.
   bool has_touching_nodes() const;
 

@@ -26,6 +26,11 @@ public:
   /// does the round-off of Young's modulus times the body's size squared.
   DiagnosticList judge() const;
 
+  /// Returns the round-off of Young's modulus times the size squared, of each body [force]. Collective.
+  static std::vector<double> find_round_off(const Scene &scene, const Discretization &discretization);
+  /// Returns the force up to which one does not count, as judge() says; `nodal`: see BodyBalance.
+  static double least_force(double round_off, double nodal, const parameters::Solver &settings);
+
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 

@@ -14,7 +14,7 @@ const std::string &name_of_scheme() {
 
 ExplicitDynamics::ExplicitDynamics(const Scene &scene, const Discretization &discretization)
     : parts_(scene, discretization), ledger_(parts_), stable_step_(parts_.settings().safety_factor),
-      crossing_limit_(parts_), penalties_(parts_), reactions_(parts_) {
+      start_gaps_(scene), crossing_limit_(parts_), penalties_(parts_), reactions_(parts_) {
   state_.body_pair_loads.resize(parts_.contacts.of_bodies().size());
   state_.tool_loads.resize(parts_.tools.size());
   state_.placements.resize(parts_.tools.size());
@@ -90,6 +90,7 @@ void ExplicitDynamics::finish_step() {
 void ExplicitDynamics::update_ledger() {
   ledger_.update(state_);
   reactions_.update();
+  start_gaps_.add(parts_.contacts, time(), parts_.communicator());
 }
 
 void ExplicitDynamics::update_state() {
@@ -123,6 +124,7 @@ void ExplicitDynamics::save(StateWriter &writer) const {
   ledger_.save(writer, state_.energies);
   parts_.forces.of_loads().save(writer);
   penalties_.save(writer);
+  start_gaps_.save(writer);
   parts_.elements.save(writer);
   parts_.tools.save(writer, rows, parts_.forces.loaded_nodes());
   for (const auto &contact : parts_.contacts)
@@ -161,6 +163,7 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
     parts_.forces.of_loads().load(reader);
   if (is_exact)
     penalties_.load(reader);
+  start_gaps_.load(reader);
   report.time = time();
   return report;
 }

@@ -8,13 +8,27 @@
 namespace billet {
 
 NewtonReport EquilibriumSolver::iterate(std::vector<double> &offsets, Vector &displacements) {
-  const Vector x_n = problem_.unknowns();
-  Vector x = parts_.tools().pack(displacements, offsets);
   parameters::Solver settings = parts_.parameters().solver;
   if (is_probing_)
     settings.max_iterations = std::min(settings.max_iterations, max_iterations_of_probe);
-  NewtonReport report = solve_newton(problem_, settings, x_n, x, accepts_stalled_,
-                                     accuracy_ * parts_.scheme().wanted_accuracy());
+  return solve(settings, accepts_stalled_, accuracy_, offsets, displacements);
+}
+
+NewtonReport EquilibriumSolver::refine(const double factor, std::vector<double> &offsets,
+                                       Vector &displacements) {
+  parameters::Solver settings = parts_.parameters().solver;
+  settings.max_iterations = std::min(settings.max_iterations, max_iterations_of_refinement);
+  constexpr bool accepts_stalled = false;
+  return solve(settings, accepts_stalled, factor * accuracy_, offsets, displacements);
+}
+
+NewtonReport EquilibriumSolver::solve(const parameters::Solver &settings, const bool accepts_stalled,
+                                      const double accuracy, std::vector<double> &offsets,
+                                      Vector &displacements) {
+  const Vector x_n = problem_.unknowns();
+  Vector x = parts_.tools().pack(displacements, offsets);
+  NewtonReport report =
+      solve_newton(problem_, settings, x_n, x, accepts_stalled, accuracy * parts_.scheme().wanted_accuracy());
   if (!parts_.tools().failure().empty() && !report.converged)
     report.failure = parts_.tools().failure();
   else if (!problem_.obstacle().empty() && !report.converged && report.failure.empty())

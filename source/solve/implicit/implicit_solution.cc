@@ -23,10 +23,11 @@ ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &dis
     : problem_(scene, discretization), solver_(problem_), measurement_(problem_),
       augmentation_(problem_, solver_, measurement_), continuation_(problem_, solver_), paths_(problem_),
       round_off_(problem_), books_(problem_), diagnosis_(problem_),
-      rules_(make_step_rules(problem_, paths_, books_)),
-      attempt_({problem_, solver_, measurement_, augmentation_, continuation_, paths_, round_off_, *rules_}),
+      rules_(make_step_rules(problem_, paths_, books_)), resultants_(problem_),
+      attempt_({problem_, solver_, measurement_, augmentation_, continuation_, paths_, round_off_, *rules_,
+                resultants_}),
       checkpoint_(problem_), reactions_(problem_),
-      accepted_({problem_, *rules_, books_, diagnosis_, reactions_}) {
+      accepted_({problem_, *rules_, books_, diagnosis_, reactions_}), start_gaps_(scene) {
   if (scene.parameters().restart.is_wanted()) // load() does the rest
     return;
   ContactSet &contacts = parts_.contacts();
@@ -72,6 +73,7 @@ DiagnosticList ImplicitSolution::finish() const {
   append(messages, rules_->balance().finish());
   append(messages, round_off_.finish());
   append(messages, augmentation_.finish());
+  append(messages, start_gaps_.judge());
   return messages;
 }
 
@@ -203,6 +205,8 @@ void ImplicitSolution::commit(const double t, NewtonReport &report) {
   penetration_ = parts_.contacts().find_penetration();
   append(report.diagnostics, paths_.check_motion(t));
   augmentation_.commit();
+  resultants_.commit();
+  start_gaps_.add(parts_.contacts(), t, parts_.communicator());
   continuation_.forbid_low();
   rules_->predictor().commit();
   ForceScales &scales = problem_.scales();

@@ -51,6 +51,8 @@ void ImplicitSolution::save(StateWriter &writer) const {
   books_.save(writer);
   augmentation_.save(writer);
   round_off_.save(writer);
+  resultants_.save(writer);
+  start_gaps_.save(writer);
   if (!parts_.tangent().is_kind_of_scene())
     writer.write("exact tangent", {1.});
   rules.predictor().save(writer, nodes);
@@ -113,6 +115,8 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
   load_nodal(reader, "contact forces", nodes, step.start.contact);
   load_nodal(reader, "internal forces", nodes, step.start.internal);
   round_off_.load(reader);
+  resultants_.load(reader);
+  start_gaps_.load(reader);
   books_.load(reader);
   rules_->load(reader, is_exact);
   if (is_exact)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/step_attempt.h"
 
+#include <algorithm>
+
 namespace billet {
 
 void StepAttempt::begin(const double t) {
@@ -121,8 +123,12 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   Vector accepted = parts.tools().pack(x.displacements, x.offsets);
   Vector residual(accepted);
   problem.compute_residual(accepted, residual);
-  if (!p_.measurement.is_wanted() || p_.solver.is_probing())
+  if (p_.solver.is_probing())
     return;
+  balance(x, report);
+  if (!p_.measurement.is_wanted())
+    return;
+  accepted = parts.tools().pack(x.displacements, x.offsets);
   p_.measurement.measure(accepted, p_.solver.accuracy(), report);
   problem.compute_residual(accepted, residual);
   const double allowed = p_.measurement.find_allowed();
@@ -132,6 +138,31 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   p_.augmentation.augment(report, x.offsets, x.displacements);
   accepted = parts.tools().pack(x.displacements, x.offsets);
   problem.compute_residual(accepted, residual);
+}
+
+void StepAttempt::balance(Unknowns &x, NewtonReport &report) {
+  constexpr unsigned int max_refinements = 2;
+  constexpr double aim = 0.5, min_factor = 1e-3;
+  double part = p_.resultants.find_part();
+  if (!p_.resultants.is_hopeful() || report.is_stalled || report.is_lost_in_round_off)
+    return;
+  for (unsigned int n = 0; n < max_refinements && part > ResultantGuard::allowed; ++n) {
+    const Unknowns before = x;
+    const NewtonReport refined = p_.solver.refine(std::max(min_factor, aim * ResultantGuard::allowed / part),
+                                                  x.offsets, x.displacements);
+    if (refined.converged)
+      report.append(refined);
+    else {
+      x = before;
+      report.iterations.insert(report.iterations.end(), refined.iterations.begin(), refined.iterations.end());
+    }
+    Vector state = p_.problem.parts().tools().pack(x.displacements, x.offsets), residual(state);
+    p_.problem.compute_residual(state, residual);
+    part = p_.resultants.find_part();
+    if (!refined.converged)
+      break;
+  }
+  p_.resultants.note(part <= ResultantGuard::allowed);
 }
 
 std::optional<StepFailure> StepAttempt::judge(const double t, NewtonReport &report) {

@@ -7,6 +7,7 @@
 #include "billet/solve/explicit/explicit_ledger.h"
 #include "billet/solve/explicit/explicit_penalties.h"
 #include "billet/solve/explicit/explicit_reactions.h"
+#include "billet/solve/start_gap_watch.h"
 
 #include <algorithm>
 #include <vector>
@@ -63,6 +64,8 @@ public:
   /// Returns messages about causes of much shorter steps, contact or flat elements, each once, after
   /// prepare_step(). Collective.
   DiagnosticList check_steps() const;
+  /// Returns messages at the end of the run, about pairs that close initial gaps.
+  DiagnosticList finish() const { return start_gaps_.judge(); }
   /// Whether check_penalties() has ever found a penalty too low.
   bool has_low_penalties() const { return penalties_.has_low_penalties(); }
   /// Returns the part of the largest energy so far by which the energies of the last update fail to balance;
@@ -108,6 +111,7 @@ private:
   ExplicitParts parts_;
   ExplicitLedger ledger_;
   StableStep stable_step_;
+  StartGapWatch start_gaps_;
   CrossingLimit crossing_limit_;
   ExplicitPenalties penalties_;
   SolutionState state_;

@@ -17,6 +17,10 @@ public:
   /// Iterates from these displacements and offsets of the tools, and overwrites them. Collective.
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
 
+  /// Continues from a solution with tolerances that are smaller by this factor, in a limited number of
+  /// iterations. Collective.
+  NewtonReport refine(double factor, std::vector<double> &offsets, Vector &displacements);
+
   /// Returns the factor of the tolerances of residuals and their work; in (0, 1].
   double accuracy() const { return accuracy_; }
   void set_accuracy(const double factor) { accuracy_ = factor; }
@@ -30,6 +34,11 @@ public:
 private:
   /// Maximum number of iterations of a probe, which limits its cost.
   static constexpr unsigned int max_iterations_of_probe = 8;
+  /// Maximum number of iterations of refine().
+  static constexpr unsigned int max_iterations_of_refinement = 10;
+
+  NewtonReport solve(const parameters::Solver &settings, bool accepts_stalled, double accuracy,
+                     std::vector<double> &offsets, Vector &displacements);
 
   ImplicitProblem &problem_;
   ImplicitParts &parts_ = problem_.parts();

@@ -4,6 +4,7 @@
 
 #include "billet/solve/implicit/augmentation.h"
 #include "billet/solve/implicit/penalty_continuation.h"
+#include "billet/solve/implicit/resultant_guard.h"
 #include "billet/solve/implicit/round_off_guard.h"
 #include "billet/solve/implicit/step_rules.h"
 
@@ -25,6 +26,7 @@ public:
     PathGuard &paths;
     const RoundOffGuard &round_off;
     StepRules &rules;
+    ResultantGuard &resultants;
   };
   explicit StepAttempt(const Parts &parts) : p_(parts) {}
 
@@ -50,6 +52,9 @@ private:
   bool find_guess(double t, double previous_step, NewtonIteration &linear_step, NewtonReport &report);
   /// Moves a tool that has gone too far back to where it exerts its stop force.
   void stop_tools(double t, Unknowns &x, NewtonReport &report);
+  /// Iterates further if the state leaves forces of supports or contact pairs out of balance. Keeps the state
+  /// if that fails.
+  void balance(Unknowns &x, NewtonReport &report);
   /// Evaluates the accepted state, and measures its penetration on request.
   void evaluate(Unknowns &x, NewtonReport &report);
   /// Returns a failure if the converged state is not acceptable.
