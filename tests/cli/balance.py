@@ -3,8 +3,9 @@
 """Usage: balance.py BILLET
 
 Begins every scene of prm/ in an empty current folder, and stops it some processor time after tools, supports
-or pairs have begun to bear forces. In each line of its history the sum of reactions, contact, loads and
-inertia is that of the residuals. contact_scenes.py, loaded_scenes.py and rubber_scenes.py check all lines of
+or pairs have begun to bear forces. In each line of its history the sum of reactions, contact, loads and inertia
+is that of the residuals. Runs switched.prm to its end in every scheme: there the columns of
+supports, tools, loads and inertia have this sum while forces fade. contact_scenes.py, loaded_scenes.py and rubber_scenes.py check all lines of
 variants that run to their ends. Scenes, and the files that they include, must be short.
 """
 
@@ -12,13 +13,27 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 
-from checks import SHIPPED, Checks, enter_folder, require, rows_of
-from shipped import require_short
+from checks import (
+    HERE,
+    SHIPPED,
+    Checks,
+    enter_folder,
+    equal,
+    near,
+    read_text,
+    require,
+    rows_of,
+    run,
+    write_text,
+)
+from edits import edit
+from shipped import history, require_short
 
 N_LINES = 2  # with forces, at least
 EXTRA = 0.25  # processor time after these lines [s]
@@ -88,6 +103,69 @@ for scene in sorted(SHIPPED.glob("*.prm")):
             defect = line["force_balance_defect"]
             require(abs(defect) <= LIMIT, f"defect {defect} at time {line['time']}")
         n_checked.append(len(lines))
+
+
+SCHEMES = {
+    "static": "",
+    "newmark": "Time stepping: Scheme = implicit dynamics"
+    " & + subsection Implicit dynamics\nset Method = Newmark\nend",
+    "generalised": "Time stepping: Scheme = implicit dynamics",
+    "explicit": "Time stepping: Scheme = explicit & Time stepping: - Maximum step & Output: History interval = 0.01",
+}
+PARTS = re.compile(r"(?P<name>beam\.support \w+|beam\.load [\w ]+|ball)\.force_|inertia_|auxiliary_force_")
+
+
+def require_columns_balance(line: dict[str, float]) -> None:
+    """Checks the sums of the columns of forces along each axis, and of the pair of the tool."""
+    for axis in "xyz":
+        forces = [value for name, value in line.items() if PARTS.match(name) and name.endswith("_" + axis)]
+        defect = sum(forces) - line["free_residual_" + axis]
+        size = sum(map(abs, forces))
+        require(abs(defect) <= LIMIT * size, f"{defect} of {size} along {axis} at time {line['time']}")
+        of_pairs = [
+            value
+            for name, value in line.items()
+            if name.startswith("pair ") and name.endswith(f".force_{axis}")
+        ]
+        of_tool = line[f"ball.force_{axis}"]
+        require(abs(sum(of_pairs) - of_tool) <= LIMIT * size, f"the pairs have {of_pairs} of {of_tool}")
+
+
+def at(lines: list[dict[str, float]], time: float) -> dict[str, float]:
+    """Returns the line at this time."""
+    found = [line for line in lines if abs(line["time"] - time) < 1e-6]
+    require(len(found) == 1, f"{len(found)} lines at time {time}")
+    return found[0]
+
+
+for name, edits in SCHEMES.items():
+
+    @check(f"switched.prm, {name}: the columns of forces balance while forces fade")
+    def _() -> None:
+        write_text(
+            f"{name}.prm",
+            edit(read_text(HERE / "switched.prm"), edits).text if edits else read_text(HERE / "switched.prm"),
+        )
+        ended = run(program, "--quiet", "--output", name, f"{name}.prm")
+        equal("exit code", ended.code, 0)
+        lines = history(name)
+        for line in lines:
+            require_columns_balance(line)
+            require(abs(line["force_balance_defect"]) <= LIMIT, f"defect at time {line['time']}")
+            if name == "static":  # nothing is stabilised
+                require(
+                    abs(line["auxiliary_force_z"]) <= LIMIT * abs(line["beam.support root.force_z"]),
+                    "auxiliary force",
+                )
+        require(sum(0.4 < line["time"] < 0.6 for line in lines) > 2, "few lines while the support fades")
+        require(sum(0.9 < line["time"] < 1.0 for line in lines) > 0, "no line while the tool fades")
+        if name != "explicit":  # whose steps do not end at these times
+            force = "beam.support tip.force_z"
+            near("half of the support's force", at(lines, 0.5)[force], 0.5 * at(lines, 0.4)[force], 1e-9)
+            equal("its force in the end", at(lines, 0.6)[force], 0.0)
+            fading = next(line for line in lines if line["time"] > 0.9 + 1e-6)
+            left = (1.0 - fading["time"]) / 0.1
+            near("the tool's force", fading["ball.force_z"], left * at(lines, 0.9)["ball.force_z"], 1e-9)
 
 
 print(f"{sum(n_checked)} lines of {len(n_checked)} scenes balance")

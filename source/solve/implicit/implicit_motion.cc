@@ -83,7 +83,6 @@ Vector ImplicitMotion::driving_forces(const Vector &forces) const {
 void ImplicitMotion::set_accelerations(const Vector &accelerations) {
   start_.acceleration = accelerations;
   start_.acceleration += held_.at_start().acceleration;
-  loads_.start();
 }
 
 void ImplicitMotion::start_step(const double t_n, const double t, const Vector &displacements,
@@ -140,6 +139,10 @@ double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
   if (integrator_.forces_before() != 0.)
     residual.add(integrator_.forces_before(), damping_.start_forces());
   return inertia.l2_norm();
+}
+
+void ImplicitMotion::add_end_inertia(Vector &residual) const {
+  residual += mass_.times(step_.length > 0. ? end_accelerations() : start_.acceleration);
 }
 
 void ImplicitMotion::add_tangent(const double t, const TangentSystem &system) const {

@@ -203,7 +203,10 @@ void DynamicRules::close_step(const double t) {
     switch_supports(t, motion_.inertia());
     problem_.state().energies.external += motion_.follow_supports(t);
   }
-  if (forces_jump || supports_change)
+  const bool loads_jump = motion_.loads_jump_at(t);
+  if (loads_jump || supports_change) // caught nodes change the forces of dashpots
+    motion_.follow_loads(t, problem_.step().start.supports);
+  if (forces_jump || supports_change || loads_jump)
     initial_.accelerate();
   motion_.update_state(problem_.state());
   balance_.update_largest_energy();
