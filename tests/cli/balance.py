@@ -126,7 +126,7 @@ FORCES = re.compile(
 def require_columns_balance(line: dict[str, float]) -> None:
     """Checks the sums of the columns of forces along each axis, and of the pair of the tool."""
     forces = {name: value for name, value in line.items() if FORCES.fullmatch(name)}
-    size = sum(map(abs, forces.values()))
+    size = sum(abs(value) for value in forces.values())
     for axis in "xyz":
         along = sum(value for name, value in forces.items() if name.endswith("_" + axis))
         defect = along - line["free_residual_" + axis]

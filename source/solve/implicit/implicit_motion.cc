@@ -141,6 +141,13 @@ double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
   return inertia.l2_norm();
 }
 
+bool ImplicitMotion::follow_loads(const double t, const bool velocities_jump, Vector &forces) {
+  if (!velocities_jump && !loads_.jump_at(t))
+    return false;
+  forces -= loads_.start_after(t, start_.velocity);
+  return true;
+}
+
 void ImplicitMotion::add_end_inertia(Vector &residual) const {
   residual += mass_.times(step_.length > 0. ? end_accelerations() : start_.acceleration);
 }

@@ -76,10 +76,10 @@ Vector LoadForces::start_after(const double t, const Vector &velocities) {
   NodalVectors sum = nodes_.make_vectors();
   fail_together(discretization_.communicator(),
                 [&] { loads_->works.evaluate_after(t, displaced_, rates_, sum); });
+  change -= forces_;
   forces_ = sum_of(sum);
-  change = forces_;
-  change -= forces_n_;
   forces_n_ = forces_;
+  change += forces_;
   return change;
 }
 

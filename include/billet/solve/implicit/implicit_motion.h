@@ -63,18 +63,12 @@ public:
   /// without an 'Error tolerance'.
   double step_error(const Vector &displacements) const;
 
-  /// Makes the forces of the last add_loads() those at the start of the step.
-  void start_loads() override { loads_.start(); }
-  /// Whether the force of a load jumps at t, the end of a step.
-  bool loads_jump_at(const double t) const { return loads_.jump_at(t); }
-  /// Begins the next step with the loads that act after t, at its velocities; `forces`, the sum of all forces
-  /// with the sign of the residual, changes with them. The accelerations have to be computed anew.
-  /// Collective.
-  void follow_loads(const double t, Vector &forces) { forces -= loads_.start_after(t, start_.velocity); }
+  /// Begins the next step with the loads that act after t, if loads jump there or if velocities do. Then
+  /// `forces`, the sum of all forces with the sign of the residual, changes with them, the accelerations have
+  /// to be computed anew, and it returns true. Collective.
+  bool follow_loads(double t, bool velocities_jump, Vector &forces);
   void add_end_inertia(Vector &residual) const override;
 
-  /// Returns the forces of inertia at the start of the step, with the sign of the residual.
-  Vector inertia() const { return mass_.times(start_.acceleration); }
   /// Follows supports that have begun or ended at t: nodes of new ones take their velocities at once. Returns
   /// the work that this does. The accelerations have to be computed anew. Collective.
   double follow_supports(double t);

@@ -31,8 +31,8 @@ public:
   void start();
   /// Whether the force of a load jumps at t, the end of a step.
   bool jump_at(const double t) const { return loads_ != nullptr && loads_->works.jumps_at(t); }
-  /// Begins the next step with the loads that act after t, at these velocities. Returns the change of their
-  /// forces. Collective.
+  /// Begins the next step with the loads that act after t, at the displacements of the last subtract() and
+  /// these velocities. Returns their forces less those of the last subtract(). Collective.
   Vector start_after(double t, const Vector &velocities);
   /// Does the same as start() after a step. Returns the work of the forces, by the trapezoidal rule.
   double commit(const Vector &increment);
