@@ -94,7 +94,6 @@ private:
     Vector u_n;                   ///< displacements at its start [length]
     double round_off_force = 0.;  ///< what the last bits of displacements do to inertia [force]
   };
-  void set_initial_velocities();
   void set_rates(const Vector &displacements);
   /// Returns the accelerations at the end of the step, including contact.
   Vector end_accelerations() const;

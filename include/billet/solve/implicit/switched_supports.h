@@ -51,7 +51,7 @@ private:
     std::optional<std::size_t> support; ///< index in named_supports(); none: of another scene
     DeadForces forces;
   };
-  /// Returns the forces of supports that end, by their indices in named_supports(); Collective.
+  /// Returns the forces of supports that end, by their indices in named_supports(). Collective.
   std::vector<Fading> release_forces(double t, Vector reactions) const;
 
   const Scene &scene_;
