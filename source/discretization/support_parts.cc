@@ -28,13 +28,13 @@ Tensor<1, 3> dual_vector(const std::vector<Tensor<1, 3>> &normals, const std::si
 }
 
 /// Returns which of the normals are independent of those before them.
-std::vector<std::size_t> find_independent(const std::vector<const Hold *> &holds,
+std::vector<std::size_t> find_independent(const std::vector<const Constraint *> &constraints,
                                           const dealii::Point<3> &position) {
   constexpr double independent = 1e-8; // as in collect_fixed_nodes()
   std::vector<std::size_t> indices;
   std::vector<Tensor<1, 3>> basis;
-  for (std::size_t h = 0; h < holds.size(); ++h) {
-    Tensor<1, 3> left = holds[h]->direction(position);
+  for (std::size_t h = 0; h < constraints.size(); ++h) {
+    Tensor<1, 3> left = constraints[h]->direction(position);
     for (const auto &e : basis)
       left -= (left * e) * e;
     if (left.norm() <= independent)
@@ -50,52 +50,54 @@ std::vector<std::size_t> find_independent(const std::vector<const Hold *> &holds
 std::vector<std::size_t> support_indices(const Body &body, const std::size_t first) {
   std::vector<std::size_t> indices;
   std::vector<std::string> names;
-  for (const Hold &hold : body.holds) {
-    const auto found = std::find(names.begin(), names.end(), hold.name);
+  for (const Constraint &constraint : body.constraints) {
+    const auto found = std::find(names.begin(), names.end(), constraint.name);
     indices.push_back(first + static_cast<std::size_t>(found - names.begin()));
     if (found == names.end())
-      names.push_back(hold.name);
+      names.push_back(constraint.name);
   }
   return indices;
 }
 
-std::map<const Hold *, std::size_t> support_indices(const Scene &scene) {
-  std::map<const Hold *, std::size_t> all;
+std::map<const Constraint *, std::size_t> support_indices(const Scene &scene) {
+  std::map<const Constraint *, std::size_t> all;
   std::size_t first = 0;
   for (const Body &body : scene.bodies()) {
     const std::vector<std::size_t> indices = support_indices(body, first);
     for (std::size_t h = 0; h < indices.size(); ++h) {
-      all[&body.holds[h]] = indices[h];
+      all[&body.constraints[h]] = indices[h];
       first = std::max(first, indices[h] + 1);
     }
   }
   return all;
 }
 
-std::vector<SupportedNode> collect_supported_nodes(const Scene &scene, const Discretization &discretization,
-                                                   const ActingHolds &acting,
-                                                   const std::map<const Hold *, std::size_t> &support_of) {
+std::vector<SupportedNode>
+collect_supported_nodes(const Scene &scene, const Discretization &discretization,
+                        const ActingConstraints &acting,
+                        const std::map<const Constraint *, std::size_t> &support_of) {
   std::vector<SupportedNode> nodes;
-  const auto acts = [&acting](const Hold &hold) { return acting(hold); };
-  for (const auto &[dof, held] : collect_held_nodes(scene, discretization, acts)) {
+  const auto acts = [&acting](const Constraint &constraint) { return acting(constraint); };
+  for (const auto &[dof, held] : collect_constrained_nodes(scene, discretization, acts)) {
     SupportedNode node{held.dofs, held.position, {}};
-    const std::vector<std::size_t> independent = find_independent(held.holds, held.position);
+    const std::vector<std::size_t> independent = find_independent(held.constraints, held.position);
     std::vector<Tensor<1, 3>> normals;
     for (const std::size_t h : independent)
-      normals.push_back(held.holds[h]->direction(held.position));
+      normals.push_back(held.constraints[h]->direction(held.position));
     for (std::size_t i = 0; i < normals.size(); ++i)
-      node.parts.push_back({support_of.at(held.holds[independent[i]]), normals[i], dual_vector(normals, i)});
+      node.parts.push_back(
+          {support_of.at(held.constraints[independent[i]]), normals[i], dual_vector(normals, i)});
     nodes.push_back(node);
   }
   return nodes;
 }
 
-std::map<std::size_t, double> fading_supports(const Scene &scene, const ActingHolds &acting,
-                                              const HoldFilter &acts) {
+std::map<std::size_t, double> fading_supports(const Scene &scene, const ActingConstraints &acting,
+                                              const ConstraintFilter &acts) {
   std::map<std::size_t, double> times;
-  for (const auto &[hold, index] : support_indices(scene))
-    if (acting(*hold) && !acts(*hold) && hold->times.fade_time > 0.)
-      times[index] = hold->times.fade_time;
+  for (const auto &[constraint, index] : support_indices(scene))
+    if (acting(*constraint) && !acts(*constraint) && constraint->times.fade_time > 0.)
+      times[index] = constraint->times.fade_time;
   return times;
 }
 

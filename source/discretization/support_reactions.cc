@@ -17,13 +17,13 @@ std::vector<NamedSupport> named_supports(const Scene &scene) {
     const std::vector<std::size_t> indices = support_indices(body, first);
     for (std::size_t h = 0; h < indices.size(); ++h)
       if (indices[h] == all.size())
-        all.push_back({b, body.holds[h].name});
+        all.push_back({b, body.constraints[h].name});
   }
   return all;
 }
 
 SupportReactions::SupportReactions(const Scene &scene, const Discretization &discretization,
-                                   const ActingHolds &acting)
+                                   const ActingConstraints &acting)
     : scene_(scene), discretization_(discretization), support_of_(support_indices(scene)),
       n_supports_(named_supports(scene).size()) {
   collect_nodes(acting);
@@ -33,12 +33,12 @@ SupportReactions::SupportReactions(const Scene &scene, const Discretization &dis
   couples_ranks_ = couple_ranks(links_, discretization.owned_dofs(), discretization.communicator());
 }
 
-void SupportReactions::follow(const ActingHolds &acting) {
+void SupportReactions::follow(const ActingConstraints &acting) {
   if (acting.n_changes() != n_changes_)
     collect_nodes(acting);
 }
 
-void SupportReactions::collect_nodes(const ActingHolds &acting) {
+void SupportReactions::collect_nodes(const ActingConstraints &acting) {
   nodes_.clear();
   n_changes_ = acting.n_changes();
   for (const SupportedNode &held : collect_supported_nodes(scene_, discretization_, acting, support_of_)) {

@@ -31,18 +31,19 @@ struct SupportedNode {
 /// Returns the indices in named_supports() of the constraints of a body; `first` is that of its first one.
 std::vector<std::size_t> support_indices(const Body &body, std::size_t first);
 /// Returns the same for all constraints of the scene.
-std::map<const Hold *, std::size_t> support_indices(const Scene &scene);
+std::map<const Constraint *, std::size_t> support_indices(const Scene &scene);
 
 /// Returns the nodes that the constraints hold that act, of own and ghost elements; `support_of`: those of
 /// support_indices(). Where normals depend on each other, the constraint that stands first takes the force.
-std::vector<SupportedNode> collect_supported_nodes(const Scene &scene, const Discretization &discretization,
-                                                   const ActingHolds &acting,
-                                                   const std::map<const Hold *, std::size_t> &support_of);
+std::vector<SupportedNode>
+collect_supported_nodes(const Scene &scene, const Discretization &discretization,
+                        const ActingConstraints &acting,
+                        const std::map<const Constraint *, std::size_t> &support_of);
 
 /// Returns the supports that act and that `acts` omits, and whose forces fade: their indices in
 /// named_supports() and fade times.
-std::map<std::size_t, double> fading_supports(const Scene &scene, const ActingHolds &acting,
-                                              const HoldFilter &acts);
+std::map<std::size_t, double> fading_supports(const Scene &scene, const ActingConstraints &acting,
+                                              const ConstraintFilter &acts);
 
 } // namespace billet
 

@@ -116,7 +116,7 @@ void ExplicitMotion::move(const double step) {
 }
 
 void ExplicitMotion::switch_supports(const double t_forces, const double t) {
-  const HoldFilter acts = holding_at(t);
+  const ConstraintFilter acts = holding_at(t);
   if (failure_ || !held_.acting().differ(acts))
     return;
   fading_.erase(std::remove_if(fading_.begin(), fading_.end(),
@@ -133,7 +133,7 @@ void ExplicitMotion::switch_supports(const double t_forces, const double t) {
   }
 }
 
-void ExplicitMotion::release_forces(const double t_forces, const HoldFilter &acts) {
+void ExplicitMotion::release_forces(const double t_forces, const ConstraintFilter &acts) {
   const Scene &scene = held_.scene();
   const std::map<std::size_t, double> ended = fading_supports(scene, held_.acting(), acts);
   if (ended.empty())
