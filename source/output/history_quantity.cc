@@ -20,6 +20,8 @@ HistoryQuantity probes_quantity();
 HistoryQuantity whole_section_quantity();
 HistoryQuantity mesh_error_quantity();
 HistoryQuantity loads_quantity();
+HistoryQuantity inertia_quantity();
+HistoryQuantity auxiliary_forces_quantity();
 
 HistoryQuantities::HistoryQuantities(const std::vector<HistoryQuantity> &quantities) {
   for (const HistoryQuantity &quantity : quantities)
@@ -52,6 +54,8 @@ HistoryQuantities &history_quantities() {
     all.add(mesh_error_quantity());
     all.add(penetration_between_nodes_quantity());
     all.add(loads_quantity());
+    all.add(inertia_quantity());
+    all.add(auxiliary_forces_quantity());
     return all;
   }();
   return quantities;

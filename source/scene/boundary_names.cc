@@ -149,9 +149,9 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
 /// gives. Adds what is to be said of the mesh file to the notes.
-KnownNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
+GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
   unsigned int new_id = min_new_id(mesh) + 1;
-  KnownNames names;
+  GroupNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
     const LoadedMesh loaded = load_mesh_file(mesh);
     notes.add(loaded, mesh, body);

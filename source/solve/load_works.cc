@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/load_works.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace billet {
 
 using dealii::Tensor;
+
+namespace {
+
+/// Returns a time after the end of a step at t, by which LoadTimes tells what acts then.
+double just_after(const double t) { return t * (1. + 2. * LoadTimes::rounding); }
+
+} // namespace
 
 LoadWorks::LoadWorks(const Scene &scene, const LocalNodes &nodes, const ExternalLoads &loads)
     : nodes_(nodes), loads_(loads), scratch_(nodes.make_vectors()) {
@@ -18,15 +28,34 @@ LoadWorks::LoadWorks(const Scene &scene, const LocalNodes &nodes, const External
 
 void LoadWorks::evaluate(const double t, const NodalVectors &displacements, const NodalVectors &velocities,
                          NodalVectors &sum) {
-  for (OfLoad &of_load : of_loads_) {
-    loads_.add_forces_of(*of_load.load, t, displacements, velocities, scratch_);
-    for (std::size_t k = 0; k < of_load.nodes.size(); ++k) {
-      const unsigned int node = of_load.nodes[k];
-      of_load.forces[k] = get_vector(scratch_.data(), node);
-      add_vector(sum.data(), node, of_load.forces[k]);
-      std::fill_n(&scratch_[std::size_t{nodal_stride} * node], nodal_stride, 0.);
-    }
+  for (OfLoad &of_load : of_loads_)
+    evaluate_load(of_load, t, displacements, velocities, sum);
+}
+
+void LoadWorks::evaluate_after(const double t, const NodalVectors &displacements,
+                               const NodalVectors &velocities, NodalVectors &sum) {
+  for (OfLoad &of_load : of_loads_)
+    evaluate_load(of_load, of_load.load->times.changes_at(t) ? just_after(t) : t, displacements, velocities,
+                  sum);
+}
+
+void LoadWorks::evaluate_load(OfLoad &of_load, const double t, const NodalVectors &displacements,
+                              const NodalVectors &velocities, NodalVectors &sum) {
+  loads_.add_forces_of(*of_load.load, t, displacements, velocities, scratch_);
+  for (std::size_t k = 0; k < of_load.nodes.size(); ++k) {
+    const unsigned int node = of_load.nodes[k];
+    of_load.forces[k] = get_vector(scratch_.data(), node);
+    add_vector(sum.data(), node, of_load.forces[k]);
+    std::fill_n(&scratch_[std::size_t{nodal_stride} * node], nodal_stride, 0.);
   }
+}
+
+bool LoadWorks::jumps_at(const double t) const {
+  constexpr double notable = 1e-3; // of the factor; a load that begins to fade changes by the time's rounding
+  return std::any_of(of_loads_.begin(), of_loads_.end(), [t](const OfLoad &of_load) {
+    const LoadTimes &times = of_load.load->times;
+    return times.changes_at(t) && std::abs(times.factor(just_after(t)) - times.factor(t)) > notable;
+  });
 }
 
 void LoadWorks::add_works(const NodalVectors &motion, const double factor) {

@@ -16,6 +16,8 @@ struct Rules {
   /// Number of remaining steps below which two equal steps are taken, rather than a full step and a short
   /// rest.
   static constexpr double halves = 1.5;
+  /// Difference of two stops, over their time, that is round-off.
+  static constexpr double round_off = 1e-12;
   /// Part of the step that an error of its time integration allows; the error falls with its third power.
   static constexpr double safety = 0.8;
 };
@@ -27,6 +29,14 @@ StepControl::StepControl(const parameters::TimeStepping &parameters, const doubl
     : parameters_(parameters), interval_(interval), stops_(std::move(stops)), step_(parameters.initial_step) {
   stops_.insert(stops_.end(), parameters.stops.begin(), parameters.stops.end());
   std::sort(stops_.begin(), stops_.end());
+  // 0.7 + 0.1 differs from 0.8 in the last bit. A step of this length has no meaning; the later stop counts.
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const double next = i + 1 < stops_.size() ? stops_[i + 1] : parameters.end_time;
+    if (!(std::abs(next - stops_[i]) <= Rules::round_off * std::abs(next)))
+      stops_[n++] = stops_[i];
+  }
+  stops_.resize(n);
 }
 
 double StepControl::next_stop() const {

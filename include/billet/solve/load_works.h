@@ -20,6 +20,11 @@ public:
   /// Computes the forces at time t, and adds them to `sum`.
   void evaluate(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                 NodalVectors &sum);
+  /// Does the same with the loads that act after t, the end of a step at which loads may begin or end.
+  void evaluate_after(double t, const NodalVectors &displacements, const NodalVectors &velocities,
+                      NodalVectors &sum);
+  /// Whether the force of a load jumps at t: it begins there, or it ends and does not fade.
+  bool jumps_at(double t) const;
   /// Adds `factor` F · `motion` to the works, for the last forces F.
   void add_works(const NodalVectors &motion, double factor);
   /// Returns forces and works of all ranks, in the order of named_loads(). Collective.
@@ -40,6 +45,8 @@ private:
     std::vector<dealii::Tensor<1, 3>> forces; ///< this rank's shares
     double work;                              ///< this rank's share
   };
+  void evaluate_load(OfLoad &of_load, double t, const NodalVectors &displacements,
+                     const NodalVectors &velocities, NodalVectors &sum);
   std::vector<double> own_works() const;
 
   const LocalNodes &nodes_;

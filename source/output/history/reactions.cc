@@ -9,6 +9,8 @@ HistoryQuantity support_reactions_quantity();
 HistoryQuantity tool_pair_loads_quantity();
 HistoryQuantity penetration_between_nodes_quantity();
 HistoryQuantity force_balance_quantity();
+HistoryQuantity inertia_quantity();
+HistoryQuantity auxiliary_forces_quantity();
 
 namespace {
 
@@ -31,7 +33,7 @@ void add_vector(const dealii::Tensor<1, 3> &vector, std::vector<double> &values)
 HistoryQuantity support_reactions_quantity() {
   return {"reactions of supports",
           {{"BODY.support NAME.force_x, BODY.support NAME.force_y, BODY.support NAME.force_z",
-            "Force of a support on its body. [force]"},
+            "Force of a support on its body. After its end, the force that fades. [force]"},
            {"BODY.support NAME.moment_x, BODY.support NAME.moment_y, BODY.support NAME.moment_z",
             "Its moment about the origin. [force length]"},
            {"BODY.symmetry plane NAME.force_x, BODY.symmetry plane NAME.force_y, BODY.symmetry plane "
@@ -120,6 +122,44 @@ HistoryQuantity force_balance_quantity() {
             const ForceBalance &balance = sample.reactions.balance;
             return {balance.free[0], balance.free[1], balance.free[2], balance.defect()};
           }};
+}
+
+HistoryQuantity inertia_quantity() {
+  return {"force of inertia",
+          {{"inertia_x, inertia_y, inertia_z",
+            "Dynamic scenes: force of inertia of all bodies, the negative rate of their momentum. With the "
+            "forces of tools, supports, symmetry planes and loads, its sum is the free residual. [force]"}},
+          [](const Scene &scene) -> std::vector<std::string> {
+            if (!scene.parameters().scheme().has_inertia)
+              return {};
+            return {"inertia_x", "inertia_y", "inertia_z"};
+          },
+          [](const HistorySample &sample) {
+            std::vector<double> values;
+            add_vector(sample.reactions.balance.inertia, values);
+            return values;
+          }};
+}
+
+HistoryQuantity auxiliary_forces_quantity() {
+  return {
+      "auxiliary forces",
+      {{"auxiliary_force_x, auxiliary_force_y, auxiliary_force_z",
+        "Static scenes: force of contact stabilisation, and of the imbalance that fades after a restart or "
+        "a refinement. [force]"}},
+      [](const Scene &scene) -> std::vector<std::string> {
+        if (scene.parameters().scheme().has_inertia)
+          return {};
+        return {"auxiliary_force_x", "auxiliary_force_y", "auxiliary_force_z"};
+      },
+      [](const HistorySample &sample) {
+        std::vector<double> values;
+        dealii::Tensor<1, 3> force = sample.reactions.balance.loads;
+        for (const LoadResult &load : sample.reactions.of_loads)
+          force -= load.force;
+        add_vector(force, values);
+        return values;
+      }};
 }
 
 } // namespace billet

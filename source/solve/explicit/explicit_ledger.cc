@@ -82,7 +82,9 @@ void ExplicitLedger::add_tools(SolutionState &state) const {
     state.energies.kinetic += tool.kinetic_energy();
     state.momentum += tool.momentum();
     state.angular_momentum += tool.angular_momentum();
-    state.tool_loads[i] = sum_over_ranks(parts_.tools.load(i), parts_.communicator());
+    ContactLoad load = parts_.tools.load(i);
+    load += parts_.tools.fading_load(i, parts_.clock.time(), parts_.motion.displacements());
+    state.tool_loads[i] = sum_over_ranks(load, parts_.communicator());
     state.placements[i] = tool.now();
   }
 }

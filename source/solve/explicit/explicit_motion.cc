@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_motion.h"
 
+#include "billet/discretization/support_parts.h"
+#include "billet/solve/fading_names.h"
+
 #include <algorithm>
 #include <set>
 
@@ -119,33 +122,36 @@ void ExplicitMotion::switch_supports(const double t_forces, const double t) {
   fading_.erase(std::remove_if(fading_.begin(), fading_.end(),
                                [t](const Fading &fading) { return fading.times.end() <= t; }),
                 fading_.end());
-  const NodalVectors forces = supports_;
-  for (const unsigned int node : held_.nodes())
-    std::fill_n(&supports_[std::size_t{nodal_stride} * node], nodal_stride, 0.);
   try {
-    NodalVectors released_before = nodes_.make_vectors();
-    for (const double fade_time : held_.acting().fade_times(acts)) {
-      NodalVectors released = forces;
-      held_.release(t, fade_time, released);
-      NodalVectors change = released;
-      for (std::size_t k = 0; k < change.size(); ++k)
-        change[k] -= released_before[k];
-      if (fade_time > 0.)
-        add_to_fading({t_forces, fade_time}, change);
-      released_before = released;
-    }
+    release_forces(t_forces, acts);
+    for (const unsigned int node : held_.nodes())
+      std::fill_n(&supports_[std::size_t{nodal_stride} * node], nodal_stride, 0.);
+    held_.release(t);
     held_.take(t, u_);
   } catch (const SolutionFailure &) { // as in kick()
     failure_ = std::current_exception();
   }
 }
 
-void ExplicitMotion::add_to_fading(const FadeTimes &times, const NodalVectors &forces) {
-  Fading fading{times, {}};
-  for (unsigned int node = 0; node < nodes_.size(); ++node)
-    if (const dealii::Tensor<1, 3> force = get_vector(forces.data(), node); force.norm_square() > 0.)
-      fading.forces.emplace_back(node, force);
-  fading_.push_back(fading);
+void ExplicitMotion::release_forces(const double t_forces, const ConstraintFilter &acts) {
+  const Scene &scene = held_.scene();
+  const std::map<std::size_t, double> ended = fading_supports(scene, held_.acting(), acts);
+  if (ended.empty())
+    return;
+  std::map<std::size_t, Fading> released;
+  for (const auto &[support, fade_time] : ended)
+    released[support] = {{t_forces, fade_time}, support, {}};
+  for (const SupportedNode &held :
+       collect_supported_nodes(scene, nodes_.discretization(), held_.acting(), support_indices(scene))) {
+    const unsigned int node = nodes_.find(held.dofs[0]);
+    if (node == dealii::numbers::invalid_unsigned_int) // only at ghost cells
+      continue;
+    for (const SupportPart &part : held.parts)
+      if (const auto found = released.find(part.support); found != released.end())
+        found->second.forces.emplace_back(node, part.force(get_vector(supports_.data(), node)));
+  }
+  for (const auto &[support, fading] : released)
+    fading_.push_back(fading);
 }
 
 void ExplicitMotion::add_fading(const double t, NodalVectors &forces) const {
@@ -158,6 +164,21 @@ void ExplicitMotion::add_fading(const double t, NodalVectors &forces) const {
   }
 }
 
+void ExplicitMotion::add_fading(const double t, std::vector<Resultant> &of_supports) const {
+  for (const Fading &fading : fading_) {
+    const double left = fading.times.left(t);
+    if (!fading.support || left <= 0.)
+      continue;
+    Resultant &resultant = of_supports[*fading.support];
+    for (const auto &[node, force] : fading.forces)
+      if (nodes_.is_owned(node)) {
+        const Tensor<1, 3> x = get_vector(nodes_.positions().data(), node) + get_vector(u_.data(), node);
+        resultant.force += left * force;
+        resultant.moment += dealii::cross_product_3d(x, left * force);
+      }
+  }
+}
+
 void ExplicitMotion::save_supports(StateWriter &writer, const NodalRows &rows) const {
   std::set<double> starts;
   for (const auto &start : held_.starts())
@@ -167,8 +188,12 @@ void ExplicitMotion::save_supports(StateWriter &writer, const NodalRows &rows) c
     rows.save(writer, name, [&start](const unsigned int node) { return get_vector(start.data(), node); });
   });
   std::vector<FadeTimes> times;
-  for (const Fading &fading : fading_)
+  std::vector<std::optional<std::size_t>> supports;
+  for (const Fading &fading : fading_) {
     times.push_back(fading.times);
+    supports.push_back(fading.support);
+  }
+  save_fading_supports(writer, held_.scene(), supports);
   save_support_fades(writer, times, [&](const std::string &name, const std::size_t i) {
     NodalVectors forces = nodes_.make_vectors();
     for (const auto &[node, force] : fading_[i].forces)
@@ -190,8 +215,15 @@ void ExplicitMotion::load_supports(const StateReader &reader, const NodalRows &r
   load_support_fades(reader, [&](const std::string &name, const FadeTimes &times) {
     NodalVectors forces = nodes_.make_vectors();
     rows.load(reader, name, forces);
-    add_to_fading(times, forces);
+    fading_.push_back({times, std::nullopt, {}});
+    for (unsigned int node = 0; node < nodes_.size(); ++node)
+      if (const Tensor<1, 3> force = get_vector(forces.data(), node); force.norm_square() > 0.)
+        fading_.back().forces.emplace_back(node, force);
   });
+  const std::vector<std::optional<std::size_t>> supports =
+      load_fading_supports(reader, held_.scene(), fading_.size());
+  for (std::size_t i = 0; i < fading_.size(); ++i)
+    fading_[i].support = supports[i];
 }
 
 void ExplicitMotion::save(StateWriter &writer, const NodalRows &rows, const double step) const {

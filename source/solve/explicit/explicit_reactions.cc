@@ -56,6 +56,43 @@ void ExplicitReactions::update() {
   }
   values_.of_loads = parts_.forces.of_loads().results();
   sum_forces();
+  add_fading_tools();
+  if (motion.acting().may_change())
+    add_fading_supports();
+}
+
+void ExplicitReactions::add_fading_tools() {
+  const double t = parts_.clock.time();
+  const NodalVectors &u = parts_.motion.displacements();
+  for (std::size_t tool = 0; tool < parts_.tools.size(); ++tool)
+    if (parts_.tools.is_fading(tool, t)) {
+      const ContactLoad load = sum_over_ranks(parts_.tools.fading_load(tool, t, u), parts_.communicator());
+      values_.balance.contact += load.force;
+      values_.balance.loads -= load.force;
+    }
+  for (std::size_t i = 0; i < values_.of_tool_pairs.size(); ++i)
+    if (const std::size_t tool = parts_.scene.pairs()[i].tool; parts_.tools.is_fading(tool, t))
+      values_.of_tool_pairs[i] +=
+          about_origin(sum_over_ranks(parts_.tools.fading_load(tool, t, u, i), parts_.communicator()),
+                       parts_.tools[tool].now());
+}
+
+void ExplicitReactions::add_fading_supports() {
+  std::vector<Resultant> own(values_.of_supports.size());
+  parts_.motion.add_fading(parts_.clock.time(), own);
+  std::vector<double> sums;
+  for (const Resultant &resultant : own)
+    for (const Tensor<1, 3> *vector : {&resultant.force, &resultant.moment})
+      sums.insert(sums.end(), vector->begin_raw(), vector->end_raw());
+  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
+  for (std::size_t s = 0; s < own.size(); ++s) {
+    const double *of_support = &sums[6 * s];
+    const Tensor<1, 3> force({of_support[0], of_support[1], of_support[2]});
+    values_.of_supports[s].force += force;
+    values_.of_supports[s].moment += Tensor<1, 3>({of_support[3], of_support[4], of_support[5]});
+    values_.balance.reactions += force;
+    values_.balance.loads -= force;
+  }
 }
 
 void ExplicitReactions::sum_forces() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_tools.h"
 
+#include "billet/solve/fading_names.h"
+
 #include <algorithm>
 
 namespace billet {
@@ -60,11 +62,12 @@ double ExplicitTools::max_frequency_square() const {
 }
 
 void ExplicitTools::remove(const std::size_t tool, Contacts &contacts, double &external_work) {
-  fading_forces_[tool] = std::make_unique<NodalVectors>(nodes_.make_vectors());
+  fading_forces_[tool] = std::make_unique<std::vector<Removed>>();
   NodalVectors ignored = nodes_.make_vectors();
   for (auto &contact : contacts.of_tools())
     if (contact.tool() == tool) {
-      contact.without_matrix().add_forces(*fading_forces_[tool], ignored);
+      fading_forces_[tool]->push_back({contact.group_index(), nodes_.make_vectors()});
+      contact.without_matrix().add_forces(fading_forces_[tool]->back().forces, ignored);
       contact.remove_tool();
     }
   // The energy of its penalty springs is removed with it, and its kinetic energy, which all ranks know.
@@ -81,12 +84,39 @@ void ExplicitTools::remove_due(const double t, Contacts &contacts, const std::ve
       continue;
     if (!fading_forces_[i])
       remove(i, contacts, external_work);
-    const Tool &gone = scene_.tools()[i];
-    const double left = gone.release_time() > 0. ? 1. - (t - gone.removal_time()) / gone.release_time() : 0.;
-    if (left > 0.)
-      for (const unsigned int node : nodes)
-        add_vector(forces.data(), node, left * get_vector(fading_forces_[i]->data(), node));
+    if (const double part = left(i, t); part > 0.)
+      for (const Removed &removed : *fading_forces_[i])
+        for (const unsigned int node : nodes)
+          add_vector(forces.data(), node, part * get_vector(removed.forces.data(), node));
   }
+}
+
+double ExplicitTools::left(const std::size_t tool, const double t) const {
+  const Tool &gone = scene_.tools()[tool];
+  return gone.release_time() > 0. ? 1. - (t - gone.removal_time()) / gone.release_time() : 0.;
+}
+
+bool ExplicitTools::is_fading(const std::size_t tool, const double t) const {
+  return tools_[tool].is_gone(t) && left(tool, t) > 0.;
+}
+
+ContactLoad ExplicitTools::fading_load(const std::size_t tool, const double t,
+                                       const NodalVectors &displacements,
+                                       const std::optional<std::size_t> pair) const {
+  ContactLoad load;
+  if (!fading_forces_[tool] || !is_fading(tool, t))
+    return load;
+  const Tensor<1, 3> centre = tools_[tool].now().moved_centre();
+  for (const Removed &removed : *fading_forces_[tool])
+    if (!pair || removed.pair == pair)
+      for (unsigned int node = 0; node < nodes_.size(); ++node) {
+        const Tensor<1, 3> force = left(tool, t) * get_vector(removed.forces.data(), node);
+        const Tensor<1, 3> x =
+            get_vector(nodes_.positions().data(), node) + get_vector(displacements.data(), node);
+        load.force += force;
+        load.moment += dealii::cross_product_3d(x - centre, force);
+      }
+  return load;
 }
 
 void ExplicitTools::kick(const ExplicitClock &clock) {
@@ -112,31 +142,42 @@ void ExplicitTools::add_works(const double t, double &external_work) const {
 
 void ExplicitTools::save_fading(StateWriter &writer, const std::size_t tool, const NodalRows &rows,
                                 const std::vector<unsigned int> &nodes) const {
-  std::vector<std::uint64_t> keys;
-  std::vector<double> forces;
-  for (const unsigned int node : nodes) {
-    const Tensor<1, 3> force = get_vector(fading_forces_[tool]->data(), node);
-    if (force.norm_square() == 0.)
-      continue;
-    keys.push_back(rows.of_nodes()[node]);
-    RowWriter(forces).vector(force);
+  std::vector<std::optional<std::size_t>> pairs;
+  for (const Removed &removed : *fading_forces_[tool])
+    pairs.push_back(removed.pair);
+  save_fading_pairs(writer, scene_, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::vector<std::uint64_t> keys;
+    std::vector<double> forces;
+    for (const unsigned int node : nodes) {
+      const Tensor<1, 3> force = get_vector((*fading_forces_[tool])[i].forces.data(), node);
+      if (force.norm_square() == 0.)
+        continue;
+      keys.push_back(rows.of_nodes()[node]);
+      RowWriter(forces).vector(force);
+    }
+    save_parts(writer, fading_rows(i), dealii::Utilities::MPI::this_mpi_process(communicator()), keys,
+               forces);
   }
-  save_parts(writer, "fading", dealii::Utilities::MPI::this_mpi_process(communicator()), keys, forces);
 }
 
 void ExplicitTools::load_fading(const StateReader &reader, const std::size_t tool, const NodalRows &rows,
                                 const bool is_exact) {
   const bool is_same_partition =
       is_exact && reader.n_ranks() == dealii::Utilities::MPI::n_mpi_processes(communicator());
-  const std::vector<double> forces =
-      is_same_partition ? load_part(reader, "fading",
-                                    dealii::Utilities::MPI::this_mpi_process(communicator()), rows.of_nodes())
-                        : load_sums(reader, "fading", rows.of_nodes());
-  fading_forces_[tool] = std::make_unique<NodalVectors>(nodes_.make_vectors());
-  for (unsigned int node = 0; node < nodes_.size(); ++node)
-    if (is_same_partition || nodes_.is_owned(node))
-      for (unsigned int c = 0; c < 3; ++c)
-        (*fading_forces_[tool])[std::size_t{nodal_stride} * node + c] = forces[std::size_t{3} * node + c];
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator());
+  fading_forces_[tool] = std::make_unique<std::vector<Removed>>();
+  for (const FadingPair &fading : load_fading_pairs(reader, scene_)) {
+    const std::vector<double> forces = is_same_partition
+                                           ? load_part(reader, fading.rows, rank, rows.of_nodes())
+                                           : load_sums(reader, fading.rows, rows.of_nodes());
+    NodalVectors of_pair = nodes_.make_vectors();
+    for (unsigned int node = 0; node < nodes_.size(); ++node)
+      if (is_same_partition || nodes_.is_owned(node))
+        for (unsigned int c = 0; c < 3; ++c)
+          of_pair[std::size_t{nodal_stride} * node + c] = forces[std::size_t{3} * node + c];
+    fading_forces_[tool]->push_back({fading.pair, of_pair});
+  }
 }
 
 void ExplicitTools::save(StateWriter &writer, const NodalRows &rows,
@@ -162,7 +203,7 @@ void ExplicitTools::load(StateReader &reader, const NodalRows &rows, const bool 
     }
     reader.in(group("tool", *found), [&] {
       tools_[i].load(reader, is_exact);
-      if (reader.has("fading"))
+      if (has_fading_pairs(reader))
         load_fading(reader, i, rows, is_exact);
     });
   }

@@ -72,6 +72,16 @@ void AcceptedSteps::set_contact_loads(const AcceptedStep &step) {
       state.energies.friction += load.dissipation;
     }
   }
+  parts_.removal().visit_fading(step.end_time, [&](const RemovedForces &removed, const double left) {
+    const Placement placement =
+        parts_.tools().place(removed.tool, step.end_time, parts_.tools().offsets()[removed.tool]);
+    const Resultant resultant = removed.forces.resultant(step.trial.displacements);
+    ContactLoad load;
+    load.force = left * resultant.force;
+    load.moment = left * resultant.moment - dealii::cross_product_3d(placement.moved_centre(), load.force);
+    state.tool_loads[removed.tool] += load;
+    p_.reactions.add_removed(removed.pair, load, placement);
+  });
 }
 
 void AcceptedSteps::move_tools(const AcceptedStep &step) {

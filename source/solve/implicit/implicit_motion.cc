@@ -24,6 +24,25 @@ bool is_lumped(const Scene &scene) {
   return scene.parameters().implicit_dynamics.mass == parameters::ImplicitDynamics::Mass::lumped;
 }
 
+/// Sets the initial velocities of the scene. Throws InputError. Collective.
+void set_initial_velocities(const Scene &scene, const LocalNodes &nodes, Vector &velocities) {
+  const Discretization &discretization = nodes.discretization();
+  fail_together(discretization.communicator(), [&] {
+    check_before_start([&] {
+      for (std::size_t b = 0; b < discretization.n_bodies(); ++b)
+        for (const auto &element : nodes.elements(b))
+          for (const unsigned int node : element)
+            for (unsigned int i = 0; i < 3; ++i) {
+              const DofIndex dof = nodes.dofs(node)[i];
+              if (discretization.owned_dofs().is_element(dof))
+                velocities(dof) = scene.bodies()[b].initial_velocity[i].value(
+                    0., dealii::Point<3>(get_vector(nodes.positions().data(), node)));
+            }
+    });
+  });
+  velocities.compress(dealii::VectorOperation::insert);
+}
+
 } // namespace
 
 ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discretization,
@@ -38,7 +57,7 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
       held_(scene, discretization, supports),
       error_(scene, discretization, nodes_, mass_.inertia(), mass_.row_sums()) {
   step_.u_n = discretization.make_owned_vector();
-  set_initial_velocities();
+  set_initial_velocities(scene, nodes_, start_.velocity);
   check_before_start([&] { held_.start(0., scene.parameters().time_stepping.initial_step); });
   supports_.homogeneous().distribute(start_.velocity);
   start_.velocity += held_.at_start().velocity;
@@ -49,23 +68,6 @@ ImplicitMotion::ImplicitMotion(const Scene &scene, const Discretization &discret
 }
 
 ImplicitMotion::~ImplicitMotion() = default;
-
-void ImplicitMotion::set_initial_velocities() {
-  fail_together(discretization_.communicator(), [&] {
-    check_before_start([&] {
-      for (std::size_t b = 0; b < discretization_.n_bodies(); ++b)
-        for (const auto &element : nodes_.elements(b))
-          for (const unsigned int node : element)
-            for (unsigned int i = 0; i < 3; ++i) {
-              const DofIndex dof = nodes_.dofs(node)[i];
-              if (discretization_.owned_dofs().is_element(dof))
-                start_.velocity(dof) = scene_.bodies()[b].initial_velocity[i].value(
-                    0., dealii::Point<3>(get_vector(nodes_.positions().data(), node)));
-            }
-    });
-  });
-  start_.velocity.compress(dealii::VectorOperation::insert);
-}
 
 Vector ImplicitMotion::end_accelerations() const {
   Vector result = trial_.acceleration;
@@ -83,7 +85,6 @@ Vector ImplicitMotion::driving_forces(const Vector &forces) const {
 void ImplicitMotion::set_accelerations(const Vector &accelerations) {
   start_.acceleration = accelerations;
   start_.acceleration += held_.at_start().acceleration;
-  loads_.start();
 }
 
 void ImplicitMotion::start_step(const double t_n, const double t, const Vector &displacements,
@@ -140,6 +141,17 @@ double ImplicitMotion::complete(const Vector &contact, Vector &residual) const {
   if (integrator_.forces_before() != 0.)
     residual.add(integrator_.forces_before(), damping_.start_forces());
   return inertia.l2_norm();
+}
+
+bool ImplicitMotion::follow_loads(const double t, const bool velocities_jump, Vector &forces) {
+  if (!velocities_jump && !loads_.jump_at(t))
+    return false;
+  forces -= loads_.start_after(t, start_.velocity);
+  return true;
+}
+
+void ImplicitMotion::add_end_inertia(Vector &residual) const {
+  residual += mass_.times(step_.length > 0. ? end_accelerations() : start_.acceleration);
 }
 
 void ImplicitMotion::add_tangent(const double t, const TangentSystem &system) const {

@@ -56,13 +56,18 @@ ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
 void ImplicitReactions::start() {
   supports_.follow(parts_.supports().acting());
   const ForceState &trial = problem_.step().trial;
-  Vector residual = trial.supports;
+  Vector residual = trial.supports, at_end = trial.supports;
   parts_.scheme().complete(trial.contact, residual);
   residual *= parts_.scheme().residual_weight();
-  const SupportReactions::Forces forces = supports_.compute(residual, trial.displacements);
+  const SupportReactions::Forces weighted = supports_.compute(residual, trial.displacements);
   const std::vector<Tensor<1, 3>> sums =
-      sum_nodes({&trial.supports, &trial.internal, &trial.contact, &residual}, parts_.communicator());
-  values_.of_supports = forces.of_supports;
+      sum_nodes({&trial.supports, &trial.internal, &trial.contact}, parts_.communicator());
+  balance_bodies(residual, weighted.of_supports);
+  values_.of_supports = weighted.of_supports;
+  if (parts_.scheme().has_inertia()) {
+    parts_.scheme().add_end_inertia(at_end);
+    values_.of_supports = supports_.compute(at_end, trial.displacements).of_supports;
+  }
   std::fill(values_.of_tool_pairs.begin(), values_.of_tool_pairs.end(), ContactLoad());
   ForceBalance &balance = values_.balance;
   balance = {};
@@ -70,16 +75,30 @@ void ImplicitReactions::start() {
     balance.reactions += resultant.force;
   // Residuals have the opposite sign of forces.
   balance.loads = sums[1] + sums[2] - sums[0];
-  balance.inertia = sums[0] - sums[3];
-  balance.free = -forces.free;
+  balance.free = -weighted.free;
+  // The inertia that is in balance with the forces at the end of the step, but for the free residual.
+  if (parts_.scheme().has_inertia())
+    balance.inertia = balance.free + sums[0] - balance.reactions;
   balance.round_off = problem_.round_off_force();
   balance.size = std::max(trial.internal.l1_norm() + trial.contact.l1_norm() + trial.supports.l1_norm() +
                               residual.l1_norm(),
                           problem_.scales().lasting);
-  balance_bodies(residual);
+  add_fading();
 }
 
-void ImplicitReactions::balance_bodies(const Vector &residual) {
+void ImplicitReactions::add_fading() {
+  const StepState &step = problem_.step();
+  parts_.switched_supports().visit_fading(
+      step.time, [&](const std::size_t support, const double left, const DeadForces &forces) {
+        const Resultant resultant = forces.resultant(step.trial.displacements);
+        values_.of_supports[support].force += left * resultant.force;
+        values_.of_supports[support].moment += left * resultant.moment;
+        values_.balance.reactions += left * resultant.force;
+        values_.balance.loads -= left * resultant.force;
+      });
+}
+
+void ImplicitReactions::balance_bodies(const Vector &residual, const std::vector<Resultant> &of_supports) {
   constexpr std::size_t n_sums = 4; // of the residual by axes, and of the forces' magnitudes
   std::vector<double> sums(n_sums * parts_.scene().bodies().size(), 0.);
   const auto rest = owned_values(residual), internal = owned_values(problem_.step().trial.internal);
@@ -97,7 +116,7 @@ void ImplicitReactions::balance_bodies(const Vector &residual) {
     values_.of_bodies[b].nodal = sums[n_sums * b + 3];
   }
   for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s)
-    values_.of_bodies[bodies_of_supports_[s]].free += values_.of_supports[s].force;
+    values_.of_bodies[bodies_of_supports_[s]].free += of_supports[s].force;
 }
 
 void ImplicitReactions::set_pair(const std::size_t pair, const ContactLoad &load,
@@ -105,6 +124,14 @@ void ImplicitReactions::set_pair(const std::size_t pair, const ContactLoad &load
   values_.of_tool_pairs[pair] = about_origin(load, placement);
   values_.between_nodes[pair] = between_nodes;
   values_.balance.contact += load.force;
+}
+
+void ImplicitReactions::add_removed(const std::optional<std::size_t> pair, const ContactLoad &load,
+                                    const Placement &placement) {
+  if (pair)
+    values_.of_tool_pairs[*pair] += about_origin(load, placement);
+  values_.balance.contact += load.force;
+  values_.balance.loads -= load.force;
 }
 
 } // namespace billet

@@ -25,6 +25,7 @@ void InitialMotion::start() {
   const Contacts::Loads loads = parts_.contacts().compute_loads();
   state.tool_loads = loads.of_tools;
   state.body_pair_loads = loads.of_body_pairs;
+  motion_.follow_loads(state.time, true, step.start.supports);
   check_before_start([&] { accelerate(); });
 
   const auto energies = parts_.internal().compute_energies(state.displacements);
@@ -81,6 +82,7 @@ void InitialMotion::load(StateReader &reader, RestartReport &report) {
     motion_.update_state(state);
     return;
   }
+  motion_.follow_loads(state.time, true, problem_.step().start.supports);
   accelerate();
   const double drift = state.energies.drift();
   motion_.update_state(state);

@@ -29,6 +29,16 @@ NodalVectors LoadForces::nodal(const Vector &field) const {
   return result;
 }
 
+Vector LoadForces::sum_of(const NodalVectors &forces) const {
+  Vector sum = discretization_.make_additive_vector();
+  for (unsigned int node = 0; node < nodes_.size(); ++node)
+    sum.add(3, nodes_.dofs(node).data(), &forces[std::size_t{nodal_stride} * node]);
+  sum.compress(dealii::VectorOperation::add);
+  Vector owned = discretization_.make_owned_vector();
+  owned = sum;
+  return owned;
+}
+
 double LoadForces::subtract(const double t, const Vector &displacements, const Vector &velocities,
                             Vector &residual) {
   if (loads_ == nullptr)
@@ -40,11 +50,7 @@ double LoadForces::subtract(const double t, const Vector &displacements, const V
   NodalVectors forces = nodes_.make_vectors();
   fail_together(discretization_.communicator(),
                 [&] { loads_->all.add_forces(t, displaced_, rates_, forces); });
-  Vector sum = discretization_.make_additive_vector();
-  for (unsigned int node = 0; node < nodes_.size(); ++node)
-    sum.add(3, nodes_.dofs(node).data(), &forces[std::size_t{nodal_stride} * node]);
-  sum.compress(dealii::VectorOperation::add);
-  forces_ = sum;
+  forces_ = sum_of(forces);
   residual -= forces_;
   return forces_.l2_norm();
 }
@@ -60,6 +66,21 @@ void LoadForces::start() {
     return;
   NodalVectors sum = nodes_.make_vectors();
   loads_->works.evaluate(loads_->time, displaced_, rates_, sum);
+}
+
+Vector LoadForces::start_after(const double t, const Vector &velocities) {
+  Vector change = discretization_.make_owned_vector();
+  if (loads_ == nullptr || displaced_.empty())
+    return change;
+  rates_ = nodal(velocities);
+  NodalVectors sum = nodes_.make_vectors();
+  fail_together(discretization_.communicator(),
+                [&] { loads_->works.evaluate_after(t, displaced_, rates_, sum); });
+  change -= forces_;
+  forces_ = sum_of(sum);
+  forces_n_ = forces_;
+  change += forces_;
+  return change;
 }
 
 double LoadForces::commit(const Vector &increment) {

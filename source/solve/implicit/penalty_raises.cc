@@ -92,7 +92,7 @@ DiagnosticList PenaltyRaises::raise() {
     const double given = after[i] - before[i];
     books_.add(i, given);
     state.energies.external += given;
-    if (const auto &tool = contacts[i].rigid_tool())
+    if (const auto &tool = contacts[i].rigid_tool(); tool && !parts_.removal().is_removed(*tool))
       state.tool_loads[*tool] = contacts.compute_load(*tool);
   }
   StepState &step = problem_.step();

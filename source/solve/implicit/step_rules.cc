@@ -200,10 +200,14 @@ void DynamicRules::close_step(const double t) {
   }
   const bool supports_change = parts_.switched_supports().is_due(t);
   if (supports_change) {
-    switch_supports(t, motion_.inertia());
+    Vector inertia = parts_.discretization().make_owned_vector();
+    motion_.add_end_inertia(inertia);
+    switch_supports(t, inertia);
     problem_.state().energies.external += motion_.follow_supports(t);
   }
-  if (forces_jump || supports_change)
+  // Nodes that supports catch change the forces of dashpots.
+  const bool loads_jump = motion_.follow_loads(t, supports_change, problem_.step().start.supports);
+  if (forces_jump || supports_change || loads_jump)
     initial_.accelerate();
   motion_.update_state(problem_.state());
   balance_.update_max_energy();

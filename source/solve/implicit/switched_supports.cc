@@ -1,34 +1,70 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/switched_supports.h"
 
+#include "billet/discretization/constraint_lines.h"
+#include "billet/discretization/support_parts.h"
+#include "billet/solve/fading_names.h"
+
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace billet {
 
 Vector SwitchedSupports::switch_supports(const double t, const Vector &reactions,
                                          const Vector &displacements) {
-  fading_.erase(std::remove_if(fading_.begin(), fading_.end(),
-                               [t](const Fading &fading) { return fading.times.end() <= t; }),
-                fading_.end());
-  // What the constraints leave of the reactions changes by what the supports that end have borne.
-  Vector left_before = reactions, remaining = reactions;
-  supports_.condense(left_before);
-  remaining = 0.;
-  for (const double fade_time : supports_.acting().fade_times(holding_after(t))) {
-    supports_.release(t, fade_time);
-    Vector left = reactions;
-    supports_.condense(left);
-    Vector released = left;
-    released -= left_before;
-    left_before = left;
-    if (fade_time > 0.) {
-      remaining += released;
-      fading_.push_back({{t, fade_time}, released});
-    }
+  std::vector<Fading> fading;
+  for (Fading &before : fading_)
+    if (before.times.end() > t)
+      fading.push_back(std::move(before));
+  fading_.swap(fading);
+  Vector remaining = discretization_.make_owned_vector();
+  for (Fading &released : release_forces(t, reactions)) {
+    remaining += released.forces.at_nodes();
+    fading_.push_back(std::move(released));
   }
+  for (const double fade_time : supports_.acting().fade_times(holding_after(t)))
+    supports_.release(t, fade_time);
   supports_.take(t, displacements);
   return remaining;
+}
+
+std::vector<SwitchedSupports::Fading> SwitchedSupports::release_forces(const double t,
+                                                                       Vector reactions) const {
+  std::vector<Fading> released;
+  const std::map<std::size_t, double> ended = fading_supports(scene_, supports_.acting(), holding_after(t));
+  if (ended.empty())
+    return released;
+  // Forces at hanging nodes count at the nodes on which these depend, as in reactions.
+  const dealii::IndexSet &owned = discretization_.owned_dofs();
+  const Constraints links = build_constraints(
+      owned, discretization_.relevant_dofs(),
+      {{collect_links(discretization_.dof_handler(), discretization_.relevant_dofs()), {}}});
+  condense(links, couple_ranks(links, owned, discretization_.communicator()), reactions);
+  const auto residual = owned_values(std::as_const(reactions));
+  std::map<std::size_t, Vector> forces;
+  for (const auto &[support, fade_time] : ended)
+    forces[support] = discretization_.make_owned_vector();
+  for (const SupportedNode &node :
+       collect_supported_nodes(scene_, discretization_, supports_.acting(), support_indices(scene_))) {
+    if (!owned.is_element(node.dofs[0]))
+      continue;
+    const std::size_t place = owned.index_within_set(node.dofs[0]);
+    const dealii::Tensor<1, 3> at_node({residual[place], residual[place + 1], residual[place + 2]});
+    for (const SupportPart &part : node.parts) {
+      const auto found = forces.find(part.support);
+      if (found == forces.end())
+        continue;
+      const dealii::Tensor<1, 3> force = part.force(at_node);
+      for (unsigned int i = 0; i < 3; ++i)
+        found->second(node.dofs[i]) += force[i];
+    }
+  }
+  for (const auto &[support, fade_time] : ended) {
+    forces[support].compress(dealii::VectorOperation::add);
+    released.push_back({{t, fade_time}, support, DeadForces(discretization_, forces[support])});
+  }
+  return released;
 }
 
 bool SwitchedSupports::changes(const double t_n, const double t) const {
@@ -38,13 +74,13 @@ bool SwitchedSupports::changes(const double t_n, const double t) const {
 
 void SwitchedSupports::add_forces(const double t, Vector &residual) const {
   for (const Fading &fading : fading_)
-    residual.add(-fading.times.left(t), fading.forces);
+    residual.add(-fading.times.left(t), fading.forces.at_nodes());
 }
 
 double SwitchedSupports::work(const double t_n, const double t, const Vector &increment) const {
   double work = 0.;
   for (const Fading &fading : fading_)
-    work += 0.5 * (fading.times.left(t) + fading.times.left(t_n)) * (fading.forces * increment);
+    work += 0.5 * (fading.times.left(t) + fading.times.left(t_n)) * (fading.forces.at_nodes() * increment);
   return work;
 }
 
@@ -56,10 +92,14 @@ void SwitchedSupports::save(StateWriter &writer, const OwnedNodes &nodes) const 
     save_nodal(writer, name, nodes, supports_.starts().at(time));
   });
   std::vector<FadeTimes> times;
-  for (const Fading &fading : fading_)
+  std::vector<std::optional<std::size_t>> supports;
+  for (const Fading &fading : fading_) {
     times.push_back(fading.times);
+    supports.push_back(fading.support);
+  }
+  save_fading_supports(writer, scene_, supports);
   save_support_fades(writer, times, [&](const std::string &name, const std::size_t i) {
-    save_nodal(writer, name, nodes, fading_[i].forces);
+    save_nodal(writer, name, nodes, fading_[i].forces.at_nodes());
   });
 }
 
@@ -78,9 +118,14 @@ void SwitchedSupports::load(const StateReader &reader, const OwnedNodes &nodes, 
     supports_.resume(t, std::move(starts));
   fading_.clear();
   load_support_fades(reader, [&](const std::string &name, const FadeTimes &times) {
-    fading_.push_back({times, discretization_.make_owned_vector()});
-    load_nodal(reader, name, nodes, fading_.back().forces);
+    Vector forces = discretization_.make_owned_vector();
+    load_nodal(reader, name, nodes, forces);
+    fading_.push_back({times, std::nullopt, DeadForces(discretization_, forces)});
   });
+  const std::vector<std::optional<std::size_t>> supports =
+      load_fading_supports(reader, scene_, fading_.size());
+  for (std::size_t i = 0; i < fading_.size(); ++i)
+    fading_[i].support = supports[i];
 }
 
 } // namespace billet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/tool_removal.h"
 
+#include "billet/solve/fading_names.h"
+
 #include <algorithm>
 #include <array>
 
@@ -19,17 +21,24 @@ bool ToolRemoval::changes(const double t_n, const double t) const {
 }
 
 void ToolRemoval::add_forces(const double t, Vector &residual) const {
-  for (std::size_t tool = 0; tool < forces_.size(); ++tool)
-    if (forces_[tool])
-      residual.add(fading(t, tool), *forces_[tool]);
+  visit_fading(t, [&](const RemovedForces &removed, const double left) {
+    residual.add(-left, removed.forces.at_nodes());
+  });
 }
 
 double ToolRemoval::work(const double t_n, const double t, const Vector &increment) const {
   double work = 0.;
   for (std::size_t tool = 0; tool < forces_.size(); ++tool)
     if (forces_[tool])
-      work += 0.5 * (fading(t, tool) + fading(t_n, tool)) * (*forces_[tool] * increment);
+      work += 0.5 * (fading(t, tool) + fading(t_n, tool)) * (forces(tool) * increment);
   return work;
+}
+
+Vector ToolRemoval::forces(const std::size_t tool) const {
+  Vector sum = discretization_.make_owned_vector();
+  for (const RemovedForces &removed : *forces_[tool])
+    sum -= removed.forces.at_nodes();
+  return sum;
 }
 
 ToolRemoval::Removal ToolRemoval::remove_due(const double t) {
@@ -37,17 +46,20 @@ ToolRemoval::Removal ToolRemoval::remove_due(const double t) {
   for (std::size_t i = 0; i < scene_.tools().size(); ++i) {
     if (t < scene_.tools()[i].removal_time() || forces_[i])
       continue;
-    Vector forces = discretization_.make_additive_vector();
+    forces_[i] = std::make_unique<std::vector<RemovedForces>>();
     for (auto &contact : contacts_.of_tools())
       if (contact.tool() == i) {
         if (contact.measures().compute_load().area > 0.)
           removal.let_go[contact.body()].insert(scene_.tools()[i].name());
-        contact.with_matrix().add_forces(forces);
+        Vector residual = discretization_.make_additive_vector();
+        contact.with_matrix().add_forces(residual);
+        residual.compress(dealii::VectorOperation::add);
         contact.remove_tool();
+        Vector forces = discretization_.make_owned_vector();
+        forces = residual;
+        forces *= -1.;
+        forces_[i]->push_back({i, contact.group_index(), DeadForces(discretization_, forces)});
       }
-    forces.compress(dealii::VectorOperation::add);
-    forces_[i] = std::make_unique<Vector>(discretization_.make_owned_vector());
-    *forces_[i] = forces;
     removal.tools.push_back(i);
   }
   return removal;
@@ -56,31 +68,40 @@ ToolRemoval::Removal ToolRemoval::remove_due(const double t) {
 void ToolRemoval::save(const std::size_t tool, StateWriter &writer, const OwnedNodes &nodes) const {
   if (!forces_[tool])
     return;
-  // The force on the nodes is the residual with opposite sign.
-  std::vector<std::uint64_t> keys;
-  std::vector<double> forces;
-  for (std::size_t n = 0; n < nodes.keys.size(); ++n) {
-    const DofIndex dof = nodes.first_dofs[n];
-    const std::array<double, 3> force{-(*forces_[tool])(dof), -(*forces_[tool])(dof + 1),
-                                      -(*forces_[tool])(dof + 2)};
-    if (force[0] == 0. && force[1] == 0. && force[2] == 0.)
-      continue;
-    keys.push_back(nodes.keys[n]);
-    forces.insert(forces.end(), force.begin(), force.end());
+  std::vector<std::optional<std::size_t>> pairs;
+  for (const RemovedForces &removed : *forces_[tool])
+    pairs.push_back(removed.pair);
+  save_fading_pairs(writer, scene_, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Vector &of_pair = (*forces_[tool])[i].forces.at_nodes();
+    std::vector<std::uint64_t> keys;
+    std::vector<double> forces;
+    for (std::size_t n = 0; n < nodes.keys.size(); ++n) {
+      const DofIndex dof = nodes.first_dofs[n];
+      const std::array<double, 3> force{of_pair(dof), of_pair(dof + 1), of_pair(dof + 2)};
+      if (force[0] == 0. && force[1] == 0. && force[2] == 0.)
+        continue;
+      keys.push_back(nodes.keys[n]);
+      forces.insert(forces.end(), force.begin(), force.end());
+    }
+    save_parts(writer, fading_rows(i),
+               dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()), keys, forces);
   }
-  save_parts(writer, "fading", dealii::Utilities::MPI::this_mpi_process(discretization_.communicator()), keys,
-             forces);
 }
 
 void ToolRemoval::load(const std::size_t tool, StateReader &reader, const OwnedNodes &nodes) {
   if (reader.read("flags", 2).at(1) == 0.)
     return;
-  const std::vector<double> forces = load_sums(reader, "fading", nodes.keys);
-  forces_[tool] = std::make_unique<Vector>(discretization_.make_owned_vector());
-  for (std::size_t n = 0; n < nodes.keys.size(); ++n)
-    for (unsigned int c = 0; c < 3; ++c)
-      (*forces_[tool])(nodes.first_dofs[n] + c) = -forces[3 * n + c];
-  forces_[tool]->compress(dealii::VectorOperation::insert);
+  forces_[tool] = std::make_unique<std::vector<RemovedForces>>();
+  for (const FadingPair &fading : load_fading_pairs(reader, scene_)) {
+    const std::vector<double> rows = load_sums(reader, fading.rows, nodes.keys);
+    Vector forces = discretization_.make_owned_vector();
+    for (std::size_t n = 0; n < nodes.keys.size(); ++n)
+      for (unsigned int c = 0; c < 3; ++c)
+        forces(nodes.first_dofs[n] + c) = rows[3 * n + c];
+    forces.compress(dealii::VectorOperation::insert);
+    forces_[tool]->push_back({tool, fading.pair, DeadForces(discretization_, forces)});
+  }
 }
 
 double ReleasedForces::left(const double t) const {

@@ -56,7 +56,7 @@ def in_base_units(history: History, frame: Frame) -> History:
     turned = {}
     for name, values in h.items():
         last = name.rsplit(".", 1)[-1]
-        if last.startswith(("force_x", "force_y", "force_z", "free_residual")):
+        if last.startswith(("force_x", "force_y", "force_z", "free_residual", "inertia_", "auxiliary_force")):
             unit = frame.force
         elif last.startswith("moment_of_momentum"):
             unit = frame.momentum * frame.length

@@ -3,12 +3,14 @@
 #define BILLET_SOLVE_EXPLICIT_EXPLICIT_MOTION_H
 
 #include "billet/discretization/prescribed_motion.h"
+#include "billet/discretization/support_reactions.h"
 #include "billet/solve/explicit/explicit_clock.h"
 #include "billet/solve/explicit/nodal_masses.h"
 #include "billet/solve/explicit/nodal_rows.h"
 #include "billet/solve/restart.h"
 
 #include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,12 +55,14 @@ public:
   }
   void move(double step);
   /// Lets supports go and takes others as they are due at t, between steps; `t_forces`: time of the last
-  /// kick. The forces of those that let go fade from there on. Failures: as of kick().
+  /// kick. The reactions of those that let go fade from there on. Failures: as of kick().
   void switch_supports(double t_forces, double t);
   /// Returns the constraints that act.
   const ActingConstraints &acting() const { return held_.acting(); }
   /// Adds the fading forces of supports at t that this rank owns.
   void add_fading(double t, NodalVectors &forces) const;
+  /// Adds the resultants of the same forces to those of supports, in the order of named_supports().
+  void add_fading(double t, std::vector<Resultant> &of_supports) const;
 
   /// `step`: from the last forces to now.
   void save(StateWriter &writer, const NodalRows &rows, double step) const;
@@ -72,10 +76,12 @@ private:
   /// Forces of supports that have let nodes of this rank go.
   struct Fading {
     FadeTimes times;
+    std::optional<std::size_t> support; ///< index in named_supports(); none: of another scene
     std::vector<std::pair<unsigned int, dealii::Tensor<1, 3>>> forces;
   };
   void find_twins();
-  void add_to_fading(const FadeTimes &times, const NodalVectors &forces);
+  /// Makes the reactions of supports that end forces that fade.
+  void release_forces(double t_forces, const ConstraintFilter &acts);
   void save_supports(StateWriter &writer, const NodalRows &rows) const;
 
   const LocalNodes &nodes_;

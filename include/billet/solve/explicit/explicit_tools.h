@@ -9,6 +9,7 @@
 #include "billet/solve/explicit/nodal_rows.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace billet {
@@ -35,6 +36,12 @@ public:
   const ContactLoad &load(const std::size_t tool) const { return loads_[tool]; }
   /// Returns the same for a pair of Scene::pairs().
   const ContactLoad &pair_load(const std::size_t pair) const { return pair_loads_[pair]; }
+  /// Whether forces of a removed tool are left at t.
+  bool is_fading(std::size_t tool, double t) const;
+  /// Returns what is left at t of a removed tool's load, on this rank at these displacements: through this
+  /// pair, or through all.
+  ContactLoad fading_load(std::size_t tool, double t, const NodalVectors &displacements,
+                          std::optional<std::size_t> pair = {}) const;
   /// Returns the addition of the free tools' masses to ω² of the contacts [1/time²]. Collective.
   double max_frequency_square() const;
 
@@ -58,10 +65,18 @@ public:
 private:
   std::vector<Placement> placements(const Placement &(FreeTool::*get)() const) const;
   MPI_Comm communicator() const { return nodes_.discretization().communicator(); }
+  /// Returns the part of a removed tool's forces that is left at t.
+  double left(std::size_t tool, double t) const;
   void remove(std::size_t tool, Contacts &contacts, double &external_work);
   void save_fading(StateWriter &writer, std::size_t tool, const NodalRows &rows,
                    const std::vector<unsigned int> &nodes) const;
   void load_fading(const StateReader &reader, std::size_t tool, const NodalRows &rows, bool is_exact);
+
+  /// Forces of a removed tool at its removal, of this rank.
+  struct Removed {
+    std::optional<std::size_t> pair; ///< index in Scene::pairs(); none: of another scene
+    NodalVectors forces;
+  };
 
   const Scene &scene_;
   const LocalNodes &nodes_;
@@ -69,7 +84,7 @@ private:
   std::vector<ContactLoad> loads_, pair_loads_; ///< at t_n, of this rank
   std::vector<double> stiffness_;               ///< against free tools, of this rank
   bool has_free_tools_;
-  std::vector<std::unique_ptr<NodalVectors>> fading_forces_; ///< of removed tools at removal, of this rank
+  std::vector<std::unique_ptr<std::vector<Removed>>> fading_forces_; ///< by tool; null: not removed
   HeldMemory memory_{Capability::driven_tools};
 };
 

@@ -63,8 +63,12 @@ public:
   /// without an 'Error tolerance'.
   double step_error(const Vector &displacements) const;
 
-  /// Returns the forces of inertia at the start of the step, with the sign of the residual.
-  Vector inertia() const { return mass_.times(start_.acceleration); }
+  /// Begins the next step with the loads that act after t, if loads jump there or if velocities do. Then
+  /// `forces`, the sum of all forces with the sign of the residual, changes with them, the accelerations have
+  /// to be computed anew, and it returns true. Collective.
+  bool follow_loads(double t, bool velocities_jump, Vector &forces);
+  void add_end_inertia(Vector &residual) const override;
+
   /// Follows supports that have begun or ended at t: nodes of new ones take their velocities at once. Returns
   /// the work that this does. The accelerations have to be computed anew. Collective.
   double follow_supports(double t);
@@ -90,7 +94,6 @@ private:
     Vector u_n;                   ///< displacements at its start [length]
     double round_off_force = 0.;  ///< what the last bits of displacements do to inertia [force]
   };
-  void set_initial_velocities();
   void set_rates(const Vector &displacements);
   /// Returns the accelerations at the end of the step, including contact.
   Vector end_accelerations() const;

@@ -5,13 +5,16 @@
 #include "billet/solve/implicit/implicit_problem.h"
 #include "billet/solve/reactions.h"
 
+#include <optional>
 #include <vector>
 
 namespace billet {
 
-/// Reactions of the accepted steps of an implicit scene: at a constrained dof, the residual without
-/// constraints. In dynamics that is the balance of the integrator, whose forces are those at a time within
-/// the step.
+/// Reactions of the accepted steps of an implicit scene, at their ends: at a constrained dof, the sum of all
+/// forces without constraints. In dynamics they include inertia, with the accelerations at the end of the
+/// step. The free residual is that of the integrator's balance, which weighs forces of both ends; inertia of
+/// the whole model is what is in balance with the other forces. A support that has ended has the force that
+/// fades.
 class ImplicitReactions {
 public:
   explicit ImplicitReactions(const ImplicitProblem &problem);
@@ -25,10 +28,15 @@ public:
   /// Sets the load and the penetration of a pair with a tool, whose placement is that at the end of the step.
   void set_pair(std::size_t pair, const ContactLoad &load, const FacetPenetration &between_nodes,
                 const Placement &placement);
+  /// Adds what is left of a removed tool's load through a pair, which is known unless the run resumes with
+  /// other pairs; moment about the placement's moved centre.
+  void add_removed(std::optional<std::size_t> pair, const ContactLoad &load, const Placement &placement);
 
 private:
-  /// Sets the sums over the nodes of each body; the supports are known. `residual`: that of all nodes.
-  void balance_bodies(const Vector &residual);
+  /// Adds the fading forces of supports.
+  void add_fading();
+  /// Sets the sums over the nodes of each body. `residual`: that of all nodes, with these reactions.
+  void balance_bodies(const Vector &residual, const std::vector<Resultant> &of_supports);
 
   const ImplicitProblem &problem_;
   const ImplicitParts &parts_ = problem_.parts();

@@ -29,7 +29,12 @@ public:
   const Vector &at_start() const { return forces_n_; }
   /// Makes the forces of the last subtract() those at the start of the step.
   void start();
-  /// Does the same after a step. Returns the work of the forces, by the trapezoidal rule.
+  /// Whether the force of a load jumps at t, the end of a step.
+  bool jump_at(const double t) const { return loads_ != nullptr && loads_->works.jumps_at(t); }
+  /// Begins the next step with the loads that act after t, at the displacements of the last subtract() and
+  /// these velocities. Returns their forces less those of the last subtract(). Collective.
+  Vector start_after(double t, const Vector &velocities);
+  /// Does the same as start() after a step. Returns the work of the forces, by the trapezoidal rule.
   double commit(const Vector &increment);
 
   /// Returns force and work of each load at the start of the step. Collective.
@@ -48,6 +53,8 @@ private:
     double time = 0.; ///< of the last subtract()
   };
   NodalVectors nodal(const Vector &field) const;
+  /// Returns the sums over all ranks of forces at the nodes. Collective.
+  Vector sum_of(const NodalVectors &forces) const;
 
   const Discretization &discretization_;
   const LocalNodes &nodes_;

@@ -64,6 +64,9 @@ public:
   /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the norm of
   /// the inertia forces.
   virtual double complete(const Vector & /*contact*/, Vector & /*residual*/) const { return 0.; }
+  /// Adds the forces of inertia at the end of the step to the sum of all forces there, with the accelerations
+  /// of all forces.
+  virtual void add_end_inertia(Vector & /*residual*/) const {}
   /// Returns the factor of the residual that makes the weights of its forces at both ends of the step sum up
   /// to one.
   virtual double residual_weight() const { return 1.; }

@@ -3,14 +3,16 @@
 #define BILLET_SOLVE_IMPLICIT_SWITCHED_SUPPORTS_H
 
 #include "billet/discretization/supports.h"
+#include "billet/solve/implicit/dead_forces.h"
 #include "billet/solve/restart.h"
 
+#include <optional>
 #include <vector>
 
 namespace billet {
 
-/// Supports that begin and end between steps. The forces by which they held the bodies become dead forces on
-/// their nodes, and fade.
+/// Supports that begin and end between steps. Their reactions at the end become dead forces on their nodes,
+/// and fade.
 class SwitchedSupports {
 public:
   SwitchedSupports(const Scene &scene, const Discretization &discretization)
@@ -21,13 +23,20 @@ public:
   bool is_due(const double t) const { return supports_.acting().differ(holding_after(t)); }
   /// Lets supports go and takes others as they are due at t. `reactions`: sum of all forces on the bodies,
   /// without constraints, with the sign of the residual. Returns the part of them that the supports that
-  /// ended have borne and that remains at t; no constraint bears it any more. Collective.
+  /// ended have borne and that remains at t as forces on the bodies. Collective.
   Vector switch_supports(double t, const Vector &reactions, const Vector &displacements);
 
   /// Whether the fading forces differ between t and t_n.
   bool changes(double t_n, double t) const;
   /// Subtracts the fading forces at t from the residual.
   void add_forces(double t, Vector &residual) const;
+  /// Calls visit(index in named_supports(), part that is left at t, forces) for fading forces of supports of
+  /// this scene.
+  template <class Visit> void visit_fading(const double t, const Visit &visit) const {
+    for (const Fading &fading : fading_)
+      if (const double left = fading.times.left(t); left > 0. && fading.support)
+        visit(*fading.support, left, fading.forces);
+  }
   /// Returns their work from t_n to t.
   double work(double t_n, double t, const Vector &increment) const;
 
@@ -39,8 +48,11 @@ public:
 private:
   struct Fading {
     FadeTimes times;
-    Vector forces; ///< on the bodies
+    std::optional<std::size_t> support; ///< index in named_supports(); none: of another scene
+    DeadForces forces;
   };
+  /// Returns the forces of supports that end, by their indices in named_supports(). Collective.
+  std::vector<Fading> release_forces(double t, Vector reactions) const;
 
   const Scene &scene_;
   const Discretization &discretization_;

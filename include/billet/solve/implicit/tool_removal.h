@@ -3,15 +3,24 @@
 #define BILLET_SOLVE_IMPLICIT_TOOL_REMOVAL_H
 
 #include "billet/solve/implicit/contact_set.h"
+#include "billet/solve/implicit/dead_forces.h"
 #include "billet/solve/restart.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace billet {
+
+/// Forces of a removed tool at its removal, through one of its pairs.
+struct RemovedForces {
+  std::size_t tool;
+  std::optional<std::size_t> pair; ///< index in Scene::pairs(); none: of another scene
+  DeadForces forces;
+};
 
 /// Removal of tools at given times: the forces by which they held the bodies fade over their release time.
 class ToolRemoval {
@@ -37,7 +46,15 @@ public:
   /// Removes the tools that are due at t from their contacts. Collective.
   Removal remove_due(double t);
   /// Returns the residual of a removed tool's forces at the removal.
-  const Vector &forces(const std::size_t tool) const { return *forces_[tool]; }
+  Vector forces(std::size_t tool) const;
+  /// Calls visit(forces, part that is left at t) for the forces of removed tools.
+  template <class Visit> void visit_fading(const double t, const Visit &visit) const {
+    for (std::size_t tool = 0; tool < forces_.size(); ++tool)
+      if (forces_[tool])
+        if (const double left = fading(t, tool); left > 0.)
+          for (const RemovedForces &removed : *forces_[tool])
+            visit(removed, left);
+  }
 
   // To and from the group of a tool:
   void save(std::size_t tool, StateWriter &writer, const OwnedNodes &nodes) const;
@@ -47,7 +64,7 @@ private:
   const Scene &scene_;
   const Discretization &discretization_;
   ContactSet &contacts_;
-  std::vector<std::unique_ptr<Vector>> forces_; ///< by tool
+  std::vector<std::unique_ptr<std::vector<RemovedForces>>> forces_; ///< by tool; null: not removed
 };
 
 /// Forces that are out of balance when a run resumes from another scheme's state, or with other tools. They

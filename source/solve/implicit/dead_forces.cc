@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/solve/implicit/dead_forces.h"
+
+#include <map>
+#include <utility>
+
+namespace billet {
+
+using dealii::Tensor;
+
+DeadForces::DeadForces(const Discretization &discretization, Vector forces)
+    : discretization_(discretization), forces_(std::move(forces)) {
+  const dealii::IndexSet &owned = discretization.owned_dofs();
+  const auto values = owned_values(std::as_const(forces_));
+  std::map<std::size_t, dealii::Point<3>> sites;
+  for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
+    if (cell->is_artificial())
+      continue;
+    for (const unsigned int v : cell->vertex_indices()) {
+      const DofIndex dof = cell->vertex_dof_index(v, 0);
+      if (!owned.is_element(dof))
+        continue;
+      const std::size_t place = owned.index_within_set(dof);
+      if (values[place] != 0. || values[place + 1] != 0. || values[place + 2] != 0.)
+        sites.emplace(place, cell->vertex(v));
+    }
+  }
+  for (const auto &[place, position] : sites)
+    sites_.push_back({place, position});
+}
+
+Resultant DeadForces::resultant(const Vector &displacements) const {
+  const auto values = owned_values(forces_), u = owned_values(displacements);
+  Tensor<1, 3> force, moment;
+  for (const Site &site : sites_) {
+    Tensor<1, 3> x = site.position, at_node;
+    for (unsigned int i = 0; i < 3; ++i) {
+      at_node[i] = values[site.place + i];
+      x[i] += u[site.place + i];
+    }
+    force += at_node;
+    moment += dealii::cross_product_3d(x, at_node);
+  }
+  std::vector<double> sums{force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
+  return {Tensor<1, 3>({sums[0], sums[1], sums[2]}), Tensor<1, 3>({sums[3], sums[4], sums[5]})};
+}
+
+} // namespace billet
