@@ -208,7 +208,7 @@ inline const DiagnosticKind contact_unsettled(
 
 inline const DiagnosticKind uneven_start_gaps(
     "uneven-start-gaps", Severity::warning,
-    "A contact pair counts initial gaps or overlaps as none, and these differ from node to node by more than "
+    "A contact pair counts initial gaps or overlaps as none. They differ from node to node by more than "
     "10 % of the elastic indentation. The partner has slid by more than a facet, so they no longer fit it. "
     "Forces are off by about that part.",
     "Place the faces in contact without gaps, resolve overlaps by 'Initial penetration = ramp', or let the "
