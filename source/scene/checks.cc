@@ -169,6 +169,11 @@ void add_supports(const Body &body, const std::size_t index, const Triangulation
     if (hold.nodes && hold.times.holds_after(time))
       for (const auto &position : hold.nodes->points())
         add(hold, position);
+  for (const AppliedLoad &load : body.loads)
+    if (load.nodes && load.times.acts_after(time))
+      for (const auto &direction : load.load.supports(Tensor<1, 3>()))
+        for (const auto &position : load.nodes->points())
+          resistances.push_back({position, direction, Resistance::Sense::both_ways});
 }
 
 /// Centre of a body, and the diagonal of the box around it.
