@@ -79,8 +79,10 @@ public:
         if (place)
           reported_.insert(part_of(place->path));
       } else if (place && !(is_dynamic_ && has_word(lower(error.what()), "scheme")))
-        unchecked_.insert(
-            {part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)" : ""});
+        unchecked_.insert({part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)"
+                                                 : reported_.count(part_of(place->path)) > 0
+                                                     ? " (other parameters)"
+                                                     : ""});
       if (place)
         places.emplace_back(*place, error.what());
       // A statement without a place is left out when the file is read.
@@ -95,7 +97,6 @@ public:
   bool leave_out_meshless() {
     const std::set<std::string> bodies = std::exchange(meshless_, {});
     for (const std::string &body : bodies) {
-      unchecked_[{"Bodies", body}] = " (supports, loads, contact, probes)";
       remove_part({"Bodies", body});
     }
     return !bodies.empty();
@@ -164,6 +165,8 @@ private:
 
   /// Whether something in a subsection may be missing since another one has changed.
   static bool may_miss(const Path &path, const Path &changed) {
+    if (at(path, 2) == "Material")
+      return begins_with(changed, path);
     return begins_with(path, changed) || // a material supports nothing
            (begins_with(changed, path) && at(changed, 2) != "Material");
   }
@@ -208,14 +211,15 @@ private:
   bool mend(const SceneFile::Place &place, const std::string &message) {
     const std::string said = without_place(message), kind = at(place.path, 2);
     if (place.key.empty() || place.is_missing || !file_.is_set(place.path, place.key) ||
-        said.rfind(" is '", 0) != 0)
+        (said.rfind(" is '", 0) != 0 && said.rfind(" contains '", 0) != 0))
       return false;
     const bool is_number = said.find("; allowed is a number") != std::string::npos ||
                            said.find("; allowed is a finite number") != std::string::npos;
     const std::string advice = "'; did you mean '";
     std::optional<std::string> value;
-    if (const std::size_t begin = said.find(advice); begin != std::string::npos) {
-      const std::size_t first = begin + advice.size();
+    const std::size_t advice_at = said.find(advice);
+    if (advice_at != std::string::npos) {
+      const std::size_t first = advice_at + advice.size();
       value = said.substr(first, said.find('\'', first) - first);
     } else if (kind == "Material" && is_number)
       value = place.key == "Poisson ratio" ? "0.3" : "1";
@@ -226,7 +230,8 @@ private:
     file_.remove(place.path, place.key);
     if (value)
       file_.add_entry(place.path, place.key, *value, where);
-    keys_.insert({place.path, lower(place.key)});
+    if (advice_at == std::string::npos) // an advised value is most likely the right one
+      keys_.insert({place.path, lower(place.key)});
     return true;
   }
 
@@ -273,6 +278,8 @@ private:
       amplitudes_.insert(name);
     else
       names_.insert(name);
+    if (section == "Bodies")
+      unchecked_[part] = " (supports, loads, contact, probes)";
     if (section == "Bodies" || section == "Tools")
       for (const std::string list : {"Contact pairs", "Probes"})
         for (const std::string &user : file_.names_below({list}))

@@ -359,7 +359,7 @@ DiagnosticList check_loads_of_sections(const Scene &scene, const Triangulation<3
       dealii::Utilities::MPI::max(max, communicator, max);
       const auto add = [&](const DiagnosticKind &kind, const double part, const std::string &direction) {
         std::ostringstream text;
-        text.precision(2);
+        text.precision(3);
         text << "Load '" << load.name << "' has a part " << direction << ": " << 100. * part << " % of it";
         diagnostics.push_back(Diagnostic(kind, text.str()).body(body.name).measure("part", part));
       };

@@ -107,6 +107,7 @@ void check_weight(const std::string &name, const std::string &density, const std
   const auto &energies = run.problem.state().energies;
   const double elastic = weight * weight * height * height * height / (6. * young);
   // Eight linear elements miss 1/(4 · 8²) of it.
+  check(name + ": elastic energy", std::abs(energies.elastic / elastic - 1.), 5e-3);
   check(name + ": work of the load", std::abs(energies.external / energies.elastic - 1.), 1e-4);
 }
 
@@ -254,7 +255,7 @@ void check_moment_on_nodes() {
 
 /// A stiff block on a spring and a dashpot: backward differences of c v + k u = F, k = c = 1. Springs and
 /// dashpots on nodes have these values together. `at`: where they are.
-void check_dashpot(const std::string &name, const std::string &at) {
+void check_dashpot(const std::string &name, const std::string &at, const double tolerance) {
   constexpr unsigned int n = 10;
   SceneRun run(read({cube, "x = 0 ; y = 0", stiff, "",
                      load("ground", "        set Type = spring\n        set Stiffness = 1\n" + at) +
@@ -268,7 +269,7 @@ void check_dashpot(const std::string &name, const std::string &at) {
   double u = 0.;
   for (unsigned int i = 0; i < n; ++i)
     u = (1e-3 / n + u) / (1. + 1. / n);
-  check(name + ": displacement", std::abs(spring_reaction(run)[0][2] / u - 1.), 1e-4);
+  check(name + ": displacement", std::abs(spring_reaction(run)[0][2] / u - 1.), tolerance);
 }
 
 /// A force from 0.25 until 0.5, whose value at that time fades until 0.75.
@@ -373,9 +374,10 @@ int main(int argc, char *argv[]) {
       "        set Force = 1e-5 ; 0 ; 2e-5\n",
       Tensor<1, 3>({1e-5, 0., 2e-5}), Tensor<1, 3>({1., 1., 1.}));
   check_moment_on_nodes();
-  check_dashpot("dashpot", "        set Boundary ids = 4\n");
-  check_dashpot("dashpot on nodes",
-                "        set Nodes = at 0, 0, 0 ; at 1, 0, 0 ; at 0, 1, 0 ; at 1, 1, 0\n");
+  check_dashpot("dashpot", "        set Boundary ids = 4\n", 1e-4);
+  // The block is dented at its corners.
+  check_dashpot("dashpot on nodes", "        set Nodes = at 0, 0, 0 ; at 1, 0, 0 ; at 0, 1, 0 ; at 1, 1, 0\n",
+                1e-2);
   check_times();
   check_refused();
   return testing::exit_code();
