@@ -108,9 +108,10 @@ void check_free_modes(const ImplicitProblem &problem) {
           ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
           "bodies in contact constrain its rigid-body mode with " +
           print(mode->motion) + ". A static scene allows no free mode. " +
-          (mode->touches ? "The body touches at the start, but contact only pushes and, without friction, "
-                           "slides. Add a support or a symmetry plane against this mode"
-                         : "Add a support, or let the body touch at the start") +
+          (mode->touches
+               ? "The body touches at the start, but contact only pushes and, where nothing presses "
+                 "it, has no friction. Add a support or a symmetry plane against this mode"
+               : "Add a support, or let the body touch at the start") +
           ". If only loads, such as its weight, hold it on what it touches, set 'Contact stabilisation = "
           "until contact'");
 }
