@@ -205,25 +205,13 @@ private:
     return remove_place(place);
   }
 
-  /// Returns a value for a parameter that a load must have; none for others.
-  static std::optional<std::string> size_of_load(const std::string &key) {
-    if (key == "Pressure")
-      return "0";
-    for (const char *const vector : {"Force", "Moment", "Acceleration", "Body force", "Traction"})
-      if (key == vector)
-        return "0 ; 0 ; 0";
-    return std::nullopt;
-  }
-
   /// Gives a parameter a value that stands for the wrong one, so that other errors of its part are found: the
   /// one that the message advises, a number of a material, or the default of a support or a load. Returns
   /// false if it cannot, or has done so before.
   bool mend(const SceneFile::Place &place, const std::string &message) {
     const std::string said = without_place(message), kind = at(place.path, 2);
-    const std::optional<std::string> size = kind == "Loads" ? size_of_load(place.key) : std::nullopt;
-    const bool is_said = said.rfind(" is '", 0) == 0 || said.rfind(" contains '", 0) == 0;
-    if (place.key.empty() || !is_said ||
-        (!size && (place.is_missing || !file_.is_set(place.path, place.key))))
+    if (place.key.empty() || place.is_missing || !file_.is_set(place.path, place.key) ||
+        (said.rfind(" is '", 0) != 0 && said.rfind(" contains '", 0) != 0))
       return false;
     const bool is_number = said.find("; allowed is a number") != std::string::npos ||
                            said.find("; allowed is a finite number") != std::string::npos;
@@ -235,8 +223,6 @@ private:
       value = said.substr(first, said.find('\'', first) - first);
     } else if (kind == "Material" && is_number)
       value = place.key == "Poisson ratio" ? "0.3" : "1";
-    else if (size)
-      value = size;
     const bool has_default = kind == "Supports" || kind == "Loads";
     if ((!value && !has_default) || !mended_.insert({place.path, place.key}).second)
       return false;
