@@ -546,9 +546,6 @@ void Load::parse(Reader &reader) {
   }
   if (!boundary_ids.is_empty() && !nodes.is_empty())
     reader.reject("Nodes", "no value: 'Boundary ids' says where the load acts");
-  const auto is_set = [&](const LoadExpression &expression) { return reader.is_set(expression.key); };
-  if (!load.expressions.empty() && std::none_of(load.expressions.begin(), load.expressions.end(), is_set))
-    reader.reject(load.expressions.front().key, "a value: without one the load is 0");
   origin = reader.origin();
   parse_times(reader, "the load never fades", *this);
   for (const LoadExpression &expression : load.expressions)

@@ -218,7 +218,8 @@ private:
     const std::string advice = "'; did you mean '";
     std::optional<std::string> value;
     const std::size_t advice_at = said.find(advice);
-    if (advice_at != std::string::npos) {
+    const bool is_kind = place.key == "Scheme" || place.key == "Type" || place.key == "Shape";
+    if (advice_at != std::string::npos && is_kind) {
       const std::size_t first = advice_at + advice.size();
       value = said.substr(first, said.find('\'', first) - first);
     } else if (kind == "Material" && is_number)
