@@ -280,10 +280,12 @@ int main(int argc, char *argv[]) {
   };
   for (const std::string &at : {std::string("Nodes = at 2.5, 4, 0"), std::string("Point = 2.4, 3.9, 0"),
                                 std::string("Point = 2.5, 4, 0\n        set Place = nearest node")})
-    check_sides("layer, " + at, layer, support("0, 0, 0 ; at 5, 0, 0", "x, y") + force(at, "0.1 ; -0.2 ; 0"));
+    check_sides("layer, " + at.substr(0, at.find('\n')), layer,
+                support("0, 0, 0 ; at 5, 0, 0", "x, y") + force(at, "0.1 ; -0.2 ; 0"));
   for (const std::string &at : {std::string("Nodes = at 8, 0, 4"), std::string("Point = 9, 0, 3.9"),
                                 std::string("Point = 0, 0, 4\n        set Place = nearest node")})
-    check_sides("wedge, " + at, disc, support("20, 0, 0", "z") + force(at, "0.01 ; 0 ; -0.02"));
+    check_sides("wedge, " + at.substr(0, at.find('\n')), disc,
+                support("20, 0, 0", "z") + force(at, "0.01 ; 0 ; -0.02"));
 
   check_traction("load on a ring", ring, "z = 0", "0 ; 0 ; -0.01", "full_circle_force_x",
                  Tensor<1, 3>({0., 0., -0.01 * M_PI * (outer * outer - inner * inner)}));
