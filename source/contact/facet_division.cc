@@ -65,8 +65,8 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
 
 bool FacetDivision::is_seen(const double spacing, const double length) const {
   constexpr double round_off = 1e-9;
-  constexpr double least_unseen = 0.1 * unseen; // the smallest depth tried, for thin tools
-  constexpr double opposing = 0.5;              // cosine: contact on a steeper flank lets the tool pass
+  constexpr double min_unseen = 0.1 * unseen; // the smallest depth tried, for thin tools
+  constexpr double opposing = 0.5;            // cosine: contact on a steeper flank lets the tool pass
   const auto is_met_at = [&](const Tensor<1, 3> &x, const Tensor<1, 3> &normal) {
     const auto projection = surface_.project(x);
     return projection.exists && projection.gap <= round_off * length &&
@@ -78,7 +78,7 @@ bool FacetDivision::is_seen(const double spacing, const double length) const {
       bool is_met = false;
       for (unsigned int corner = turned; corner < 8 && !is_met; corner += 2)
         // For thin tools, only some of the depths are inside.
-        for (double penetration = unseen; penetration > least_unseen && !is_met; penetration *= 0.5)
+        for (double penetration = unseen; penetration > min_unseen && !is_met; penetration *= 0.5)
           is_met = is_met_at(sample.position + diagonal * spacing * around[corner] -
                                  penetration * length * sample.normal,
                              sample.normal);

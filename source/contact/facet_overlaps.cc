@@ -20,7 +20,7 @@ double facing_part(const Tensor<1, 3> &area_vector, const Tensor<1, 3> &other) {
   return z * z * (3. - 2. * z);
 }
 
-/// How two facets lie to each other at the start of a step.
+/// Relative position of two facets at the start of a step.
 struct StartOfPair {
   double within_step, at_start; ///< limits of penetration [length]
   bool was_behind;

@@ -80,7 +80,7 @@ bool fit(const SmoothFacet &facet, const SmoothFacet &other) {
 }
 
 /// Angle that a facet turns, below which it is flat.
-constexpr double least_turn = 1e-6;
+constexpr double min_turn = 1e-6;
 /// Part of the clearance above which a chord gap counts.
 constexpr double part_of_clearance = 0.2;
 
@@ -100,7 +100,7 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
   bool fits = false;
   for (std::size_t f = 0; f < n_own_facets; ++f) {
     const SmoothFacet &facet = facets[f];
-    if (!(std::abs(facet.curvature) * facet.size > least_turn))
+    if (!(std::abs(facet.curvature) * facet.size > min_turn))
       continue;
     for (const double xi : along)
       for (const double eta : along) {

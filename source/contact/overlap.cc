@@ -276,28 +276,28 @@ Overlap find_deepest(const Discretization &discretization, const std::vector<Ten
 } // namespace
 
 std::vector<BoundaryFacet> collect_free_boundary(const Discretization &discretization, const std::size_t body,
-                                                 const std::vector<Hold> &holds) {
+                                                 const std::vector<Constraint> &constraints) {
   std::vector<BoundaryFacet> facets = collect_boundary_facets(discretization, body);
-  const double tolerance = Hold::rounding * discretization.radius();
-  facets.erase(std::remove_if(facets.begin(), facets.end(),
-                              [&](const BoundaryFacet &facet) {
-                                return std::any_of(holds.begin(), holds.end(), [&](const Hold &hold) {
-                                  return hold.on_plane &&
-                                         std::all_of(facet.corners.begin(), facet.corners.end(),
-                                                     [&](const dealii::Point<3> &x) {
-                                                       return std::abs(x * hold.normal - hold.offset) <=
-                                                              tolerance;
-                                                     });
-                                });
-                              }),
-               facets.end());
+  const double tolerance = Constraint::rounding * discretization.radius();
+  facets.erase(
+      std::remove_if(
+          facets.begin(), facets.end(),
+          [&](const BoundaryFacet &facet) {
+            return std::any_of(constraints.begin(), constraints.end(), [&](const Constraint &constraint) {
+              return constraint.on_plane &&
+                     std::all_of(facet.corners.begin(), facet.corners.end(), [&](const dealii::Point<3> &x) {
+                       return std::abs(x * constraint.normal - constraint.offset) <= tolerance;
+                     });
+            });
+          }),
+      facets.end());
   return facets;
 }
 
 Overlap find_overlap(const Discretization &discretization, const std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, const std::size_t other_body,
                      const std::vector<unsigned int> &other_boundary_ids,
-                     const std::vector<Hold> &other_holds) {
+                     const std::vector<Constraint> &other_constraints) {
   const MPI_Comm communicator = discretization.communicator();
   const auto facets =
       gather_facets(collect_boundary_facets(discretization, body, boundary_ids), communicator);
@@ -308,7 +308,7 @@ Overlap find_overlap(const Discretization &discretization, const std::size_t bod
                            communicator);
   constexpr double rounding = 1e-9; // a point on the face between two elements is in both
   return find_deepest(discretization, probes.points(), other_body,
-                      collect_free_boundary(discretization, other_body, other_holds), 1, rounding);
+                      collect_free_boundary(discretization, other_body, other_constraints), 1, rounding);
 }
 
 Overlap find_self_overlap(const Discretization &discretization, const std::size_t body,
@@ -386,7 +386,7 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   for (unsigned int side = 0; side < 2 && !is_one_body; ++side) {
     const Overlap overlap =
         find_overlap(discretization, bodies.bodies[side], bodies.boundary_ids[side], bodies.bodies[1 - side],
-                     bodies.boundary_ids[1 - side], scene.bodies()[bodies.bodies[1 - side]].holds);
+                     bodies.boundary_ids[1 - side], scene.bodies()[bodies.bodies[1 - side]].constraints);
     if (overlap.penetration > deepest.penetration)
       deepest = overlap;
   }

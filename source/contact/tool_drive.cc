@@ -63,7 +63,7 @@ ToolDrive::Sliding ToolDrive::measure_sliding(const ToolRate &rate) const {
 }
 
 double ToolDrive::distance_to_touch(const Tensor<1, 3> &direction) const {
-  constexpr double least_approach = 1e-6; // cosine to the normal: less is parallel to the surface
+  constexpr double min_approach = 1e-6; // cosine to the normal: less is parallel to the surface
   double minimum = std::numeric_limits<double>::infinity();
   if (parts_.step.is_removed)
     return minimum;
@@ -72,7 +72,7 @@ double ToolDrive::distance_to_touch(const Tensor<1, 3> &direction) const {
     const auto projection = parts_.step.surface.project(placement.to_tool(parts_.states[i].position),
                                                         parts_.slaves.nodes[i].patch);
     const double approach = placement.rotation * projection.normal * direction;
-    if (projection.exists && approach > least_approach)
+    if (projection.exists && approach > min_approach)
       minimum = std::min(minimum, projection.gap / approach);
   }
   return minimum;

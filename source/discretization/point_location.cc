@@ -22,8 +22,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double near = 0.1; // maximum distance from the nearest node [scene's radius]
 
-/// What this rank has of a point. Of several the one with the least distance, then with the least key,
-/// counts.
+/// Place of a point in an element of this rank. Of several the one with the least distance, then with the
+/// least key, counts.
 struct Candidate {
   double distance = infinity;
   LocatedPoint at{0, std::numeric_limits<std::uint64_t>::max(), {}};
@@ -97,10 +97,10 @@ struct Surroundings {
   std::ostringstream message;
   message << request.origin << ": the point (" << point << ") is "
           << (request.takes_nearest_nodes ? "far from all nodes of" : "not in") << " the undeformed body '"
-          << request.body << "', which reaches from (" << low[0] << " " << low[1] << " " << low[2] << ") to (" << high[0]
-          << " " << high[1] << " " << high[2] << "). Its distance is " << distance << " from the body, and "
-          << node[0] << " from the nearest node, (" << node[1] << " " << node[2] << " " << node[3]
-          << "); allowed "
+          << request.body << "', which reaches from (" << low[0] << " " << low[1] << " " << low[2] << ") to ("
+          << high[0] << " " << high[1] << " " << high[2] << "). Its distance is " << distance
+          << " from the body, and " << node[0] << " from the nearest node, (" << node[1] << " " << node[2]
+          << " " << node[3] << "); allowed "
           << (request.takes_nearest_nodes ? "is a distance of at most a tenth of the scene's radius"
                                           : request.allowed);
   throw InputError(message.str());

@@ -13,11 +13,11 @@ namespace {
 std::vector<std::size_t> support_indices(const Body &body, const std::size_t first) {
   std::vector<std::size_t> indices;
   std::vector<std::string> names;
-  for (const Hold &hold : body.holds) {
-    const auto found = std::find(names.begin(), names.end(), hold.name);
+  for (const Constraint &constraint : body.constraints) {
+    const auto found = std::find(names.begin(), names.end(), constraint.name);
     indices.push_back(first + static_cast<std::size_t>(found - names.begin()));
     if (found == names.end())
-      names.push_back(hold.name);
+      names.push_back(constraint.name);
   }
   return indices;
 }
@@ -41,13 +41,13 @@ Tensor<1, 3> dual_vector(const std::vector<Tensor<1, 3>> &normals, const std::si
 }
 
 /// Returns which of the normals are independent of those before them.
-std::vector<std::size_t> find_independent(const std::vector<const Hold *> &holds,
+std::vector<std::size_t> find_independent(const std::vector<const Constraint *> &constraints,
                                           const dealii::Point<3> &position) {
   constexpr double independent = 1e-8; // as in collect_fixed_nodes()
   std::vector<std::size_t> indices;
   std::vector<Tensor<1, 3>> basis;
-  for (std::size_t h = 0; h < holds.size(); ++h) {
-    Tensor<1, 3> left = holds[h]->direction(position);
+  for (std::size_t h = 0; h < constraints.size(); ++h) {
+    Tensor<1, 3> left = constraints[h]->direction(position);
     for (const auto &e : basis)
       left -= (left * e) * e;
     if (left.norm() <= independent)
@@ -68,19 +68,19 @@ std::vector<NamedSupport> named_supports(const Scene &scene) {
     const std::vector<std::size_t> indices = support_indices(body, first);
     for (std::size_t h = 0; h < indices.size(); ++h)
       if (indices[h] == all.size())
-        all.push_back({b, body.holds[h].name});
+        all.push_back({b, body.constraints[h].name});
   }
   return all;
 }
 
 SupportReactions::SupportReactions(const Scene &scene, const Discretization &discretization,
-                                   const ActingHolds &acting)
+                                   const ActingConstraints &acting)
     : scene_(scene), discretization_(discretization), n_supports_(named_supports(scene).size()) {
   std::size_t first = 0;
   for (const Body &body : scene.bodies()) {
     const std::vector<std::size_t> indices = support_indices(body, first);
     for (std::size_t h = 0; h < indices.size(); ++h) {
-      support_of_[&body.holds[h]] = indices[h];
+      support_of_[&body.constraints[h]] = indices[h];
       first = std::max(first, indices[h] + 1);
     }
   }
@@ -91,25 +91,26 @@ SupportReactions::SupportReactions(const Scene &scene, const Discretization &dis
   couples_ranks_ = couple_ranks(links_, discretization.owned_dofs(), discretization.communicator());
 }
 
-void SupportReactions::follow(const ActingHolds &acting) {
+void SupportReactions::follow(const ActingConstraints &acting) {
   if (acting.n_changes() != n_changes_)
     collect_nodes(acting);
 }
 
-void SupportReactions::collect_nodes(const ActingHolds &acting) {
+void SupportReactions::collect_nodes(const ActingConstraints &acting) {
   nodes_.clear();
   n_changes_ = acting.n_changes();
-  const auto acts = [&acting](const Hold &hold) { return acting(hold); };
-  for (const auto &[dof, held] : collect_held_nodes(scene_, discretization_, acts)) {
+  const auto acts = [&acting](const Constraint &constraint) { return acting(constraint); };
+  for (const auto &[dof, held] : collect_constrained_nodes(scene_, discretization_, acts)) {
     if (!discretization_.owned_dofs().is_element(dof))
       continue;
     Node node{held.dofs, held.position, {}};
-    const std::vector<std::size_t> independent = find_independent(held.holds, held.position);
+    const std::vector<std::size_t> independent = find_independent(held.constraints, held.position);
     std::vector<Tensor<1, 3>> normals;
     for (const std::size_t h : independent)
-      normals.push_back(held.holds[h]->direction(held.position));
+      normals.push_back(held.constraints[h]->direction(held.position));
     for (std::size_t i = 0; i < normals.size(); ++i)
-      node.parts.push_back({support_of_.at(held.holds[independent[i]]), normals[i], dual_vector(normals, i)});
+      node.parts.push_back(
+          {support_of_.at(held.constraints[independent[i]]), normals[i], dual_vector(normals, i)});
     nodes_.push_back(node);
   }
 }

@@ -19,10 +19,11 @@ constexpr double little_weight = 1e-14; ///< of a constraint in a combination: r
 constexpr double disagreement = 1e-8;   ///< allowed of prescribed displacements, over the scene's radius
 
 /// Returns what is wrong with prescribed displacements.
-std::string describe_contradiction(const Hold &hold, const double time, const dealii::Point<3> &position,
-                                   const std::string &names, const double difference) {
+std::string describe_contradiction(const Constraint &constraint, const double time,
+                                   const dealii::Point<3> &position, const std::string &names,
+                                   const double difference) {
   std::ostringstream message;
-  message << hold.origin << ": at time " << time << " the node at (" << position
+  message << constraint.origin << ": at time " << time << " the node at (" << position
           << ") has prescribed displacements by " << names << ", which contradict each other by "
           << difference << "; allowed are prescribed displacements that agree where their boundaries meet";
   return message.str();
@@ -43,53 +44,54 @@ void TangentSystem::add(const dealii::FullMatrix<double> &local, const std::vect
     constraints.distribute_local_to_global(local, dealii::Vector<double>(dofs.size()), dofs, matrix, *lift);
 }
 
-std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization,
-                                                const HoldFilter &acts) {
+std::map<DofIndex, ConstrainedNode> collect_constrained_nodes(const Scene &scene,
+                                                              const Discretization &discretization,
+                                                              const ConstraintFilter &acts) {
   // Ghost cells are included: every rank knows all faces around the nodes of its own cells.
-  std::map<DofIndex, HeldNode> nodes;
-  const double tolerance = Hold::rounding * discretization.radius();
-  const auto add = [&](const Hold &hold, const auto &object, const unsigned int v) {
-    if (!hold.has_direction(object->vertex(v), tolerance))
+  std::map<DofIndex, ConstrainedNode> nodes;
+  const double tolerance = Constraint::rounding * discretization.radius();
+  const auto add = [&](const Constraint &constraint, const auto &object, const unsigned int v) {
+    if (!constraint.has_direction(object->vertex(v), tolerance))
       return;
     auto &node = nodes[object->vertex_dof_index(v, 0)];
     for (unsigned int i = 0; i < 3; ++i)
       node.dofs[i] = object->vertex_dof_index(v, i);
     node.position = object->vertex(v);
-    if (std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
-      node.holds.push_back(&hold);
+    if (std::find(node.constraints.begin(), node.constraints.end(), &constraint) == node.constraints.end())
+      node.constraints.push_back(&constraint);
   };
   for (const auto &cell : discretization.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())
       continue;
-    for (const auto &hold : scene.bodies()[cell->material_id()].holds)
-      if (hold.nodes && acts(hold))
+    for (const auto &constraint : scene.bodies()[cell->material_id()].constraints)
+      if (constraint.nodes && acts(constraint))
         for (const unsigned int v : cell->vertex_indices())
-          if (hold.nodes->contains(cell->vertex(v)))
-            add(hold, cell, v);
+          if (constraint.nodes->contains(cell->vertex(v)))
+            add(constraint, cell, v);
     for (const unsigned int f : cell->face_indices()) {
       if (!cell->face(f)->at_boundary())
         continue;
-      for (const auto &hold : scene.bodies()[cell->material_id()].holds) {
-        if (!acts(hold) || !holds_face(hold, cell->face(f), tolerance))
+      for (const auto &constraint : scene.bodies()[cell->material_id()].constraints) {
+        if (!acts(constraint) || !constrains_face(constraint, cell->face(f), tolerance))
           continue;
         for (const unsigned int v : cell->face(f)->vertex_indices())
-          add(hold, cell->face(f), v);
+          add(constraint, cell->face(f), v);
       }
     }
   }
   for (auto &entry : nodes) // The order of a node's planes must not depend on the rank.
-    std::sort(entry.second.holds.begin(), entry.second.holds.end());
+    std::sort(entry.second.constraints.begin(), entry.second.constraints.end());
   return nodes;
 }
 
 std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization) {
   constexpr double independent = 1e-8; // as in eliminate()
   std::set<DofIndex> fixed;
-  const auto always = [](const Hold &hold) { return hold.times.always(); };
-  for (const auto &[dof, node] : collect_held_nodes(scene, discretization, always)) {
+  const auto always = [](const Constraint &constraint) { return constraint.times.always(); };
+  for (const auto &[dof, node] : collect_constrained_nodes(scene, discretization, always)) {
     std::vector<dealii::Tensor<1, 3>> basis;
-    for (const Hold *hold : node.holds) {
-      dealii::Tensor<1, 3> left = hold->direction(node.position);
+    for (const Constraint *constraint : node.constraints) {
+      dealii::Tensor<1, 3> left = constraint->direction(node.position);
       for (const auto &e : basis)
         left -= (left * e) * e;
       if (left.norm() > independent)
@@ -111,8 +113,8 @@ void Supports::rebuild() {
   lines_.clear();
   prescriptions_.clear();
   redundancies_.clear();
-  const std::map<DofIndex, HeldNode> nodes =
-      collect_held_nodes(scene_, discretization_, [this](const Hold &hold) { return acting_(hold); });
+  const std::map<DofIndex, ConstrainedNode> nodes = collect_constrained_nodes(
+      scene_, discretization_, [this](const Constraint &constraint) { return acting_(constraint); });
   fail_together(discretization_.communicator(), [&] {
     for (const auto &entry : nodes)
       eliminate(entry.second);
@@ -139,24 +141,25 @@ void Supports::resume(const double t, std::map<double, Vector> starts) {
   rebuild();
 }
 
-double Supports::start_of(const Hold &hold, const HeldNode &node) const {
-  if (!hold.times.is_late())
+double Supports::start_of(const Constraint &constraint, const ConstrainedNode &node) const {
+  if (!constraint.times.is_late())
     return 0.;
-  const Vector &start = starts_.at(hold.times.from);
-  const dealii::Tensor<1, 3> n = hold.direction(node.position);
+  const Vector &start = starts_.at(constraint.times.from);
+  const dealii::Tensor<1, 3> n = constraint.direction(node.position);
   double place = 0.;
   for (unsigned int i = 0; i < 3; ++i)
     place += n[i] * start(node.dofs[i]);
-  return hold.value != nullptr ? place - hold.value->value(hold.times.from, node.position) : place;
+  return constraint.value != nullptr ? place - constraint.value->value(constraint.times.from, node.position)
+                                     : place;
 }
 
-std::vector<HoldRow> solve_for_pivots(const HeldNode &node) {
-  constexpr double least_pivot = 1e-10; // of unit normals
-  const std::vector<const Hold *> &holds = node.holds;
-  std::vector<HoldRow> rows(holds.size());
+std::vector<ConstraintRow> solve_for_pivots(const ConstrainedNode &node) {
+  constexpr double min_pivot = 1e-10; // of unit normals
+  const std::vector<const Constraint *> &constraints = node.constraints;
+  std::vector<ConstraintRow> rows(constraints.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    rows[r].n = holds[r]->direction(node.position);
-    rows[r].weights.assign(holds.size(), 0.);
+    rows[r].n = constraints[r]->direction(node.position);
+    rows[r].weights.assign(constraints.size(), 0.);
     rows[r].weights[r] = 1.;
   }
   for (auto &row : rows) {
@@ -164,7 +167,7 @@ std::vector<HoldRow> solve_for_pivots(const HeldNode &node) {
       if (row.pivot < 0 || std::abs(row.n[i]) > std::abs(row.n[static_cast<unsigned int>(row.pivot)]))
         row.pivot = static_cast<int>(i);
     const double pivot = row.n[static_cast<unsigned int>(row.pivot)];
-    if (std::abs(pivot) < least_pivot) { // this one depends on earlier ones
+    if (std::abs(pivot) < min_pivot) { // this one depends on earlier ones
       row.pivot = -1;
       continue;
     }
@@ -175,37 +178,37 @@ std::vector<HoldRow> solve_for_pivots(const HeldNode &node) {
       if (&other != &row) {
         const double factor = other.n[static_cast<unsigned int>(row.pivot)];
         other.n -= factor * row.n;
-        for (std::size_t h = 0; h < holds.size(); ++h)
+        for (std::size_t h = 0; h < constraints.size(); ++h)
           other.weights[h] -= factor * row.weights[h];
       }
   }
   return rows;
 }
 
-std::string names_in(const HoldRow &row, const HeldNode &node) {
+std::string names_in(const ConstraintRow &row, const ConstrainedNode &node) {
   std::string list;
-  for (std::size_t h = 0; h < node.holds.size(); ++h)
+  for (std::size_t h = 0; h < node.constraints.size(); ++h)
     if (std::abs(row.weights[h]) > little_weight)
-      list += (list.empty() ? "'" : " and '") + node.holds[h]->name + "'";
+      list += (list.empty() ? "'" : " and '") + node.constraints[h]->name + "'";
   return list;
 }
 
-void Supports::eliminate(const HeldNode &node) {
-  constexpr double least_weight = 1e-14; // of unit normals: round-off
-  const std::vector<const Hold *> &holds = node.holds;
+void Supports::eliminate(const ConstrainedNode &node) {
+  constexpr double min_weight = 1e-14; // of unit normals: round-off
+  const std::vector<const Constraint *> &constraints = node.constraints;
   const std::array<DofIndex, 3> &dofs = node.dofs;
   const dealii::Point<3> &position = node.position;
   std::vector<double> starts;
-  for (const Hold *hold : holds)
-    starts.push_back(start_of(*hold, node));
-  const std::vector<HoldRow> rows = solve_for_pivots(node);
+  for (const Constraint *constraint : constraints)
+    starts.push_back(start_of(*constraint, node));
+  const std::vector<ConstraintRow> rows = solve_for_pivots(node);
   for (const auto &row : rows) {
     std::vector<Term> terms;
     double start = 0.;
-    for (std::size_t h = 0; h < holds.size(); ++h)
+    for (std::size_t h = 0; h < constraints.size(); ++h)
       if (std::abs(row.weights[h]) > little_weight) {
-        if (holds[h]->value != nullptr)
-          terms.push_back({holds[h], row.weights[h]});
+        if (constraints[h]->value != nullptr)
+          terms.push_back({constraints[h], row.weights[h]});
         start += row.weights[h] * starts[h];
       }
     if (row.pivot < 0) {
@@ -215,7 +218,7 @@ void Supports::eliminate(const HeldNode &node) {
     }
     ConstraintLine line{dofs[static_cast<unsigned int>(row.pivot)], {}};
     for (unsigned int i = 0; i < 3; ++i)
-      if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > least_weight)
+      if (static_cast<int>(i) != row.pivot && std::abs(row.n[i]) > min_weight)
         line.others.emplace_back(dofs[i], -row.n[i]);
     lines_.push_back(line);
     prescriptions_.push_back({terms, position, start});
@@ -230,24 +233,24 @@ namespace {
 
 /// Constraints of a node that depend on each other, while they act. With those that began at `start` or
 /// before they agree there, and from then on their changes have to.
-class DependentHolds {
+class DependentConstraints {
 public:
-  DependentHolds(const HoldRow &row, const HeldNode &node)
+  DependentConstraints(const ConstraintRow &row, const ConstrainedNode &node)
       : names_(names_in(row, node)), position_(node.position) {
-    for (std::size_t h = 0; h < node.holds.size(); ++h) {
+    for (std::size_t h = 0; h < node.constraints.size(); ++h) {
       if (!(std::abs(row.weights[h]) > little_weight))
         continue;
-      start_ = std::max(start_, node.holds[h]->times.from);
-      if (node.holds[h]->value != nullptr)
-        terms_.emplace_back(node.holds[h], row.weights[h]);
+      start_ = std::max(start_, node.constraints[h]->times.from);
+      if (node.constraints[h]->value != nullptr)
+        terms_.emplace_back(node.constraints[h], row.weights[h]);
     }
   }
 
   bool have_values() const { return !terms_.empty(); }
   double sum_at(const double t) const {
     double sum = 0.;
-    for (const auto &[hold, weight] : terms_)
-      sum += weight * hold->value->value(t, position_);
+    for (const auto &[constraint, weight] : terms_)
+      sum += weight * constraint->value->value(t, position_);
     return sum;
   }
   double start() const { return start_; }
@@ -256,7 +259,7 @@ public:
   }
 
 private:
-  std::vector<std::pair<const Hold *, double>> terms_;
+  std::vector<std::pair<const Constraint *, double>> terms_;
   std::string names_;
   dealii::Point<3> position_;
   double start_ = 0.;
@@ -268,23 +271,23 @@ void check_agreement(const Scene &scene, const Discretization &discretization) {
   const double end = scene.parameters().time_stepping.end_time;
   std::set<double> changes{0., end};
   for (const Body &body : scene.bodies())
-    for (const Hold &hold : body.holds)
-      for (const double time : {hold.times.from, hold.times.until})
+    for (const Constraint &constraint : body.constraints)
+      for (const double time : {constraint.times.from, constraint.times.until})
         if (time > 0. && time < end)
           changes.insert(time);
   for (auto from = changes.begin(); std::next(from) != changes.end(); ++from) {
-    std::vector<DependentHolds> dependent;
-    std::vector<std::pair<const Hold *, dealii::Point<3>>> moving;
-    const auto acts = [&](const Hold &hold) { return hold.times.holds_after(*from); };
-    for (const auto &entry : collect_held_nodes(scene, discretization, acts)) {
-      const HeldNode &node = entry.second;
-      for (const HoldRow &row : solve_for_pivots(node))
+    std::vector<DependentConstraints> dependent;
+    std::vector<std::pair<const Constraint *, dealii::Point<3>>> moving;
+    const auto acts = [&](const Constraint &constraint) { return constraint.times.acts_after(*from); };
+    for (const auto &entry : collect_constrained_nodes(scene, discretization, acts)) {
+      const ConstrainedNode &node = entry.second;
+      for (const ConstraintRow &row : solve_for_pivots(node))
         if (row.pivot < 0)
-          if (DependentHolds holds(row, node); holds.have_values())
-            dependent.push_back(std::move(holds));
-      for (const Hold *hold : node.holds)
-        if (hold->value != nullptr)
-          moving.emplace_back(hold, node.position);
+          if (DependentConstraints on_node(row, node); on_node.have_values())
+            dependent.push_back(std::move(on_node));
+      for (const Constraint *constraint : node.constraints)
+        if (constraint->value != nullptr)
+          moving.emplace_back(constraint, node.position);
     }
     // One time after the other: an expression is parsed again when the time changes.
     fail_together(discretization.communicator(), [&] {
@@ -300,8 +303,8 @@ void check_agreement(const Scene &scene, const Discretization &discretization) {
         constexpr unsigned int n_checks = 16;
         for (unsigned int check = 0; check <= n_checks; ++check) {
           const double t = *from + (*std::next(from) - *from) * check / n_checks;
-          for (const auto &[hold, position] : moving) // throws if it is not finite
-            hold->value->value(t, position);
+          for (const auto &[constraint, position] : moving) // throws if it is not finite
+            constraint->value->value(t, position);
           for (std::size_t i = 0; i < dependent.size(); ++i)
             if (const double difference = std::abs(dependent[i].sum_at(t) - sums_at_start[i]);
                 difference > disagreement * discretization.radius())
@@ -322,10 +325,11 @@ Constraints Supports::at_time(const double t) const {
     for (const auto &redundancy : redundancies_) {
       double sum = redundancy.start;
       for (const auto &term : redundancy.terms)
-        sum += term.weight * term.hold->value->value(t, redundancy.position);
+        sum += term.weight * term.constraint->value->value(t, redundancy.position);
       if (std::abs(sum) > disagreement * discretization_.radius())
-        throw SolutionFailure(describe_contradiction(*redundancy.terms.front().hold, t, redundancy.position,
-                                                     redundancy.holds, std::abs(sum)));
+        throw SolutionFailure(describe_contradiction(*redundancy.terms.front().constraint, t,
+                                                     redundancy.position, redundancy.constraints,
+                                                     std::abs(sum)));
     }
   });
   std::vector<double> values;
@@ -358,14 +362,14 @@ Constraints Supports::change(const double t_n, const double t, bool &moves) cons
 double Supports::Prescription::value(const double t) const {
   double value = start; // 0 unless supports began within the run
   for (const auto &term : terms)
-    value += term.weight * term.hold->value->value(t, position);
+    value += term.weight * term.constraint->value->value(t, position);
   return value;
 }
 
 std::array<double, 3> SupportTrack::at(const double t) const {
   std::array<double, 3> result{};
   for (const Part &part : parts_)
-    result[part.line] += part.weight * part.hold->value->value(t, position_);
+    result[part.line] += part.weight * part.constraint->value->value(t, position_);
   return result;
 }
 
@@ -380,21 +384,21 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
       n_lines = 0;
     }
     for (const Term &term : prescription.terms)
-      if (term.hold->value)
-        all.back().parts_.push_back({term.hold, term.weight, n_lines});
+      if (term.constraint->value)
+        all.back().parts_.push_back({term.constraint, term.weight, n_lines});
     ++n_lines;
   }
   // Supports that begin later, each by itself: which of them a node's motion will follow is not known yet.
-  const auto begins_later = [](const Hold &hold) {
-    return hold.value != nullptr && !hold.times.holds_after(0.);
+  const auto begins_later = [](const Constraint &constraint) {
+    return constraint.value != nullptr && !constraint.times.acts_after(0.);
   };
   if (acting_.may_change())
-    for (const auto &entry : collect_held_nodes(scene_, discretization_, begins_later)) {
+    for (const auto &entry : collect_constrained_nodes(scene_, discretization_, begins_later)) {
       all.emplace_back();
       all.back().position_ = entry.second.position;
-      const std::vector<const Hold *> &holds = entry.second.holds;
-      for (unsigned int i = 0; i < std::min<std::size_t>(holds.size(), 3); ++i)
-        all.back().parts_.push_back({holds[i], 1., i});
+      const std::vector<const Constraint *> &constraints = entry.second.constraints;
+      for (unsigned int i = 0; i < std::min<std::size_t>(constraints.size(), 3); ++i)
+        all.back().parts_.push_back({constraints[i], 1., i});
     }
   all.erase(std::remove_if(all.begin(), all.end(),
                            [](const SupportTrack &motion) { return motion.parts_.empty(); }),

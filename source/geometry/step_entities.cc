@@ -18,7 +18,7 @@ namespace billet {
 
 namespace {
 
-/// What an entity is to those that refer to it.
+/// Role of an entity for those that refer to it.
 enum class Kind {
   unknown, ///< none of the rules
   complex, ///< with parts of several types, such as rational splines

@@ -38,7 +38,7 @@ double find_limit(const IsochoricEnergy &energy, const std::array<double, 3> &di
 
 std::array<StableRange, 3> find_stable_ranges(const IsochoricEnergy &energy) {
   const auto range = [&](const char *mode, const std::array<double, 3> &direction) {
-    return StableRange{mode, find_limit(energy, direction, least_searched_stretch),
+    return StableRange{mode, find_limit(energy, direction, min_searched_stretch),
                        find_limit(energy, direction, greatest_searched_stretch)};
   };
   return {range("uniaxial", {1., -0.5, -0.5}), range("equibiaxial", {1., 1., -2.}),
@@ -49,7 +49,7 @@ std::string describe_stability(const IsochoricEnergy &energy) {
   std::ostringstream text;
   text.precision(3);
   for (const StableRange &range : find_stable_ranges(energy))
-    if (range.lowest > least_searched_stretch || range.highest < greatest_searched_stretch)
+    if (range.lowest > min_searched_stretch || range.highest < greatest_searched_stretch)
       text << (text.str().empty() ? "stable (Drucker) at stretches of " : ", ") << range.lowest << " to "
            << range.highest << " (" << range.mode << ")";
   return text.str();

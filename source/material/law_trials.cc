@@ -30,7 +30,7 @@ struct Limits {
   /// In steps to `small_step`. Newton's method then gains nearly two digits per iteration.
   static constexpr double tangent = 0.02, small_step = 0.01;
   static constexpr double symmetry = 1e-8;
-  /// Of a subroutine's tangent whose symmetric part counts.
+  /// Bound for a subroutine's tangent whose symmetric part counts.
   static constexpr double lost_symmetry = 0.02;
   /// Errors of the trapezoidal rule over the paths, as part of the work.
   static constexpr double dissipation = 1e-3, balance = 0.02;
@@ -212,15 +212,15 @@ Finding judge_lost_symmetry(const Worst &lost) {
 } // namespace
 
 std::vector<Finding> try_tangent(const PointLaw &law, const CertificationSettings &settings) {
-  constexpr double difference = 1e-6, kink = 1e-3, largest_step = 0.3;
+  constexpr double difference = 1e-6, kink = 1e-3, max_step = 0.3;
   TrialNumbers random;
   Worst in_small_steps, asymmetric, lost;
   const auto *const user_law = find_user_subroutine(law);
   std::size_t n_kinks = 0, n_refused = 0;
-  double safe_step = largest_step;
+  double safe_step = max_step;
   for (unsigned int path = 0; path < settings.n_paths; ++path) {
     const Way &way = ways[path % ways.size()];
-    const double size = random.logarithmic(1e-5, largest_step);
+    const double size = random.logarithmic(1e-5, max_step);
     LawPoint point(law, settings.temperature);
     const bool is_strained = path / ways.size() % 2 == 1;
     Tensor<2, 3> F = is_strained ? strain_before(point, random, settings.dt) : unit;
@@ -353,7 +353,7 @@ std::optional<SymmetricTensor<2, 3>> go_straight(const PointLaw &law, const Symm
 std::vector<Finding> try_steps(const PointLaw &law, const CertificationSettings &settings) {
   constexpr std::array<double, 7> sizes = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5};
   constexpr unsigned int n_directions = 8, n_few = 10, n_many = 100;
-  constexpr double largest_compared = 0.01, must_work = 0.1;
+  constexpr double max_compared = 0.01, must_work = 0.1;
   TrialNumbers random;
   Worst worst;
   std::string refused;
@@ -372,7 +372,7 @@ std::vector<Finding> try_steps(const PointLaw &law, const CertificationSettings 
       } else if (!std::isfinite(at_once->norm() + in_few->norm() + in_many->norm()))
         worst.add(std::numeric_limits<double>::quiet_NaN(),
                   [&] { return "no number for a step of " + number(size); });
-      else if (size <= largest_compared)
+      else if (size <= max_compared)
         worst.add((*in_few - *in_many).norm() / in_many->norm(), [&] { return "at " + number(size); });
     }
   }
@@ -381,7 +381,7 @@ std::vector<Finding> try_steps(const PointLaw &law, const CertificationSettings 
 }
 
 std::vector<Finding> try_repeated_stretches(const PointLaw &law, const CertificationSettings &settings) {
-  constexpr unsigned int n_cycles = 1000, n_holds = 20, n_paths = 4;
+  constexpr unsigned int n_cycles = 1000, n_constraints = 20, n_paths = 4;
   constexpr double strain = 0.02, unloading = 0.2; // part of the deviator
   const double dt = 1e-9 * settings.dt;            // so that no stress relaxes
   TrialNumbers random;
@@ -404,8 +404,8 @@ std::vector<Finding> try_repeated_stretches(const PointLaw &law, const Certifica
     }
     // The reference is held for the same time in few steps.
     auto of_held = last;
-    for (unsigned int i = 0; i < n_holds && of_held; ++i) {
-      of_held = held.evaluate(high, dt * 2. * n_cycles / n_holds);
+    for (unsigned int i = 0; i < n_constraints && of_held; ++i) {
+      of_held = held.evaluate(high, dt * 2. * n_cycles / n_constraints);
       held.commit();
     }
     if (!last || !of_held)

@@ -56,7 +56,7 @@ struct UmatLaw::Call {
     double time[2], dtime, temp, dtemp;
     int kinc;
   };
-  /// What this program has no use for.
+  /// Arguments that this program has no use for.
   struct Unused {
     double rpl = 0., ddsddt[6] = {}, drplde[6] = {}, drpldt = 0., predef[1] = {}, dpred[1] = {},
            coords[3] = {};

@@ -152,7 +152,7 @@ public:
   const double *variables() const { return arrays_[state_new]; }
   std::size_t n_variables() const { return arrays_.size(state_new); }
   GuardedArrays &arrays() { return arrays_; }
-  /// Of the arrays, for messages.
+  /// Names of the arrays, for messages.
   static constexpr const char *names[] = {"strainInc",
                                           "relSpinInc",
                                           "stretchOld",

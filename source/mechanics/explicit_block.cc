@@ -432,8 +432,8 @@ private:
   bool is_fresh_ = true; ///< history is still that of initialize()
 };
 
-void require(const bool holds, const char *reason) {
-  if (!holds)
+void require(const bool is_met, const char *reason) {
+  if (!is_met)
     throw std::invalid_argument(reason);
 }
 

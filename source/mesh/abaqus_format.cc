@@ -226,7 +226,7 @@ private:
     std::array<long long, 8> nodes;
   };
 
-  /// Where in an assembly the deck is, as far as it has been read.
+  /// Place in an assembly that the reader has reached.
   struct Assembly {
     unsigned int n_parts = 0, n_instances = 0;
     bool is_open = false, is_in_instance = false;

@@ -111,8 +111,7 @@ std::size_t BoundaryGroups::index(const Face &face) const {
                                                  : faces_.size();
 }
 
-BoundaryGroups::BoundaryGroups(const MeshFile &mesh, const unsigned int least_new_id)
-    : new_id_(least_new_id) {
+BoundaryGroups::BoundaryGroups(const MeshFile &mesh, const unsigned int min_new_id) : new_id_(min_new_id) {
   find_exterior(mesh);
   std::vector<std::vector<unsigned int>> groups_of_face(faces_.size());
   const auto add = [&](const std::size_t face, const std::size_t group) {

@@ -93,11 +93,11 @@ double sum_of_norms(const LocalNodes &nodes, const NodalVectors &forces) {
 
 /// Returns the forces of a load at the time at which they are largest, of fifty times; sets that time.
 /// Collective.
-NodalVectors find_largest_forces(const Scene &scene, const ExternalLoads &loads, const AppliedLoad &load,
-                                 const LocalNodes &nodes, double &time) {
+NodalVectors find_max_forces(const Scene &scene, const ExternalLoads &loads, const AppliedLoad &load,
+                             const LocalNodes &nodes, double &time) {
   const NodalVectors at_rest = nodes.make_vectors();
   NodalVectors largest = nodes.make_vectors();
-  double largest_sum = 0.;
+  double max_sum = 0.;
   constexpr unsigned int n_samples = 50;
   for (unsigned int i = 1; i <= n_samples; ++i) {
     const double t = scene.parameters().time_stepping.end_time * i / n_samples;
@@ -111,8 +111,8 @@ NodalVectors find_largest_forces(const Scene &scene, const ExternalLoads &loads,
     nodes.sum_shared(forces);
     const double sum = sum_of_norms(nodes, forces);
     constexpr double rounding = 1e-9;
-    if (sum > largest_sum * (1. + rounding)) {
-      largest_sum = sum;
+    if (sum > max_sum * (1. + rounding)) {
+      max_sum = sum;
       largest = forces;
       time = t;
     }
@@ -164,21 +164,22 @@ Grid make_arrow_grid(const std::string &group, const std::string &name, const st
 
 std::vector<Arrow> find_support_arrows(const Scene &scene, const Discretization &discretization,
                                        const std::size_t body) {
-  const auto &holds = scene.bodies()[body].holds;
+  const auto &constraints = scene.bodies()[body].constraints;
   std::vector<Arrow> arrows;
-  const auto all = [](const Hold &) { return true; }; // also those that begin later
-  for (const auto &[dof, node] : collect_held_nodes(scene, discretization, all)) {
+  const auto all = [](const Constraint &) { return true; }; // also those that begin later
+  for (const auto &[dof, node] : collect_constrained_nodes(scene, discretization, all)) {
     if (!discretization.owned_dofs().is_element(dof))
       continue;
-    for (const Hold &hold : holds) {
+    for (const Constraint &constraint : constraints) {
       // A section has its sides everywhere: their arrows would hide all others.
-      if (hold.is_of_section || std::find(node.holds.begin(), node.holds.end(), &hold) == node.holds.end())
+      if (constraint.is_of_section ||
+          std::find(node.constraints.begin(), node.constraints.end(), &constraint) == node.constraints.end())
         continue;
-      const Tensor<1, 3> direction = hold.direction(node.position);
-      const double value =
-          hold.value != nullptr
-              ? hold.value->value(scene.parameters().time_stepping.end_time, dealii::Point<3>(node.position))
-              : 0.;
+      const Tensor<1, 3> direction = constraint.direction(node.position);
+      const double value = constraint.value != nullptr
+                               ? constraint.value->value(scene.parameters().time_stepping.end_time,
+                                                         dealii::Point<3>(node.position))
+                               : 0.;
       const Tensor<1, 3> motion = value * direction;
       if (value != 0.)
         arrows.push_back({node.position, node.position + motion, motion});
@@ -203,7 +204,7 @@ std::vector<LoadArrows> find_load_arrows(const Scene &scene, const Discretizatio
       result.emplace_back();
       result.back().name = scene.parameters().bodies[body].loads[i].name + " of " + scene.bodies()[body].name;
       const NodalVectors forces =
-          find_largest_forces(scene, loads, scene.bodies()[body].loads[i], nodes, result.back().time);
+          find_max_forces(scene, loads, scene.bodies()[body].loads[i], nodes, result.back().time);
       result.back().arrows = make_load_arrows(nodes, forces);
     }
   return result;
@@ -218,7 +219,7 @@ std::vector<Grid> make_preview_grids(const Scene &scene, const Discretization &d
                        placement_at_end(scene.tools()[t], scene.parameters().time_stepping.end_time),
                        preview_group::tools_at_end));
   for (std::size_t body = 0; body < scene.bodies().size(); ++body)
-    if (!scene.bodies()[body].holds.empty()) {
+    if (!scene.bodies()[body].constraints.empty()) {
       std::vector<Arrow> arrows;
       fail_together(communicator, [&] { arrows = find_support_arrows(scene, discretization, body); });
       grids.push_back(make_arrow_grid(preview_group::supports, scene.bodies()[body].name,

@@ -32,8 +32,8 @@ std::string format_duration(const double seconds) {
 } // namespace
 
 int Progress::Load::width() const {
-  constexpr int least_width = 14, prefix = 4, space = 2;
-  return std::max(least_width, prefix + static_cast<int>(name.size()) + space);
+  constexpr int min_width = 14, prefix = 4, space = 2;
+  return std::max(min_width, prefix + static_cast<int>(name.size()) + space);
 }
 
 Progress::Progress(const Scene &scene, std::ostream &stream, std::ostream &messages, const bool is_terminal)
@@ -92,14 +92,14 @@ void Progress::make_columns() {
 }
 
 void Progress::add_probes() {
-  constexpr int least_width = 14;
+  constexpr int min_width = 14;
   std::size_t place = 0;
   for (const auto &probe : scene_.parameters().probes)
     for (const std::string &column : probe.probe.columns()) {
       if (std::find(probe.console.begin(), probe.console.end(), column) != probe.console.end()) {
         const std::string name = probe.full_name(column);
         columns_.push_back(
-            {name, std::max(least_width, static_cast<int>(name.size()) + 2), [this, place](const Solution &) {
+            {name, std::max(min_width, static_cast<int>(name.size()) + 2), [this, place](const Solution &) {
                return place < probes_.size() ? probes_[place] : std::numeric_limits<double>::quiet_NaN();
              }});
       }

@@ -111,7 +111,7 @@ Vector collect_positions(const Discretization &discretization) {
   return positions;
 }
 
-/// What the blocks of bodies and surfaces are made of.
+/// Cells that make the blocks of bodies and surfaces.
 class MeshBlocks {
 public:
   MeshBlocks(const Scene &scene, const Solution &solution)

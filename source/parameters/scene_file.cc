@@ -512,7 +512,7 @@ std::string SceneFile::resolve(const Path &path, const std::string &key, const s
 
 namespace {
 
-/// What ParameterHandler knows, from its own print-out.
+/// Entries that ParameterHandler knows, from its own print-out.
 class Declared {
 public:
   explicit Declared(const dealii::ParameterHandler &prm) {

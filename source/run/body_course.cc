@@ -12,16 +12,16 @@ using dealii::Tensor;
 BodyCourse::BodyCourse(const Scene &scene, const std::size_t body, const BodyReport &extent) {
   constexpr double rounding = 1e-12;
   const Body &of_scene = scene.bodies()[body];
-  for (const Hold &hold : of_scene.holds) {
-    const bool is_known = hold.value == nullptr || hold.value->is_uniform();
+  for (const Constraint &constraint : of_scene.constraints) {
+    const bool is_known = constraint.value == nullptr || constraint.value->is_uniform();
     is_rigid_ = is_rigid_ && is_known;
     bool has_axis = false;
-    for (unsigned int i = 0; i < 3 && !hold.axes; ++i)
-      if (std::abs(hold.normal[i]) > 1. - rounding) {
-        values_[i].push_back({is_known ? hold.value : nullptr, hold.normal[i]});
+    for (unsigned int i = 0; i < 3 && !constraint.axes; ++i)
+      if (std::abs(constraint.normal[i]) > 1. - rounding) {
+        values_[i].push_back({is_known ? constraint.value : nullptr, constraint.normal[i]});
         has_axis = true;
       }
-    if (hold.value != nullptr && !has_axis)
+    if (constraint.value != nullptr && !has_axis)
       is_rigid_ = false;
   }
   if (scene.parameters().scheme().has_inertia)

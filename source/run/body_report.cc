@@ -134,9 +134,9 @@ void measure_elements(const Discretization &discretization, const std::size_t bo
     report.high[i] = -minima[3 + i];
     report.worst_element[i] = worst[1 + i];
   }
-  report.least_edge = minima[6];
-  report.largest_edge = -minima[7];
-  report.least_quality = worst[0];
+  report.min_edge = minima[6];
+  report.max_edge = -minima[7];
+  report.min_quality = worst[0];
 }
 
 /// Returns the ids of the exterior faces of a body, over all ranks.
@@ -206,7 +206,7 @@ double scaled_jacobian(const CellIterator &cell) {
   return least;
 }
 
-double least_edge(const CellIterator &cell) {
+double min_edge(const CellIterator &cell) {
   double least = std::numeric_limits<double>::infinity();
   for (unsigned int i = 0; i < 3; ++i)
     for_each_edge(i, [&](const unsigned int a, const unsigned int b) {

@@ -68,7 +68,7 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
     const CellIterator &cell = discretization.elements(own.body)[own.element].cell;
     least = {own.step,          static_cast<double>(own.body),
              cell->center()[0], cell->center()[1],
-             cell->center()[2], least_edge(cell)};
+             cell->center()[2], min_edge(cell)};
   }
   for (const auto &of_rank : all_gather(discretization.communicator(), least))
     least = std::min(least, of_rank);
@@ -77,7 +77,7 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
   body = static_cast<std::size_t>(least[1]);
   report.body = scene.bodies()[body].name;
   report.element = dealii::Tensor<1, 3>({least[2], least[3], least[4]});
-  report.least_edge = least[5];
+  report.min_edge = least[5];
   return report;
 }
 

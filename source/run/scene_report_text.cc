@@ -81,9 +81,9 @@ void print(const BodyReport &body, std::ostream &stream) {
            << (lacks > 0. ? "small" : "large") << ": the smooth shape has volume "
            << number(*body.smooth_volume) << "\n";
   stream << label("") << count(body.n_elements, "element") << ", " << count(body.n_nodes, "node") << ", "
-         << count(body.n_parts, "part") << "; edges " << number(body.least_edge) << " to "
-         << number(body.largest_edge) << ", mean " << number(body.mean_edge) << "; least scaled Jacobian "
-         << number(body.least_quality, 1.) << ", at " << vector(body.worst_element, size) << "\n";
+         << count(body.n_parts, "part") << "; edges " << number(body.min_edge) << " to "
+         << number(body.max_edge) << ", mean " << number(body.mean_edge) << "; least scaled Jacobian "
+         << number(body.min_quality, 1.) << ", at " << vector(body.worst_element, size) << "\n";
   for (const BoundaryReport &boundary : body.boundaries)
     print(boundary, body, stream);
 }
@@ -131,7 +131,7 @@ void print(const RunReport &run, const double size, std::ostream &stream) {
   const StableStepReport &stable = *run.stable_step;
   stream << label("Stable step") << number(stable.of_elements) << " of the elements, set by that of '"
          << stable.body << "' at " << vector(stable.element, size) << " with its least edge "
-         << number(stable.least_edge) << "; first steps " << number(stable.step);
+         << number(stable.min_edge) << "; first steps " << number(stable.step);
   if (stable.shortest < stable.step)
     stream << ", by contact " << number(stable.shortest) << " from time " << number(stable.shortest_from);
   if (stable.is_short_by_contact)
@@ -161,10 +161,10 @@ Json to_json(const BodyReport &body) {
           {"mass", body.mass},
           {"smooth volume", body.smooth_volume ? Json(*body.smooth_volume) : Json()},
           {"full circle factor", body.circle_factor},
-          {"least edge", body.least_edge},
+          {"least edge", body.min_edge},
           {"mean edge", body.mean_edge},
-          {"largest edge", body.largest_edge},
-          {"least scaled Jacobian", body.least_quality},
+          {"largest edge", body.max_edge},
+          {"least scaled Jacobian", body.min_quality},
           {"worst element", to_json(body.worst_element)},
           {"boundaries", boundaries}};
 }
@@ -203,7 +203,7 @@ Json to_json(const RunReport &run) {
     object["stable step"] = {{"of elements", run.stable_step->of_elements},
                              {"body", run.stable_step->body},
                              {"element", to_json(run.stable_step->element)},
-                             {"least edge", run.stable_step->least_edge},
+                             {"least edge", run.stable_step->min_edge},
                              {"first steps", run.stable_step->step},
                              {"shortest steps", run.stable_step->shortest},
                              {"shortest steps from", run.stable_step->shortest_from}};

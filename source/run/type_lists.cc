@@ -47,7 +47,7 @@ struct Named {
   std::vector<parameters::Primitive::Boundary> boundaries;
 };
 
-/// What scene files can name in one place.
+/// Types that scene files can name in one place.
 struct TypeList {
   std::string name, meaning;
   std::function<std::vector<Named>()> entries;

@@ -108,7 +108,7 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
 /// gives. Adds what is to be said of the mesh file to the notes.
 GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
-  unsigned int new_id = least_new_id(mesh) + 1;
+  unsigned int new_id = min_new_id(mesh) + 1;
   GroupNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
     const LoadedMesh loaded = load_mesh_file(mesh);
@@ -187,7 +187,7 @@ private:
 
 } // namespace
 
-unsigned int least_new_id(const parameters::Mesh &mesh) {
+unsigned int min_new_id(const parameters::Mesh &mesh) {
   unsigned int id = 1000; // above the ids of primitives
   for (std::size_t i = 0; i < mesh.boundary_names.size(); ++i)
     if (mesh.boundary_names[i].empty())

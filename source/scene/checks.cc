@@ -19,14 +19,14 @@ namespace billet {
 using dealii::Tensor;
 using dealii::Triangulation;
 
-bool holds_face(const Hold &hold, const Triangulation<3>::active_face_iterator &face,
-                const double tolerance) {
-  if (!hold.on_plane) // none for a support of selected nodes
-    return std::find(hold.boundary_ids.begin(), hold.boundary_ids.end(), face->boundary_id()) !=
-           hold.boundary_ids.end();
+bool constrains_face(const Constraint &constraint, const Triangulation<3>::active_face_iterator &face,
+                     const double tolerance) {
+  if (!constraint.on_plane) // none for a support of selected nodes
+    return std::find(constraint.boundary_ids.begin(), constraint.boundary_ids.end(), face->boundary_id()) !=
+           constraint.boundary_ids.end();
   const auto vertices = face->vertex_indices();
   return std::all_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
-    return std::abs(face->vertex(v) * hold.normal - hold.offset) <= tolerance;
+    return std::abs(face->vertex(v) * constraint.normal - constraint.offset) <= tolerance;
   });
 }
 
@@ -75,25 +75,26 @@ InputError lacks_support(const std::string &body, const std::string &motion) {
 
 /// Refuses supports in cylindrical axes all of whose nodes are on the line, where no direction is radial.
 void Scene::check_axes(const Triangulation<3> &mesh) const {
-  std::set<const Hold *> on_line, off_line;
-  const auto visit = [&](const Hold &hold, const dealii::Point<3> &position, const double size) {
-    (hold.has_direction(position, Hold::rounding * size) ? off_line : on_line).insert(&hold);
+  std::set<const Constraint *> on_line, off_line;
+  const auto visit = [&](const Constraint &constraint, const dealii::Point<3> &position, const double size) {
+    (constraint.has_direction(position, Constraint::rounding * size) ? off_line : on_line)
+        .insert(&constraint);
   };
   for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
-    for (const Hold &hold : bodies_[body].holds)
-      if (hold.axes && holds_face(hold, face, 0.))
+    for (const Constraint &constraint : bodies_[body].constraints)
+      if (constraint.axes && constrains_face(constraint, face, 0.))
         for (const unsigned int v : face->vertex_indices())
-          visit(hold, face->vertex(v), face->diameter());
+          visit(constraint, face->vertex(v), face->diameter());
   });
   const auto corners = dealii::GridTools::compute_bounding_box(mesh).get_boundary_points();
   const double size = corners.first.distance(corners.second);
   for (const Body &body : bodies_)
-    for (const Hold &hold : body.holds) {
-      if (hold.nodes)
-        for (const auto &position : hold.nodes->points())
-          visit(hold, position, size);
-      if (on_line.count(&hold) > 0 && off_line.count(&hold) == 0)
-        throw InputError(hold.origin + ": all nodes that " + hold.name +
+    for (const Constraint &constraint : body.constraints) {
+      if (constraint.nodes)
+        for (const auto &position : constraint.nodes->points())
+          visit(constraint, position, size);
+      if (on_line.count(&constraint) > 0 && off_line.count(&constraint) == 0)
+        throw InputError(constraint.origin + ": all nodes that " + constraint.name +
                          " holds are on the line of its "
                          "cylindrical axes, where no direction is radial; allowed are nodes off the line, or "
                          "'Components = z', along it");
@@ -142,17 +143,17 @@ namespace {
 /// Adds the resistances of supports and springs of a body that act in a step that starts at this time.
 void add_supports(const Body &body, const std::size_t index, const Triangulation<3> &mesh, const double time,
                   const double tolerance, std::vector<Resistance> &resistances) {
-  const auto add = [&](const Hold &hold, const dealii::Point<3> &position) {
-    if (hold.has_direction(position, tolerance))
-      resistances.push_back({position, hold.direction(position), Resistance::Sense::both_ways});
+  const auto add = [&](const Constraint &constraint, const dealii::Point<3> &position) {
+    if (constraint.has_direction(position, tolerance))
+      resistances.push_back({position, constraint.direction(position), Resistance::Sense::both_ways});
   };
   for_each_boundary_face(mesh, [&](const std::size_t of, const auto &face) {
     if (of != index)
       return;
-    for (const Hold &hold : body.holds)
-      if (hold.times.holds_after(time) && holds_face(hold, face, tolerance))
+    for (const Constraint &constraint : body.constraints)
+      if (constraint.times.acts_after(time) && constrains_face(constraint, face, tolerance))
         for (const unsigned int v : face->vertex_indices())
-          add(hold, face->vertex(v));
+          add(constraint, face->vertex(v));
     for (const AppliedLoad &load : body.loads) {
       const auto &ids = load.boundary_ids;
       if (!load.times.acts_after(time) || std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
@@ -165,10 +166,10 @@ void add_supports(const Body &body, const std::size_t index, const Triangulation
           resistances.push_back({face->vertex(v), direction, Resistance::Sense::both_ways});
     }
   });
-  for (const Hold &hold : body.holds)
-    if (hold.nodes && hold.times.holds_after(time))
-      for (const auto &position : hold.nodes->points())
-        add(hold, position);
+  for (const Constraint &constraint : body.constraints)
+    if (constraint.nodes && constraint.times.acts_after(time))
+      for (const auto &position : constraint.nodes->points())
+        add(constraint, position);
   for (const AppliedLoad &load : body.loads)
     if (load.nodes && load.times.acts_after(time))
       for (const auto &direction : load.load.supports(Tensor<1, 3>()))
@@ -204,8 +205,8 @@ bool Scene::check_support_times(const std::size_t b, const Triangulation<3> &mes
       if (time > 0. && time < parameters_.time_stepping.end_time)
         times.insert(time);
   };
-  for (const Hold &hold : body.holds)
-    add_times(hold.times);
+  for (const Constraint &constraint : body.constraints)
+    add_times(constraint.times);
   for (const AppliedLoad &load : body.loads)
     if (load.load.is_spring())
       add_times(load.times);
@@ -217,7 +218,7 @@ bool Scene::check_support_times(const std::size_t b, const Triangulation<3> &mes
     if (time < last_removal || !std::isfinite(time)) // tools may hold it
       continue;
     std::vector<Resistance> holding;
-    add_supports(body, b, mesh, time, Hold::rounding * size, holding);
+    add_supports(body, b, mesh, time, Constraint::rounding * size, holding);
     const auto motion = find_free_motion(holding, centre, size);
     if (!motion)
       continue;
@@ -235,27 +236,27 @@ bool Scene::check_support_times(const std::size_t b, const Triangulation<3> &mes
 
 void Scene::check_planes(const Triangulation<3> &mesh, const std::size_t b) const {
   const double size = find_extent(mesh, b).size;
-  std::set<const Hold *> used;
+  std::set<const Constraint *> used;
   for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
     if (body == b)
-      for (const Hold &hold : bodies_[b].holds)
-        if (hold.on_plane && holds_face(hold, face, Hold::rounding * size))
-          used.insert(&hold);
+      for (const Constraint &constraint : bodies_[b].constraints)
+        if (constraint.on_plane && constrains_face(constraint, face, Constraint::rounding * size))
+          used.insert(&constraint);
   });
-  for (const Hold &hold : bodies_[b].holds)
-    if (hold.on_plane && used.count(&hold) == 0)
-      throw InputError(
-          parameters_.bodies[b].symmetry_planes.origin + " is '" +
-          hold.name.substr(std::string("symmetry plane ").size()) +
-          "'; allowed are planes that hold boundary faces of body '" + bodies_[b].name +
-          "', but this plane holds none: " +
-          describe_nearest_face({hold.normal, hold.offset, hold.name}, mesh, static_cast<unsigned int>(b)));
+  for (const Constraint &constraint : bodies_[b].constraints)
+    if (constraint.on_plane && used.count(&constraint) == 0)
+      throw InputError(parameters_.bodies[b].symmetry_planes.origin + " is '" +
+                       constraint.name.substr(std::string("symmetry plane ").size()) +
+                       "'; allowed are planes that hold boundary faces of body '" + bodies_[b].name +
+                       "', but this plane holds none: " +
+                       describe_nearest_face({constraint.normal, constraint.offset, constraint.name}, mesh,
+                                             static_cast<unsigned int>(b)));
 }
 
 void Scene::check_support(const Triangulation<3> &mesh, const std::size_t b) const {
   const auto [centre, size] = find_extent(mesh, b);
   std::vector<Resistance> holding, touching; // resistances of supports, of tools
-  add_supports(bodies_[b], b, mesh, 0., Hold::rounding * size, holding);
+  add_supports(bodies_[b], b, mesh, 0., Constraint::rounding * size, holding);
   for_each_boundary_face(mesh, [&](const std::size_t body, const auto &face) {
     if (body != b)
       return;

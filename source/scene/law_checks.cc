@@ -40,7 +40,7 @@ const DiagnosticKind
 const DiagnosticKind subroutine_error(
     "subroutine-error", Severity::warning,
     "A material subroutine gives an error by STDB_ABQERR or XPLB_ABQERR with level -2, after "
-    "which the analysis goes on. Level -3 ends the run.",
+    "which the analysis continues. Level -3 ends the run.",
     "See the source or the manual of the library; results may be wrong");
 
 const DiagnosticKind implausible_heating(

@@ -252,11 +252,11 @@ void flatten(Triangulation<3> &mesh) {
 
 void rename_boundaries(const parameters::Mesh &parameters, Triangulation<3> &mesh) {
   for (const auto &[id, condition] : parameters.boundary_ids.value) {
-    const Expression holds(condition, Expression::Variables::time_and_position, {},
-                           parameters.boundary_ids.origin);
+    const Expression is_inside(condition, Expression::Variables::time_and_position, {},
+                               parameters.boundary_ids.origin);
     check_before_start([&, id = id] {
       for (const auto &face : mesh.active_face_iterators())
-        if (face->at_boundary() && holds.value(0., face->center()) != 0.)
+        if (face->at_boundary() && is_inside.value(0., face->center()) != 0.)
           face->set_boundary_id(id);
     });
   }
@@ -285,7 +285,7 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
                                           : *distance > 0. ? DoubledNodes::merged
                                                            : DoubledNodes::kept,
                                           distance.value_or(0.));
-    BoundaryGroups groups(mesh, least_new_id(parameters));
+    BoundaryGroups groups(mesh, min_new_id(parameters));
     return {std::move(mesh), std::move(groups), std::move(volumes), std::move(near_nodes)};
   } catch (const std::invalid_argument &error) {
     throw InputError(parameters.file_name.origin + " is '" + parameters.file_name.value +

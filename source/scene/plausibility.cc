@@ -279,14 +279,14 @@ std::vector<FacingNode> find_facing_nodes(const Scene &scene, const ContactPair 
 
 /// Checks whether supports hold nodes that a tool with a given force presses on first, along that force. A
 /// support that acts on a neighbouring face holds the nodes of their common edge.
-void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
-                      DiagnosticList &diagnostics) {
+void check_constrained_nodes(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
+                             DiagnosticList &diagnostics) {
   constexpr double along = 0.1; // cosine between the support and the force
   for (const ContactPair &pair : scene.pairs()) {
     const Tool &tool = scene.tools()[pair.tool];
     if (tool.control() != Tool::Control::force)
       continue;
-    const auto &holds = scene.bodies()[pair.body].holds;
+    const auto &constraints = scene.bodies()[pair.body].constraints;
     const std::vector<FacingNode> facing = find_facing_nodes(scene, pair, mesh);
     double nearest = std::numeric_limits<double>::max();
     for (const FacingNode &node : facing)
@@ -296,20 +296,20 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
     for (const FacingNode &node : facing)
       if (node.gap <= nearest + node.reach)
         pressed.insert(node.vertex);
-    std::vector<std::set<unsigned int>> held(holds.size()); // vertices
+    std::vector<std::set<unsigned int>> held(constraints.size()); // vertices
     for (const auto &cell : mesh.active_cell_iterators())
       for (const unsigned int f : cell->face_indices()) {
         const auto &face = cell->face(f);
         if (!cell->is_locally_owned() || cell->material_id() != pair.body || !face->at_boundary())
           continue;
-        for (std::size_t h = 0; h < holds.size(); ++h)
-          if (holds[h].times.from < tool.removal_time() &&
-              holds_face(holds[h], face, Hold::rounding * face->diameter()))
+        for (std::size_t h = 0; h < constraints.size(); ++h)
+          if (constraints[h].times.from < tool.removal_time() &&
+              constrains_face(constraints[h], face, Constraint::rounding * face->diameter()))
             for (const unsigned int v : face->vertex_indices())
-              if (std::abs(holds[h].direction(face->vertex(v)) * tool.force_direction()) > along)
+              if (std::abs(constraints[h].direction(face->vertex(v)) * tool.force_direction()) > along)
                 held[h].insert(face->vertex_index(v));
       }
-    for (std::size_t h = 0; h < holds.size(); ++h) {
+    for (std::size_t h = 0; h < constraints.size(); ++h) {
       std::vector<double> n{
           static_cast<double>(pressed.size()),
           static_cast<double>(std::count_if(held[h].begin(), held[h].end(),
@@ -320,7 +320,7 @@ void check_held_nodes(const Scene &scene, const Triangulation<3> &mesh, const MP
       std::ostringstream text;
       text.precision(3);
       text
-          << "The " << holds[h].name << " holds " << std::ceil(100. * n[1] / n[0])
+          << "The " << constraints[h].name << " holds " << std::ceil(100. * n[1] / n[0])
           << " % of the nodes that the tool presses on first, along its 'Force direction'. There it, and not "
              "the body, bears the force of the tool";
       diagnostics.push_back(Diagnostic(diagnostic::support_takes_force, text.str())
@@ -461,7 +461,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
     check_motion(scene, scene.tools()[t], start.size, diagnostics);
     check_force(scene, t, start, diagnostics);
   }
-  check_held_nodes(scene, mesh, communicator, diagnostics);
+  check_constrained_nodes(scene, mesh, communicator, diagnostics);
   check_pressure_probes(scene, diagnostics);
   constexpr double deep = 2.;
   for (std::size_t p = 0; p < scene.pairs().size(); ++p)
@@ -476,7 +476,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   return diagnostics;
 }
 
-ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold> &holds) {
+ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Constraint> &constraints) {
   constexpr double thin = 0.1;
   Box box;
   for (const auto &vertex : mesh.get_vertices())
@@ -488,9 +488,9 @@ ThinPart measure_thin_part(const Triangulation<3> &mesh, const std::vector<Hold>
     const Tensor<1, 3> area =
         dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
     constexpr double along = 0.99;
-    return std::any_of(holds.begin(), holds.end(), [&](const Hold &hold) {
-      return std::abs(hold.direction(face->center()) * area) > along * area.norm() &&
-             holds_face(hold, face, 1e-8 * box.diagonal());
+    return std::any_of(constraints.begin(), constraints.end(), [&](const Constraint &constraint) {
+      return std::abs(constraint.direction(face->center()) * area) > along * area.norm() &&
+             constrains_face(constraint, face, Constraint::rounding * box.diagonal());
     });
   };
   for (const auto &start : mesh.active_cell_iterators())
@@ -549,7 +549,7 @@ DiagnosticList check_bricks(const Scene &scene) {
     if (count_full_elements(input.mesh, outline) > too_many)
       continue;
     build_body_mesh(input, MeshDetail::full, mesh);
-    const ThinPart part = measure_thin_part(mesh, body.holds);
+    const ThinPart part = measure_thin_part(mesh, body.constraints);
     if (part.area < maximum || (part.mean_layers >= enough_layers && part.mean_aspect <= long_brick))
       continue;
     std::ostringstream text;

@@ -117,32 +117,32 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   for (const auto &load : parameters.loads)
     body.loads.push_back(make_load(load, amplitudes, fade_time));
   for (const auto &plane : parameters.symmetry_planes.value) {
-    Hold hold;
-    hold.name = "symmetry plane " + plane.text;
-    hold.on_plane = true;
-    hold.is_of_section = plane.is_of_section;
-    hold.normal = plane.normal;
-    hold.offset = plane.offset;
-    body.holds.push_back(hold);
+    Constraint constraint;
+    constraint.name = "symmetry plane " + plane.text;
+    constraint.on_plane = true;
+    constraint.is_of_section = plane.is_of_section;
+    constraint.normal = plane.normal;
+    constraint.offset = plane.offset;
+    body.constraints.push_back(constraint);
   }
   for (const auto &support : parameters.supports)
     for (unsigned int i = 0; i < 3; ++i)
       if (support.components[i]) {
-        Hold hold;
-        hold.name = name_of_support(support);
-        hold.origin = support.displacement.origin;
-        hold.boundary_ids = support.boundary_ids.value;
-        hold.normal[i] = 1.;
-        hold.component = i;
-        hold.times = {support.from, support.until, support.fade_time.value_or(fade_time)};
+        Constraint constraint;
+        constraint.name = name_of_support(support);
+        constraint.origin = support.displacement.origin;
+        constraint.boundary_ids = support.boundary_ids.value;
+        constraint.normal[i] = 1.;
+        constraint.component = i;
+        constraint.times = {support.from, support.until, support.fade_time.value_or(fade_time)};
         if (!support.axes.are_global())
-          hold.axes = std::make_shared<const Axes>(support.axes);
+          constraint.axes = std::make_shared<const Axes>(support.axes);
         body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
                                                                 Expression::Variables::time_and_position,
                                                                 amplitudes, support.displacement.origin));
         if (!is_zero(support.displacement.value[i]))
-          hold.value = body.expressions.back().get();
-        body.holds.push_back(hold);
+          constraint.value = body.expressions.back().get();
+        body.constraints.push_back(constraint);
       }
   return body;
 }
@@ -288,9 +288,9 @@ void select_nodes(const parameters::Body &parameters, Body &body) {
   for (const auto &support : parameters.supports)
     errors.note([&] {
       const auto nodes = finder.find(support.nodes);
-      for (Hold &hold : body.holds)
-        if (!hold.on_plane && hold.name == name_of_support(support))
-          hold.nodes = nodes;
+      for (Constraint &constraint : body.constraints)
+        if (!constraint.on_plane && constraint.name == name_of_support(support))
+          constraint.nodes = nodes;
     });
   errors.require_none();
 }
@@ -344,8 +344,8 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
   capabilities_.body_contact = !body_pairs_.empty();
   for (const auto &body : bodies_) {
     capabilities_.plasticity |= body.law->has_plasticity();
-    for (const auto &hold : body.holds)
-      capabilities_.moving_supports |= hold.value != nullptr;
+    for (const auto &constraint : body.constraints)
+      capabilities_.moving_supports |= constraint.value != nullptr;
     capabilities_.stabilisation |= body.formulation.element.is_stabilised();
   }
   for (const auto &pair : pairs_)
@@ -499,8 +499,8 @@ std::vector<double> Scene::stops() const {
   for (const auto &body : bodies_) {
     for (const AppliedLoad &load : body.loads)
       add_times(load.times);
-    for (const Hold &hold : body.holds)
-      add_times(hold.times);
+    for (const Constraint &constraint : body.constraints)
+      add_times(constraint.times);
   }
   for (const double time : refinement_times(parameters_))
     times.push_back(time);

@@ -20,7 +20,7 @@ namespace {
 /// Part of the deformation that penetration may take without a warning.
 constexpr double notable_softness = 0.04;
 
-/// How forces must be spread over nodes.
+/// Spread of forces over nodes that counts as resolved.
 struct SpreadLimits {
   /// Square of the sum of pressures over n times the sum of squares, above which they are alike.
   static constexpr double alike = 0.9;
@@ -79,7 +79,7 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
   paths_ = find_load_paths(scene);
   softness_.resize(paths_.size());
 
-  const double tolerance = Hold::rounding * discretization.radius();
+  const double tolerance = Constraint::rounding * discretization.radius();
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<double> box(6, -infinity); // −low, high
@@ -87,9 +87,10 @@ ContactReview::ContactReview(const Scene &scene, const Discretization &discretiz
       for (const unsigned int v : element.cell->vertex_indices()) {
         const auto &X = element.cell->vertex(v);
         Images images;
-        for (const Hold &hold : scene.bodies()[b].holds)
-          if (hold.on_plane)
-            (std::abs(X * hold.normal - hold.offset) > tolerance ? images.apart : images.on_it) *= 2.;
+        for (const Constraint &constraint : scene.bodies()[b].constraints)
+          if (constraint.on_plane)
+            (std::abs(X * constraint.normal - constraint.offset) > tolerance ? images.apart : images.on_it) *=
+                2.;
         images_[element.dofs[std::size_t{3} * v]] = images;
         for (unsigned int i = 0; i < 3; ++i) {
           box[i] = std::max(box[i], -X[i]);

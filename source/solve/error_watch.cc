@@ -180,9 +180,9 @@ void ErrorWatch::take_measurement() {
 
 void ErrorWatch::after_step(StepControl &control, const double length, const NewtonReport &report) {
   const ImplicitSolution::Results results = problem_.results().accepted();
-  const std::vector<double> least_sizes = problem_.results().least_sizes();
+  const std::vector<double> min_sizes = problem_.results().min_sizes();
   for (std::size_t i = 0; i < controls_.size(); ++i) {
-    controls_[i].set_least_size(least_sizes[i]);
+    controls_[i].set_min_size(min_sizes[i]);
     controls_[i].accept(length, results[i], residual_factor_ * report.force, problem_.penetration());
   }
   if (probe_length_ > 0. && control.time() < probe_end_) {

@@ -26,12 +26,12 @@ constexpr std::size_t row_width = 2 * n_stresses + n_element_dofs + 1;
 
 /// Factors of (W4).
 struct Factors {
-  /// Of J² h A over the secant modulus of the interval: what half as long elements save in an elastic bar. Of
-  /// rigid plasticity it is twice as much as they save, on the safe side.
+  /// Part of J² h A over the secant modulus of the interval: what half as long elements save in an elastic
+  /// bar. Of rigid plasticity it is twice as much as they save, on the safe side.
   static constexpr double of_jump = 1. / 12.;
   /// Part of the normal jump that counts.
   static constexpr double normal = 0.5;
-  /// Of a face's jump, what an element is charged with; its neighbour is charged with the other half.
+  /// Part of a face's jump with which an element is charged; its neighbour is charged with the other half.
   static constexpr double own = 0.5;
 };
 

@@ -121,7 +121,7 @@ MissingPairs::MissingPairs(const Scene &scene, const Discretization &discretizat
   const std::size_t n_bodies = scene.bodies().size();
   for (std::size_t b = 0; b < n_bodies; ++b) {
     std::map<DofIndex, Node> nodes;
-    facets_[b] = collect_free_boundary(discretization, b, scene.bodies()[b].holds);
+    facets_[b] = collect_free_boundary(discretization, b, scene.bodies()[b].constraints);
     for (const BoundaryFacet &facet : facets_[b]) {
       const double size = std::sqrt(facet.area_vector().norm());
       for (unsigned int v = 0; v < 4; ++v) {

@@ -11,7 +11,7 @@ namespace billet {
 
 namespace {
 
-/// What a step may pass over.
+/// Limits of what a step may pass over.
 struct Limits {
   /// Path over chord above which a step misses the motion: an arc of 15 degrees is 1.00286 times its chord.
   static constexpr double longer = 1.003;

@@ -123,7 +123,7 @@ void test_moduli() {
 }
 
 struct Balance {
-  double least_dissipation = 0., least_stored = 0., defect = 0.;
+  double least_dissipation = 0., min_stored = 0., defect = 0.;
 };
 
 /// Random large motion in n steps; work by Simpson's rule of the stress in the steps' ends and middles.
@@ -149,7 +149,7 @@ Balance go(const SpatialLaw &law, const unsigned int n, const double end, const 
     work += scalar_product(static_cast<Tensor<2, 3>>(0.5 * (tau + tau_n)), L);
     scale = std::max(scale, point.stored(F) + point.dissipated());
     balance.least_dissipation = std::min(balance.least_dissipation, point.dissipated() - before);
-    balance.least_stored = std::min(balance.least_stored, point.stored(F) / scale);
+    balance.min_stored = std::min(balance.min_stored, point.stored(F) / scale);
     balance.defect = std::abs(work - point.stored(F) - point.dissipated()) / scale;
   }
   return balance;
@@ -163,7 +163,7 @@ void test_dissipation() {
       for (const unsigned int n : {3U, 30U, 300U}) {
         const Balance balance = go(law, n, end, 0.35);
         created.add(-balance.least_dissipation);
-        negative.add(-balance.least_stored);
+        negative.add(-balance.min_stored);
       }
     check(name + ", no step dissipates less than nothing", created.value(), 0.);
     check(name + ", and none stores less", negative.value(), 1e-12);

@@ -36,10 +36,10 @@ void check_block(const BodyReport &block) {
   check("block: box", distance(block.low, {}) + distance(block.high, Tensor<1, 3>({4., 1., 1.5})), tolerance);
   check("block: volume", std::abs(block.volume - 6.), tolerance);
   check("block: mass", std::abs(block.mass - 12.), tolerance);
-  check("block: least edge", std::abs(block.least_edge - 0.5), tolerance);
+  check("block: least edge", std::abs(block.min_edge - 0.5), tolerance);
   check("block: mean edge", std::abs(block.mean_edge - 2. / 3.), tolerance);
-  check("block: largest edge", std::abs(block.largest_edge - 1.), tolerance);
-  check("block: quality", std::abs(block.least_quality - 1.), tolerance);
+  check("block: largest edge", std::abs(block.max_edge - 1.), tolerance);
+  check("block: quality", std::abs(block.min_quality - 1.), tolerance);
   check("block: six boundaries", block.boundaries.size() == 6);
   const BoundaryReport &top = block.boundaries.at(5);
   check("top: id", top.id == 5 && top.names.empty());
@@ -52,8 +52,8 @@ void check_block(const BodyReport &block) {
 
 void check_sheared(const BodyReport &sheared) {
   check("sheared: volume", std::abs(sheared.volume - 1.), tolerance);
-  check("sheared: quality", std::abs(sheared.least_quality - std::sqrt(0.5)), tolerance);
-  check("sheared: largest edge", std::abs(sheared.largest_edge - std::sqrt(0.5)), tolerance);
+  check("sheared: quality", std::abs(sheared.min_quality - std::sqrt(0.5)), tolerance);
+  check("sheared: largest edge", std::abs(sheared.max_edge - std::sqrt(0.5)), tolerance);
   const BoundaryReport &side = sheared.boundaries.at(1);
   check("side: area", std::abs(side.area - std::sqrt(2.)), tolerance);
   check("side: centre", distance(side.centre, Tensor<1, 3>({11.5, 0.5, 0.5})), tolerance);
@@ -113,7 +113,7 @@ void check_run(const RunReport &run, const double safety_factor) {
   const StableStepReport &stable = *run.stable_step;
   check("stable step: body", stable.body == "flyer");
   check("stable step: element", distance(stable.element, Tensor<1, 3>({1.25, 0.5, 2.375})), tolerance);
-  check("stable step: least edge", std::abs(stable.least_edge - 0.25), tolerance);
+  check("stable step: least edge", std::abs(stable.min_edge - 0.25), tolerance);
   const double crossing = 0.25 / std::sqrt(1000. / 2.); // of a wave through its thickness
   check("stable step: time of a wave",
         stable.of_elements > 0.5 * crossing && stable.of_elements < 1.01 * crossing);
@@ -135,8 +135,8 @@ std::vector<double> numbers_of(const SceneReport &report) {
   for (const BodyReport &body : report.bodies) {
     for (const std::size_t n : {body.n_elements, body.n_nodes, body.n_parts, body.boundaries.size()})
       numbers.push_back(static_cast<double>(n));
-    for (const double value : {body.volume, body.mass, body.least_edge, body.mean_edge, body.largest_edge,
-                               body.least_quality, body.low.norm(), body.high.norm()})
+    for (const double value : {body.volume, body.mass, body.min_edge, body.mean_edge, body.max_edge,
+                               body.min_quality, body.low.norm(), body.high.norm()})
       numbers.push_back(value);
     for (const BoundaryReport &boundary : body.boundaries)
       for (const double value : {static_cast<double>(boundary.n_faces), boundary.area, boundary.centre.norm(),
@@ -189,8 +189,8 @@ void check_wedge(const MPI_Comm communicator) {
         1e-4);
   check("wedge: the polyhedron is smaller", ball.volume < 0.98 * ball.smooth_volume.value_or(0.));
   check("wedge: the plate has no curves", !plate.smooth_volume);
-  check("wedge: least edge of prisms", std::abs(plate.least_edge - 4. * std::sin(0.5 * angle)), tolerance);
-  check("wedge: quality of prisms", std::abs(plate.least_quality - std::cos(0.5 * angle)), tolerance);
+  check("wedge: least edge of prisms", std::abs(plate.min_edge - 4. * std::sin(0.5 * angle)), tolerance);
+  check("wedge: quality of prisms", std::abs(plate.min_quality - std::cos(0.5 * angle)), tolerance);
 }
 
 } // namespace

@@ -119,7 +119,7 @@ void check_release() {
         1e-3 * stored);
 }
 
-void check_hold() {
+void check_constraint() {
   SceneRun run(read(support("stop", "0", "        set From = 0.5\n"), growing_force));
   double held = 0., place = 0., before = 0.;
   run.finish([&](const NewtonReport &) {
@@ -198,7 +198,7 @@ void check_refusal() {
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_release();
-  check_hold();
+  check_constraint();
   check_motion();
   check_handover();
   check_takeover();

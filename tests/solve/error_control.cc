@@ -161,7 +161,7 @@ int main() {
   // 0.032 of something as small as 0.1 is much; of 10 it is little.
   ErrorControl small({0., 1e-3}, 1.);
   const double size = 10. * size_of(force(0.1, 0.));
-  small.set_least_size(size);
+  small.set_min_size(size);
   small.accept(0.1, force(0.1, 0.), 1e-5, 100.);
   small.measure_penetration(100., force(0.1, 0.), force(0.1, 0.032), 0.);
   check("what is small counts as a part of the least size",

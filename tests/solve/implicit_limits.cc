@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Limits of the parts of an implicit step, of one element whose solution is known: first guesses, round-off,
 // measurements of penetration, penalties that rise from lower ones, and errors of time integration.
-#include "billet/solve/implicit/body_freedom.h"
 #include "billet/solve/implicit/energy_balance.h"
+#include "billet/solve/implicit/free_motion.h"
 #include "billet/solve/implicit/path_guard.h"
 #include "billet/solve/implicit/penalty_continuation.h"
 #include "billet/solve/implicit/predictor.h"

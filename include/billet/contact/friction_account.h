@@ -10,7 +10,7 @@ struct FrictionAccount;
 struct FrictionStep;
 struct FrictionRule;
 
-/// How the works of friction in a step are counted. Each is one of those below, chosen by the scheme.
+/// Rule by which the works of friction in a step are counted: one of those below, chosen by the scheme.
 struct FrictionAccounting {
   FrictionAccount (*compute)(const FrictionStep &, const FrictionRule &);
   /// Whether a load that nodes which leave hand over to others counts by FrictionAccount::handed_over().

@@ -17,7 +17,7 @@ struct LocatedPoint {
   dealii::Point<3> coordinates; ///< in the unit cube
 };
 
-/// What points are asked for, and by whom.
+/// Points that are asked for, and by whom.
 struct PointRequest {
   std::vector<dealii::Point<3>> points;
   bool takes_nearest_nodes; ///< instead of points of the body

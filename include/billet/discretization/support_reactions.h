@@ -19,7 +19,7 @@ struct Resultant {
 /// Support or symmetry plane of a body.
 struct NamedSupport {
   std::size_t body;
-  std::string name; ///< as Hold::name: "support NAME" or "symmetry plane TEXT"
+  std::string name; ///< as Constraint::name: "support NAME" or "symmetry plane TEXT"
 };
 
 /// Returns the symmetry planes and supports of all bodies, body by body in the order of Body::holds. The
@@ -33,10 +33,10 @@ std::vector<NamedSupport> named_supports(const Scene &scene);
 class SupportReactions {
 public:
   /// For the supports and symmetry planes that act.
-  SupportReactions(const Scene &scene, const Discretization &discretization, const ActingHolds &acting);
+  SupportReactions(const Scene &scene, const Discretization &discretization, const ActingConstraints &acting);
 
   /// Follows supports that have begun or ended since the last call.
-  void follow(const ActingHolds &acting);
+  void follow(const ActingConstraints &acting);
 
   /// Reactions, and what the constraints leave of the residual.
   struct Forces {
@@ -62,15 +62,15 @@ private:
     dealii::Point<3> position; ///< undeformed
     std::vector<Part> parts;
   };
-  void collect_nodes(const ActingHolds &acting);
+  void collect_nodes(const ActingConstraints &acting);
   Forces sum_over_ranks(const Forces &own) const;
   static void add(const Node &node, const dealii::Tensor<1, 3> &displacement,
                   const dealii::Tensor<1, 3> &residual, Forces &sums);
 
   const Scene &scene_;
   const Discretization &discretization_;
-  std::map<const Hold *, std::size_t> support_of_; ///< indices in named_supports()
-  unsigned int n_changes_ = 0;                     ///< of the supports that nodes_ know
+  std::map<const Constraint *, std::size_t> support_of_; ///< indices in named_supports()
+  unsigned int n_changes_ = 0;                           ///< of the supports that nodes_ know
   std::size_t n_supports_;
   std::vector<Node> nodes_; ///< owned by this rank
   Constraints links_;       ///< of hanging nodes

@@ -3,7 +3,7 @@
 #define BILLET_DISCRETIZATION_SUPPORTS_H
 
 #include "billet/algebra/matrix.h"
-#include "billet/discretization/acting_holds.h"
+#include "billet/discretization/acting_constraints.h"
 #include "billet/discretization/constraint_lines.h"
 #include "billet/usage.h"
 
@@ -26,29 +26,30 @@ struct TangentSystem {
 };
 
 /// Node with constraints n · u = value.
-struct HeldNode {
-  std::vector<const Hold *> holds; ///< in the order of the scene
+struct ConstrainedNode {
+  std::vector<const Constraint *> constraints; ///< in the order of the scene
   std::array<DofIndex, 3> dofs;
   dealii::Point<3> position; ///< undeformed
 };
 
 /// Returns all nodes of owned cells and their ghosts that these constraints hold, by their first dof.
-std::map<DofIndex, HeldNode> collect_held_nodes(const Scene &scene, const Discretization &discretization,
-                                                const HoldFilter &acts);
+std::map<DofIndex, ConstrainedNode> collect_constrained_nodes(const Scene &scene,
+                                                              const Discretization &discretization,
+                                                              const ConstraintFilter &acts);
 
 /// Returns the first dofs of nodes that are constrained in all directions during the whole run.
 std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization &discretization);
 
 /// Combination of the constraints of a node.
-struct HoldRow {
+struct ConstraintRow {
   dealii::Tensor<1, 3> n;      ///< sum of the weights times the normals; 0 without a pivot
   std::vector<double> weights; ///< of the constraints
   int pivot = -1;              ///< component of n that is 1; -1 if the constraint depends on those before it
 };
 /// Returns a row for each constraint of a node, solved for their pivots (Gauss-Jordan).
-std::vector<HoldRow> solve_for_pivots(const HeldNode &node);
+std::vector<ConstraintRow> solve_for_pivots(const ConstrainedNode &node);
 /// Returns the names of the constraints in a row: "'symmetry plane x = 0' and 'support top'".
-std::string names_in(const HoldRow &row, const HeldNode &node);
+std::string names_in(const ConstraintRow &row, const ConstrainedNode &node);
 
 /// Refuses supports that act at the same time and prescribe displacements that contradict each other, or are
 /// not finite. It looks at 17 times between any two at which supports begin or end. Throws InputError.
@@ -63,7 +64,7 @@ public:
 private:
   friend class Supports;
   struct Part {
-    const Hold *hold;
+    const Constraint *constraint;
     double weight;
     unsigned int line; ///< index, 0 to 2
   };
@@ -94,7 +95,7 @@ public:
   void condense(Vector &forces) const;
 
   /// Returns the constraints that act.
-  const ActingHolds &acting() const { return acting_; }
+  const ActingConstraints &acting() const { return acting_; }
   /// Lets those supports go that no step after t knows, and whose forces fade over this time. Collective.
   void release(double t, double fade_time);
   /// Takes the supports that act after t. Those that begin hold the nodes where these `displacements`
@@ -113,7 +114,7 @@ public:
 
 private:
   struct Term {
-    const Hold *hold;
+    const Constraint *constraint;
     double weight;
   };
   /// Value that a line prescribes: Σ weight value(t).
@@ -126,21 +127,21 @@ private:
   /// Redundant constraint: Σ weight value(t) must vanish.
   struct Redundancy {
     std::vector<Term> terms;
-    std::string holds; ///< names of its constraints, for messages
+    std::string constraints; ///< names of its constraints, for messages
     dealii::Point<3> position;
     double start; ///< as of Prescription
   };
   /// Makes the lines of the supports that act. Collective.
   void rebuild();
   /// Returns the position n · u less the value at the time when a late support began.
-  double start_of(const Hold &hold, const HeldNode &node) const;
-  void eliminate(const HeldNode &node);
+  double start_of(const Constraint &constraint, const ConstrainedNode &node) const;
+  void eliminate(const ConstrainedNode &node);
   /// Builds the constraints with these `values` of lines_; if empty, all are 0.
   Constraints build(std::vector<double> values) const;
 
   const Scene &scene_;
   const Discretization &discretization_;
-  ActingHolds acting_;
+  ActingConstraints acting_;
   std::map<double, Vector> starts_; ///< displacements of relevant dofs at the times when supports began
   std::vector<ConstraintLine> links_, lines_;
   std::vector<Prescription> prescriptions_; ///< of lines_

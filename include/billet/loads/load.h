@@ -47,7 +47,7 @@ struct NodalMotion {
   const double *velocities;    ///< [length/time]
 };
 
-/// How a surface has moved as a whole, weighted by undeformed areas: (F1) to (F3) of the theory.
+/// Motion of a surface as a whole, weighted by undeformed areas: (F1) to (F3) of the theory.
 struct SurfaceMotion {
   dealii::Tensor<1, 3> centre;        ///< c, the centroid
   dealii::Tensor<2, 3> second_moment; ///< J = ∫ r² I − r ⊗ r dA about c [length⁴]

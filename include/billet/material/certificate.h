@@ -48,7 +48,7 @@ struct OtherUnits {
   double stress = 1., time = 1., temperature = 1.;
 };
 
-/// How a law is driven.
+/// Settings of the paths along which a law is driven.
 struct CertificationSettings {
   double dt = 1e-3;            ///< length of each step [time]
   double temperature = 0.;     ///< of the body

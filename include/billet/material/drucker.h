@@ -20,7 +20,7 @@ struct StableRange {
   double lowest, highest; ///< stretches; those at the ends of the search are not limits
 };
 /// Ends of the search for limits.
-inline constexpr double least_searched_stretch = 0.1, greatest_searched_stretch = 10.;
+inline constexpr double min_searched_stretch = 0.1, greatest_searched_stretch = 10.;
 
 /// Returns the ranges of three modes around the undeformed state, to a relative error of 1e-3.
 std::array<StableRange, 3> find_stable_ranges(const IsochoricEnergy &energy);

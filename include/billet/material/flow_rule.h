@@ -19,7 +19,7 @@ struct BackstressTerm {
   double rate;    ///< g
 };
 
-/// What plasticity has beside isotropic hardening with von Mises' yield function.
+/// Parts of plasticity beside isotropic hardening with von Mises' yield function.
 struct FlowRule {
   static constexpr std::size_t max_terms = 8;
 

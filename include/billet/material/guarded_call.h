@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// How a guarded call has ended.
+/// End of a guarded call.
 enum class CallEnd {
   returned, ///< as usual
   left,     ///< by leave_guarded_call()

@@ -8,13 +8,13 @@ namespace billet {
 
 class PointLaw;
 
-/// Why a law has returned no stress.
+/// Reason for which a law has returned no stress.
 struct LawRefusal {
   std::string what;      ///< a sentence without its full stop; empty: its last update has succeeded
   bool is_final = false; ///< a shorter step does not help, as after a crash
 };
 
-/// What a law tells of itself if it is a subroutine of a user's library, so that its refusals need words.
+/// Interface of laws that are subroutines of a user's library, whose refusals need words.
 class UserSubroutine {
 public:
   virtual ~UserSubroutine() = default;

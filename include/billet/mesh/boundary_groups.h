@@ -47,9 +47,9 @@ public:
   /// Nodes of a face in ascending order.
   using Face = std::array<unsigned int, 4>;
 
-  /// Ids that groups do not have are above all their numbers and above `least_new_id`. Throws
+  /// Ids that groups do not have are above all their numbers and above `min_new_id`. Throws
   /// std::invalid_argument if faces of hexahedra do not fit each other.
-  explicit BoundaryGroups(const MeshFile &mesh, unsigned int least_new_id = 1000);
+  explicit BoundaryGroups(const MeshFile &mesh, unsigned int min_new_id = 1000);
 
   /// Returns the id of an exterior face; 0 for others.
   unsigned int id(const Face &face) const;

@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// What becomes of nodes at the same place, which belong to different elements.
+/// Treatment of nodes at the same place, which belong to different elements.
 enum class DoubledNodes {
   refused,
   kept, ///< a slit, or parts that only touch

@@ -28,7 +28,8 @@ struct FaceGroup {
 
   std::string name; ///< empty: a number only
   unsigned int number;
-  /// What has this name, such as "surface", in formats where others of another kind may have it, too.
+  /// Kind of thing that has this name, such as "surface", in formats where others of another kind may have
+  /// it, too.
   std::string kind = {};
 };
 

@@ -18,7 +18,7 @@ dealii::Tensor<1, 3> point_of_facet(const FacetCorners &corners, const std::arra
 /// Returns the unit normal of the facet there, ∂x/∂ξ × ∂x/∂η. Zero if the facet has none.
 dealii::Tensor<1, 3> normal_of_facet(const FacetCorners &corners, const std::array<double, 2> &at);
 
-/// Where a line meets a facet, or its continuation.
+/// Point at which a line meets a facet, or its continuation.
 struct FacetCrossing {
   std::array<double, 2> at; ///< coordinates, from 0 to 1 on the facet
   double distance;          ///< along the line [length]

@@ -22,7 +22,7 @@ public:
     double weight;
     std::vector<double> values;
   };
-  /// What becomes of the weights of rows of the same site.
+  /// Treatment of the weights of rows of the same site.
   enum class Weights { of_owner, added };
   /// Returns one row for each site of all ranks, in the order of sites. All ranks get the same, to the last
   /// bit whatever the partition. Collective.

@@ -42,7 +42,7 @@ struct TimeStepping {
   void parse(Reader &reader);
 };
 
-/// What a scheme is made of. Code that depends on the scheme reads this, not its name. A new scheme is a row
+/// Properties of a scheme. Code that depends on the scheme reads this, not its name. A new scheme is a row
 /// of scheme_types() and a run in make_run().
 struct SchemeType {
   TimeStepping::Scheme scheme;

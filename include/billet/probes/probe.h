@@ -31,7 +31,7 @@ struct ProbeQuantity {
 
 const std::vector<ProbeQuantity> &probe_quantities();
 
-/// What a probe writes of the values at its sites.
+/// Selection or statistic that a probe writes of the values at its sites.
 enum class ProbeStatistic { each, least, largest, mean, sum };
 
 /// Points of a body, which move with it or stay in space.
@@ -82,7 +82,7 @@ struct ProbedEnergies {
 /// Motion and energies of a whole body.
 struct ProbedMotion {};
 
-/// What a probe reads, and where. Its values are columns of the history.
+/// Quantities that are read, and their places. The values are columns of the history.
 struct Probe {
   std::variant<ProbedPoints, ProbedFaces, ProbedThickness, ProbedTravel, ProbedEnergies, ProbedMotion> where;
   std::vector<ProbeQuantity> quantities = {};  ///< only of points and faces

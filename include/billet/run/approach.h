@@ -13,7 +13,7 @@
 
 namespace billet {
 
-/// Where a point is relative to a surface.
+/// Place of a point relative to a surface.
 struct PointGap {
   bool faces = false;           ///< whether it is in front of the surface or behind it, not beyond its edge
   double gap = 0.;              ///< if it faces the surface; negative behind [length]

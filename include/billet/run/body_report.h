@@ -10,10 +10,10 @@ namespace billet {
 /// Returns the reports of all bodies. Collective.
 std::vector<BodyReport> report_bodies(const Scene &scene, const Discretization &discretization);
 
-/// Returns the scaled Jacobian of an undeformed element; see BodyReport::least_quality.
+/// Returns the scaled Jacobian of an undeformed element; see BodyReport::min_quality.
 double scaled_jacobian(const CellIterator &cell);
 /// Returns the least edge of an undeformed element [length].
-double least_edge(const CellIterator &cell);
+double min_edge(const CellIterator &cell);
 
 } // namespace billet
 

@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// What becomes of results of an earlier run in the output folder.
+/// Treatment of results of an earlier run in the output folder.
 enum class EarlierResults {
   moved_aside, ///< the folder is renamed FOLDER.1, or FOLDER with the lowest free number
   replaced,    ///< the new run writes over them; its checkpoints and fields are removed

@@ -37,10 +37,10 @@ struct BodyReport {
   double circle_factor = 1.;
   /// Edges of the elements [length], without those of no length that prisms on an axis have; in the mean,
   /// each element counts its own.
-  double least_edge = 0., mean_edge = 0., largest_edge = 0.;
+  double min_edge = 0., mean_edge = 0., max_edge = 0.;
   /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three axes
   /// through the centre. An axis stands for an edge of no length. 1 for a box, <= 0 if inverted.
-  double least_quality = 0.;
+  double min_quality = 0.;
   dealii::Tensor<1, 3> worst_element;     ///< centre of the element that has it
   std::vector<BoundaryReport> boundaries; ///< by ascending id
 };
@@ -77,15 +77,15 @@ struct StableStepReport {
   double of_elements = 0.;      ///< undeformed and at rest [time]
   std::string body;             ///< of the element that sets it
   dealii::Tensor<1, 3> element; ///< its centre
-  double least_edge = 0.;       ///< of this element [length]
+  double min_edge = 0.;         ///< of this element [length]
   double step = 0.;             ///< with contact, loads and 'Safety factor' [time]
-  /// Where contact makes later steps shorter, as the prescribed motions bring pairs together: the shortest,
+  /// Steps that contact makes shorter later, as the prescribed motions bring pairs together: the shortest,
   /// and when they begin.
   double shortest = 0., shortest_from = 0.;
   bool is_short_by_contact = false; ///< whether steps are less than a third of that of the elements
 };
 
-/// What the run will be like.
+/// Forecast of the run.
 struct RunReport {
   std::size_t n_dofs = 0;
   double memory = 0.;      ///< estimate for all ranks [bytes]

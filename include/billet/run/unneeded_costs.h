@@ -7,7 +7,7 @@
 
 namespace billet {
 
-/// What a run has paid for, and what of it the scene has used.
+/// Costs of a run, and those of them that the scene has used.
 struct RunCosts {
   double all = 0.; ///< wall-clock time [s], as those below
   double unsymmetric_matrix = 0., self_contact = 0., fields = 0., error_control = 0.;

@@ -13,7 +13,7 @@ namespace billet {
 
 /// Returns the least id, less one, that groups of a mesh file may get beside their numbers: more than any id
 /// that the scene gives.
-unsigned int least_new_id(const parameters::Mesh &mesh);
+unsigned int min_new_id(const parameters::Mesh &mesh);
 
 /// Parameters of a scene with the ids of all boundaries that it names, and what could not be resolved.
 struct ResolvedScene {

@@ -31,7 +31,7 @@ struct ThinPart {
 /// Measures the thickness from each boundary face through opposite faces of bricks to the other side. A part
 /// is thin if its thickness is below a tenth of the diagonal of the body's bounding box. Faces that `holds`
 /// keep flat cannot bend and are left out.
-ThinPart measure_thin_part(const dealii::Triangulation<3> &mesh, const std::vector<Hold> &holds);
+ThinPart measure_thin_part(const dealii::Triangulation<3> &mesh, const std::vector<Constraint> &constraints);
 
 /// Returns warnings about thin bodies whose elements may lock in bending, from their full meshes. Very large
 /// bodies are left out. Serial.

@@ -41,15 +41,13 @@ struct SupportTimes {
   bool is_late() const { return from > 0.; }
   bool always() const { return !is_late() && !std::isfinite(until); }
   /// Whether it holds at time t, both ends included.
-  bool holds_at(const double t) const { return t >= from * (1. - rounding) && t <= until * (1. + rounding); }
+  bool acts_at(const double t) const { return t >= from * (1. - rounding) && t <= until * (1. + rounding); }
   /// Whether it holds in a step that starts at t.
-  bool holds_after(const double t) const {
-    return t >= from * (1. - rounding) && t < until * (1. - rounding);
-  }
+  bool acts_after(const double t) const { return t >= from * (1. - rounding) && t < until * (1. - rounding); }
 };
 
 /// Constraint n · u = value on boundary nodes, from a symmetry plane or a support.
-struct Hold {
+struct Constraint {
   std::string name;   ///< for messages and reports
   std::string origin; ///< place where its value is set, for messages
   /// Constrained nodes: either those of these boundaries ...
@@ -66,7 +64,7 @@ struct Hold {
   unsigned int component = 0;        ///< of these axes
   SupportTimes times;
 
-  /// What is nearer to a plane or an axis, relative to the size of the body, is on it.
+  /// Distance from a plane or an axis, relative to the size of the body, below which a place is on it.
   static constexpr double rounding = 1e-8;
 
   /// Returns the unit normal at an undeformed position.
@@ -131,7 +129,7 @@ struct Body {
   double max_modulus;                      ///< uniaxial-strain modulus, K + 4/3 G [stress]
   double density;                          ///< undeformed
   std::unique_ptr<Expression> temperature; ///< of the time; null if the law does not depend on it
-  std::vector<Hold> holds;
+  std::vector<Constraint> constraints;
   std::vector<std::unique_ptr<Expression>> expressions; ///< owned here, used by `holds`
   std::vector<AppliedLoad> loads;
   std::vector<Expression> initial_velocity; ///< three expressions of the position
@@ -300,8 +298,8 @@ private:
 
 /// Whether the boundary face is part of the constraint's boundaries or has all nodes in its plane.
 /// `tolerance` [length].
-bool holds_face(const Hold &hold, const dealii::Triangulation<3>::active_face_iterator &face,
-                double tolerance);
+bool constrains_face(const Constraint &constraint, const dealii::Triangulation<3>::active_face_iterator &face,
+                     double tolerance);
 
 } // namespace billet
 

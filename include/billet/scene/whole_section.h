@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// What forces on a model in two dimensions, a layer or a wedge, are in the whole: per unit of width, or on
+/// Forces on the whole of a model in two dimensions, a layer or a wedge: per unit of width, or on
 /// the full circle.
 struct WholeSection {
   enum class Kind {

@@ -36,7 +36,7 @@ public:
   double start() const { return course_.start(); }
 
   /// See ForceCourse. For the steps and measurements from here on.
-  void set_least_size(const double size) { course_.set_least_size(size); }
+  void set_min_size(const double size) { course_.set_min_size(size); }
   /// Adds an accepted step of length `h`. `residual`: at its end, as part of the forces; `penetration`: the
   /// deepest, see measure_penetration().
   void accept(double h, const Forces &forces, double residual, double penetration);

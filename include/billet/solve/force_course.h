@@ -18,9 +18,9 @@ public:
   void begin(const double time) { time_ = start_ = time; }
   /// Sets the least size that forces count with: errors of forces far below it matter little. It is a
   /// function of the last accepted state, and not part of checkpoints.
-  void set_least_size(const double size) { least_size_ = size; }
+  void set_min_size(const double size) { min_size_ = size; }
   /// Returns S of these forces, at least the least size.
-  double size_of(const ResultGroup &forces) const { return std::max(billet::size_of(forces), least_size_); }
+  double size_of(const ResultGroup &forces) const { return std::max(billet::size_of(forces), min_size_); }
   /// Adds an accepted step of length `h` at whose end S is `force`.
   void accept(double h, double force);
 
@@ -48,7 +48,7 @@ private:
   double start_ = 0., time_ = 0.;
   double force_ = 0., force_rate_ = 0.; ///< S, dS/dt in the last step
   double work_ = 0.;
-  double least_size_ = 0.;
+  double min_size_ = 0.;
 };
 
 } // namespace billet

@@ -65,7 +65,7 @@ struct NewtonReport {
   /// tolerance.
   bool is_lost_in_round_off = false;
   bool is_cycling = false; ///< it did not converge: is_cycling()
-  /// Why the step is rejected; none: it is accepted, or the iterations are the cause of `failure`.
+  /// Reason to reject the step; none: it is accepted, or the iterations are the cause of `failure`.
   std::optional<StepFailure::Kind> rejection;
   unsigned int linear_iterations = 0;
   DiagnosticList diagnostics; ///< messages for the user

@@ -8,7 +8,7 @@
 
 namespace billet {
 
-/// Why the trial state of a step is rejected, whatever its residual.
+/// Reason to reject the trial state of a step, whatever its residual.
 struct StepFailure {
   enum class Kind {
     explained,    ///< only a shorter step helps

@@ -45,10 +45,10 @@ void ExplicitForces::find_touched_nodes(const Scene &scene) {
   has_bounds_ = !scene.pairs().empty() || !scene.body_pairs().empty();
   bool may_let_go = false, has_bounded_nodes = false;
   for (const auto &body : scene.bodies()) {
-    for (const Hold &hold : body.holds) {
-      may_let_go = may_let_go || std::isfinite(hold.times.until);
+    for (const Constraint &constraint : body.constraints) {
+      may_let_go = may_let_go || std::isfinite(constraint.times.until);
       // Selected nodes may be inside.
-      has_accelerations = has_accelerations || (hold.nodes && std::isfinite(hold.times.until));
+      has_accelerations = has_accelerations || (constraint.nodes && std::isfinite(constraint.times.until));
     }
     for (const auto &load : body.loads) {
       has_loads = true;

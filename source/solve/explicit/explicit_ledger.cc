@@ -39,7 +39,7 @@ void ExplicitLedger::add_works(const NodalVectors &v, const double half) {
   };
   for (const unsigned int node : parts_.forces.loaded_nodes())
     works_.external += half * power(parts_.forces.external(), node);
-  for (const unsigned int node : parts_.motion.held_nodes())
+  for (const unsigned int node : parts_.motion.constrained_nodes())
     if (parts_.nodes.is_owned(node))
       works_.external += half * power(parts_.motion.support_forces(), node);
   parts_.tools.add_works(parts_.clock.time(), works_.external);

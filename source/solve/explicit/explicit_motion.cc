@@ -113,7 +113,7 @@ void ExplicitMotion::move(const double step) {
 }
 
 void ExplicitMotion::switch_supports(const double t_forces, const double t) {
-  const HoldFilter acts = holding_at(t);
+  const ConstraintFilter acts = holding_at(t);
   if (failure_ || !held_.acting().differ(acts))
     return;
   fading_.erase(std::remove_if(fading_.begin(), fading_.end(),

@@ -14,8 +14,8 @@
 
 namespace billet {
 
-RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts,
-                         const LoadFilter &springs_act) {
+RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization,
+                         const ConstraintFilter &acts, const LoadFilter &springs_act) {
   const std::size_t n_bodies = scene.bodies().size();
   const double far = 10. * discretization.radius();
   std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far); // about the scene's centre, negative
@@ -38,11 +38,11 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
     frames.push_back(frame);
   }
   RigidBodySupport support(discretization.communicator(), frames, 0);
-  for (const auto &entry : collect_held_nodes(scene, discretization, acts))
+  for (const auto &entry : collect_constrained_nodes(scene, discretization, acts))
     for (std::size_t body = 0; body < n_bodies; ++body)
-      for (const auto &hold : scene.bodies()[body].holds)
-        if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0) {
-          const dealii::Tensor<1, 3> normal = hold.direction(entry.second.position);
+      for (const auto &constraint : scene.bodies()[body].constraints)
+        if (std::count(entry.second.constraints.begin(), entry.second.constraints.end(), &constraint) > 0) {
+          const dealii::Tensor<1, 3> normal = constraint.direction(entry.second.position);
           supported_nodes.push_back({body, entry.second.position, normal, entry.second.dofs});
           support.add_support(body, entry.second.position, normal);
         }

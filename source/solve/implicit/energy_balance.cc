@@ -65,7 +65,7 @@ bool EnergyBalance::contact_makes_energy() const {
          -contact_balance_ > 0.5 * std::abs(problem_.state().energies.drift());
 }
 
-void EnergyBalance::update_largest_energy() {
+void EnergyBalance::update_max_energy() {
   const EnergyLedger &energies = problem_.state().energies;
   // As in the output: the present energy counts half, so that spurious energy does not hide itself.
   max_energy_ = std::max(
@@ -205,7 +205,7 @@ double DynamicBalance::taken_by_contact(const ContactLoss &loss) const {
 }
 
 std::optional<StepFailure> DynamicBalance::judge_contact(const double t, DiagnosticList & /*messages*/) {
-  update_largest_energy();
+  update_max_energy();
   const double maximum = max_energy_of_trial(); // in the first step there has been none before
   const ContactLoss loss = dynamic_loss(t);
   if (!motion_.contact().is_on() && contact_balance_ + loss.total < -Limits::may_make * maximum)

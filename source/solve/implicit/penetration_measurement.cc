@@ -10,10 +10,10 @@ namespace {
 
 /// Returns the largest difference of a group, as part of it.
 double difference(const StepResults::Groups &a, const StepResults::Groups &b,
-                  const std::vector<double> &least_sizes) {
+                  const std::vector<double> &min_sizes) {
   double maximum = 0.;
   for (std::size_t group = 0; group < a.size(); ++group) {
-    const double scale = std::max(size_of(b[group]), least_sizes[group]);
+    const double scale = std::max(size_of(b[group]), min_sizes[group]);
     if (scale > 0.)
       maximum = std::max(maximum, distance_of(a[group], b[group]) / scale);
   }
@@ -59,7 +59,7 @@ void StepResults::add_travels(const std::vector<double> &offsets, Groups &result
       results.push_back({dealii::Tensor<1, 3>({offsets[i], 0., 0.})});
 }
 
-std::vector<double> StepResults::least_sizes() const {
+std::vector<double> StepResults::min_sizes() const {
   std::vector<double> sizes(1, 0.);
   const double work = std::abs(problem_.state().energies.external), time = problem_.state().time;
   const auto &tools = parts_.scene().tools();
@@ -113,7 +113,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
                                             NewtonReport &report) {
   Vector x(accepted), residual(accepted), dx(accepted);
   double left = 0.;
-  const std::vector<double> least_sizes = results_.least_sizes();
+  const std::vector<double> min_sizes = results_.min_sizes();
   measured_ = OfPenetration{parts_.contacts().find_penetration(), results_.of_trial(), {}, 0., 0};
   for (auto &contact : parts_.contacts())
     contact.penalties().augment();
@@ -134,7 +134,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
     measured_->residual = norm / problem_.force_scale();
     is_accurate = measured_->residual <=
                   std::max(accuracy * solver.force_tolerance,
-                           Limits::accuracy * difference(results_.of_trial(), measured_->with, least_sizes));
+                           Limits::accuracy * difference(results_.of_trial(), measured_->with, min_sizes));
   }
   if (is_admissible && is_accurate) {
     measured_->without = results_.of_trial();
@@ -147,7 +147,7 @@ double PenetrationMeasurement::augment_once(const Vector &accepted, const double
 double PenetrationMeasurement::find_allowed() const {
   if (!measured_ || measured_->without.empty())
     return 0.;
-  const double error = difference(measured_->without, measured_->with, results_.least_sizes());
+  const double error = difference(measured_->without, measured_->with, results_.min_sizes());
   if (!(error > allowed_ && allowed_ > 0.))
     return 0.;
   return std::max(1., measured_->penetration * allowed_ / error);

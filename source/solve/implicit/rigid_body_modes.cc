@@ -3,7 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/solve/implicit/body_freedom.h"
+#include "billet/solve/implicit/free_motion.h"
 
 #include <algorithm>
 #include <sstream>
@@ -15,7 +15,7 @@ namespace {
 /// Returns the bodies with the supports that act now and the springs that act after t.
 RigidBodies find_rigid_bodies(const ImplicitParts &parts, const double t) {
   return {parts.scene(), parts.discretization(),
-          [&parts](const Hold &hold) { return parts.supports().acting()(hold); },
+          [&parts](const Constraint &constraint) { return parts.supports().acting()(constraint); },
           [t](const LoadTimes &times) { return times.acts_after(t); }};
 }
 
@@ -38,7 +38,8 @@ RigidBodyModes::RigidBodyModes(ImplicitProblem &problem)
   // Bodies that lose their supports within the run may need it.
   if (may_change_)
     parts_.stabilisation().prepare(RigidBodies(
-        parts_.scene(), parts_.discretization(), [](const Hold &hold) { return hold.times.always(); },
+        parts_.scene(), parts_.discretization(),
+        [](const Constraint &constraint) { return constraint.times.always(); },
         [](const LoadTimes &times) { return times.always(); }));
   else
     parts_.stabilisation().prepare(bodies_);

@@ -3,7 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/solve/implicit/body_freedom.h"
+#include "billet/solve/implicit/free_motion.h"
 
 #include <algorithm>
 #include <sstream>

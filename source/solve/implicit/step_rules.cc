@@ -3,7 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
-#include "billet/solve/implicit/body_freedom.h"
+#include "billet/solve/implicit/free_motion.h"
 #include "billet/solve/implicit/implicit_motion.h"
 
 #include <algorithm>
@@ -66,9 +66,9 @@ std::map<std::size_t, std::set<std::string>> StepRules::switch_supports(const do
   std::map<std::size_t, std::set<std::string>> ended;
   const auto &bodies = parts_.scene().bodies();
   for (std::size_t body = 0; body < bodies.size(); ++body)
-    for (const Hold &hold : bodies[body].holds)
-      if (parts_.supports().acting()(hold) && !hold.times.holds_after(t))
-        ended[body].insert(hold.name.substr(std::string("support ").size())); // planes hold always
+    for (const Constraint &constraint : bodies[body].constraints)
+      if (parts_.supports().acting()(constraint) && !constraint.times.acts_after(t))
+        ended[body].insert(constraint.name.substr(std::string("support ").size())); // planes hold always
   ForceState &start = problem_.step().start;
   Vector reactions = start.supports;
   reactions += inertia;
@@ -115,7 +115,7 @@ void StaticRules::find_free_body(const std::map<std::size_t, std::set<std::strin
 }
 
 void StaticRules::close_step(const double t) {
-  balance_.update_largest_energy();
+  balance_.update_max_energy();
   const std::map<std::size_t, std::set<std::string>> let_go = remove_tools(t).let_go;
   const bool is_due = parts_.switched_supports().is_due(t);
   std::map<std::size_t, std::set<std::string>> ended;
@@ -206,7 +206,7 @@ void DynamicRules::close_step(const double t) {
   if (forces_jump || supports_change)
     initial_.accelerate();
   motion_.update_state(problem_.state());
-  balance_.update_largest_energy();
+  balance_.update_max_energy();
 }
 
 void DynamicRules::save(StateWriter &writer) const {

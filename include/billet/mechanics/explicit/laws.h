@@ -272,7 +272,7 @@ BILLET_INLINE void evaluate_hardening(const Material &material, const LaneFuncti
 /// Returns x^p for positive x.
 BILLET_INLINE Real power(const Real x, const Number p) { return exponential(p * logarithm(x)); }
 
-/// Of the last change of Δα, relative to Δα: what is left is below consistency_tolerance.
+/// Bound on the last change of Δα, relative to Δα: the rest is below consistency_tolerance.
 constexpr Number root_tolerance = is_single ? 1e-3_r : 6e-8_r;
 
 /// Computes the flow at a rate, q − m Δα = σ_y(α + Δα) (1 + x) with x = (Δα/DΔt)^{1/p}, in the lanes that

@@ -2,7 +2,7 @@
 #ifndef BILLET_SOLVE_EXPLICIT_EXPLICIT_MOTION_H
 #define BILLET_SOLVE_EXPLICIT_EXPLICIT_MOTION_H
 
-#include "billet/discretization/held_motion.h"
+#include "billet/discretization/prescribed_motion.h"
 #include "billet/solve/explicit/explicit_clock.h"
 #include "billet/solve/explicit/nodal_masses.h"
 #include "billet/solve/explicit/nodal_rows.h"
@@ -39,7 +39,7 @@ public:
 
   /// Returns the constrained nodes, and the forces of supports on them, the same on all their ranks [force].
   /// Forces of other nodes are 0.
-  const std::vector<unsigned int> &held_nodes() const { return held_.nodes(); }
+  const std::vector<unsigned int> &constrained_nodes() const { return held_.nodes(); }
   const NodalVectors &support_forces() const { return supports_; }
 
   /// Changes velocities by `forces`, which it sets to 0. The two nodes at one place of a prism, on the axis
@@ -56,7 +56,7 @@ public:
   /// kick. The forces of those that let go fade from there on. Failures: as of kick().
   void switch_supports(double t_forces, double t);
   /// Returns the constraints that act.
-  const ActingHolds &acting() const { return held_.acting(); }
+  const ActingConstraints &acting() const { return held_.acting(); }
   /// Adds the fading forces of supports at t that this rank owns.
   void add_fading(double t, NodalVectors &forces) const;
 
@@ -79,7 +79,7 @@ private:
   void save_supports(StateWriter &writer, const NodalRows &rows) const;
 
   const LocalNodes &nodes_;
-  HeldMotion held_;
+  PrescribedMotion held_;
   NodalVectors u_, v_, v_before_;
   NodalVectors supports_;
   std::vector<std::pair<unsigned int, unsigned int>> twins_; ///< nodes of a prism at one place

@@ -19,7 +19,7 @@ struct RigidBodies {
   using LoadFilter = std::function<bool(const LoadTimes &)>;
 
   /// For the supports that `acts`, and the springs that `springs_act` chooses. Collective.
-  RigidBodies(const Scene &scene, const Discretization &discretization, const HoldFilter &acts,
+  RigidBodies(const Scene &scene, const Discretization &discretization, const ConstraintFilter &acts,
               const LoadFilter &springs_act);
 
   /// Whether supports alone resist all rigid-body modes; then the other members are empty.

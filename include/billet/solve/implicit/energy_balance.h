@@ -38,7 +38,7 @@ public:
   bool contact_makes_energy() const;
   /// Returns the largest energy so far [energy].
   double max_energy() const { return max_energy_; }
-  void update_largest_energy();
+  void update_max_energy();
   const InternalForces::Energies &trial_energies() const { return trial_energies_; }
 
   virtual void save(StateWriter &writer) const;

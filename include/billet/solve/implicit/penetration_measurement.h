@@ -31,7 +31,7 @@ public:
   /// the travel by which the tool's load does the work of all loads so far (doc/theory.md, W3): what it is
   /// off by changes the other forces, as a part of them, by no more than the part of that which it is. At
   /// most the scene's radius, for loads near zero.
-  std::vector<double> least_sizes() const;
+  std::vector<double> min_sizes() const;
 
 private:
   bool has_forces_of_contacts() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/solve/implicit/body_freedom.h"
+#include "billet/solve/implicit/free_motion.h"
 
 #include "billet/algebra/gather.h"
 #include "billet/errors.h"
@@ -54,16 +54,18 @@ void add_springs(const ImplicitProblem &problem, const std::size_t body,
 
 std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, const std::size_t body) {
   std::vector<Resistance> resistances;
-  const auto acts = [&problem](const Hold &hold) { return problem.parts().supports().acting()(hold); };
+  const auto acts = [&problem](const Constraint &constraint) {
+    return problem.parts().supports().acting()(constraint);
+  };
   for (const auto &entry :
-       collect_held_nodes(problem.parts().scene(), problem.parts().discretization(), acts)) {
+       collect_constrained_nodes(problem.parts().scene(), problem.parts().discretization(), acts)) {
     dealii::Tensor<1, 3> position = entry.second.position;
     for (unsigned int i = 0; i < 3; ++i)
       position[i] += problem.state().displacements(entry.second.dofs[i]);
-    for (const auto &hold : problem.parts().scene().bodies()[body].holds)
-      if (std::count(entry.second.holds.begin(), entry.second.holds.end(), &hold) > 0)
+    for (const auto &constraint : problem.parts().scene().bodies()[body].constraints)
+      if (std::count(entry.second.constraints.begin(), entry.second.constraints.end(), &constraint) > 0)
         resistances.push_back(
-            {position, hold.direction(entry.second.position), Resistance::Sense::both_ways});
+            {position, constraint.direction(entry.second.position), Resistance::Sense::both_ways});
   }
   add_springs(problem, body, resistances);
   for (const auto &contact : problem.parts().contacts())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/discretization/held_motion.h"
+#include "billet/discretization/prescribed_motion.h"
 
 #include "billet/discretization/hanging_nodes.h"
 
@@ -10,44 +10,47 @@ namespace billet {
 
 using dealii::Tensor;
 
-HeldMotion::HeldMotion(const Scene &scene, const LocalNodes &nodes)
+PrescribedMotion::PrescribedMotion(const Scene &scene, const LocalNodes &nodes)
     : scene_(scene), local_(nodes), acting_(scene, holding_at(0.)) {
   require_no_hanging_nodes(nodes.discretization().dof_handler(), "Explicit dynamics");
   rebuild();
 }
 
-double HeldMotion::start_of(const Hold &hold, const HeldNode &held, const unsigned int node) const {
-  if (!hold.times.is_late())
+double PrescribedMotion::start_of(const Constraint &constraint, const ConstrainedNode &held,
+                                  const unsigned int node) const {
+  if (!constraint.times.is_late())
     return 0.;
-  const double place = get_vector(starts_.at(hold.times.from).data(), node) * hold.direction(held.position);
-  return hold.value != nullptr ? place - hold.value->value(hold.times.from, held.position) : place;
+  const double place =
+      get_vector(starts_.at(constraint.times.from).data(), node) * constraint.direction(held.position);
+  return constraint.value != nullptr ? place - constraint.value->value(constraint.times.from, held.position)
+                                     : place;
 }
 
-void HeldMotion::rebuild() {
+void PrescribedMotion::rebuild() {
   nodes_.clear();
   held_.clear();
   n_moving_ = 0;
-  const auto acts = [this](const Hold &hold) { return acting_(hold); };
-  for (const auto &[dof, held] : collect_held_nodes(scene_, local_.discretization(), acts)) {
+  const auto acts = [this](const Constraint &constraint) { return acting_(constraint); };
+  for (const auto &[dof, held] : collect_constrained_nodes(scene_, local_.discretization(), acts)) {
     Node node{local_.find(dof), held.position, {}};
     if (node.node == dealii::numbers::invalid_unsigned_int) // only at ghost cells
       continue;
     // Gram-Schmidt on the planes' unit normals. A dependent normal adds nothing.
-    constexpr double least_independent = 1e-8;
-    for (const Hold *hold : held.holds) {
-      const Tensor<1, 3> normal = hold->direction(held.position);
-      Direction direction{normal, {}, start_of(*hold, held, node.node)};
-      if (hold->value != nullptr)
-        direction.terms.push_back({hold, 1.});
+    constexpr double min_independent = 1e-8;
+    for (const Constraint *constraint : held.constraints) {
+      const Tensor<1, 3> normal = constraint->direction(held.position);
+      Direction direction{normal, {}, start_of(*constraint, held, node.node)};
+      if (constraint->value != nullptr)
+        direction.terms.push_back({constraint, 1.});
       for (const auto &before : node.directions) {
         const double part = normal * before.e;
         direction.e -= part * before.e;
         direction.start -= part * before.start;
         for (const auto &term : before.terms)
-          direction.terms.push_back({term.hold, -part * term.weight});
+          direction.terms.push_back({term.constraint, -part * term.weight});
       }
       const double length = direction.e.norm();
-      if (length < least_independent)
+      if (length < min_independent)
         continue;
       direction.e /= length;
       direction.start /= length;
@@ -64,7 +67,7 @@ void HeldMotion::rebuild() {
   moving_memory_.set(n_moving_ * sizeof(Node));
 }
 
-void HeldMotion::release(const double t, const double fade_time, NodalVectors &forces) {
+void PrescribedMotion::release(const double t, const double fade_time, NodalVectors &forces) {
   acting_.release(holding_at(t), fade_time);
   acting_.forget_ended(starts_);
   rebuild();
@@ -74,26 +77,26 @@ void HeldMotion::release(const double t, const double fade_time, NodalVectors &f
                  -(get_vector(forces.data(), node.node) * direction.e) * direction.e);
 }
 
-void HeldMotion::take(const double t, const NodalVectors &displacements) {
+void PrescribedMotion::take(const double t, const NodalVectors &displacements) {
   for (const double time : acting_.take(holding_at(t)))
     starts_[time] = displacements;
   rebuild();
 }
 
-void HeldMotion::resume(const double t, std::map<double, NodalVectors> starts) {
+void PrescribedMotion::resume(const double t, std::map<double, NodalVectors> starts) {
   starts_ = std::move(starts);
   acting_.change_to(holding_at(t));
   rebuild();
 }
 
-double HeldMotion::value(const Direction &direction, const double t, const dealii::Point<3> &position) {
+double PrescribedMotion::value(const Direction &direction, const double t, const dealii::Point<3> &position) {
   double sum = direction.start; // 0 unless supports began within the run
   for (const auto &term : direction.terms)
-    sum += term.weight * term.hold->value->value(t, position);
+    sum += term.weight * term.constraint->value->value(t, position);
   return sum;
 }
 
-void HeldMotion::set_displacements(const double t, NodalVectors &displacements) const {
+void PrescribedMotion::set_displacements(const double t, NodalVectors &displacements) const {
   for (const auto &node : nodes_)
     for (const auto &direction : node.directions)
       add_vector(
@@ -102,9 +105,9 @@ void HeldMotion::set_displacements(const double t, NodalVectors &displacements) 
               direction.e);
 }
 
-void HeldMotion::constrain(const double t, const double dt, const NodalVectors &displacements,
-                           const std::vector<double> &masses, NodalVectors &velocities,
-                           NodalVectors &impulses) const {
+void PrescribedMotion::constrain(const double t, const double dt, const NodalVectors &displacements,
+                                 const std::vector<double> &masses, NodalVectors &velocities,
+                                 NodalVectors &impulses) const {
   Usage::count_if(n_moving_ > 0, Capability::moving_supports, n_moving_);
   for (const auto &node : nodes_) {
     Tensor<1, 3> change;

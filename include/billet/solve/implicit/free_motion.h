@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_SOLVE_IMPLICIT_BODY_FREEDOM_H
-#define BILLET_SOLVE_IMPLICIT_BODY_FREEDOM_H
+#ifndef BILLET_SOLVE_IMPLICIT_FREE_MOTION_H
+#define BILLET_SOLVE_IMPLICIT_FREE_MOTION_H
 
 #include "billet/solve/implicit/implicit_problem.h"
 

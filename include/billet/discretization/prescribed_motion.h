@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_DISCRETIZATION_HELD_MOTION_H
-#define BILLET_DISCRETIZATION_HELD_MOTION_H
+#ifndef BILLET_DISCRETIZATION_PRESCRIBED_MOTION_H
+#define BILLET_DISCRETIZATION_PRESCRIBED_MOTION_H
 
 #include "billet/discretization/local_nodes.h"
 #include "billet/discretization/supports.h"
@@ -12,13 +12,13 @@ namespace billet {
 
 /// Constraints by supports, prescribed displacements and symmetry planes for schemes without a matrix. At a
 /// constrained node they prescribe the velocity's components along their normals; the others stay free.
-class HeldMotion {
+class PrescribedMotion {
 public:
-  HeldMotion(const Scene &scene, const LocalNodes &nodes);
+  PrescribedMotion(const Scene &scene, const LocalNodes &nodes);
 
   const Scene &scene() const { return scene_; }
   /// Returns the constraints that act.
-  const ActingHolds &acting() const { return acting_; }
+  const ActingConstraints &acting() const { return acting_; }
   /// Lets those supports go that do not hold at t, and whose forces fade over this time. Takes from `forces`
   /// what the constraints that are left bear.
   void release(double t, double fade_time, NodalVectors &forces);
@@ -42,7 +42,7 @@ public:
 
 private:
   struct Term {
-    const Hold *hold;
+    const Constraint *constraint;
     double weight;
   };
   /// One of up to three orthonormal constrained directions e at a node: e · u = Σ weight value(t).
@@ -59,12 +59,12 @@ private:
   /// Makes the nodes of the constraints that act.
   void rebuild();
   /// Returns the position n · u less the value at the time when a late support began.
-  double start_of(const Hold &hold, const HeldNode &held, unsigned int node) const;
+  double start_of(const Constraint &constraint, const ConstrainedNode &held, unsigned int node) const;
   static double value(const Direction &direction, double t, const dealii::Point<3> &position);
 
   const Scene &scene_;
   const LocalNodes &local_;
-  ActingHolds acting_;
+  ActingConstraints acting_;
   std::map<double, NodalVectors> starts_;
   std::vector<Node> nodes_;
   std::vector<unsigned int> held_;

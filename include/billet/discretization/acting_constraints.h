@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef BILLET_DISCRETIZATION_ACTING_HOLDS_H
-#define BILLET_DISCRETIZATION_ACTING_HOLDS_H
+#ifndef BILLET_DISCRETIZATION_ACTING_CONSTRAINTS_H
+#define BILLET_DISCRETIZATION_ACTING_CONSTRAINTS_H
 
 #include "billet/scene/scene.h"
 
@@ -13,39 +13,39 @@
 namespace billet {
 
 /// Chooses constraints.
-using HoldFilter = std::function<bool(const Hold &)>;
+using ConstraintFilter = std::function<bool(const Constraint &)>;
 
-/// Chooses those that hold in a step that starts at t, as SupportTimes::holds_after() says.
-inline HoldFilter holding_after(const double t) {
-  return [t](const Hold &hold) { return hold.times.holds_after(t); };
+/// Chooses those that hold in a step that starts at t, as SupportTimes::acts_after() says.
+inline ConstraintFilter holding_after(const double t) {
+  return [t](const Constraint &constraint) { return constraint.times.acts_after(t); };
 }
-/// Chooses those that hold at t, as SupportTimes::holds_at() says.
-inline HoldFilter holding_at(const double t) {
-  return [t](const Hold &hold) { return hold.times.holds_at(t); };
+/// Chooses those that hold at t, as SupportTimes::acts_at() says.
+inline ConstraintFilter holding_at(const double t) {
+  return [t](const Constraint &constraint) { return constraint.times.acts_at(t); };
 }
 
 /// Supports and symmetry planes that hold nodes now. It changes between steps only, on all ranks alike.
-class ActingHolds {
+class ActingConstraints {
 public:
   /// Begins with those that `acts` chooses.
-  ActingHolds(const Scene &scene, const HoldFilter &acts);
+  ActingConstraints(const Scene &scene, const ConstraintFilter &acts);
 
-  bool operator()(const Hold &hold) const { return resting_.count(&hold) == 0; }
+  bool operator()(const Constraint &constraint) const { return resting_.count(&constraint) == 0; }
   /// Returns how often they have changed.
   unsigned int n_changes() const { return n_changes_; }
 
   /// Whether supports of the scene begin or end within the run.
   bool may_change() const { return may_change_; }
   /// Whether `acts` chooses others than act now.
-  bool differ(const HoldFilter &acts) const;
+  bool differ(const ConstraintFilter &acts) const;
   /// Returns the times over which forces fade, in ascending order, of those that act and that `acts` omits.
-  std::vector<double> fade_times(const HoldFilter &acts) const;
+  std::vector<double> fade_times(const ConstraintFilter &acts) const;
   /// Lets those of them go whose forces fade over this time.
-  void release(const HoldFilter &acts, double fade_time);
+  void release(const ConstraintFilter &acts, double fade_time);
   /// Adds those that `acts` chooses. Returns the times later than 0 at which those begin that did not act.
-  std::set<double> take(const HoldFilter &acts);
+  std::set<double> take(const ConstraintFilter &acts);
   /// Makes those act that `acts` chooses, as by release() and take().
-  void change_to(const HoldFilter &acts);
+  void change_to(const ConstraintFilter &acts);
   /// Forgets the states of times at which none of those began that act.
   template <class State> void forget_ended(std::map<double, State> &starts) const {
     const std::set<double> left = late_beginnings();
@@ -57,18 +57,18 @@ private:
   std::set<double> late_beginnings() const;
   template <class Visit> void visit(const Visit &visit) const {
     for (const Body &body : scene_.bodies())
-      for (const Hold &hold : body.holds)
-        visit(hold);
+      for (const Constraint &constraint : body.constraints)
+        visit(constraint);
   }
 
   const Scene &scene_;
-  std::set<const Hold *> resting_; ///< those that do not act
+  std::set<const Constraint *> resting_; ///< those that do not act
   bool may_change_ = false;
   unsigned int n_changes_ = 0;
 };
 
 /// Returns the times later than 0 at which supports of this choice begin.
-std::set<double> late_beginnings(const Scene &scene, const HoldFilter &acts);
+std::set<double> late_beginnings(const Scene &scene, const ConstraintFilter &acts);
 
 } // namespace billet
 
