@@ -95,11 +95,12 @@ struct Surroundings {
   const Surroundings of_point(discretization, body, point);
   const auto &[low, high, node, distance] = of_point;
   std::ostringstream message;
-  message << request.origin << ": the point (" << point << ") is not in the undeformed body '" << request.body
-          << "', which reaches from (" << low[0] << " " << low[1] << " " << low[2] << ") to (" << high[0]
-          << " " << high[1] << " " << high[2] << "). Its distance is " << distance << " from the body, and "
-          << node[0] << " from the nearest node, (" << node[1] << " " << node[2] << " " << node[3]
-          << "); allowed "
+  message << request.origin << ": the point (" << point << ") is "
+          << (request.takes_nearest_nodes ? "far from all nodes of" : "not in") << " the undeformed body '"
+          << request.body << "', which reaches from (" << low[0] << " " << low[1] << " " << low[2] << ") to ("
+          << high[0] << " " << high[1] << " " << high[2] << "). Its distance is " << distance
+          << " from the body, and " << node[0] << " from the nearest node, (" << node[1] << " " << node[2]
+          << " " << node[3] << "); allowed "
           << (request.takes_nearest_nodes ? "is a distance of at most a tenth of the scene's radius"
                                           : request.allowed);
   throw InputError(message.str());

@@ -3,8 +3,11 @@
 
 #include "billet/discretization/point_location.h"
 #include "billet/errors.h"
+#include "billet/forces/selected_nodes.h"
 #include "billet/forces/surface_coupling.h"
+#include "billet/loads/node_site.h"
 #include "billet/mechanics/element_mass.h"
+#include "billet/scene/section_geometry.h"
 #include "billet/usage.h"
 
 #include <deal.II/base/geometry_info.h>
@@ -75,6 +78,55 @@ template <class Placed> std::size_t memory_of(const std::vector<Placed> &loads) 
   for (const Placed &placed : loads)
     bytes += sizeof(placed) + placed.sites.size() * sizeof(placed.sites.front());
   return bytes;
+}
+
+/// Nodes that a load selects, of which this rank sums the forces.
+struct OwnSelection {
+  std::vector<unsigned int> nodes;
+  double part; ///< of each in the load: one over the number on all ranks
+  Tensor<1, 3> centre;
+};
+
+/// Collective.
+OwnSelection find_selection(const AppliedLoad &load, const LocalNodes &nodes, const std::size_t body) {
+  OwnSelection selection;
+  std::vector<double> sums(4, 0.); // number, Σ x about the middle of the scene
+  const Tensor<1, 3> &middle = nodes.discretization().centre();
+  for (const SelectedNode &selected : collect_selected_nodes(load, nodes.discretization(), body)) {
+    const unsigned int node = nodes.find(selected.dofs[0]);
+    if (!nodes.is_owned(node))
+      continue;
+    selection.nodes.push_back(node);
+    sums[0] += 1.;
+    for (unsigned int i = 0; i < 3; ++i)
+      sums[1 + i] += selected.position[i] - middle[i];
+  }
+  dealii::Utilities::MPI::sum(sums, nodes.discretization().communicator(), sums);
+  selection.part = 1. / sums[0];
+  selection.centre = middle + selection.part * Tensor<1, 3>({sums[1], sums[2], sums[3]});
+  return selection;
+}
+
+/// Refuses a moment on nodes on one line, or on one node: their forces have no moment about the line, and how
+/// they turn about it is unknown.
+void check_spread(const AppliedLoad &load) {
+  constexpr double least = 1e-3; // distance from the line, in parts of the length along it
+  const auto points = load.nodes->points();
+  Tensor<1, 3> centre, far;
+  for (const auto &point : points)
+    centre += point / static_cast<double>(points.size());
+  for (const auto &point : points)
+    if ((point - centre).norm() > far.norm())
+      far = point - centre;
+  double width = 0.;
+  for (const auto &point : points)
+    width = std::max(width, dealii::cross_product_3d(far, point - centre).norm());
+  if (width > least * far.norm_square())
+    return;
+  throw InputError(load.origin + ": the " + load.type + " acts on " +
+                   (far.norm() > 0. ? "nodes on one line, whose forces have no moment about it"
+                                    : "one node, whose force has no moment about it") +
+                   "; allowed are three nodes or more that are not on one line, or 'Boundary ids' of faces");
 }
 
 /// Adds a load's forces, which `add` adds to a vector, with its factor at time t.
@@ -165,6 +217,18 @@ void ExternalLoads::place(const AppliedLoad &load, const FaceLoad &action, const
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, const std::size_t body) {
+  if (load.nodes) {
+    const OwnSelection selection = find_selection(load, nodes_, body);
+    auto whole = std::make_unique<LoadedSurface>();
+    whole->area = 1.; // parts stand for areas
+    whole->centre = selection.centre;
+    std::vector<LoadedNode> sites;
+    for (const unsigned int node : selection.nodes)
+      sites.push_back(
+          {node, selection.part, {}, Point<3>(get_vector(nodes_.positions().data(), node)), whole.get()});
+    on_nodes_.push_back({&load, &action, std::move(sites), std::move(whole)});
+    return;
+  }
   const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
   auto surface = measure_surface(facets);
   std::vector<LoadedNode> nodes;
@@ -179,6 +243,19 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
 }
 
 void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, const std::size_t body) {
+  if (load.nodes) {
+    check_spread(load);
+    const OwnSelection selection = find_selection(load, nodes_, body);
+    auto whole = std::make_unique<LoadedSurface>();
+    whole->area = 1.; // parts stand for areas
+    whole->centre = selection.centre;
+    std::vector<LoadedFace> sites;
+    for (const unsigned int node : selection.nodes)
+      sites.push_back(make_node_site(node, Point<3>(get_vector(nodes_.positions().data(), node)), whole.get(),
+                                     selection.part));
+    on_surfaces_.push_back({&load, &action, std::move(sites), std::move(whole)});
+    return;
+  }
   const MPI_Comm communicator = nodes_.discretization().communicator();
   const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
   auto surface = measure_surface(facets);
@@ -192,17 +269,10 @@ void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, co
 }
 
 void ExternalLoads::place_on_nodes(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
-  std::set<unsigned int> found;
-  for (const auto &element : nodes_.elements(body))
-    for (const unsigned int node : element)
-      if (nodes_.is_owned(node) &&
-          load.nodes->contains(Point<3>(get_vector(nodes_.positions().data(), node))))
-        found.insert(node);
-  const double n =
-      dealii::Utilities::MPI::sum(static_cast<double>(found.size()), nodes_.discretization().communicator());
+  const OwnSelection selection = find_selection(load, nodes_, body);
   std::vector<WeightedNode> sites;
-  for (const unsigned int node : found)
-    sites.push_back({node, 1. / n});
+  for (const unsigned int node : selection.nodes)
+    sites.push_back({node, selection.part});
   on_points_.push_back({&load, &action, std::move(sites), nullptr});
 }
 
@@ -217,9 +287,15 @@ void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, cons
                                       load.origin,
                                       "is a point of the body, or 'Place = nearest node'"});
   std::vector<WeightedNode> sites;
+  const bool is_section =
+      scene_.parameters().bodies[body].mesh.section.value != parameters::Mesh::Section::solid;
   if (const auto &point = located.front())
     for (unsigned int a = 0; a < n_element_nodes; ++a) {
-      const double weight = dealii::GeometryInfo<3>::d_linear_shape_function(point->coordinates, a);
+      const auto shape = [&](const unsigned int b) {
+        return dealii::GeometryInfo<3>::d_linear_shape_function(point->coordinates, b);
+      };
+      // A point of a section is on both of its sides, which are the third axis of its bricks.
+      const double weight = is_section ? 0.5 * (shape(a) + shape(a ^ 4U)) : shape(a);
       if (weight != 0.)
         sites.push_back({nodes_.elements(body)[point->element][a], weight});
     }
@@ -274,8 +350,12 @@ void ExternalLoads::add(const Placed<PointLoad, WeightedNode> &placed, const dou
                         NodalVectors &forces) const {
   add_with_factor(*placed.load, t, forces, [&](double *sum) {
     const Tensor<1, 3> force = placed.action->force(values_of(*placed.load, t).data());
-    for (const auto &[node, weight] : placed.sites)
-      add_vector(sum, node, weight * force);
+    const bool is_wedge = scene_.whole_section().kind == WholeSection::Kind::full_circle;
+    const SectionGeometry section(scene_.parameters().bodies.front().mesh);
+    for (const auto &[node, weight] : placed.sites) // on a wedge, the force turns with its sides
+      add_vector(
+          sum, node,
+          weight * (is_wedge ? section.turn_to(get_vector(nodes_.positions().data(), node)) * force : force));
   });
 }
 
@@ -352,7 +432,7 @@ void ExternalLoads::add_tangent(const double t, const NodalVectors &displacement
 
 void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
                                          const TangentSystem &system) const {
-  dealii::FullMatrix<double> of_face(12, 12);
+  dealii::FullMatrix<double> of_face(12, 12), of_node(3, 3);
   std::vector<DofIndex> face_dofs(12);
   for (const auto &[load, action, faces, surface] : on_surfaces_) {
     const double factor = load->times.factor(t);
@@ -363,8 +443,17 @@ void ExternalLoads::add_surface_tangents(const double t, const NodalMotion &at,
     const LoadValues values = evaluate(*load, t, faces);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const LoadedFace &face = faces[f];
-      const auto corner = [&](const unsigned int a) { return get_vector(at.positions, face.nodes[a]); };
       const Tensor<2, 3> local = action->local_tangent(values.at(f), *surface);
+      if (is_node_site(face)) {
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            of_node(i, j) = face.areas[0] * local[i][j];
+        const std::array<DofIndex, 3> &dofs = nodes_.dofs(face.nodes[0]);
+        coupling.add(dofs, action->coupling(surface->shares[f][0], values.at(f), *surface));
+        target.add(of_node, {dofs.begin(), dofs.end()});
+        continue;
+      }
+      const auto corner = [&](const unsigned int a) { return get_vector(at.positions, face.nodes[a]); };
       of_face = 0.;
       for (const auto &point : facet_points()) {
         const double area = point.area_vector(corner).norm();

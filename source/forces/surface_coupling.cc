@@ -5,6 +5,7 @@
 #include "billet/algebra/vector.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
+#include "billet/forces/selected_nodes.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -26,26 +27,37 @@ Vector condensed(const Discretization &discretization, const Constraints &constr
   return owned;
 }
 
-/// Calls visit(load, facets) for each load on a surface.
+/// Dofs of the nodes of a load: a node of several faces occurs several times.
+using NodeDofs = std::vector<std::array<DofIndex, 3>>;
+
+NodeDofs find_dofs(const AppliedLoad &load, const Discretization &discretization, const std::size_t body) {
+  NodeDofs dofs;
+  for (const SelectedNode &node : collect_selected_nodes(load, discretization, body))
+    dofs.push_back(node.dofs);
+  for (const BoundaryFacet &facet : collect_boundary_facets(discretization, body, load.boundary_ids))
+    dofs.insert(dofs.end(), facet.dofs.begin(), facet.dofs.end());
+  return dofs;
+}
+
+/// Calls visit(load, dofs of its nodes on this rank) for each load on a surface, or on nodes as a whole.
 template <class Visit>
 void for_each_surface(const Scene &scene, const Discretization &discretization, const Visit &visit) {
   for (std::size_t body = 0; body < scene.bodies().size(); ++body)
     for (const AppliedLoad &load : scene.bodies()[body].loads)
       if (load.load.acts_on_surface())
-        visit(load, collect_boundary_facets(discretization, body, load.boundary_ids));
+        visit(load, find_dofs(load, discretization, body));
 }
 
 /// Returns the dofs of a surface's nodes and of those on which they depend, of all ranks, in their order.
 std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, const Constraints &constraints,
-                                        const std::vector<BoundaryFacet> &facets) {
+                                        const NodeDofs &nodes_of_load) {
   Vector marks = discretization.make_additive_vector();
-  for (const BoundaryFacet &facet : facets)
-    for (const auto &dofs : facet.dofs)
-      for (const DofIndex dof : dofs) {
-        // Irregular numbers, so that none of their sums is 0.
-        const double number = 0.618034 * static_cast<double>(dof);
-        marks.add(1, &dof, std::array<double, 1>{1. + number - std::floor(number)}.data());
-      }
+  for (const auto &dofs : nodes_of_load)
+    for (const DofIndex dof : dofs) {
+      // Irregular numbers, so that none of their sums is 0.
+      const double number = 0.618034 * static_cast<double>(dof);
+      marks.add(1, &dof, std::array<double, 1>{1. + number - std::floor(number)}.data());
+    }
   const dealii::IndexSet &owned = discretization.owned_dofs();
   marks.compress(dealii::VectorOperation::add);
   Vector of_nodes = discretization.make_owned_vector();
@@ -66,32 +78,29 @@ std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, co
 
 void check_surface_couplings(const Scene &scene, const Discretization &discretization) {
   constexpr std::size_t max_nodes = 2000; // 36 million entries
-  for_each_surface(
-      scene, discretization, [&](const AppliedLoad &load, const std::vector<BoundaryFacet> &facets) {
-        std::set<DofIndex> own;
-        for (const BoundaryFacet &facet : facets)
-          for (const auto &dofs : facet.dofs)
-            own.insert(dofs[0]);
-        const auto gathered =
-            gather_all(discretization.communicator(), std::vector<DofIndex>(own.begin(), own.end()));
-        const std::size_t n = std::set<DofIndex>(gathered.begin(), gathered.end()).size();
-        if (n > max_nodes)
-          throw InputError(load.origin + ": the " + load.type + " acts on " + std::to_string(n) +
-                           " nodes, each of which depends on all others in the tangent; allowed are " +
-                           std::to_string(max_nodes) +
-                           ". Let it act on a part of the faces, or on faces of larger elements");
-      });
+  for_each_surface(scene, discretization, [&](const AppliedLoad &load, const NodeDofs &nodes_of_load) {
+    std::set<DofIndex> own;
+    for (const auto &dofs : nodes_of_load)
+      own.insert(dofs[0]);
+    const auto gathered =
+        gather_all(discretization.communicator(), std::vector<DofIndex>(own.begin(), own.end()));
+    const std::size_t n = std::set<DofIndex>(gathered.begin(), gathered.end()).size();
+    if (n > max_nodes)
+      throw InputError(load.origin + ": the " + load.type + " acts on " + std::to_string(n) +
+                       " nodes, each of which depends on all others in the tangent; allowed are " +
+                       std::to_string(max_nodes) +
+                       ". Let it act on a part of the faces, or on faces of larger elements");
+  });
 }
 
 void add_surface_couplings(const Scene &scene, const Discretization &discretization,
                            const Constraints &constraints, SparsityPattern &pattern) {
-  for_each_surface(scene, discretization,
-                   [&](const AppliedLoad & /*load*/, const std::vector<BoundaryFacet> &facets) {
-                     const auto dofs = find_coupled_dofs(discretization, constraints, facets);
-                     for (const DofIndex row : dofs)
-                       if (discretization.owned_dofs().is_element(row))
-                         pattern.add_entries(row, dofs.begin(), dofs.end(), true);
-                   });
+  for_each_surface(scene, discretization, [&](const AppliedLoad & /*load*/, const NodeDofs &nodes_of_load) {
+    const auto dofs = find_coupled_dofs(discretization, constraints, nodes_of_load);
+    for (const DofIndex row : dofs)
+      if (discretization.owned_dofs().is_element(row))
+        pattern.add_entries(row, dofs.begin(), dofs.end(), true);
+  });
 }
 
 SurfaceCoupling::SurfaceCoupling(const Discretization &discretization) : discretization_(discretization) {

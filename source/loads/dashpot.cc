@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/loads/node_site.h"
 #include "billet/loads/resisted_direction.h"
 
 namespace billet {
@@ -39,10 +40,12 @@ private:
 LoadType dashpot_type() {
   return {
       "dashpot",
-      "resists velocities of the faces",
+      "resists velocities of faces or nodes",
       {loaded_faces(),
+       loaded_nodes(),
        {"Damping", "0", TypeParameter::Kind::number,
-        "> 0. Viscosity per undeformed area. [force time/length^3]"},
+        "> 0. Viscosity per undeformed area, or of all 'Nodes' together. [force time/length^3, or force "
+        "time/length]"},
        ResistedDirection::parameter()},
       [](const TypeInput &input) {
         return Load{{}, std::make_shared<const Dashpot>(input.positive("Damping"), ResistedDirection(input))};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/loads/load.h"
+#include "billet/loads/node_site.h"
 
 namespace billet {
 
@@ -89,9 +89,7 @@ LoadType force_type() {
            {"Point", "", TypeParameter::Kind::text,
             "Point 'x, y, z' of the undeformed body on which the force acts. Empty: the faces of 'Boundary "
             "ids'. [length]"},
-           {"Nodes", "", TypeParameter::Kind::text,
-            "Nodes that share the force in equal parts: 'at x, y, z ; on line x, y, z : x, y, z ; set NAME', "
-            "as in supports."},
+           loaded_nodes(),
            {"Place", "material point", TypeParameter::Kind::choice,
             "material point|nearest node: the force acts on the nodes around the point, by their shape "
             "functions, or on the node nearest to it."}}),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "billet/loads/load.h"
+#include "billet/loads/node_site.h"
 #include "billet/vector_text.h"
 
 namespace billet {
@@ -23,6 +23,13 @@ TypeTable<Load> &load_types() {
 
 TypeParameter loaded_faces() {
   return {"Boundary ids", "", TypeParameter::Kind::text, "Boundary ids of the faces, separated by commas."};
+}
+
+TypeParameter loaded_nodes() {
+  return {
+      "Nodes", "", TypeParameter::Kind::text,
+      "Nodes that bear the load in equal parts, in place of faces: 'at x, y, z ; on line x, y, z : x, y, z "
+      "; set NAME', as in supports."};
 }
 
 std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/cross_matrix.h"
-#include "billet/loads/load.h"
+#include "billet/loads/node_site.h"
 
 namespace billet {
 
@@ -67,19 +67,21 @@ private:
 } // namespace
 
 LoadType moment_type() {
-  return {"moment",
-          "total moment on the faces, by tractions in proportion to the distance from their centroid",
-          {loaded_faces(),
-           {"Moment", "0 ; 0 ; 0", TypeParameter::Kind::text,
-            "Vector along the axis: three muParser expressions of the time t and the names of amplitudes. "
-            "[force length]"},
-           {"Follow", "true", TypeParameter::Kind::flag,
-            "Whether the vector turns with the faces as a whole; otherwise it keeps its direction."}},
-          [](const TypeInput &input) {
-            Load load{{}, std::make_shared<const Moment>(input.flag("Follow"))};
-            add_vector_expressions(input, "Moment", false, load);
-            return load;
-          }};
+  return {
+      "moment",
+      "total moment on faces or nodes, by forces in proportion to the distance from their centroid",
+      {loaded_faces(),
+       loaded_nodes(),
+       {"Moment", "0 ; 0 ; 0", TypeParameter::Kind::text,
+        "Vector along the axis: three muParser expressions of the time t and the names of amplitudes. "
+        "[force length]"},
+       {"Follow", "true", TypeParameter::Kind::flag,
+        "Whether the vector turns with the faces or nodes as a whole; otherwise it keeps its direction."}},
+      [](const TypeInput &input) {
+        Load load{{}, std::make_shared<const Moment>(input.flag("Follow"))};
+        add_vector_expressions(input, "Moment", false, load);
+        return load;
+      }};
 }
 
 } // namespace billet

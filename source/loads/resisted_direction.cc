@@ -11,6 +11,8 @@ TypeParameter ResistedDirection::parameter() {
 ResistedDirection::ResistedDirection(const TypeInput &input) {
   const std::string text = input.text("Direction");
   kind_ = text == "all" ? Kind::all : text == "normal" ? Kind::normal : Kind::vector;
+  if (kind_ == Kind::normal && input.is_set("Nodes"))
+    input.reject("Direction", "all, or a vector 'x, y, z': 'Nodes' have no normal");
   if (kind_ == Kind::vector)
     vector_ = input.direction("Direction");
 }

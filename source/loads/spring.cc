@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "billet/loads/node_site.h"
 #include "billet/loads/resisted_direction.h"
 
 namespace billet {
@@ -37,16 +38,18 @@ private:
 } // namespace
 
 LoadType spring_type() {
-  return {"spring",
-          "resists displacements of the faces, and supports the body",
-          {loaded_faces(),
-           {"Stiffness", "0", TypeParameter::Kind::number,
-            "> 0. Stiffness per undeformed area. [force/length^3]"},
-           ResistedDirection::parameter()},
-          [](const TypeInput &input) {
-            return Load{
-                {}, std::make_shared<const Spring>(input.positive("Stiffness"), ResistedDirection(input))};
-          }};
+  return {
+      "spring",
+      "resists displacements of faces or nodes, and supports the body",
+      {loaded_faces(),
+       loaded_nodes(),
+       {"Stiffness", "0", TypeParameter::Kind::number,
+        "> 0. Stiffness per undeformed area, or of all 'Nodes' together. [force/length^3, or force/length]"},
+       ResistedDirection::parameter()},
+      [](const TypeInput &input) {
+        return Load{{},
+                    std::make_shared<const Spring>(input.positive("Stiffness"), ResistedDirection(input))};
+      }};
 }
 
 } // namespace billet

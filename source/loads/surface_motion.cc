@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/geometry/facet_point.h"
-#include "billet/loads/load.h"
+#include "billet/loads/node_site.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -52,12 +52,17 @@ void set_motion(const std::vector<double> &products, SurfaceMotion &motion) {
   motion.turning = trace(P) * unit - P;
 }
 
-/// Returns the shares of a face in its corners, about this centroid.
+/// Returns the shares of a face in its corners, or that of a selected node, about this centroid.
 std::array<SurfaceNode, 4> find_shares(const LoadedFace &face, const NodalMotion &motion,
                                        const Tensor<1, 3> &centre) {
   const std::array<Tensor<1, 3>, 4> positions = face.positions(motion);
   const auto corner = [&](const unsigned int a) { return get_vector(motion.positions, face.nodes[a]); };
   std::array<SurfaceNode, 4> shares;
+  if (is_node_site(face)) {
+    const double part = face.areas[0];
+    shares[0] = {part, part * (positions[0] - centre), part * (corner(0) - face.surface->centre)};
+    return shares;
+  }
   for (const auto &point : facet_points()) {
     Tensor<1, 3> arm = -centre, undeformed_arm = -face.surface->centre;
     for (unsigned int a = 0; a < 4; ++a) {

@@ -249,18 +249,37 @@ public:
         coordinates);
   }
 
+  /// Returns the coordinates of a point of an element moved onto the exterior face on which it is, or that is
+  /// less than a hundredth of the element away; none inside the body. A node keeps its place.
+  static std::optional<dealii::Point<3>> on_surface(const Element &element,
+                                                    const dealii::Point<3> &coordinates) {
+    constexpr double near = 0.01, at_node = 1e-9;
+    bool is_node = true;
+    for (unsigned int i = 0; i < 3; ++i)
+      is_node = is_node && std::min(std::abs(coordinates[i]), std::abs(1. - coordinates[i])) < at_node;
+    if (is_node)
+      return coordinates;
+    for (const unsigned int f : element.cell->face_indices()) {
+      dealii::Point<3> moved = coordinates;
+      moved[f / 2] = f % 2;
+      if (element.cell->face(f)->at_boundary() && moved.distance(coordinates) < near)
+        return moved;
+    }
+    return std::nullopt;
+  }
+
   /// Returns the values of all quantities at a point of an element.
   std::vector<double> at_point(const Probe &probe, const std::size_t body, const std::size_t e,
                                const dealii::Point<3> &coordinates) const {
     const Element &element = discretization_.elements(body)[e];
-    const auto interpolate = [&](const auto &value) {
+    const auto interpolate = [](const dealii::Point<3> &at, const auto &value) {
       Tensor<1, 3> sum;
       for (unsigned int a = 0; a < n_element_nodes; ++a)
-        sum += dealii::GeometryInfo<3>::d_linear_shape_function(coordinates, a) * value(a);
+        sum += dealii::GeometryInfo<3>::d_linear_shape_function(at, a) * value(a);
       return sum;
     };
     const Tensor<1, 3> position =
-        interpolate([&](const unsigned int a) { return Tensor<1, 3>(element.cell->vertex(a)); });
+        interpolate(coordinates, [&](const unsigned int a) { return Tensor<1, 3>(element.cell->vertex(a)); });
     const bool has_state = std::any_of(probe.quantities.begin(), probe.quantities.end(),
                                        [](const ProbeQuantity &quantity) { return !quantity.is_nodal(); });
     const LocalState local = has_state ? local_state(body, e, coordinates) : LocalState();
@@ -270,7 +289,10 @@ public:
         append(quantity.kind, local, probe.axes, element.cell->center(), values);
         continue;
       }
-      const Tensor<1, 3> vector = interpolate([&](const unsigned int a) {
+      // The nodes of a face have contact pressures, and those below it zeros that mean nothing.
+      const std::optional<dealii::Point<3>> at =
+          quantity.kind == Kind::contact_pressure ? on_surface(element, coordinates) : coordinates;
+      const Tensor<1, 3> vector = !at ? Tensor<1, 3>() : interpolate(*at, [&](const unsigned int a) {
         return at_node(quantity.kind, dofs_of(element, a), element.cell->vertex(a));
       });
       append(quantity.kind, vector, probe.axes, position, values);

@@ -537,8 +537,15 @@ void Load::parse(Reader &reader) {
   boundary_ids = reader.boundaries("Boundary ids");
   nodes = read_nodes(reader, "Nodes");
   load = chosen->make(reader);
-  if (load.acts_on_faces() && boundary_ids.is_empty())
-    reader.reject("Boundary ids", "at least one boundary id");
+  if (load.acts_on_faces() && boundary_ids.is_empty() && nodes.is_empty()) {
+    const auto &keys = chosen->parameters;
+    const bool takes_nodes = std::any_of(
+        keys.begin(), keys.end(), [](const TypeParameter &parameter) { return parameter.key == "Nodes"; });
+    reader.reject("Boundary ids",
+                  std::string("at least one boundary id") + (takes_nodes ? ", or 'Nodes'" : ""));
+  }
+  if (!boundary_ids.is_empty() && !nodes.is_empty())
+    reader.reject("Nodes", "no value: 'Boundary ids' says where the load acts");
   origin = reader.origin();
   parse_times(reader, "the load never fades", *this);
   for (const LoadExpression &expression : load.expressions)

@@ -188,13 +188,19 @@ void check_exclusions(Reader &reader, const SceneFile &file) {
   for (const auto &name : known)
     list += (list.empty() ? "" : ", ") + name;
   for (const auto &exclusion : exclusions) {
+    bool are_known = true;
     for (const auto &name : exclusion)
       if (!name.empty() && !contains(known, name)) {
+        are_known = false;
         const std::string advice = did_you_mean(name, known);
-        throw InputError(reader.origin(exclusions_key) + " names '" + name + "'" +
-                         (advice.empty() ? "; allowed" : advice + " Allowed") +
-                         " are bodies and tools: " + list);
+        reader.note_errors([&] {
+          throw InputError(reader.origin(exclusions_key) + " names '" + name + "'" +
+                           (advice.empty() ? "; allowed" : advice + " Allowed") +
+                           " are bodies and tools: " + list);
+        });
       }
+    if (!are_known)
+      continue;
     if (!exclusion[1].empty() && !contains(bodies, exclusion[0]) && !contains(bodies, exclusion[1]))
       throw InputError(reader.origin(exclusions_key) + " names '" + exclusion[0] + " : " + exclusion[1] +
                        "', which are tools; allowed are pairs with a body, since tools do not touch each "

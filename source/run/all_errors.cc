@@ -79,8 +79,10 @@ public:
         if (place)
           reported_.insert(part_of(place->path));
       } else if (place && !(is_dynamic_ && has_word(lower(error.what()), "scheme")))
-        unchecked_.insert(
-            {part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)" : ""});
+        unchecked_.insert({part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)"
+                                                 : reported_.count(part_of(place->path)) > 0
+                                                     ? " (other parameters)"
+                                                     : ""});
       if (place)
         places.emplace_back(*place, error.what());
       // A statement without a place is left out when the file is read.
@@ -95,7 +97,6 @@ public:
   bool leave_out_meshless() {
     const std::set<std::string> bodies = std::exchange(meshless_, {});
     for (const std::string &body : bodies) {
-      unchecked_[{"Bodies", body}] = " (supports, loads, contact, probes)";
       remove_part({"Bodies", body});
     }
     return !bodies.empty();
@@ -110,6 +111,8 @@ public:
         list += (list.empty() ? "'" : ", '") + join(path) + "'" + detail;
     if (!is_sound && n_rounds_ > 1 && !changed_.empty()) // an error beside the scene hides nothing of it
       list += list.empty() ? "parts of the scene" : ", other parts";
+    if (all_depends_)
+      list += list.empty() ? "the rest of the scene" : ", the rest of the scene";
     if (!list.empty())
       all.emplace_back(diagnostic::unchecked_parts,
                        "Unchecked, since they depend on parts with errors: " + list);
@@ -139,6 +142,8 @@ private:
   /// Whether an error may be due to what was taken out before.
   bool follows(const SceneFile::Place &place, const std::string &message) const {
     const Path &path = place.path;
+    if (mended_.count({path, place.key}) > 0)
+      return true;
     for (const Path &replaced : replaced_)
       if (begins_with(path, replaced))
         return true;
@@ -160,6 +165,8 @@ private:
 
   /// Whether something in a subsection may be missing since another one has changed.
   static bool may_miss(const Path &path, const Path &changed) {
+    if (at(path, 2) == "Material")
+      return begins_with(changed, path);
     return begins_with(path, changed) || // a material supports nothing
            (begins_with(changed, path) && at(changed, 2) != "Material");
   }
@@ -176,6 +183,8 @@ private:
   bool take_out(const SceneFile::Place &place, const std::string &message) {
     const Path &path = place.path;
     const std::string section = at(path, 0), name = at(path, 1), kind = at(path, 2);
+    if (mend(place, message))
+      return true;
     note_key(place, message);
     if (section == "Bodies" && path.size() > 1) {
       if (kind == "Mesh")
@@ -194,6 +203,37 @@ private:
       return remove_part({section, name});
     }
     return remove_place(place);
+  }
+
+  /// Gives a parameter a value that stands for the wrong one, so that other errors of its part are found: the
+  /// one that the message advises, a number of a material, or the default of a support or a load. Returns
+  /// false if it cannot, or has done so before.
+  bool mend(const SceneFile::Place &place, const std::string &message) {
+    const std::string said = without_place(message), kind = at(place.path, 2);
+    if (place.key.empty() || place.is_missing || !file_.is_set(place.path, place.key) ||
+        (said.rfind(" is '", 0) != 0 && said.rfind(" contains '", 0) != 0))
+      return false;
+    const bool is_number = said.find("; allowed is a number") != std::string::npos ||
+                           said.find("; allowed is a finite number") != std::string::npos;
+    const std::string advice = "'; did you mean '";
+    std::optional<std::string> value;
+    const std::size_t advice_at = said.find(advice);
+    const bool is_kind = place.key == "Scheme" || place.key == "Type" || place.key == "Shape";
+    if (advice_at != std::string::npos && is_kind) {
+      const std::size_t first = advice_at + advice.size();
+      value = said.substr(first, said.find('\'', first) - first);
+    } else if (kind == "Material" && is_number)
+      value = place.key == "Poisson ratio" ? "0.3" : "1";
+    const bool has_default = kind == "Supports" || kind == "Loads";
+    if ((!value && !has_default) || !mended_.insert({place.path, place.key}).second)
+      return false;
+    const std::string where = file_.where(place.path, place.key);
+    file_.remove(place.path, place.key);
+    if (value)
+      file_.add_entry(place.path, place.key, *value, where);
+    if (advice_at == std::string::npos) // an advised value is most likely the right one
+      keys_.insert({place.path, lower(place.key)});
+    return true;
   }
 
   /// Remembers a parameter, on which others of its subsection may depend, and on those of other sections all.
@@ -239,6 +279,8 @@ private:
       amplitudes_.insert(name);
     else
       names_.insert(name);
+    if (section == "Bodies")
+      unchecked_[part] = " (supports, loads, contact, probes)";
     if (section == "Bodies" || section == "Tools")
       for (const std::string list : {"Contact pairs", "Probes"})
         for (const std::string &user : file_.names_below({list}))
@@ -305,10 +347,11 @@ private:
 
   SceneFile file_;
   DiagnosticList found_;
-  std::set<Path> reported_;               ///< parts with errors
-  std::map<Path, std::string> unchecked_; ///< parts, with what of them is unchecked
-  std::set<Path> changed_;                ///< subsections of which something was taken out
-  std::set<Path> replaced_;               ///< materials and meshes
+  std::set<Path> reported_;                       ///< parts with errors
+  std::map<Path, std::string> unchecked_;         ///< parts, with what of them is unchecked
+  std::set<Path> changed_;                        ///< subsections of which something was taken out
+  std::set<std::pair<Path, std::string>> mended_; ///< parameters whose values stand for wrong ones
+  std::set<Path> replaced_;                       ///< materials and meshes
   std::map<Path, unsigned int> n_rounds_of_;
   std::set<std::string> meshless_;
   std::set<std::string> names_, amplitudes_;    ///< of parts that were taken out

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <ostream>
 #include <sstream>
@@ -64,20 +65,32 @@ std::vector<char *> pointers_to(std::vector<std::string> &words) {
   return pointers;
 }
 
-/// Runs a program whose output goes nowhere. Returns whether it succeeded.
-bool run_silently(std::vector<std::string> words) {
+/// Runs a program whose output goes into a file. Returns whether it succeeded.
+bool run_with_log(std::vector<std::string> words, const std::string &log) {
   std::vector<std::string> variables = foreign_environment();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  constexpr mode_t readable = 0644;
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   readable);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   pid_t child = 0;
   const bool has_started = posix_spawnp(&child, words.front().c_str(), &actions, nullptr,
                                         pointers_to(words).data(), pointers_to(variables).data()) == 0;
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   return has_started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// Returns the last line of a file that is not empty.
+std::string last_line(const std::string &name) {
+  std::ifstream file(name);
+  std::string last;
+  for (std::string line; std::getline(file, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos)
+      last = line;
+  return last;
 }
 
 /// Returns the scene's parameters with its own folder and format for the preview.
@@ -112,9 +125,16 @@ Picture draw_picture(const std::string &script, const std::string &file) {
   words.insert(words.end(), {"pvbatch", script, file});
   std::error_code error;
   fs::remove(file, error);
-  if (!run_silently(words) || !fs::exists(file, error))
-    return {"", "'pvbatch " + script + " " + file + "' fails"};
-  return {file, ""};
+  const std::string log = file + ".log";
+  constexpr unsigned int n_attempts = 2; // under load a display may start too late
+  for (unsigned int i = 0; i < n_attempts; ++i)
+    if (run_with_log(words, log) && fs::exists(file, error)) {
+      fs::remove(log, error);
+      return {file, ""};
+    }
+  const std::string last = last_line(log);
+  return {"", "'pvbatch " + script + " " + file + "' fails twice" +
+                  (last.empty() ? "" : ", and says at last '" + last + "' (all of it in '" + log + "')")};
 }
 
 void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communicator, std::ostream &stream) {

@@ -70,11 +70,12 @@ const NamedIds &find_ids(const std::string &name, const GroupNames &known, const
                                     : "allowed are ids, and the names of body '" + body + "': " + list) +
                      did_you_mean(name, names));
   }
-  if (found->second.empty())
-    throw InputError(origin + " names boundary '" + name +
-                     "', which has no whole face on the outside of body '" + body +
-                     "'; allowed are groups of exterior faces. 'Nodes = set " + name +
-                     "' of a support or a force takes a node set of an edge or of single nodes");
+  if (found->empty())
+    throw InputError(
+        origin + " names boundary '" + name + "', which has no whole face on the outside of body '" + body +
+        "'; allowed are groups of exterior faces. 'Nodes = set " + name +
+        "' of a support or a load takes a node set (*NSET) of an Abaqus file, and 'Nodes = on line' "
+        "the nodes of a straight edge of any mesh");
   return *found;
 }
 

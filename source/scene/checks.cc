@@ -170,6 +170,11 @@ void add_supports(const Body &body, const std::size_t index, const Triangulation
     if (constraint.nodes && constraint.times.acts_after(time))
       for (const auto &position : constraint.nodes->points())
         add(constraint, position);
+  for (const AppliedLoad &load : body.loads)
+    if (load.nodes && load.times.acts_after(time))
+      for (const auto &direction : load.load.supports(Tensor<1, 3>()))
+        for (const auto &position : load.nodes->points())
+          resistances.push_back({position, direction, Resistance::Sense::both_ways});
 }
 
 /// Centre of a body, and the diagonal of the box around it.

@@ -61,6 +61,11 @@ void check_body(const parameters::Scene &scene, const parameters::Body &body) {
                      "', whose layers cannot be carried over; allowed are 2 points, or a finer mesh from the "
                      "start by 'Refinements' in Mesh");
   const auto check_nodes = [&](const std::string &what, const NodeSelection &nodes) {
+    const bool is_section = body.mesh.section.value != parameters::Mesh::Section::solid;
+    if (!nodes.is_empty() && is_section)
+      throw InputError(origin + " refines a section whose " + what +
+                       " acts on nodes, and the nodes between both sides would be new; allowed are boundary "
+                       "ids");
     if (!nodes.lines.empty() || !nodes.sets.empty())
       throw InputError(origin + " refines a body whose " + what +
                        " acts on nodes of a line or of a set, and the nodes between them would be new; "

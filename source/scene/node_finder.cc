@@ -20,6 +20,16 @@ namespace {
 
 constexpr double near = 0.01; // maximum distance of a node from a point or line [shortest edge at the node]
 
+/// Adds the nodes at the same points of the section: on the other side of its layer or wedge. `nodes`: all
+/// nodes of the section, those of one side after those of the other.
+void add_columns(const std::vector<Point<3>> &nodes, std::vector<Point<3>> &found) {
+  const NodePlaces chosen(found);
+  const std::size_t n = nodes.size() / 2;
+  for (std::size_t i = 0; i < n; ++i)
+    if (chosen.contains(nodes[i]) || chosen.contains(nodes[n + i]))
+      found.insert(found.end(), {nodes[i], nodes[n + i]});
+}
+
 } // namespace
 
 void NodeFinder::build() {
@@ -129,6 +139,8 @@ std::shared_ptr<const NodePlaces> NodeFinder::find(const NodeSelection &selectio
     const auto &of_set = find_set(name, selection.origin);
     found.insert(found.end(), of_set.begin(), of_set.end());
   }
+  if (body_.mesh.section.value != parameters::Mesh::Section::solid)
+    add_columns(positions_, found);
   return std::make_shared<const NodePlaces>(found);
 }
 

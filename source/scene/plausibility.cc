@@ -5,6 +5,7 @@
 #include "billet/errors.h"
 #include "billet/scene/course_checks.h"
 #include "billet/scene/law_checks.h"
+#include "billet/scene/section_checks.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -448,7 +449,8 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   append(diagnostics, check_heating(scene));
   append(diagnostics, check_course(scene));
   check_places(scene, start, diagnostics);
-  append(diagnostics, check_sections(scene, mesh, communicator));
+  append(diagnostics, check_tools_of_sections(scene, mesh, communicator));
+  append(diagnostics, check_loads_of_sections(scene, mesh, communicator));
   if (scene.parameters().scheme().has_inertia)
     check_speeds(scene, start, diagnostics);
   if (!scene.parameters().scheme().has_matrix)

@@ -159,9 +159,57 @@ def _() -> None:
     equal("number of errors", len(messages_of(errors)), 7)
 
 
+@check("one wrong number of a material does not hide another")
+def _() -> None:
+    for young in ("abc", "-4"):
+        errors = errors_of(
+            f"block / Material: Young modulus = {young} & block / Material: Poisson ratio = -1.2"
+        )
+        says(rf"'Young modulus' in 'Bodies / block / Material' is '{young}'", errors)
+        says(r"'Poisson ratio' in 'Bodies / block / Material' is '-1\.2'", errors)
+        equal("number of errors", len(messages_of(errors)), 2)
+
+
+@check("an advised word is taken for the wrong one, so that other errors of its part are found")
+def _() -> None:
+    errors = errors_of(
+        "Time stepping: Scheme = implicit dynamic & Output: Step interval = 0.5"
+        " & block: + subsection Loads\\n subsection p\\n  set Type = presure\\n  set Boundary ids = 77\\n  set Pressure = 1\\n end"
+        "\\n subsection q\\n  set Boundary ids = 78\\n  set Pressure = 3*tt\\n end\\nend"
+    )
+    for text in (
+        "'Scheme' in 'Time stepping' is 'implicit dynamic'; did you mean 'implicit dynamics'",
+        "'Step interval' in 'Output' is '0.5'",
+        "'Type' in 'Bodies / block / Loads / p' is 'presure'; did you mean 'pressure'",
+        "'Boundary ids' in 'Bodies / block / Loads / p' names boundary id 77",
+        "'Boundary ids' in 'Bodies / block / Loads / q' names boundary id 78",
+        r"'Pressure' in 'Bodies / block / Loads / q' contains '3\*tt'",
+        "'Density' in 'Bodies / block / Material' is '0'",
+    ):
+        says(rf"^error\[bad-input\]: scene\.prm:\d+( \(default\))?: .*({text})", errors)
+    equal("number of errors", len(messages_of(errors)), 7)
+
+
+@check("the rest of a scene that depends on a wrong word is named")
+def _() -> None:
+    errors = errors_of("Time stepping: Scheme = whatever & block / Material: Young modulus = -1")
+    equal("number of errors", len(messages_of(errors)), 1)
+    says(r"^note\[unchecked-parts\]: .*the rest of the scene", errors)
+
+
+@check("all wrong names of exclusions")
+def _() -> None:
+    errors = errors_of(
+        "+ set Contact = all\\nsubsection General contact\\n set Exclusions = block : z ; d\\nend"
+    )
+    for name in ("z", "d"):
+        says(rf"'Exclusions' in 'General contact' names '{name}'", errors)
+    equal("number of errors", len(messages_of(errors)), 2)
+
+
 @check("what depends on a mesh with errors is named, and not checked")
 def _() -> None:
-    errors = errors_of("block / Mesh: Primitive = hyper_rectangel & floor: Boundary ids = 99")
+    errors = errors_of("block / Mesh: Primitive = brick & floor: Boundary ids = 99")
     equal("number of errors", len(messages_of(errors)), 1)
     says(r"^note\[unchecked-parts\]: .*'Bodies / block' \(supports, loads, contact, probes\)", errors)
     says(r"^note\[unchecked-parts\]: .*'Contact pairs / top on die'", errors)

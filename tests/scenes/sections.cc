@@ -8,10 +8,12 @@
 #include "scene_run.h"
 
 #include "billet/output/history_quantity.h"
+#include "billet/scene/section_geometry.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <fstream>
+#include <map>
 
 using namespace billet;
 using billet::testing::check;
@@ -190,6 +192,56 @@ void check_layer() {
   check("layer: force per width", (force / exact + Tensor<1, 3>({0., 1., 0.})).norm(), 1e-3);
 }
 
+/// The angles at which a section is compared with its solid: no symmetry of up to twelve axes, however it is
+/// turned, has the same value at all of them.
+void check_places() {
+  const parameters::Scene scene = read(disc, "");
+  const SectionGeometry section(scene.bodies.front().mesh);
+  for (unsigned int n = 1; n <= 12; ++n) {
+    double least = 2.;
+    for (unsigned int i = 0; i < 360; ++i) {
+      double low = 1., high = -1.;
+      for (const auto &x : section.places(Tensor<1, 3>({2., 0., 1.}))) {
+        const double value = std::cos(n * (std::atan2(x[1], x[0]) + i * M_PI / 180.));
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+      least = std::min(least, high - low);
+    }
+    check("places: symmetry of " + std::to_string(n) + " axes", least > 0.2);
+  }
+}
+
+/// Nodes and points of a section are on both sides of the layer or wedge: both move alike. `body`: supports
+/// and loads.
+void check_sides(const std::string &name, const std::string &mesh, const std::string &body) {
+  SceneRun run(read(mesh, body));
+  run.finish();
+  const bool is_wedge = mesh.find("axisymmetric") != std::string::npos;
+  // Displacement in the section of each of its points, from the first of its nodes.
+  std::map<std::array<long, 2>, Tensor<1, 3>> known;
+  testing::WorstError difference;
+  double largest = 0.;
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const auto &x = element.cell->vertex(a);
+      Tensor<1, 3> u;
+      for (unsigned int i = 0; i < 3; ++i)
+        u[i] = run.problem.state().displacements(element.dofs[3 * a + i]);
+      const double radius = std::hypot(x[0], x[1]);
+      if (is_wedge && radius > 0.)
+        u = Tensor<1, 3>({(u[0] * x[0] + u[1] * x[1]) / radius, (u[1] * x[0] - u[0] * x[1]) / radius, u[2]});
+      const auto number = [](const double length) { return std::lround(1e6 * length); };
+      const auto [first, is_new] =
+          known.insert({{number(is_wedge ? radius : x[0]), number(is_wedge ? x[2] : x[1])}, u});
+      if (!is_new)
+        difference.add((u - first->second).norm());
+      largest = std::max(largest, u.norm());
+    }
+  check(name + ": it moves", largest > 1e-6);
+  check(name + ": both sides move alike", difference.value() / largest, 1e-8);
+}
+
 void check_refusal(const std::string &name, const std::string &mesh, const std::string &expected) {
   std::string message;
   try {
@@ -208,6 +260,7 @@ int main(int argc, char *argv[]) {
   check_ring("ring", ring, "0");
   check_ring("ring from a file", write_ring(), "inside");
   check_disc();
+  check_places();
   check_pressed_ring("pressed ring", "", "", Tensor<1, 3>({0., 0., 1.}));
   check_pressed_ring(
       "turned ring",
@@ -217,6 +270,23 @@ int main(int argc, char *argv[]) {
       "0, 1\n",
       Tensor<1, 3>({1., 0., 0.}));
   check_layer();
+  const auto support = [](const std::string &node, const std::string &components) {
+    return "    subsection Supports\n      subsection rest\n        set Nodes = at " + node +
+           "\n        set Components = " + components + "\n      end\n    end\n";
+  };
+  const auto force = [](const std::string &at, const std::string &vector) {
+    return "    subsection Loads\n      subsection push\n        set Type = force\n        set " + at +
+           "\n        set Force = " + vector + "\n      end\n    end\n";
+  };
+  for (const std::string &at : {std::string("Nodes = at 2.5, 4, 0"), std::string("Point = 2.4, 3.9, 0"),
+                                std::string("Point = 2.5, 4, 0\n        set Place = nearest node")})
+    check_sides("layer, " + at.substr(0, at.find('\n')), layer,
+                support("0, 0, 0 ; at 5, 0, 0", "x, y") + force(at, "0.1 ; -0.2 ; 0"));
+  for (const std::string &at : {std::string("Nodes = at 8, 0, 4"), std::string("Point = 9, 0, 3.9"),
+                                std::string("Point = 0, 0, 4\n        set Place = nearest node")})
+    check_sides("wedge, " + at.substr(0, at.find('\n')), disc,
+                support("20, 0, 0", "z") + force(at, "0.01 ; 0 ; -0.02"));
+
   check_traction("load on a ring", ring, "z = 0", "0 ; 0 ; -0.01", "full_circle_force_x",
                  Tensor<1, 3>({0., 0., -0.01 * M_PI * (outer * outer - inner * inner)}));
   check_traction("load on a layer", layer, "x = 0 ; y = 0", "0.002, -0.01, 0", "force_per_width_x",

@@ -202,9 +202,15 @@ void check_rigid_face() {
 void check_tangents() {
   const std::string faces = "        set Boundary ids = 1, 5\n";
   const std::string twist = "        set Type = moment\n        set Moment = 5*t ; 8*t ; -3*t\n" + faces;
+  const std::string twist_of_nodes =
+      "        set Type = moment\n        set Moment = 0.5*t ; 0.8*t ; -0.3*t\n"
+      "        set Nodes = at 1, 0, 0.5 ; at 1, 1, 1 ; on line 0, 0.5, 1 : 0.5, 0.5, 1\n";
   for (const auto &[name, lines] :
        {std::pair<std::string, std::string>("moment", load("twist", twist)),
         {"moment of fixed direction", load("twist", twist + "        set Follow = false\n")},
+        {"moment on nodes", load("twist", twist_of_nodes)},
+        {"moment of fixed direction on nodes",
+         load("twist", twist_of_nodes + "        set Follow = false\n")},
         {"rigid face",
          load("lid", "        set Type = rigid face\n        set Stiffness factor = 0.01\n" + faces)}}) {
     SceneRun run(read({cube, "x = 0", stiff,
@@ -225,22 +231,45 @@ void check_block(const std::string &name, const std::string &lines, const Tensor
   check(name + ": moment", (moment - dealii::cross_product_3d(at, force)).norm() / force.norm(), 1e-3);
 }
 
-/// A stiff block on a spring and a dashpot: backward differences of c v + k u = F, k = c = 1.
-void check_dashpot() {
+const std::string top_corners = "        set Nodes = at 0, 0, 1 ; at 1, 0, 1 ; at 0, 1, 1 ; at 1, 1, 1\n";
+
+/// A moment on nodes is a moment without a force, whatever their places; it needs nodes off one line.
+void check_moment_on_nodes() {
+  for (const std::string &nodes :
+       {top_corners, std::string("        set Nodes = at 0, 0, 0.5 ; at 0.5, 0, 1 ; at 1, 1, "
+                                 "0.5 ; on line 0, 1, 0.5 : 1, 1, 1\n")}) {
+    const Tensor<1, 3> exact({1e-6, 2e-6, -1e-6});
+    SceneRun run(
+        read({cube, "", stiff, "",
+              springs + load("twist", "        set Type = moment\n        set Moment = 1e-6 ; 2e-6 ; "
+                                      "-1e-6\n" +
+                                          nodes),
+              in_steps(1)}));
+    run.finish();
+    const auto [force, moment] = spring_reaction(run);
+    check("moment on nodes: no force", force.norm() / exact.norm(), 1e-5);
+    check("moment on nodes: moment", (moment - exact).norm() / exact.norm(), 1e-4);
+    check("moment on nodes: work", std::abs(run.problem.state().energies.external), 1e-10);
+  }
+}
+
+/// A stiff block on a spring and a dashpot: backward differences of c v + k u = F, k = c = 1. Springs and
+/// dashpots on nodes have these values together. `at`: where they are.
+void check_dashpot(const std::string &name, const std::string &at, const double tolerance) {
   constexpr unsigned int n = 10;
-  SceneRun run(read(
-      {cube, "x = 0 ; y = 0", stiff, "",
-       springs +
-           load("oil", "        set Type = dashpot\n        set Boundary ids = 4\n        set Damping = 1\n"
-                       "        set Direction = 0, 0, 1\n") +
-           load("push", "        set Type = force\n        set Boundary ids = 5\n"
-                        "        set Force = 0 ; 0 ; 1e-3\n"),
-       in_steps(n)}));
+  SceneRun run(read({cube, "x = 0 ; y = 0", stiff, "",
+                     load("ground", "        set Type = spring\n        set Stiffness = 1\n" + at) +
+                         load("oil", "        set Type = dashpot\n        set Damping = 1\n"
+                                     "        set Direction = 0, 0, 1\n" +
+                                         at) +
+                         load("push", "        set Type = force\n        set Boundary ids = 5\n"
+                                      "        set Force = 0 ; 0 ; 1e-3\n"),
+                     in_steps(n)}));
   run.finish();
   double u = 0.;
   for (unsigned int i = 0; i < n; ++i)
     u = (1e-3 / n + u) / (1. + 1. / n);
-  check("dashpot: displacement", std::abs(spring_reaction(run)[0][2] / u - 1.), 1e-4);
+  check(name + ": displacement", std::abs(spring_reaction(run)[0][2] / u - 1.), tolerance);
 }
 
 /// A force from 0.25 until 0.5, whose value at that time fades until 0.75.
@@ -282,6 +311,22 @@ void check_refused() {
   check("refused: dashpots only",
         is_refused(load(
             "oil", "        set Type = dashpot\n        set Boundary ids = 4\n        set Damping = 1\n")));
+  const std::string twist = "        set Type = moment\n        set Moment = 0 ; 0 ; 1\n";
+  check("refused: a moment on one node",
+        is_refused(springs + load("twist", twist + "        set Nodes = at 1, 1, 1\n")));
+  check("refused: a moment on one line",
+        is_refused(springs + load("twist", twist + "        set Nodes = on line 0, 0, 1 : 1, 1, 1\n")));
+  check("not refused: a moment on nodes", !is_refused(springs + load("twist", twist + top_corners)));
+  check("not refused: springs on nodes alone",
+        !is_refused(load("ground", "        set Type = spring\n        set Stiffness = 1\n" + top_corners)));
+  check("refused: springs on one node alone",
+        is_refused(load("ground", "        set Type = spring\n        set Stiffness = 1\n        set Nodes = "
+                                  "at 1, 1, 1\n")));
+  check("refused: springs along the normals of nodes",
+        is_refused(
+            load("ground", "        set Type = spring\n        set Stiffness = 1\n        set Direction = "
+                           "normal\n" +
+                               top_corners)));
   check("refused: a point outside",
         is_refused(springs + load("push", "        set Type = force\n        set Point = 0.5, 0.5, 1.1\n"
                                           "        set Force = 0 ; 0 ; 1\n")));
@@ -328,7 +373,11 @@ int main(int argc, char *argv[]) {
       "        set Type = force\n        set Point = 0.97, 0.96, 1\n        set Place = nearest node\n"
       "        set Force = 1e-5 ; 0 ; 2e-5\n",
       Tensor<1, 3>({1e-5, 0., 2e-5}), Tensor<1, 3>({1., 1., 1.}));
-  check_dashpot();
+  check_moment_on_nodes();
+  check_dashpot("dashpot", "        set Boundary ids = 4\n", 1e-4);
+  // The block is dented at its corners.
+  check_dashpot("dashpot on nodes", "        set Nodes = at 0, 0, 0 ; at 1, 0, 0 ; at 0, 1, 0 ; at 1, 1, 0\n",
+                1e-2);
   check_times();
   check_refused();
   return testing::exit_code();

@@ -43,7 +43,7 @@ ExplicitForces::ExplicitForces(const Scene &scene, const LocalNodes &nodes, cons
 void ExplicitForces::find_touched_nodes(const Scene &scene) {
   bool has_accelerations = false, has_loads = false;
   has_bounds_ = !scene.pairs().empty() || !scene.body_pairs().empty();
-  bool may_let_go = false;
+  bool may_let_go = false, has_bounded_nodes = false;
   for (const auto &body : scene.bodies()) {
     for (const Constraint &constraint : body.constraints) {
       may_let_go = may_let_go || std::isfinite(constraint.times.until);
@@ -52,7 +52,8 @@ void ExplicitForces::find_touched_nodes(const Scene &scene) {
     }
     for (const auto &load : body.loads) {
       has_loads = true;
-      has_accelerations = has_accelerations || !load.load.acts_on_faces();
+      has_accelerations = has_accelerations || !load.load.acts_on_faces() || load.nodes;
+      has_bounded_nodes = has_bounded_nodes || (load.nodes && load.load.limits_steps());
       has_bounds_ = has_bounds_ || load.load.limits_steps();
     }
   }
@@ -63,7 +64,7 @@ void ExplicitForces::find_touched_nodes(const Scene &scene) {
     const bool touched = is_touched[std::size_t{nodal_stride} * node] > 0.;
     if (has_accelerations || (may_be_loaded && touched))
       loaded_nodes_.push_back(node);
-    if (has_bounds_ && touched)
+    if (has_bounds_ && (touched || has_bounded_nodes))
       bounded_nodes_.push_back(node);
   }
 }

@@ -2,7 +2,7 @@
 #include "billet/solve/implicit/body_stabilisation.h"
 
 #include "billet/diagnostic_kinds.h"
-#include "billet/discretization/boundary_facets.h"
+#include "billet/forces/selected_nodes.h"
 #include "billet/mechanics/element_mass.h"
 #include "billet/solve/restart.h"
 
@@ -13,24 +13,6 @@
 #include <sstream>
 
 namespace billet {
-
-namespace {
-
-/// Calls visit(facet, corner, direction) for this rank's springs that support the body and act.
-template <class Visit>
-void visit_springs(const Body &body, const Discretization &discretization, const std::size_t index,
-                   const RigidBodies::LoadFilter &act, const Visit &visit) {
-  for (const AppliedLoad &load : body.loads) {
-    if (!load.load.is_spring() || !act(load.times))
-      continue;
-    for (const auto &facet : collect_boundary_facets(discretization, index, load.boundary_ids))
-      for (const auto &direction : load.load.supports(facet.area_vector() / facet.area_vector().norm()))
-        for (unsigned int corner = 0; corner < 4; ++corner)
-          visit(facet, corner, direction);
-  }
-}
-
-} // namespace
 
 RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretization,
                          const ConstraintFilter &acts, const LoadFilter &springs_act) {
@@ -65,11 +47,15 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
           support.add_support(body, entry.second.position, normal);
         }
   for (std::size_t body = 0; body < n_bodies; ++body)
-    visit_springs(scene.bodies()[body], discretization, body, springs_act,
-                  [&](const BoundaryFacet &facet, const unsigned int corner, const auto &direction) {
-                    supported_nodes.push_back({body, facet.corners[corner], direction, facet.dofs[corner]});
-                    support.add_support(body, facet.corners[corner], direction);
-                  });
+    for (const AppliedLoad &load : scene.bodies()[body].loads) {
+      if (!load.load.is_spring() || !springs_act(load.times))
+        continue;
+      for (const auto &[node, directions] : collect_springs(load, discretization, body))
+        for (const auto &direction : directions) {
+          supported_nodes.push_back({body, node.position, direction, node.dofs});
+          support.add_support(body, node.position, direction);
+        }
+    }
   if (support.find().n_free > 0)
     return;
   frames.clear();

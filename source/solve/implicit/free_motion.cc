@@ -2,8 +2,8 @@
 #include "billet/solve/implicit/free_motion.h"
 
 #include "billet/algebra/gather.h"
-#include "billet/discretization/boundary_facets.h"
 #include "billet/errors.h"
+#include "billet/forces/selected_nodes.h"
 #include "billet/scene/rigid_motions.h"
 #include "billet/solve/penalty_watch.h"
 
@@ -33,23 +33,19 @@ bool is_held(const Constraints &constraints, const DofIndex dof) {
          });
 }
 
-/// Adds the resistances of springs on this rank's faces that act in the next step.
+/// Adds the resistances of springs on this rank that act in the next step.
 void add_springs(const ImplicitProblem &problem, const std::size_t body,
                  std::vector<Resistance> &resistances) {
   const SolutionState &state = problem.state();
   for (const AppliedLoad &load : problem.parts().scene().bodies()[body].loads) {
     if (!load.load.is_spring() || !load.times.acts_after(state.time))
       continue;
-    for (const auto &facet :
-         collect_boundary_facets(problem.parts().discretization(), body, load.boundary_ids)) {
-      const dealii::Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
-      for (const auto &direction : load.load.supports(normal))
-        for (unsigned int a = 0; a < 4; ++a) {
-          dealii::Tensor<1, 3> position = facet.corners[a];
-          for (unsigned int i = 0; i < 3; ++i)
-            position[i] += state.displacements(facet.dofs[a][i]);
-          resistances.push_back({position, direction, Resistance::Sense::both_ways});
-        }
+    for (const auto &[node, directions] : collect_springs(load, problem.parts().discretization(), body)) {
+      dealii::Tensor<1, 3> position = node.position;
+      for (unsigned int i = 0; i < 3; ++i)
+        position[i] += state.displacements(node.dofs[i]);
+      for (const auto &direction : directions)
+        resistances.push_back({position, direction, Resistance::Sense::both_ways});
     }
   }
 }
@@ -114,9 +110,10 @@ void check_free_modes(const ImplicitProblem &problem) {
           ": the body has no support: at the start neither supports, nor symmetry planes, nor tools or "
           "bodies in contact constrain its rigid-body mode with " +
           print(mode->motion) + ". A static scene allows no free mode. " +
-          (mode->touches ? "The body touches at the start, but contact only pushes and, without friction, "
-                           "slides. Add a support or a symmetry plane against this mode"
-                         : "Add a support, or let the body touch at the start") +
+          (mode->touches
+               ? "The body touches at the start, but contact only pushes and, where nothing presses "
+                 "it, has no friction. Add a support or a symmetry plane against this mode"
+               : "Add a support, or let the body touch at the start") +
           ". If only loads, such as its weight, hold it on what it touches, set 'Contact stabilisation = "
           "until contact'");
 }

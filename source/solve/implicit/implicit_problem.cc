@@ -44,7 +44,7 @@ std::unique_ptr<ImplicitScheme> make_statics(const Scene &scene, const Discretiz
 double find_surface_stiffness(const AppliedLoad &load, const Discretization &discretization,
                               const std::size_t body, const double young_modulus) {
   const auto *action = std::get_if<std::shared_ptr<const SurfaceLoad>>(&load.load.action);
-  if (action == nullptr)
+  if (action == nullptr || load.nodes) // a moment on nodes has no springs
     return 0.;
   std::vector<double> sums(2, 0.); // area and number of faces
   for (const auto &facet : collect_boundary_facets(discretization, body, load.boundary_ids)) {
