@@ -67,8 +67,9 @@ void PrescribedMotion::rebuild() {
   moving_memory_.set(n_moving_ * sizeof(Node));
 }
 
-void PrescribedMotion::release(const double t, const double fade_time, NodalVectors &forces) {
-  acting_.release(holding_at(t), fade_time);
+void PrescribedMotion::release(const double t) {
+  for (const double fade_time : acting_.fade_times(holding_at(t)))
+    acting_.release(holding_at(t), fade_time);
   acting_.forget_ended(starts_);
   rebuild();
 }

@@ -9,59 +9,6 @@ namespace billet {
 
 using dealii::Tensor;
 
-namespace {
-
-/// Returns the indices in named_supports() of the constraints of a body; `first` is that of its first one.
-std::vector<std::size_t> support_indices(const Body &body, const std::size_t first) {
-  std::vector<std::size_t> indices;
-  std::vector<std::string> names;
-  for (const Constraint &constraint : body.constraints) {
-    const auto found = std::find(names.begin(), names.end(), constraint.name);
-    indices.push_back(first + static_cast<std::size_t>(found - names.begin()));
-    if (found == names.end())
-      names.push_back(constraint.name);
-  }
-  return indices;
-}
-
-/// Returns the vector d in the space of these independent normals with d · n = 1 for the one at `index` and 0
-/// for all others.
-Tensor<1, 3> dual_vector(const std::vector<Tensor<1, 3>> &normals, const std::size_t index) {
-  std::vector<Tensor<1, 3>> others;
-  const auto remove_others = [&others](Tensor<1, 3> v) {
-    for (const auto &e : others)
-      v -= (v * e) * e;
-    return v;
-  };
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    if (i != index) {
-      const Tensor<1, 3> left = remove_others(normals[i]);
-      others.push_back(left / left.norm());
-    }
-  const Tensor<1, 3> d = remove_others(normals[index]);
-  return d / (d * normals[index]);
-}
-
-/// Returns which of the normals are independent of those before them.
-std::vector<std::size_t> find_independent(const std::vector<const Constraint *> &constraints,
-                                          const dealii::Point<3> &position) {
-  constexpr double independent = 1e-8; // as in collect_fixed_nodes()
-  std::vector<std::size_t> indices;
-  std::vector<Tensor<1, 3>> basis;
-  for (std::size_t h = 0; h < constraints.size(); ++h) {
-    Tensor<1, 3> left = constraints[h]->direction(position);
-    for (const auto &e : basis)
-      left -= (left * e) * e;
-    if (left.norm() <= independent)
-      continue;
-    basis.push_back(left / left.norm());
-    indices.push_back(h);
-  }
-  return indices;
-}
-
-} // namespace
-
 std::vector<NamedSupport> named_supports(const Scene &scene) {
   std::vector<NamedSupport> all;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
@@ -77,15 +24,8 @@ std::vector<NamedSupport> named_supports(const Scene &scene) {
 
 SupportReactions::SupportReactions(const Scene &scene, const Discretization &discretization,
                                    const ActingConstraints &acting)
-    : scene_(scene), discretization_(discretization), n_supports_(named_supports(scene).size()) {
-  std::size_t first = 0;
-  for (const Body &body : scene.bodies()) {
-    const std::vector<std::size_t> indices = support_indices(body, first);
-    for (std::size_t h = 0; h < indices.size(); ++h) {
-      support_of_[&body.constraints[h]] = indices[h];
-      first = std::max(first, indices[h] + 1);
-    }
-  }
+    : scene_(scene), discretization_(discretization), support_of_(support_indices(scene)),
+      n_supports_(named_supports(scene).size()) {
   collect_nodes(acting);
   const std::vector<ConstraintLine> links =
       collect_links(discretization.dof_handler(), discretization.relevant_dofs());
@@ -101,19 +41,12 @@ void SupportReactions::follow(const ActingConstraints &acting) {
 void SupportReactions::collect_nodes(const ActingConstraints &acting) {
   nodes_.clear();
   n_changes_ = acting.n_changes();
-  const auto acts = [&acting](const Constraint &constraint) { return acting(constraint); };
-  for (const auto &[dof, held] : collect_constrained_nodes(scene_, discretization_, acts)) {
-    if (!discretization_.owned_dofs().is_element(dof))
+  for (const SupportedNode &held : collect_supported_nodes(scene_, discretization_, acting, support_of_)) {
+    if (!discretization_.owned_dofs().is_element(held.dofs[0]))
       continue;
-    Node node{held.dofs, held.position, {}};
-    const std::vector<std::size_t> independent = find_independent(held.constraints, held.position);
-    std::vector<Tensor<1, 3>> normals;
-    for (const std::size_t h : independent)
-      normals.push_back(held.constraints[h]->direction(held.position));
-    for (std::size_t i = 0; i < normals.size(); ++i)
-      node.parts.push_back(
-          {support_of_.at(held.constraints[independent[i]]), normals[i], dual_vector(normals, i)});
-    nodes_.push_back(node);
+    nodes_.push_back({held.dofs, held.position, {}});
+    for (const SupportPart &part : held.parts)
+      nodes_.back().parts.push_back({part.support, part.normal, part.dual});
   }
 }
 

@@ -70,7 +70,7 @@ const NamedIds &find_ids(const std::string &name, const GroupNames &known, const
                                     : "allowed are ids, and the names of body '" + body + "': " + list) +
                      did_you_mean(name, names));
   }
-  if (found->empty())
+  if (found->second.empty())
     throw InputError(
         origin + " names boundary '" + name + "', which has no whole face on the outside of body '" + body +
         "'; allowed are groups of exterior faces. 'Nodes = set " + name +
@@ -150,9 +150,9 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
 
 /// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
 /// gives. Adds what is to be said of the mesh file to the notes.
-GroupNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
+KnownNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
   unsigned int new_id = min_new_id(mesh) + 1;
-  GroupNames names;
+  KnownNames names;
   if (mesh.source == parameters::Mesh::Source::file) {
     const LoadedMesh loaded = load_mesh_file(mesh);
     notes.add(loaded, mesh, body);

@@ -19,9 +19,8 @@ public:
   const Scene &scene() const { return scene_; }
   /// Returns the constraints that act.
   const ActingConstraints &acting() const { return acting_; }
-  /// Lets those supports go that do not hold at t, and whose forces fade over this time. Takes from `forces`
-  /// what the constraints that are left bear.
-  void release(double t, double fade_time, NodalVectors &forces);
+  /// Lets those supports go that do not hold at t.
+  void release(double t);
   /// Takes the supports that hold at t. Those that begin hold the nodes where these `displacements` put them.
   void take(double t, const NodalVectors &displacements);
   /// Returns the displacements at the times at which supports that act began, if later than 0.

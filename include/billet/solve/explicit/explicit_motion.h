@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_EXPLICIT_EXPLICIT_MOTION_H
 
 #include "billet/discretization/prescribed_motion.h"
+#include "billet/discretization/support_reactions.h"
 #include "billet/solve/explicit/explicit_clock.h"
 #include "billet/solve/explicit/nodal_masses.h"
 #include "billet/solve/explicit/nodal_rows.h"
