@@ -22,14 +22,15 @@ struct NamedSupport {
   std::string name; ///< as Constraint::name: "support NAME" or "symmetry plane TEXT"
 };
 
-/// Returns the symmetry planes and supports of all bodies, body by body in the order of Body::constraints. The
-/// components of a support are one entry.
+/// Returns the symmetry planes and supports of all bodies, body by body in the order of Body::constraints.
+/// The components of a support are one entry.
 std::vector<NamedSupport> named_supports(const Scene &scene);
 
 /// Forces of supports and symmetry planes on the bodies, from the residual of all other forces: R_a = Σ λ n +
 /// free residual at a node a. Each constraint n · u = value takes a force along n alone. Where normals depend
-/// on each other, the constraint that stands first in Body::constraints takes the force: symmetry planes before
-/// supports, and these in the order of the scene. The sum of all reactions is therefore that of the node.
+/// on each other, the constraint that stands first in Body::constraints takes the force: symmetry planes
+/// before supports, and these in the order of the scene. The sum of all reactions is therefore that of the
+/// node.
 class SupportReactions {
 public:
   /// For the supports and symmetry planes that act.
