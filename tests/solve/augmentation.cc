@@ -199,7 +199,7 @@ DiagnosticList finish(const double change) {
   EquilibriumSolver solver(problem);
   PenetrationMeasurement measurement(problem);
   Augmentation augmentation(problem, solver, measurement);
-  SoftnessLimit softness({true});
+  SoftnessLimit softness({SoftnessLimit::Rule::general});
   ContactSprings springs;
   springs.normal.force = 1.;
   springs.normal.held = 0.1;

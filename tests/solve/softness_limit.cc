@@ -35,7 +35,7 @@ struct Outcome {
 
 Outcome press(const double K, const unsigned int n_steps) {
   Press body{K, 1.};
-  SoftnessLimit limit({true});
+  SoftnessLimit limit({SoftnessLimit::Rule::general});
   Outcome outcome;
   for (unsigned int n = 1; n <= n_steps; ++n) {
     const double d = static_cast<double>(n) / n_steps;
@@ -57,7 +57,7 @@ Outcome press(const double K, const unsigned int n_steps) {
 
 /// A force that each augmentation changes by 1 % of the largest, until it is given up.
 void check_what_is_given_up() {
-  SoftnessLimit limit({true, false});
+  SoftnessLimit limit({SoftnessLimit::Rule::general, SoftnessLimit::Rule::none});
   ContactSprings springs;
   springs.normal.force = 2.;
   springs.normal.held = 0.1;
@@ -76,7 +76,7 @@ void check_what_is_given_up() {
   step(1e-5, 4.);
   check("also of an earlier step", std::abs(limit.unsettled()[0] - 0.005), 1e-15);
   check("of pairs that limit softness", limit.unsettled()[1] == 0.);
-  SoftnessLimit other({true, false});
+  SoftnessLimit other({SoftnessLimit::Rule::general, SoftnessLimit::Rule::none});
   other.load(limit.save());
   check("and after a restart", other.unsettled() == limit.unsettled());
 }
@@ -94,7 +94,7 @@ ContactSprings springs_of(const double force, const double held, const double fr
 /// The multiple of the allowed part that is missing once an augmentation has changed the force by `ratio` of
 /// what springs held, in a former step.
 double excess_after(const double ratio, const double held_then, const ContactSprings &now) {
-  SoftnessLimit limit({true});
+  SoftnessLimit limit({SoftnessLimit::Rule::general});
   limit.learn({springs_of(1., held_then)},
               {{SoftnessLimit::Change{ratio * held_then, 1.}, SoftnessLimit::Change{}}});
   limit.begin();
@@ -106,7 +106,7 @@ bool is(const double a, const double b) { return std::abs(a - b) <= 1e-12 * std:
 
 /// (L7) with numbers.
 void check_formula() {
-  SoftnessLimit limit({true});
+  SoftnessLimit limit({SoftnessLimit::Rule::general});
   // Of a force of 1, 0.002 may be missing. All augmentations add 5 times what springs hold, as far as known.
   check("springs that hold a fifth of 0.002 meet the limit", is(limit.excess({springs_of(1., 4e-4)})[0], 1.));
   check("those that hold half of the force count once",
@@ -124,10 +124,10 @@ void check_formula() {
   check("within the step it is no more than the last augmentation changed",
         is(limit.excess({springs_of(1., 0.1)})[0], 0.5));
 
-  SoftnessLimit two({true, true});
+  SoftnessLimit two({SoftnessLimit::Rule::general, SoftnessLimit::Rule::general});
   check("a pair counts with a hundredth of the largest force at least",
         is(two.excess({springs_of(100., 0.), springs_of(1e-3, 2e-4)})[1], 0.5));
-  SoftnessLimit sticks({true});
+  SoftnessLimit sticks({SoftnessLimit::Rule::general});
   check("friction with a fiftieth of the pressure",
         is(sticks.excess({springs_of(50., 0., 0., 2e-4)})[0], 0.5));
   check("and in its own proportion where it is more",
@@ -136,7 +136,7 @@ void check_formula() {
         is(sticks.excess({springs_of(50., 0., 10., 2e-3)}, 1.9e-4)[0], 0.5) &&
             sticks.excess({springs_of(50., 0., 10., 2e-3)}, 2.1e-4)[0] == 0.);
   // Friction of 1: slip has used half of its 0.002, then all.
-  SoftnessLimit slips({true});
+  SoftnessLimit slips({SoftnessLimit::Rule::general});
   slips.commit({springs_of(1., 0., 1., 1e-3)});
   slips.begin();
   check("slip of former steps takes from what is allowed",
@@ -159,13 +159,13 @@ int main() {
         check(name + "augmentations", outcome.augmentations <= 2 + std::log2(n_steps));
     }
   {
-    SoftnessLimit limit({false});
+    SoftnessLimit limit({SoftnessLimit::Rule::none});
     check("a pair that does not limit it asks for nothing",
           limit.excess({Press{1., 1.}.springs(1.)})[0] == 0.);
   }
   {
     // What a step has learnt goes on from a checkpoint.
-    SoftnessLimit limit({true}), restored({true});
+    SoftnessLimit limit({SoftnessLimit::Rule::general}), restored({SoftnessLimit::Rule::general});
     const ContactSprings before = Press{0.1, 1.}.springs(1.);
     limit.learn({before}, {{SoftnessLimit::Change{0.01, 0.01}, SoftnessLimit::Change{}}});
     restored.load(limit.save());
