@@ -23,18 +23,16 @@ namespace {
 
 const DiagnosticKind tool_breaks_section(
     "tool-breaks-section", Severity::warning,
-    "The gap to a tool differs along the width of a plane-strain section, or around the axis of an "
-    "axisymmetric one, or the tool ends at some of these places. Or a tool with friction moves along the "
-    "width, across the axis, "
-    "or turns about it. The section sees one place of it and takes it for all.",
+    "The gap to a tool differs along the width of a plane-strain section or around the axis of an "
+    "axisymmetric one, or the tool ends there. Or a tool with friction moves along the width, across the "
+    "axis, or turns about it. The section sees one place of it and takes it for all.",
     "Give the tool a surface and a motion that keep to the section, or model the solid");
 
 const DiagnosticKind load_breaks_section(
     "load-breaks-section", Severity::warning,
     "A part of a load leaves the section. The sides of a plane-strain section bear what acts along its "
-    "width. "
-    "Those of an axisymmetric one bear what acts around the axis, and what acts across the axis becomes "
-    "radial, and has no resultant on the full circle.",
+    "width. Those of an axisymmetric one bear what acts around the axis. What acts across the axis becomes "
+    "radial, without a resultant on the full circle.",
     "Model the solid for such loads. For radial loads on an axisymmetric section use 'pressure', 'dead "
     "traction' with cylindrical 'Axes', or 'force' on a 'Point' or 'Nodes'");
 
@@ -50,7 +48,7 @@ bool is_solid(const parameters::Body &body) {
   return body.mesh.section.value == parameters::Mesh::Section::solid;
 }
 
-/// How a tool breaks a section.
+/// Way in which a tool breaks a section.
 enum class Break { gap, end, travel };
 
 struct WorstBreak {

@@ -174,7 +174,8 @@ def _() -> None:
 def _() -> None:
     errors = errors_of(
         "Time stepping: Scheme = implicit dynamic & Output: Step interval = 0.5"
-        " & block: + subsection Loads\\n subsection p\\n  set Type = presure\\n  set Boundary ids = 77\\n  set Pressure = 1\\n end"
+        " & block: + subsection Loads\\n subsection p\\n  set Type = presure\\n  set Boundary ids = 77"
+        "\\n  set Pressure = 1\\n end"
         "\\n subsection q\\n  set Boundary ids = 78\\n  set Pressure = 3*tt\\n end\\nend"
     )
     for text in (
