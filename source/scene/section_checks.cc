@@ -23,8 +23,8 @@ namespace {
 
 const DiagnosticKind tool_breaks_section(
     "tool-breaks-section", Severity::warning,
-    "The gap to a tool differs along the width of a plane-strain section or around the axis of an "
-    "axisymmetric one, or the tool ends there. Or a tool with friction moves along the width, across the "
+    "The gap to a tool differs, or the tool ends, along the width of a plane-strain section or around the "
+    "axis of an axisymmetric one. Or a tool with friction moves along the width, across the "
     "axis, or turns about it. The section sees one place of it and takes it for all.",
     "Give the tool a surface and a motion that keep to the section, or model the solid");
 
