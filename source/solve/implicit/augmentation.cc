@@ -84,8 +84,7 @@ struct Augmentation::Series {
   std::vector<double> granted;
   std::unique_ptr<Vector> soft; ///< the state from which augmentations are for softness alone
   std::vector<double> soft_offsets;
-  unsigned int n_from_soft = 0; ///< augmentations from there that converged
-  std::size_t hardest = 0;      ///< of the report before
+  std::size_t hardest = 0; ///< of the report before
 };
 
 namespace {
@@ -322,11 +321,10 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   series.before = demands.of_contacts;
   report.append(solver_.iterate(offsets, displacements));
   if (!report.converged && series.soft && is_of_softness) {
-    repeat_from_soft_state(series, report, offsets, displacements);
+    restore_soft_state(series, report, offsets, displacements);
     return false;
   }
   if (report.converged) {
-    series.n_from_soft += series.soft ? 1 : 0;
     learn(series);
     if (!solver_.is_probing())
       note_stiff_contacts(series, report.diagnostics);
@@ -334,33 +332,19 @@ bool Augmentation::augment_once(Series &series, const Demands &demands, const bo
   return true;
 }
 
-void Augmentation::repeat_from_soft_state(Series &series, NewtonReport &report, std::vector<double> &offsets,
-                                          Vector &displacements) {
+void Augmentation::restore_soft_state(Series &series, NewtonReport &report, std::vector<double> &offsets,
+                                      Vector &displacements) {
   ContactSet &contacts = parts_.contacts();
   for (std::size_t i = 0; i < series.stiffer.size(); ++i)
     if (series.stiffer[i] != 1.)
       contacts[i].penalties().scale(1. / series.stiffer[i], 1. / series.stiffer[i]);
-  const auto restore = [&] {
-    contacts.take_back_augmentation();
-    displacements = *series.soft;
-    offsets = series.soft_offsets;
-    const NewtonReport again = solver_.iterate(offsets, displacements);
-    report.append(again);
-    // If this does not converge, a shorter step does not help either.
-    report.hardest = std::max(series.hardest, again.hardest);
-  };
-  restore();
-  for (unsigned int n = 0; report.converged && n < series.n_from_soft; ++n) {
-    for (auto &contact : contacts)
-      if (contact.settings().is_augmented())
-        contact.penalties().augment();
-    const NewtonReport again = solver_.iterate(offsets, displacements);
-    report.append(again);
-    if (!report.converged) {
-      restore();
-      break;
-    }
-  }
+  contacts.take_back_augmentation();
+  displacements = *series.soft;
+  offsets = series.soft_offsets;
+  const NewtonReport again = solver_.iterate(offsets, displacements);
+  report.append(again);
+  // If this does not converge, a shorter step does not help either.
+  report.hardest = std::max(series.hardest, again.hardest);
   if (!solver_.is_probing())
     has_failed_ = true;
 }

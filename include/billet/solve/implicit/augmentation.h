@@ -63,14 +63,13 @@ private:
   /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair that is
   /// farthest from its own.
   void give_up(const Series &series, unsigned int n, const Demands &demands, NewtonReport &report) const;
-  /// Augments once and iterates. If that fails and only softness required it, calls repeat_from_soft_state().
+  /// Augments once and iterates. If that fails and only softness required it, restores the former state.
   /// Returns whether to continue.
   bool augment_once(Series &series, const Demands &demands, bool is_of_softness, NewtonReport &report,
                     std::vector<double> &offsets, Vector &displacements);
-  /// Restores the state before augmentations for softness, and repeats those that converged, with the
-  /// penalties of that state. If one fails now, all are undone.
-  void repeat_from_soft_state(Series &series, NewtonReport &report, std::vector<double> &offsets,
-                              Vector &displacements);
+  /// Restores the state before augmentations for softness, and its penalties.
+  void restore_soft_state(Series &series, NewtonReport &report, std::vector<double> &offsets,
+                          Vector &displacements);
   void learn(Series &series);
   /// Appends a note on each pair whose penalty augmentation has made very stiff, once. Collective.
   void note_stiff_contacts(const Series &series, DiagnosticList &messages);
