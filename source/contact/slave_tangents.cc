@@ -90,19 +90,14 @@ public:
   explicit SlaveTangentsOf(const FacetContactParts &parts) : parts_(parts), touching_(parts.touching) {}
 
   void visit(const ContactTangent kind, const Add &add) const override {
-    switch (kind) {
-    case ContactTangent::numerical:
+    switch (form_of(kind)) {
+    case TangentForm::numerical:
       visit_slaves([&](const std::size_t s) { add_numerical_tangent(s, add); });
       break;
-    case ContactTangent::exact:
+    case TangentForm::exact:
       visit_slaves([&](const std::size_t s) { add_exact_tangent(s, add); });
       break;
-    case ContactTangent::automatic: // resolved by the scene
-    case ContactTangent::consistent:
-    case ContactTangent::continuum:
-    case ContactTangent::symmetrised_upper:
-    case ContactTangent::symmetrised_lower:
-    case ContactTangent::symmetrised_mean:
+    case TangentForm::closed:
       const FrictionTangent friction = FrictionTangent::of(kind);
       visit_slaves([&](const std::size_t s) { add_closed_tangent(friction, s, add); });
     }

@@ -136,22 +136,17 @@ void ToolTangents::add_divided(const DividedFacet &divided, const TangentSystem 
 
 std::unique_ptr<ToolTangents> make_tool_tangents(const RigidContactParts &parts, const ContactTangent kind) {
   std::unique_ptr<ToolTangents> result;
-  switch (kind) {
-  case ContactTangent::numerical:
+  switch (form_of(kind)) {
+  case TangentForm::numerical:
     visit_tool_node(parts, kind, [&](const auto &node) {
       using Tangent = NumericalTangent<std::decay_t<decltype(node)>>;
       result = std::make_unique<ToolTangentsOf<Tangent>>(parts, Tangent(parts, node));
     });
     break;
-  case ContactTangent::exact:
+  case TangentForm::exact:
     result = std::make_unique<ToolTangentsOf<ClosedTangent<true>>>(parts, ClosedTangent<true>(parts));
     break;
-  case ContactTangent::automatic: // resolved by the scene
-  case ContactTangent::consistent:
-  case ContactTangent::continuum:
-  case ContactTangent::symmetrised_upper:
-  case ContactTangent::symmetrised_lower:
-  case ContactTangent::symmetrised_mean:
+  case TangentForm::closed:
     result = std::make_unique<ToolTangentsOf<ClosedTangent<false>>>(parts, ClosedTangent<false>(parts));
   }
   return result;

@@ -44,6 +44,23 @@ double solve_slip(const FrictionLaw &law, const double pressure, const double tr
 
 } // namespace
 
+TangentForm form_of(const ContactTangent kind) {
+  switch (kind) {
+  case ContactTangent::numerical:
+    return TangentForm::numerical;
+  case ContactTangent::exact:
+    return TangentForm::exact;
+  case ContactTangent::automatic: // resolved by the scene
+  case ContactTangent::consistent:
+  case ContactTangent::continuum:
+  case ContactTangent::symmetrised_upper:
+  case ContactTangent::symmetrised_lower:
+  case ContactTangent::symmetrised_mean:
+    break;
+  }
+  return TangentForm::closed;
+}
+
 FrictionTangent FrictionTangent::of(const ContactTangent kind) {
   switch (kind) {
   case ContactTangent::automatic: // resolved by the scene

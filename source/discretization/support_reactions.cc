@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/discretization/support_reactions.h"
 
-#include "billet/discretization/support_parts.h"
-
 #include <algorithm>
 
 namespace billet {
 
 using dealii::Tensor;
+
+void sum_over_ranks(std::vector<Resultant> &resultants, const MPI_Comm communicator) {
+  std::vector<double> values;
+  for (const Resultant &resultant : resultants)
+    for (const Tensor<1, 3> &vector : {resultant.force, resultant.moment})
+      for (unsigned int i = 0; i < 3; ++i)
+        values.push_back(vector[i]);
+  dealii::Utilities::MPI::sum(values, communicator, values);
+  auto next = values.begin();
+  for (Resultant &resultant : resultants)
+    for (Tensor<1, 3> *vector : {&resultant.force, &resultant.moment})
+      for (unsigned int i = 0; i < 3; ++i)
+        (*vector)[i] = *next++;
+}
 
 std::vector<NamedSupport> named_supports(const Scene &scene) {
   std::vector<NamedSupport> all;
@@ -41,51 +53,28 @@ void SupportReactions::follow(const ActingConstraints &acting) {
 void SupportReactions::collect_nodes(const ActingConstraints &acting) {
   nodes_.clear();
   n_changes_ = acting.n_changes();
-  for (const SupportedNode &held : collect_supported_nodes(scene_, discretization_, acting, support_of_)) {
-    if (!discretization_.owned_dofs().is_element(held.dofs[0]))
-      continue;
-    nodes_.push_back({held.dofs, held.position, {}});
-    for (const SupportPart &part : held.parts)
-      nodes_.back().parts.push_back({part.support, part.normal, part.dual});
-  }
+  for (const SupportedNode &node : collect_supported_nodes(scene_, discretization_, acting, support_of_))
+    if (discretization_.owned_dofs().is_element(node.dofs[0]))
+      nodes_.push_back(node);
 }
 
-void SupportReactions::add(const Node &node, const Tensor<1, 3> &displacement, const Tensor<1, 3> &residual,
-                           Forces &sums) {
+void SupportReactions::add(const SupportedNode &node, const Tensor<1, 3> &displacement,
+                           const Tensor<1, 3> &residual, Forces &sums) {
   const Tensor<1, 3> x = node.position + displacement;
-  for (const Part &part : node.parts) {
-    const Tensor<1, 3> force = (part.dual * residual) * part.normal;
+  for (const SupportPart &part : node.parts) {
+    const Tensor<1, 3> force = part.force(residual);
     sums.of_supports[part.support].force += force;
     sums.of_supports[part.support].moment += dealii::cross_product_3d(x, force);
     sums.free -= force;
   }
 }
 
-SupportReactions::Forces SupportReactions::sum_over_ranks(const Forces &own) const {
-  std::vector<double> values;
-  const auto write = [&values](const Tensor<1, 3> &vector) {
-    for (unsigned int i = 0; i < 3; ++i)
-      values.push_back(vector[i]);
-  };
-  write(own.free);
-  for (const Resultant &resultant : own.of_supports) {
-    write(resultant.force);
-    write(resultant.moment);
-  }
-  dealii::Utilities::MPI::sum(values, discretization_.communicator(), values);
-  auto next = values.begin();
-  const auto read = [&next](Tensor<1, 3> &vector) {
-    for (unsigned int i = 0; i < 3; ++i)
-      vector[i] = *next++;
-  };
-  Forces all;
-  read(all.free);
-  all.of_supports.resize(own.of_supports.size());
-  for (Resultant &resultant : all.of_supports) {
-    read(resultant.force);
-    read(resultant.moment);
-  }
-  return all;
+SupportReactions::Forces SupportReactions::sum_over_ranks(Forces own) const {
+  own.of_supports.push_back({own.free, {}});
+  billet::sum_over_ranks(own.of_supports, discretization_.communicator());
+  own.free = own.of_supports.back().force;
+  own.of_supports.pop_back();
+  return own;
 }
 
 SupportReactions::Forces SupportReactions::compute(Vector residual, const Vector &displacements) const {
@@ -97,7 +86,7 @@ SupportReactions::Forces SupportReactions::compute(Vector residual, const Vector
     for (unsigned int i = 0; i < 3; ++i)
       own.free[i] += values[k + i];
   const auto &owned = discretization_.owned_dofs();
-  for (const Node &node : nodes_) {
+  for (const SupportedNode &node : nodes_) {
     Tensor<1, 3> force, displacement;
     for (unsigned int i = 0; i < 3; ++i) {
       const std::size_t place = owned.index_within_set(node.dofs[i]);
@@ -106,20 +95,20 @@ SupportReactions::Forces SupportReactions::compute(Vector residual, const Vector
     }
     add(node, displacement, force, own);
   }
-  return sum_over_ranks(own);
+  return sum_over_ranks(std::move(own));
 }
 
 SupportReactions::Forces SupportReactions::compute(const LocalNodes &nodes, const NodalVectors &forces,
                                                    const NodalVectors &displacements) const {
   Forces own;
   own.of_supports.resize(n_supports_);
-  for (const Node &held : nodes_) {
+  for (const SupportedNode &held : nodes_) {
     const unsigned int node = nodes.find(held.dofs[0]);
     const Tensor<1, 3> force = get_vector(forces.data(), node);
     own.free += force;
     add(held, get_vector(displacements.data(), node), force, own);
   }
-  return sum_over_ranks(own);
+  return sum_over_ranks(std::move(own));
 }
 
 } // namespace billet

@@ -107,6 +107,14 @@ OwnSelection find_selection(const AppliedLoad &load, const LocalNodes &nodes, co
   return selection;
 }
 
+/// Returns the surface that selected nodes stand for; their parts stand for areas.
+std::unique_ptr<LoadedSurface> whole_of(const OwnSelection &selection) {
+  auto whole = std::make_unique<LoadedSurface>();
+  whole->area = 1.;
+  whole->centre = selection.centre;
+  return whole;
+}
+
 /// Refuses a moment on nodes on one line, or on one node: their forces have no moment about the line, and how
 /// they turn about it is unknown.
 void check_spread(const AppliedLoad &load) {
@@ -219,9 +227,7 @@ void ExternalLoads::place(const AppliedLoad &load, const FaceLoad &action, const
 void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, const std::size_t body) {
   if (load.nodes) {
     const OwnSelection selection = find_selection(load, nodes_, body);
-    auto whole = std::make_unique<LoadedSurface>();
-    whole->area = 1.; // parts stand for areas
-    whole->centre = selection.centre;
+    auto whole = whole_of(selection);
     std::vector<LoadedNode> sites;
     for (const unsigned int node : selection.nodes)
       sites.push_back(
@@ -246,9 +252,7 @@ void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, co
   if (load.nodes) {
     check_spread(load);
     const OwnSelection selection = find_selection(load, nodes_, body);
-    auto whole = std::make_unique<LoadedSurface>();
-    whole->area = 1.; // parts stand for areas
-    whole->centre = selection.centre;
+    auto whole = whole_of(selection);
     std::vector<LoadedFace> sites;
     for (const unsigned int node : selection.nodes)
       sites.push_back(make_node_site(node, Point<3>(get_vector(nodes_.positions().data(), node)), whole.get(),
@@ -268,11 +272,18 @@ void ExternalLoads::place(const AppliedLoad &load, const SurfaceLoad &action, co
   on_surfaces_.push_back({&load, &action, std::move(faces), std::move(surface)});
 }
 
+ExternalLoads::TurnedNode ExternalLoads::turned_node(const unsigned int node, const double weight) const {
+  if (scene_.whole_section().kind != WholeSection::Kind::full_circle)
+    return {node, weight, dealii::unit_symmetric_tensor<3>()};
+  const SectionGeometry section(scene_.parameters().bodies.front().mesh);
+  return {node, weight, section.turn_to(get_vector(nodes_.positions().data(), node))};
+}
+
 void ExternalLoads::place_on_nodes(const AppliedLoad &load, const PointLoad &action, const std::size_t body) {
   const OwnSelection selection = find_selection(load, nodes_, body);
-  std::vector<WeightedNode> sites;
+  std::vector<TurnedNode> sites;
   for (const unsigned int node : selection.nodes)
-    sites.push_back({node, selection.part});
+    sites.push_back(turned_node(node, selection.part));
   on_points_.push_back({&load, &action, std::move(sites), nullptr});
 }
 
@@ -286,7 +297,7 @@ void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, cons
                                       scene_.bodies()[body].name,
                                       load.origin,
                                       "is a point of the body, or 'Place = nearest node'"});
-  std::vector<WeightedNode> sites;
+  std::vector<TurnedNode> sites;
   const bool is_section =
       scene_.parameters().bodies[body].mesh.section.value != parameters::Mesh::Section::solid;
   if (const auto &point = located.front())
@@ -297,7 +308,7 @@ void ExternalLoads::place(const AppliedLoad &load, const PointLoad &action, cons
       // A point of a section is on both of its sides, which are the third axis of its bricks.
       const double weight = is_section ? 0.5 * (shape(a) + shape(a ^ 4U)) : shape(a);
       if (weight != 0.)
-        sites.push_back({nodes_.elements(body)[point->element][a], weight});
+        sites.push_back(turned_node(nodes_.elements(body)[point->element][a], weight));
     }
   on_points_.push_back({&load, &action, std::move(sites), nullptr});
 }
@@ -346,16 +357,12 @@ void ExternalLoads::add(const Placed<SurfaceLoad, LoadedFace> &placed, const dou
   });
 }
 
-void ExternalLoads::add(const Placed<PointLoad, WeightedNode> &placed, const double t, const NodalMotion &,
+void ExternalLoads::add(const Placed<PointLoad, TurnedNode> &placed, const double t, const NodalMotion &,
                         NodalVectors &forces) const {
   add_with_factor(*placed.load, t, forces, [&](double *sum) {
     const Tensor<1, 3> force = placed.action->force(values_of(*placed.load, t).data());
-    const bool is_wedge = scene_.whole_section().kind == WholeSection::Kind::full_circle;
-    const SectionGeometry section(scene_.parameters().bodies.front().mesh);
-    for (const auto &[node, weight] : placed.sites) // on a wedge, the force turns with its sides
-      add_vector(
-          sum, node,
-          weight * (is_wedge ? section.turn_to(get_vector(nodes_.positions().data(), node)) * force : force));
+    for (const auto &[node, weight, turn] : placed.sites)
+      add_vector(sum, node, weight * (turn * force));
   });
 }
 

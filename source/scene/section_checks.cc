@@ -128,24 +128,29 @@ private:
   const SectionGeometry &section_;
 };
 
+/// Calls visit(face) for this rank's boundary faces of a body with these ids.
+template <class Visit>
+void for_each_face(const Triangulation<3> &mesh, const std::size_t body,
+                   const std::vector<dealii::types::boundary_id> &ids, const Visit &visit) {
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->material_id() == body)
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary() && std::find(ids.begin(), ids.end(), face->boundary_id()) != ids.end())
+          visit(face);
+}
+
 /// Returns the undeformed vertices of a pair's faces on this rank, each once, and the centres of the faces.
 std::vector<dealii::Point<3>> collect_points(const ContactPair &pair, const Triangulation<3> &mesh) {
   std::vector<bool> is_taken(mesh.n_vertices(), false);
   std::vector<dealii::Point<3>> points;
-  for (const auto &cell : mesh.active_cell_iterators())
-    for (const unsigned int f : cell->face_indices()) {
-      const auto &ids = pair.boundary_ids;
-      const auto face = cell->face(f);
-      if (!cell->is_locally_owned() || cell->material_id() != pair.body || !face->at_boundary() ||
-          std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
-        continue;
-      points.push_back(face->center());
-      for (const unsigned int v : face->vertex_indices())
-        if (!is_taken[face->vertex_index(v)]) {
-          is_taken[face->vertex_index(v)] = true;
-          points.push_back(face->vertex(v));
-        }
-    }
+  for_each_face(mesh, pair.body, pair.boundary_ids, [&](const auto &face) {
+    points.push_back(face->center());
+    for (const unsigned int v : face->vertex_indices())
+      if (!is_taken[face->vertex_index(v)]) {
+        is_taken[face->vertex_index(v)] = true;
+        points.push_back(face->vertex(v));
+      }
+  });
   return points;
 }
 
@@ -242,27 +247,21 @@ private:
   /// Pressures turn with the faces.
   void add(const FaceLoad & /*action*/, const double /*time*/, LoadParts & /*parts*/) const {}
   void add(const NodalLoad &action, const double time, LoadParts &parts) const {
-    for (const auto &cell : mesh_.active_cell_iterators())
-      for (const unsigned int f : cell->face_indices()) {
-        const auto &ids = load_.boundary_ids;
-        const auto face = cell->face(f);
-        if (!cell->is_locally_owned() || cell->material_id() != body_ || !face->at_boundary() ||
-            std::find(ids.begin(), ids.end(), face->boundary_id()) == ids.end())
-          continue;
-        const dealii::Point<3> centre = face->center();
-        const std::vector<double> at_face = values(time, centre);
-        const Tensor<1, 3> force = force_at(action, centre, at_face);
-        if (!section_.is_turned()) {
-          parts.add(force.norm(), std::abs(force * section_.direction()));
-          continue;
-        }
-        // A quarter of the circle further, what belongs to the section is turned as much.
-        const double quarter = 0.5 * M_PI;
-        const Tensor<1, 3> there =
-            force_at(action, dealii::Point<3>(section_.turned(centre, quarter)), at_face);
-        parts.add(force.norm(), std::max(std::abs(force * section_.circumference(centre)),
-                                         M_SQRT1_2 * (there - section_.turn(quarter) * force).norm()));
+    for_each_face(mesh_, body_, load_.boundary_ids, [&](const auto &face) {
+      const dealii::Point<3> centre = face->center();
+      const std::vector<double> at_face = values(time, centre);
+      const Tensor<1, 3> force = force_at(action, centre, at_face);
+      if (!section_.is_turned()) {
+        parts.add(force.norm(), std::abs(force * section_.direction()));
+        return;
       }
+      // A quarter of the circle further, what belongs to the section is turned as much.
+      const double quarter = 0.5 * M_PI;
+      const Tensor<1, 3> there =
+          force_at(action, dealii::Point<3>(section_.turned(centre, quarter)), at_face);
+      parts.add(force.norm(), std::max(std::abs(force * section_.circumference(centre)),
+                                       M_SQRT1_2 * (there - section_.turn(quarter) * force).norm()));
+    });
   }
   /// A moment about the circumference belongs to a wedge: that at any of its angles.
   void add(const SurfaceLoad &action, const double time, LoadParts &parts) const {

@@ -113,7 +113,9 @@ class Run:
         return interpolate(self.times, self.forces, time)
 
 
-def count_instructions(folder: str | Path, function: str = "billet::run_simulation(*") -> int:
+def count_instructions(
+    folder: str | Path, function: str = "billet::run_simulation(*", program: str = PROGRAM
+) -> int:
     """Of a function in a run of scene.prm in this folder by callgrind; of the run, without what libraries do
     before it."""
     done = subprocess.run(
@@ -122,7 +124,7 @@ def count_instructions(folder: str | Path, function: str = "billet::run_simulati
             "--tool=callgrind",
             f"--toggle-collect={function}",
             "--callgrind-out-file=/dev/null",
-            PROGRAM,
+            program,
             "scene.prm",
         ],
         cwd=folder,

@@ -15,7 +15,6 @@ import tarfile
 import tempfile
 from pathlib import Path
 
-import billet_runs
 from billet_runs import PROGRAM, ROOT, Changes, arguments, count_instructions, number, publish, table
 from billet_tools.output import read_rows
 from billet_tools.program import ALONE, Measured
@@ -172,10 +171,9 @@ class Compared:
 
 def count(program: str, scenes: Path, scene: str) -> int:
     changes, function, _ = COUNTED[scene]
-    billet_runs.PROGRAM = program
     with tempfile.TemporaryDirectory() as folder:
         write(scenes, scene, changes, Path(folder))
-        instructions = count_instructions(folder, function)
+        instructions = count_instructions(folder, function, program)
     print(f"[{scene}] {instructions} instructions", flush=True)
     return instructions
 

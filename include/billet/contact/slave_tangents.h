@@ -3,6 +3,7 @@
 #define BILLET_CONTACT_SLAVE_TANGENTS_H
 
 #include "billet/contact/facet_contact_parts.h"
+#include "billet/contact/traction.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -36,9 +37,7 @@ protected:
 std::unique_ptr<SlaveTangents> make_slave_tangents(const FacetContactParts &parts);
 
 /// Whether tangents of this kind depend on the nodes of the slave's own facets.
-inline bool follows_own_facets(const ContactTangent kind) {
-  return kind == ContactTangent::exact || kind == ContactTangent::numerical;
-}
+inline bool follows_own_facets(const ContactTangent kind) { return form_of(kind) != TangentForm::closed; }
 
 } // namespace billet
 

@@ -57,6 +57,14 @@ struct TangentialIncrement {
   double rate = 0.;
 };
 
+/// How the tangents of a kind are computed.
+enum class TangentForm {
+  numerical, ///< by central differences
+  exact,     ///< derivatives of everything that the forces depend on
+  closed     ///< in closed form, for facets that keep their place: FrictionTangent has its terms
+};
+TangentForm form_of(ContactTangent kind);
+
 /// Terms of the derivative of friction that a kind of tangents keeps, see compute_traction(). They are chosen
 /// once, outside loops over nodes.
 struct FrictionTangent {

@@ -3,7 +3,7 @@
 #define BILLET_DISCRETIZATION_SUPPORT_REACTIONS_H
 
 #include "billet/discretization/local_nodes.h"
-#include "billet/discretization/supports.h"
+#include "billet/discretization/support_parts.h"
 
 #include <string>
 #include <vector>
@@ -15,6 +15,9 @@ struct Resultant {
   dealii::Tensor<1, 3> force;  ///< [force]
   dealii::Tensor<1, 3> moment; ///< about the origin, at deformed positions [force length]
 };
+
+/// Replaces each by its sum over the ranks. Collective.
+void sum_over_ranks(std::vector<Resultant> &resultants, MPI_Comm communicator);
 
 /// Support or symmetry plane of a body.
 struct NamedSupport {
@@ -53,19 +56,9 @@ public:
                  const NodalVectors &displacements) const;
 
 private:
-  /// Constraint at a node: λ = dual · R.
-  struct Part {
-    std::size_t support; ///< index in named_supports()
-    dealii::Tensor<1, 3> normal, dual;
-  };
-  struct Node {
-    std::array<DofIndex, 3> dofs;
-    dealii::Point<3> position; ///< undeformed
-    std::vector<Part> parts;
-  };
   void collect_nodes(const ActingConstraints &acting);
-  Forces sum_over_ranks(const Forces &own) const;
-  static void add(const Node &node, const dealii::Tensor<1, 3> &displacement,
+  Forces sum_over_ranks(Forces own) const;
+  static void add(const SupportedNode &node, const dealii::Tensor<1, 3> &displacement,
                   const dealii::Tensor<1, 3> &residual, Forces &sums);
 
   const Scene &scene_;
@@ -73,8 +66,8 @@ private:
   std::map<const Constraint *, std::size_t> support_of_; ///< indices in named_supports()
   unsigned int n_changes_ = 0;                           ///< of the supports that nodes_ know
   std::size_t n_supports_;
-  std::vector<Node> nodes_; ///< owned by this rank
-  Constraints links_;       ///< of hanging nodes
+  std::vector<SupportedNode> nodes_; ///< owned by this rank
+  Constraints links_;                ///< of hanging nodes
   bool couples_ranks_ = false;
 };
 

@@ -51,10 +51,16 @@ private:
     std::vector<Site> sites;
     std::unique_ptr<LoadedSurface> surface; ///< that the sites refer to, or null
   };
-  /// Node and its mass, volume or part of a force on a point.
+  /// Node and its mass or volume.
   struct WeightedNode {
     unsigned int node;
     double weight;
+  };
+  /// Node and its part of a force on a point.
+  struct TurnedNode {
+    unsigned int node;
+    double weight;
+    dealii::Tensor<2, 3> turn; ///< of the force: to the side of a wedge that the node is on
   };
   void place(const AppliedLoad &load, const BodyLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const FaceLoad &action, std::size_t body);
@@ -62,6 +68,7 @@ private:
   void place(const AppliedLoad &load, const SurfaceLoad &action, std::size_t body);
   void place(const AppliedLoad &load, const PointLoad &action, std::size_t body);
   void place_on_nodes(const AppliedLoad &load, const PointLoad &action, std::size_t body);
+  TurnedNode turned_node(unsigned int node, double weight) const;
   /// Calls visit(placed) for each load, in their order.
   template <class Visit> void visit(const Visit &visit) const {
     std::for_each(on_bodies_.begin(), on_bodies_.end(), visit);
@@ -78,7 +85,7 @@ private:
            NodalVectors &forces) const;
   void add(const Placed<SurfaceLoad, LoadedFace> &placed, double t, const NodalMotion &at,
            NodalVectors &forces) const;
-  void add(const Placed<PointLoad, WeightedNode> &placed, double t, const NodalMotion &at,
+  void add(const Placed<PointLoad, TurnedNode> &placed, double t, const NodalMotion &at,
            NodalVectors &forces) const;
   std::unique_ptr<LoadedSurface> measure_surface(const std::vector<BoundaryFacet> &facets) const;
   void add_surface_tangents(double t, const NodalMotion &motion, const TangentSystem &system) const;
@@ -93,7 +100,7 @@ private:
   std::vector<Placed<FaceLoad, LoadedFace>> on_faces_;
   std::vector<Placed<NodalLoad, LoadedNode>> on_nodes_;
   std::vector<Placed<SurfaceLoad, LoadedFace>> on_surfaces_;
-  std::vector<Placed<PointLoad, WeightedNode>> on_points_;
+  std::vector<Placed<PointLoad, TurnedNode>> on_points_;
   HeldMemory memory_{Capability::loads};
 };
 

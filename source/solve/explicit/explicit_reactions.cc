@@ -78,20 +78,14 @@ void ExplicitReactions::add_fading_tools() {
 }
 
 void ExplicitReactions::add_fading_supports() {
-  std::vector<Resultant> own(values_.of_supports.size());
-  parts_.motion.add_fading(parts_.clock.time(), own);
-  std::vector<double> sums;
-  for (const Resultant &resultant : own)
-    for (const Tensor<1, 3> *vector : {&resultant.force, &resultant.moment})
-      sums.insert(sums.end(), vector->begin_raw(), vector->end_raw());
-  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
-  for (std::size_t s = 0; s < own.size(); ++s) {
-    const double *of_support = &sums[6 * s];
-    const Tensor<1, 3> force({of_support[0], of_support[1], of_support[2]});
-    values_.of_supports[s].force += force;
-    values_.of_supports[s].moment += Tensor<1, 3>({of_support[3], of_support[4], of_support[5]});
-    values_.balance.reactions += force;
-    values_.balance.loads -= force;
+  std::vector<Resultant> fading(values_.of_supports.size());
+  parts_.motion.add_fading(parts_.clock.time(), fading);
+  sum_over_ranks(fading, parts_.communicator());
+  for (std::size_t s = 0; s < fading.size(); ++s) {
+    values_.of_supports[s].force += fading[s].force;
+    values_.of_supports[s].moment += fading[s].moment;
+    values_.balance.reactions += fading[s].force;
+    values_.balance.loads -= fading[s].force;
   }
 }
 

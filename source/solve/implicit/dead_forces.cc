@@ -31,19 +31,18 @@ DeadForces::DeadForces(const Discretization &discretization, Vector forces)
 
 Resultant DeadForces::resultant(const Vector &displacements) const {
   const auto values = owned_values(forces_), u = owned_values(displacements);
-  Tensor<1, 3> force, moment;
+  std::vector<Resultant> sum(1);
   for (const Site &site : sites_) {
     Tensor<1, 3> x = site.position, at_node;
     for (unsigned int i = 0; i < 3; ++i) {
       at_node[i] = values[site.place + i];
       x[i] += u[site.place + i];
     }
-    force += at_node;
-    moment += dealii::cross_product_3d(x, at_node);
+    sum.front().force += at_node;
+    sum.front().moment += dealii::cross_product_3d(x, at_node);
   }
-  std::vector<double> sums{force[0], force[1], force[2], moment[0], moment[1], moment[2]};
-  dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
-  return {Tensor<1, 3>({sums[0], sums[1], sums[2]}), Tensor<1, 3>({sums[3], sums[4], sums[5]})};
+  sum_over_ranks(sum, discretization_.communicator());
+  return sum.front();
 }
 
 } // namespace billet
