@@ -68,13 +68,13 @@ unsigned int count_coarser_levels(const parameters::Scene &scene, const unsigned
   return levels;
 }
 
-parameters::Scene at_mesh_level(const parameters::Scene &scene, const int level) {
+parameters::Scene at_mesh_levels(const parameters::Scene &scene, const std::vector<int> &levels) {
   parameters::Scene result = scene;
-  for (parameters::Body &body : result.bodies) {
-    for (int l = 0; l > level; --l)
-      coarsen(body.mesh);
-    for (int l = 0; l < level; ++l)
-      refine(body.mesh);
+  for (std::size_t b = 0; b < levels.size(); ++b) {
+    for (int l = 0; l > levels[b]; --l)
+      coarsen(result.bodies[b].mesh);
+    for (int l = 0; l < levels[b]; ++l)
+      refine(result.bodies[b].mesh);
   }
   return result;
 }

@@ -41,6 +41,15 @@ void Run::save(StateWriter &writer) const {
   save_method(writer);
 }
 
+std::vector<BodyMesh> Run::body_meshes() const {
+  const std::vector<std::size_t> counts = discretization_.count_elements();
+  const std::vector<double> errors = mesh_errors_.of_bodies();
+  std::vector<BodyMesh> bodies;
+  for (std::size_t b = 0; b < counts.size(); ++b)
+    bodies.push_back({counts[b], errors[b]});
+  return bodies;
+}
+
 std::unique_ptr<Run> make_run(const Scene &scene, const MPI_Comm communicator, Resumption *resumption) {
   using Scheme = parameters::TimeStepping::Scheme;
   switch (scene.parameters().time_stepping.scheme) {
@@ -166,7 +175,7 @@ ExitCode run_to_end(std::unique_ptr<Run> run, const Scene &scene, RunOutput &out
       return output.stop(run->n_steps(), run->time(), has_checkpoint);
   }
   run->end(output);
-  return output.finish();
+  return output.finish(run->body_meshes());
 }
 
 } // namespace billet

@@ -93,9 +93,9 @@ void RunOutput::write_estimate(const ErrorReport &report) {
   });
 }
 
-ExitCode RunOutput::finish() {
+ExitCode RunOutput::finish(const std::vector<BodyMesh> &bodies) {
   if (options_.judge)
-    report(options_.judge());
+    report(options_.judge(bodies));
   ExitCode code = ExitCode::success;
   if (scene_.parameters().warnings_are_errors && diagnostics_.count(Severity::warning) > 0)
     code = ExitCode::warnings;

@@ -4,6 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/output/console_log.h"
 #include "billet/output/history_comparison.h"
+#include "billet/run/body_levels.h"
 #include "billet/run/mesh_levels.h"
 #include "billet/run/output_folder.h"
 #include "billet/run/stopwatch.h"
@@ -23,34 +24,17 @@
 
 namespace billet {
 
-MeshLevelError extrapolate(const std::vector<double> &differences) {
-  MeshLevelError result;
-  const double last = differences.back();
-  result.error = last;
-  if (differences.size() < 2)
-    return result;
-  const double before = differences[differences.size() - 2];
-  if (!(before > last)) {
-    result.error = std::max(before, last);
-    result.is_known = before == 0.;
-    return result;
-  }
-  constexpr double highest_order = 2.;
-  result.order = last > 0. ? std::min(highest_order, std::log2(before / last)) : highest_order;
-  result.error = last / (std::exp2(result.order) - 1.);
-  return result;
-}
-
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Run on one level of the mesh.
+/// Run on one level of the meshes.
 struct Level {
-  int level = 0;
-  double seconds = 0.;    ///< of all processors
-  double difference = 0.; ///< from the level before; 0: there is none
-  MeshLevelError error;   ///< of this level, if there is one before it
+  int level = 0;           ///< of the bodies that rose
+  std::vector<int> bodies; ///< level of each
+  double seconds = 0.;     ///< of all processors
+  double difference = 0.;  ///< from the level before; 0: there is none
+  MeshLevelError error{};  ///< of this level, if there is one before it
 };
 
 /// Returns the largest memory that this process has held over that of the machine for each process.
@@ -76,14 +60,14 @@ public:
   MeshLadder(const parameters::Scene &given, const MPI_Comm communicator, const RunOptions &options)
       : given_(given), communicator_(communicator), options_(options),
         is_first_(dealii::Utilities::MPI::this_mpi_process(communicator) == 0),
-        folder_(given.output.folder.value) {}
+        folder_(given.output.folder.value),
+        bodies_(given.bodies.size(), -static_cast<int>(count_coarser_levels(given, coarsest)),
+                given.mesh_target.error) {}
 
   ExitCode climb() {
     begin();
-    constexpr unsigned int coarsest = 2; // below it meshes tell little of the given one
-    int level = -static_cast<int>(count_coarser_levels(given_, coarsest));
-    for (;; ++level) {
-      const ExitCode code = run(level);
+    for (;;) {
+      const ExitCode code = run();
       if (code == ExitCode::stopped)
         return code;
       if (is_last_) {
@@ -94,6 +78,8 @@ public:
   }
 
 private:
+  static constexpr unsigned int coarsest = 2; ///< levels below the given one: coarser ones tell little of it
+
   std::string folder_of(const int level) const { return folder_ + "/mesh_level_" + std::to_string(level); }
 
   void begin() {
@@ -119,9 +105,12 @@ private:
     });
   }
 
-  /// Runs on a level. Returns the exit code, also of a coarse level that fails.
-  ExitCode run(const int level) {
-    parameters::Scene scene = at_mesh_level(given_, level);
+  /// Runs on the next levels. Returns the exit code, also of a coarse level that fails.
+  ExitCode run() {
+    if (!levels_.empty())
+      bodies_.rise();
+    const int level = bodies_.level();
+    parameters::Scene scene = at_mesh_levels(given_, bodies_.levels());
     scene.output.folder.value = folder_of(level);
     RunOptions options = options_;
     options.log = nullptr;
@@ -133,9 +122,11 @@ private:
                 << (level == 0  ? ", the meshes as given"
                     : level < 0 ? ", coarser than given"
                                 : ", finer than given")
-                << std::endl;
+                << bodies_behind(level, bodies_.levels()) << std::endl;
     const double start = processor_time();
-    options.judge = [&] { return judge(level, processor_time() - start); };
+    options.judge = [&](const std::vector<BodyMesh> &bodies) {
+      return judge(bodies, processor_time() - start);
+    };
     try {
       return run_simulation(scene, communicator_, options);
     } catch (const SolutionFailure &failure) { // on all ranks
@@ -143,6 +134,7 @@ private:
         throw;
       // Too coarse: the ladder begins above.
       levels_.clear();
+      bodies_.restart();
       messages_.push_back(
           Diagnostic(diagnostic::mesh_level_failed,
                      "Mesh level " + std::to_string(level) + " is left out: " + failure.diagnostic().what()));
@@ -152,23 +144,23 @@ private:
 
   /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it is the
   /// last one. Then it returns the messages for the user.
-  DiagnosticList judge(const int number, const double seconds) {
-    Level level;
-    level.level = number;
+  DiagnosticList judge(const std::vector<BodyMesh> &bodies, const double seconds) {
+    Level level{bodies_.level(), bodies_.levels()};
     level.seconds = dealii::Utilities::MPI::sum(seconds, communicator_);
     if (!levels_.empty())
       compare(level);
+    bodies_.add(level.difference, bodies);
+    level.error = bodies_.error();
     levels_.push_back(level);
     const int finest = static_cast<int>(given_.mesh_target.finest_level);
-    constexpr double growth = 9.; // elements grow by 8, factors of matrices by more
-    const bool is_met =
-        levels_.size() > 1 && level.error.is_known && level.error.error <= given_.mesh_target.error;
-    const std::string limit = is_met             ? ""
-                              : number >= finest ? "'Finest mesh level' is " + std::to_string(finest)
-                              : number >= 0 && growth * part_of_memory(communicator_) > 1.
-                                  ? "the next level does not fit in memory"
-                                  : "";
-    is_last_ = is_met || !limit.empty();
+    constexpr double fill = 9. / 8.; // factors of matrices grow by more than elements
+    const std::string limit =
+        bodies_.is_met()        ? ""
+        : level.level >= finest ? "'Finest mesh level' is " + std::to_string(finest)
+        : level.level >= 0 && fill * bodies_.growth() * part_of_memory(communicator_) > 1.
+            ? "the next level does not fit in memory"
+            : "";
+    is_last_ = bodies_.is_met() || !limit.empty();
     if (!is_last_)
       return {};
     messages_.push_back(describe());
@@ -186,11 +178,6 @@ private:
       level.difference = difference.part;
       of_what_ = difference.of_what.empty() ? "results" : difference.of_what;
     });
-    std::vector<double> differences;
-    for (std::size_t l = 1; l < levels_.size(); ++l)
-      differences.push_back(levels_[l].difference);
-    differences.push_back(level.difference);
-    level.error = extrapolate(differences);
   }
 
   /// Moves the results of the last level into the output folder.
@@ -208,17 +195,31 @@ private:
   void write_table() const {
     std::ofstream file(folder_ + "/mesh_levels.csv");
     file.precision(6);
-    file << "level,processor_seconds,difference,order,error\n";
+    file << "level,processor_seconds,difference,order,error";
+    for (const parameters::Body &body : given_.bodies)
+      file << "," << body.name << ".level";
+    file << "\n";
     for (const Level &level : levels_) {
       file << level.level << "," << level.seconds;
       if (level.difference > 0.)
         file << "," << level.difference << "," << level.error.order << "," << level.error.error;
       else
         file << ",,,";
+      for (const int of_body : level.bodies)
+        file << "," << of_body;
       file << "\n";
     }
     if (!file.flush())
       throw file_lost("'" + folder_ + "/mesh_levels.csv'");
+  }
+
+  /// Returns text about the bodies that have stayed behind a level.
+  std::string bodies_behind(const int level, const std::vector<int> &levels) const {
+    std::string text;
+    for (std::size_t b = 0; b < levels.size(); ++b)
+      if (levels[b] < level)
+        text += ", '" + given_.bodies[b].name + "' at " + std::to_string(levels[b]);
+    return text;
   }
 
   Diagnostic describe() const {
@@ -226,8 +227,8 @@ private:
     text.precision(3);
     text << "Levels of the meshes, 0 as given:";
     for (const Level &level : levels_) {
-      text << (&level == levels_.data() ? " " : "; ") << "level " << level.level << ", " << level.seconds
-           << " s of processor";
+      text << (&level == levels_.data() ? " " : "; ") << "level " << level.level
+           << bodies_behind(level.level, level.bodies) << ", " << level.seconds << " s of processor";
       if (&level != levels_.data())
         text << ", " << of_what_ << " differ by " << percent(level.difference) << " from the level before";
     }
@@ -255,13 +256,12 @@ private:
          << ", is not shown to be met, and " << limit;
     if (levels_.size() > 1 && levels_.back().error.is_known) {
       const Level &last = levels_.back();
-      const double more = std::ceil(std::log2(last.error.error / given_.mesh_target.error) /
-                                    std::max(0.25, last.error.order));
-      const double growth =
+      const unsigned int more = bodies_.rises_to_target();
+      const double of_seconds =
           std::clamp(last.seconds / std::max(1e-3, levels_[levels_.size() - 2].seconds), 4., 20.);
       text << ". At this order it would take level " << last.level + static_cast<int>(more) << ": "
-           << std::pow(8., more) << " times the elements of level " << last.level << ", and about "
-           << last.seconds * std::pow(growth, more) << " s of processor";
+           << bodies_.growth(more) << " times the elements of level " << last.level << ", and about "
+           << last.seconds * std::pow(of_seconds, more) << " s of processor";
     }
     return Diagnostic(diagnostic::mesh_target_missed, text.str());
   }
@@ -271,6 +271,7 @@ private:
   const RunOptions &options_;
   bool is_first_;
   std::string folder_, of_what_ = "results";
+  BodyLevels bodies_;
   std::vector<Level> levels_;
   DiagnosticList messages_; ///< for the run on the last level
   bool is_last_ = false;    ///< whether the latest level is

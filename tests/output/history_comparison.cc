@@ -2,8 +2,8 @@
 // Differences of histories in closed form, what they extrapolate to, and levels of meshes.
 #include "billet/output/history_comparison.h"
 
+#include "billet/run/body_levels.h"
 #include "billet/run/mesh_levels.h"
-#include "billet/run/target_mesh.h"
 
 #include "../testing.h"
 
@@ -72,7 +72,7 @@ int main() {
   check("numbers of elements do", levels_of("8, 1, 8", 0) == 2 && levels_of("4, 1, 2", 0) == 1);
   check("odd ones do not", levels_of("9, 1, 8", 0) == 0);
   const parameters::Scene box = read_box("8, 1, 4", 0);
-  check("coarser", at_mesh_level(box, -1).bodies[0].mesh.arguments.rfind("4, 1, 2 :", 0) == 0);
-  check("finer", at_mesh_level(box, 2).bodies[0].mesh.refinements == 2);
+  check("coarser", at_mesh_levels(box, {-1}).bodies[0].mesh.arguments.rfind("4, 1, 2 :", 0) == 0);
+  check("finer", at_mesh_levels(box, {2}).bodies[0].mesh.refinements == 2);
   return testing::exit_code();
 }

@@ -4,6 +4,8 @@
 
 #include "billet/parameters/scene.h"
 
+#include <vector>
+
 namespace billet {
 
 /// Returns how many times every mesh of the scene can be made coarser by a factor of two, at most `most`
@@ -11,9 +13,9 @@ namespace billet {
 /// even or 1.
 unsigned int count_coarser_levels(const parameters::Scene &scene, unsigned int most);
 
-/// Returns the scene with meshes of another level: elements of 2^−level times the size. A negative level is
-/// at least −count_coarser_levels().
-parameters::Scene at_mesh_level(const parameters::Scene &scene, int level);
+/// Returns the scene with meshes of other levels, one for each body: elements of 2^−level times the size. A
+/// negative level is at least −count_coarser_levels().
+parameters::Scene at_mesh_levels(const parameters::Scene &scene, const std::vector<int> &levels);
 
 } // namespace billet
 

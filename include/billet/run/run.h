@@ -50,6 +50,8 @@ public:
   /// Whether a run could resume from the current state.
   virtual bool is_resumable() const { return true; }
   const Discretization &discretization() const { return discretization_; }
+  /// Returns the bodies' meshes, with their errors so far. Collective.
+  std::vector<BodyMesh> body_meshes() const;
   /// Whether the mesh may change at the current state.
   virtual bool can_refine() const { return true; }
   /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.

@@ -4,13 +4,21 @@
 
 #include "billet/diagnostics.h"
 
+#include <cstddef>
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace billet {
 
 class ConsoleLog;
+
+/// Mesh of a body in a run that has reached its end.
+struct BodyMesh {
+  std::size_t n_elements; ///< of all ranks
+  double error;           ///< its part of the relative error of the forces, by (W5) of the theory
+};
 
 /// Options of a run that its parameters do not have, such as those of the command line.
 struct RunOptions {
@@ -19,8 +27,9 @@ struct RunOptions {
   bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
   std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
   std::ostream *steps = nullptr; ///< gets lines of steps if the console is quiet and the log is open already
-  /// Returns messages about a run that has reached its end; its history is complete. Collective. Empty: none.
-  std::function<DiagnosticList()> judge = {};
+  /// Returns messages about a run that has reached its end, with these meshes of bodies; its history is
+  /// complete. Collective. Empty: none.
+  std::function<DiagnosticList(const std::vector<BodyMesh> &)> judge = {};
 };
 
 } // namespace billet

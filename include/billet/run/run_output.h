@@ -47,7 +47,7 @@ public:
   bool write_checkpoint(double time, const std::function<void(StateWriter &)> &save);
 
   /// Ends a run that has reached its end time. Collective.
-  ExitCode finish();
+  ExitCode finish(const std::vector<BodyMesh> &bodies);
   /// Ends the run as a signal requests. Throws SolutionFailure if there is no checkpoint.
   ExitCode stop(unsigned int n_steps, double time, bool has_checkpoint);
 

@@ -14,7 +14,7 @@ namespace billet {
 /// elements deform, yield the work that finer elements would save; over the work of deformation, this is the
 /// relative error of the forces that do it, ∫|F − F*| ds over ∫|F| ds. It is no bound: elements much larger
 /// than what they resolve hide their error. The error of flat facets in place of curved surfaces is apart,
-/// (W7).
+/// (W8).
 class MeshErrors {
 public:
   explicit MeshErrors(const Discretization &discretization);
@@ -32,7 +32,7 @@ public:
   /// Returns the part of it that each body makes.
   std::vector<double> of_bodies() const;
   /// Returns the part of the work of deformation that the space between the facets and the smooth surfaces
-  /// would do if it deformed as the elements at the facets do, (W7): the relative error of the geometry.
+  /// would do if it deformed as the elements at the facets do, (W8): the relative error of the geometry.
   double geometry_error() const;
   /// Returns an owned element's error so far, per volume, over the work per volume of all bodies: its mean
   /// over the undeformed volume is the relative error.

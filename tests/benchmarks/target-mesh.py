@@ -1,0 +1,395 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Whether runs with 'Target error of = everything' are as accurate as they should be, mesh included, and what
+they cost beside runs set by hand."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from itertools import product
+from typing import Callable, Iterator, NamedTuple, Sequence
+
+from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
+from curve_runs import CurveRun, run_all
+
+options = arguments("target-mesh")
+TARGETS = (0.1, 0.05, 0.02, 0.01)
+ALLOWED_COST = 2.0
+MISSED = "[mesh-target-missed]", "[target-error-missed]"
+
+
+class Case(NamedTuple):
+    """A scene. `mesh`: changes for a level of its meshes, 0 as given. Levels up to `finest` are allowed, and
+    the reference is of the three levels up to `reference`."""
+
+    name: str
+    scene: str
+    mesh: Callable[[int], Changes]
+    finest: int
+    reference: int
+    levels: Sequence[int]  # of runs by hand
+    pairs: Sequence[str] = ()
+    end: float = 1.0
+    is_explicit: bool = False
+    by_energies: bool = False  # where loads are given, forces are, too
+    others: Changes = {}
+    n_steps: int = 160  # of the reference
+
+    def pair(self, key: str, value: object) -> Changes:
+        return {f"Contact pairs/{pair}/{key}": value for pair in self.pairs}
+
+    def steps(self, n: int) -> Changes:
+        return {
+            "Time stepping/Initial step": repr(self.end / n),
+            "Time stepping/Maximum step": repr(self.end / n),
+        }
+
+    def references(self) -> Iterator[Changes]:
+        for level in range(self.reference - 2, self.reference + 1):
+            if self.is_explicit:
+                yield {
+                    **self.others,
+                    **self.mesh(level),
+                    **self.pair("Normal penalty", 30),
+                    "Explicit dynamics/Contact resolution": 2,
+                    "Output/History interval": repr(self.end / 400),
+                }
+            else:
+                yield {
+                    **self.others,
+                    **self.mesh(level),
+                    **self.steps(self.n_steps),
+                    **self.pair("Penetration tolerance", 1e-4),
+                    "Solver/Force tolerance": 1e-6,
+                    "Solver/Maximum augmentations": 60,
+                }
+
+    def by_hand(self) -> Iterator[tuple[str, Changes]]:
+        """What a user might set: 27 settings at most."""
+        if self.is_explicit:
+            for level, penalty, safety in product(self.levels, (1, 3, 10), (0.9, 0.75)):
+                yield f"level {level}, penalty {penalty}, safety {safety:g}", {
+                    **self.others,
+                    **self.mesh(level),
+                    **self.pair("Normal penalty", penalty),
+                    "Explicit dynamics/Safety factor": safety,
+                }
+            return
+        depths = (None, 1e-2, 1e-3) if self.pairs else (None,)
+        for level, n, depth in product(self.levels, (3, 10, 40), depths):
+            said = f"augmented to {depth:g}" if depth else "penalties" if self.pairs else ""
+            yield f"level {level}, {n} steps" + (f", {said}" if said else ""), {
+                **self.others,
+                **self.mesh(level),
+                **self.steps(n),
+                **self.pair("Penetration tolerance", depth),
+            }
+
+    def target(self, target: float) -> Changes:
+        own = (
+            self.pair("Normal penalty", None)
+            if self.is_explicit
+            else self.pair("Penetration tolerance", None)
+        )
+        free: Changes = {} if self.is_explicit else {key: None for key in self.steps(1)}
+        return {
+            **self.others,
+            **self.mesh(0),
+            **own,
+            **free,
+            "Target error": target,
+            "Target error of": "everything",
+            "Finest mesh level": self.finest,
+        }
+
+
+def refined(body: str, given: int, layers: int = 0) -> Callable[[int], Changes]:
+    def mesh(level: int) -> Changes:
+        changes: Changes = {f"Bodies/{body}/Mesh/Refinements": given + level}
+        if layers:
+            changes[f"Bodies/{body}/Mesh/Layers"] = int(layers * 2**level)
+        return changes
+
+    return mesh
+
+
+def boxes(**bodies: str) -> Callable[[int], Changes]:
+    """Subdivided boxes by body: 'nx, ny, nz : the rest'; numbers of 1 stay."""
+
+    def mesh(level: int) -> Changes:
+        changes: Changes = {}
+        for body, text in bodies.items():
+            counts, rest = text.split(" : ", 1)
+            numbers = [n if n == "1" else str(max(1, int(int(n) * 2**level))) for n in counts.split(", ")]
+            changes[f"Bodies/{body}/Mesh/Arguments"] = ", ".join(numbers) + " : " + rest
+        return changes
+
+    return mesh
+
+
+def tubes(level: int) -> Changes:
+    changes: Changes = {}
+    for body in ("left", "right"):
+        mesh = f"Bodies/{body}/Mesh/"
+        changes[mesh + "Arguments"] = "0, 0 : 0.09 : 0.1 : 1 : 0 : 16 : true"
+        changes[mesh + "Layers"] = 8 * 2**level
+        changes[mesh + "Refinements"] = level
+    return changes
+
+
+ARC = {"inner": "x*cos(pi/180*y) ; x*sin(pi/180*y) ; z", "outer": "x*cos(pi/180*y) ; x*sin(pi/180*y) ; z"}
+CASES = [
+    Case(
+        "billet upsetting",
+        "prm/billet_upsetting",
+        refined("billet", 1, 6),
+        1,
+        2,
+        (-1, 0, 1),
+        ["billet on die"],
+    ),
+    Case(
+        "Hertz, two cylinders",
+        "prm/hertz_cylinders",
+        boxes(
+            lower="16, 1, 8 : 0, 0, -1 : 1, 0.1, 0 : true",
+            upper="14, 1, 8 : 0, 0, 0 : 1, 0.1, 1 : true",
+        ),
+        1,
+        2,
+        (-1, 0, 1),
+        ["faces"],
+    ),
+    Case(
+        "press fit",
+        "prm/press_fit",
+        boxes(
+            inner="4, 12, 1 : 10, 0, 0 : 20.01, 90, 1 : true", outer="4, 12, 1 : 20, 0, 0 : 30, 90, 1 : true"
+        ),
+        1,
+        2,
+        (-1, 0, 1),
+        ["fit"],
+        others={f"Bodies/{body}/Mesh/Positions": positions for body, positions in ARC.items()},
+    ),
+    Case(
+        "ring crushed",
+        "prm/ring_crush",
+        boxes(ring="2, 1, 48 : 9.5, 0, -90 : 10, 0.5, 90 : true"),
+        1,
+        2,
+        (0, 1),
+        ["ring under die", "ring on ground"],
+        end=2.1,
+        others={"Bodies/ring/Mesh/Boundary ids": "6 : z < -9.98"},
+    ),
+    Case(
+        "cylinder under pressure",
+        "prm/pressurised_cylinder",
+        boxes(cylinder="4, 8 : 10, 0 : 20, 90 : true"),
+        1,
+        2,
+        (-1, 0, 1),
+        by_energies=True,
+        others={
+            "Bodies/cylinder/Mesh/Primitive": "subdivided_hyper_rectangle",
+            "Bodies/cylinder/Mesh/Refinements": 0,
+            "Bodies/cylinder/Mesh/Positions": ARC["inner"],
+        },
+    ),
+    Case(
+        "cantilever",
+        "tests/cli/cantilever",
+        boxes(beam="16, 1, 8 : 0, 0, 0 : 20, 1, 10"),
+        1,
+        2,
+        (-1, 0, 1),
+    ),
+    Case(
+        "block on a stiff base",
+        "tests/cli/stiff_base",
+        boxes(block="8, 1, 4 : -5, 0, 0 : 5, 1, 5", base="16, 1, 8 : -10, 0, -10 : 10, 1, 0"),
+        1,
+        2,
+        (-1, 0, 1),
+    ),
+    Case(
+        "Wagoner's punch without friction",
+        "prm/wagoner_punch_mu_0",
+        refined("blank", 2),
+        1,
+        2,
+        (-1, 0, 1),
+        ["blank on punch", "blank on die"],
+    ),
+    Case(
+        "Taylor bar",
+        "prm/taylor_bar",
+        refined("bar", 1, 24),
+        1,
+        2,
+        (-1, 0, 1),
+        ["bar on wall"],
+        end=80e-6,
+        is_explicit=True,
+        others={"Output/Interval": 0},
+    ),
+    Case(
+        "impact of two tubes",
+        "prm/tube_impact",
+        tubes,
+        1,
+        2,
+        (0, 1),
+        ["tubes"],
+        end=1e-3,
+        is_explicit=True,
+        others={"Time stepping/End time": 1e-3, "Output/Interval": 0},
+    ),
+]
+
+
+class Reference:
+    """The finest of three meshes, extrapolated by the order that they show."""
+
+    def __init__(self, case: Case) -> None:
+        self.runs = [CurveRun(ROOT / f"{case.scene}.prm", changes) for changes in case.references()]
+        self.by_energies = case.by_energies
+        before, last = (self.difference(a, b) for a, b in zip(self.runs, self.runs[1:]))
+        self.order = min(2.0, math.log2(before / last)) if before > last > 0 else math.nan
+        self.factor = 0.0 if math.isnan(self.order) else 1 / (2**self.order - 1)
+
+    def curves_of(self, run: CurveRun) -> dict[str, list[tuple[float, ...]]]:
+        return run.energies if self.by_energies else run.curves
+
+    def at(self, run: CurveRun, name: str, time: float) -> list[float]:
+        curve, times = self.curves_of(run)[name], run.times
+        i = bisect_right(times, time)
+        if i == len(times):
+            return list(curve[-1])
+        before = curve[i - 1] if i > 0 else tuple(0.0 for _ in curve[0])
+        start = times[i - 1] if i > 0 else 0.0
+        part = (time - start) / (times[i] - start)
+        return [a + part * (b - a) for a, b in zip(before, curve[i])]
+
+    def difference(self, run: CurveRun, other: CurveRun) -> float:
+        return self.integrate(run, lambda name, time: self.at(other, name, time))
+
+    def exact(self, name: str, time: float) -> list[float]:
+        coarse, fine = (self.at(run, name, time) for run in self.runs[-2:])
+        return [b + self.factor * (b - a) for a, b in zip(coarse, fine)]
+
+    def error(self, run: CurveRun) -> float:
+        return self.integrate(run, self.exact) if run.finished and run.times else math.nan
+
+    def integrate(self, run: CurveRun, other: Callable[[str, float], list[float]]) -> float:
+        """∫Σ|F − F*| dt over ∫Σ|F*| dt at the ends of the run's steps, by the trapezoidal rule."""
+        curves = self.curves_of(run)
+        off, size = [], []
+        for i, time in enumerate(run.times):
+            exact = {name: other(name, time) for name in curves}
+            off.append(sum(math.dist(curves[name][i], exact[name]) for name in curves))
+            size.append(sum(math.hypot(*exact[name]) for name in curves))
+
+        def integral(values: Sequence[float]) -> float:
+            times = run.times
+            return sum(
+                0.5 * (a + b) * (t - s) for a, b, s, t in zip(values, values[1:], times, times[1:])
+            ) + (0.5 * values[0] * times[0])
+
+        return integral(off) / integral(size)
+
+
+class Try(NamedTuple):
+    target: float
+    error: float
+    run: CurveRun
+    cheapest: str
+    seconds_by_hand: float
+
+    @property
+    def is_missed(self) -> bool:
+        return any(key in self.run.said + self.run.failure for key in MISSED) or not self.run.finished
+
+    @property
+    def is_right(self) -> bool:
+        return self.error <= self.target or self.is_missed
+
+    @property
+    def ratio(self) -> float:
+        return self.run.seconds / self.seconds_by_hand
+
+    @property
+    def is_cheap(self) -> bool:
+        """Where no run by hand is within the target, a run that is costs nothing too much."""
+        if math.isnan(self.seconds_by_hand):
+            return self.error <= self.target
+        return self.error <= self.target and self.ratio <= ALLOWED_COST
+
+
+def tries_of(case: Case) -> list[Try]:
+    scene = ROOT / f"{case.scene}.prm"
+    reference = Reference(case)
+    by_hand = list(case.by_hand())
+    runs = run_all(scene, [changes for _, changes in by_hand], at_once=1)
+    errors = [reference.error(run) for run in runs]
+    tries = []
+    for target in TARGETS:
+        run = CurveRun(scene, case.target(target))
+        within = [
+            (one.seconds, said)
+            for one, error, (said, _) in zip(runs, errors, by_hand)
+            if not math.isnan(error) and error <= target
+        ]
+        seconds, said = min(within, default=(math.nan, "none"))
+        tries.append(Try(target, reference.error(run), run, said, seconds))
+    return tries
+
+
+def row(case: Case, one: Try) -> list[object]:
+    return [
+        case.name,
+        percent(one.target),
+        "" if math.isnan(one.error) else percent(one.error),
+        "yes" if one.is_missed else "",
+        number(one.run.seconds, 3),
+        one.cheapest,
+        "" if math.isnan(one.ratio) else number(one.ratio, 3),
+    ]
+
+
+cases = CASES[:1] if options.quick else CASES
+tries = [(case, one) for case in cases for one in tries_of(case)]
+n_met = sum(one.error <= one.target for _, one in tries)
+n_told = sum(one.is_right for _, one in tries) - n_met
+n_cheap = sum(one.is_cheap for _, one in tries)
+n_compared = sum(not math.isnan(one.seconds_by_hand) for _, one in tries)
+publish(
+    "target-mesh",
+    "Runs with a target error of everything",
+    options,
+    (
+        "This page shows how well runs reach the error that `Target error` asks for with"
+        " `Target error of = everything`, the mesh included. It shows what they cost beside runs set by"
+        " hand, too.\n\n"
+        "- Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt. F are the forces of all tools, pairs and supports; of the"
+        " cylinder and in explicit scenes kinetic energy and what is stored or dissipated.\n"
+        "- Reference: meshes twice as fine as the finest that is allowed, extrapolated by the order that the"
+        " last three show. It has 160 steps and penetrations below 1e-4 of a facet; explicit ones a penalty"
+        " factor of 30.\n"
+        "- Told: the run says that it does not reach the target, and exits with code 7.\n"
+        "- By hand: meshes half as fine, as given and twice as fine; 3, 10 and 40 equal steps; penalties, or"
+        " augmented to 0.01 or 0.001. In explicit scenes penalty factors of 1, 3 and 10, and safety factors."
+        " That is 27 settings at most, and the cheapest that is within the target is known afterwards.\n"
+        "- Ratio: CPU seconds of the run, coarser levels included, over those of the cheapest by hand."
+    ),
+    (
+        f"{n_met} of {len(tries)} runs are within their target, and {n_told} more say that they are not."
+        f" {n_cheap} of {len(tries)} are within it and take at most {ALLOWED_COST:g} times the CPU seconds of"
+        f" the cheapest run by hand. For {len(tries) - n_compared} no run by hand is within the target."
+    ),
+    table(
+        ["scene", "target", "error", "told", "CPU seconds", "cheapest by hand", "ratio"],
+        [row(case, one) for case, one in tries],
+    ),
+)
