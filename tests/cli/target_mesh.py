@@ -68,6 +68,25 @@ def _() -> None:
     ran.text(f"mesh_level_{last - 1}/history.csv")
 
 
+@check("a body whose part of the error is small stays behind, and the error shown is the true one")
+def _() -> None:
+    base = read_text(HERE / "stiff_base.prm")
+    ran = runner.run(base, everything("3 percent"))
+    equal("the exit code", ran.ended.code, 0)
+    header, *_, last = (line.split(",") for line in ran.text("mesh_levels.csv").split())
+    equal("the last columns", header[-2:], ["block.level", "base.level"])
+    require(int(last[-2]) > int(last[-1]), f"levels {last[-2:]}")
+    says(rf"^Mesh level {last[-2]}, .*, 'base' at {last[-1]}$", ran.said)
+    force = "block.support top.force_z"
+    fine = runner.run(
+        base,
+        "block / Mesh: Arguments = 32, 1, 16 : -5, 0, 0 : 5, 1, 5"
+        " & base / Mesh: Arguments = 64, 1, 32 : -10, 0, -10 : 10, 1, 0",
+    )
+    estimate, true = float(last[4]), abs(ran.last(force) / fine.last(force) - 1)
+    require(0.5 <= estimate / true <= 4.0, f"estimated {estimate}, true {true}")
+
+
 @check("a target that is out of reach is told, with what it would take")
 def _() -> None:
     ran = billet(everything("1e-4", "Finest mesh level = 0"), code=7)
