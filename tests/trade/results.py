@@ -144,6 +144,29 @@ class TestFields(unittest.TestCase):
         self.assertTrue(math.isnan(results.facet_size(block(1, linear))))
 
 
+class TestEnergy(unittest.TestCase):
+    scene = Scene("subsection Time stepping\nset Scheme = explicit\nset End time = 1\nend")
+
+    def run_with(self, stored: float, kinetic: float | None) -> results.Result:
+        times = numpy.linspace(0, 1, 11)
+        zero = numpy.zeros(11)
+        history = {
+            "time": times,
+            "elastic_energy": stored * times,
+            "plastic_work": zero,
+            "friction_dissipation": stored * times,
+        }
+        return run_of(history=history if kinetic is None else {**history, "kinetic_energy": kinetic + zero})
+
+    def test_error(self) -> None:
+        energy = outputs.Energy(self.scene)
+        exact = energy.values(self.run_with(0.5, 1.5))  # of mean 1/2 and 3/2, from 1/200 to 1
+        self.assertAlmostEqual(energy.error(self.run_with(0.5, 1.5), exact), 0.0)
+        self.assertAlmostEqual(energy.error(self.run_with(0.5, 1.3), exact), 0.1, delta=1e-3)
+        self.assertAlmostEqual(energy.error(self.run_with(0.6, 1.5), exact), 0.05, delta=1e-3)
+        self.assertEqual(energy.values(self.run_with(0.5, None)).shape, (200, 1))
+
+
 class TestForce(unittest.TestCase):
     scene = Scene(
         "subsection Tools\nsubsection die\nend\nend\nsubsection Time stepping\nset End time = 1\nend"

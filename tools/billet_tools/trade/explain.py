@@ -90,7 +90,7 @@ def explain(
     if base.status != "ok":
         raise UserError(f"the scene as it is {base.status} ({base.reason}): its error is not known", 3)
     force = make_force(options, scene, base)
-    outputs, weights = make_outputs(options, scene, base, force, forces_alone=True)
+    outputs, weights = make_outputs(options, scene, base, force, as_estimated=True)
     times = [float(t) for t in base.history["time"] if t > 0.0]
     sources = sources_of(scene, Given(times, base.penetration, checked))
 

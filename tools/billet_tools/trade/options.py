@@ -9,7 +9,7 @@ from typing import Sequence
 from .. import UserError
 from . import parameters
 from .budget import Budget
-from .outputs import Profile
+from .outputs import OUTPUTS, Profile
 from .reference import GIVEN
 
 Options = argparse.Namespace
@@ -90,8 +90,9 @@ def make_parser() -> argparse.ArgumentParser:
         default="",
         metavar="O[=W],...",
         help=(
-            "of force, strain, shape, rebound, with weights: force=2,shape "
-            "(force, where there is one, and shape; strain, too, with --line)"
+            f"of {', '.join(OUTPUTS)}, with weights: force=2,shape "
+            "(force, where there is one, and shape; strain, too, with --line; --explain: force, in dynamics"
+            " energy)"
         ),
     )
     add(
@@ -255,10 +256,9 @@ def read_outputs(text: str) -> dict[str, float]:
     weights = {}
     for part in filter(None, (p.strip() for p in text.split(","))):
         name, equals, weight = part.partition("=")
-        if name not in ("force", "strain", "shape", "rebound"):
+        if name not in OUTPUTS:
             raise UserError(
-                f"--outputs is '{name}'; allowed are force, strain, shape, rebound, each with =WEIGHT if"
-                " need be"
+                f"--outputs is '{name}'; allowed are {', '.join(OUTPUTS)}, each with =WEIGHT if need be"
             )
         weights[name] = parameters.number(weight, "a weight > 0", f"--outputs: {name}") if equals else 1.0
     return weights

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The outputs whose errors count: tool force, strain profile, final shape, rebound."""
+"""The outputs whose errors count: tool force, energy, strain profile, final shape, rebound."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ..output import Array
 from ..scene import Scene
 from . import measure
 from .results import Result
+
+
+OUTPUTS = ("force", "energy", "strain", "shape", "rebound")
 
 
 class Output(ABC):
@@ -127,6 +130,30 @@ class Force(Output):
     def excess(self, result: Result, reference_values: Array) -> float:
         """How much larger the mean force is than the reference's, as part of it: what locking shows in."""
         return self.norm(self.values(result)) / self.norm(reference_values) - 1.0
+
+
+class Energy(Output):
+    """Kinetic energy, and what is stored or dissipated, over time. Two meshes share these curves of an impact,
+    and not its forces, which ring."""
+
+    name, meaning = "energy", "∫Σ|E − E*| / ∫Σ|E*| over time, of kinetic and of stored or dissipated energy"
+    KINETIC = "kinetic_energy"
+    OTHERS = ("elastic_energy", "plastic_work", "friction_dissipation")
+
+    def __init__(self, scene: Scene) -> None:
+        self.times = numpy.linspace(0.0, scene.end_time, 201)[1:]
+        self.weights = measure.trapezoids(self.times)
+
+    def values(self, result: Result) -> Array:
+        history = result.history
+        curves = [sum(history[name] for name in self.OTHERS)]
+        if self.KINETIC in history:
+            curves.append(history[self.KINETIC])
+        return numpy.stack([numpy.interp(self.times, history["time"], curve) for curve in curves], -1)
+
+    def norm(self, values: Array) -> float:
+        sums = numpy.abs(values).sum(axis=1)
+        return float(numpy.sum(self.weights * sums) / numpy.sum(self.weights))
 
 
 class Profile(Output):

@@ -16,7 +16,7 @@ from ..scene import Scene
 from ..text import items, number, percent, table, wrapped, written_by
 from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
-from .outputs import Force, Output, Profile, Rebound, Shape, contact_forces
+from .outputs import Energy, Force, Output, Profile, Rebound, Shape, contact_forces
 from .paste import HOW
 from .plan import Candidates
 from .reference import GIVEN, Plan, Reference
@@ -43,13 +43,13 @@ def make_force(options: Options, scene: Scene, centre: Result, finest: Result | 
 
 
 def make_outputs(
-    options: Options, scene: Scene, centre: Result, force: Force | None, forces_alone: bool = False
+    options: Options, scene: Scene, centre: Result, force: Force | None, as_estimated: bool = False
 ) -> tuple[list[Output], dict[str, float]]:
-    """The outputs that count, and their weights; if none are named, the force `forces_alone`, which is what
-    runs estimate their errors of, or the shape beside it."""
+    """The outputs that count, and their weights. If none are named, that is the force and the shape, or
+    `as_estimated` what runs estimate their errors of: the force, in dynamics the energy."""
     weights = read_outputs(options.outputs)
-    if not weights and force and forces_alone and not options.line:
-        weights = {"force": 1.0}
+    if not weights and as_estimated and not options.line and (scene.is_dynamic or force):
+        weights = {"energy" if scene.is_dynamic else "force": 1.0}
     if not weights:
         weights = {
             **({"force": 1.0} if force else {}),
@@ -64,6 +64,8 @@ def make_outputs(
             found.append(force)
         elif name == "strain":
             found.append(Profile(options.line, options.profile))
+        elif name == "energy":
+            found.append(Energy(scene))
         elif name == "shape":
             found.append(Shape(centre))
         else:
