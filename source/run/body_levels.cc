@@ -11,25 +11,38 @@ namespace {
 /// Part of a body's equal share of the target below which its mesh stays, (W7). A body's estimate may be a
 /// third of its error (doc/results/mesh-error.md), and the others are to have most of the target.
 constexpr double small_part = 0.25;
-/// Order by which the elements that a target would take are reckoned at least.
-constexpr double lowest_order = 0.25;
+/// Orders of convergence that count. Lower ones are none; higher ones are chance.
+constexpr double lowest_order = 0.5, highest_order = 2.;
+
+/// Returns the order that estimates (W5) of a mesh and of the next finer one show, at least 1, that of
+/// contact.
+double expected_order(const double before, const double now) {
+  return before > 0. && now > 0. ? std::clamp(std::log2(before / now), 1., highest_order) : 1.;
+}
+
+double sum_of(const std::vector<BodyMesh> &bodies) {
+  double sum = 0.;
+  for (const BodyMesh &body : bodies)
+    sum += body.error;
+  return sum;
+}
 
 } // namespace
 
-MeshLevelError extrapolate(const std::vector<double> &differences) {
+MeshLevelError extrapolate(const std::vector<double> &differences, const double expected_order) {
   MeshLevelError result;
   const double last = differences.back();
-  result.error = last;
-  if (differences.size() < 2)
-    return result;
-  const double before = differences[differences.size() - 2];
-  if (!(before > last)) {
-    result.error = std::max(before, last);
-    result.is_known = before == 0.;
-    return result;
+  if (differences.size() < 2) {
+    result.order = expected_order;
+  } else {
+    const double before = differences[differences.size() - 2];
+    if (!(before > std::exp2(lowest_order) * last)) {
+      result.error = std::max(before, last);
+      result.is_known = before == 0. && last == 0.;
+      return result;
+    }
+    result.order = last > 0. ? std::min(highest_order, std::log2(before / last)) : highest_order;
   }
-  constexpr double highest_order = 2.;
-  result.order = last > 0. ? std::min(highest_order, std::log2(before / last)) : highest_order;
   result.error = last / (std::exp2(result.order) - 1.);
   return result;
 }
@@ -39,12 +52,14 @@ BodyLevels::BodyLevels(const std::size_t n_bodies, const int first, const double
       errors_(n_bodies, 0.) {}
 
 void BodyLevels::add(const double difference, const std::vector<BodyMesh> &bodies) {
+  const double estimate_before = sum_of(bodies_);
   bodies_ = bodies;
   ++n_runs_;
   if (n_runs_ == 1)
     return;
   const MeshLevelError of_risen =
-      n_runs_ == 2 ? extrapolate({difference}) : extrapolate({difference_, difference});
+      n_runs_ == 2 ? extrapolate({difference}, expected_order(estimate_before, sum_of(bodies)))
+                   : extrapolate({difference_, difference});
   difference_ = difference;
   double sum = 0., n_risen = 0.;
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -92,8 +107,8 @@ double BodyLevels::error_behind() const {
 
 unsigned int BodyLevels::rises_to_target() const {
   const double behind = error_behind();
-  return static_cast<unsigned int>(std::ceil(std::log2((error_.error - behind) / (target_ - behind)) /
-                                             std::max(lowest_order, error_.order)));
+  return static_cast<unsigned int>(
+      std::ceil(std::log2((error_.error - behind) / (target_ - behind)) / error_.order));
 }
 
 void BodyLevels::rise() {

@@ -170,7 +170,10 @@ CASES = [
         2,
         (-1, 0, 1),
         ["fit"],
-        others={f"Bodies/{body}/Mesh/Positions": positions for body, positions in ARC.items()},
+        others={
+            "Time stepping/Step control": None,
+            **{f"Bodies/{body}/Mesh/Positions": positions for body, positions in ARC.items()},
+        },
     ),
     Case(
         "ring crushed",

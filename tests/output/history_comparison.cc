@@ -65,8 +65,12 @@ int main() {
   }
   check("no order above that of bricks", std::abs(extrapolate({0.9, 0.03}).error - 0.01), 1e-12);
   check("one difference stands for the error", extrapolate({0.02}).error == 0.02);
+  check("or counts as of the order expected", std::abs(extrapolate({0.03}, 2.).error - 0.01), 1e-15);
   check("differences that grow have no order",
         !extrapolate({0.02, 0.03}).is_known && extrapolate({0.02, 0.03}).error == 0.03);
+  check("nor have those that hardly fall", !extrapolate({0.0141, 0.01}).is_known &&
+                                               extrapolate({0.0141, 0.01}).error == 0.0141 &&
+                                               extrapolate({0.0142, 0.01}).is_known);
 
   check("refinements make levels", levels_of("1, 1, 1", 1) == 1 && levels_of("1, 1, 1", 3) == 2);
   check("numbers of elements do", levels_of("8, 1, 8", 0) == 2 && levels_of("4, 1, 2", 0) == 1);

@@ -16,10 +16,10 @@ struct MeshLevelError {
 };
 
 /// Extrapolates the error from the differences between each mesh and the next finer one, at least one,
-/// coarsest first, (W6) of doc/theory/error_estimate.md. A single difference stands for the error, as of
-/// first order. Differences that do not fall have no order; then the largest of the last two stands for the
-/// error.
-MeshLevelError extrapolate(const std::vector<double> &differences);
+/// coarsest first, (W6) of doc/theory/error_estimate.md. A single difference counts as of order
+/// `expected_order`. Differences that hardly fall have no order; then the largest of the last two stands for
+/// the error.
+MeshLevelError extrapolate(const std::vector<double> &differences, double expected_order = 1.);
 
 /// Chooses levels of the bodies' meshes from run to run until the error is small enough. All bodies begin at
 /// one level and rise together. A body whose part of the error is small, (W7), stays behind; its part then
