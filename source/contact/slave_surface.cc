@@ -3,6 +3,7 @@
 #include "billet/contact/slave_surface.h"
 
 #include "billet/contact/facet_division.h"
+#include "billet/contact/sheet_penalty.h"
 #include "billet/contact/spring_energy.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/geometry/facet_projection.h"
@@ -30,10 +31,6 @@ const double same_length = std::pow(2., 0.125);
 // Acceptable penetration of a node: these parts of the size of its facets and of the wall below them.
 constexpr double reach_of_facet = 0.2, reach_of_wall = 0.4;
 
-// Default penalty of sheets in statics [E/h], and the maximum of their volume over the area that may touch, a
-// half or all of their thickness, as part of the extent of that area.
-constexpr double sheet_penalty = 0.03, thickness_of_sheets = 0.02;
-
 constexpr std::uint64_t points_per_key = 1024; // > (FacetDivision::max_parts + 1)²
 
 /// Sets the spacing of each node: the root of the mean area of the parts of facets around it. Collective.
@@ -59,26 +56,6 @@ void measure_spacings(const Discretization &discretization,
   }
 }
 
-/// Whether the body of these facets is thin beside their extent. Collective.
-bool is_thin(const Discretization &discretization, const std::size_t body,
-             const std::vector<BoundaryFacet> &facets) {
-  std::vector<double> sums(2, 0.), ends(6, -std::numeric_limits<double>::infinity());
-  for (const auto &element : discretization.elements(body))
-    sums[0] += element.cell->measure();
-  for (const auto &facet : facets) {
-    sums[1] += facet.area_vector().norm();
-    for (const auto &x : facet.corners)
-      for (unsigned int i = 0; i < 3; ++i) {
-        ends[i] = std::max(ends[i], x[i]);
-        ends[3 + i] = std::max(ends[3 + i], -x[i]);
-      }
-  }
-  dealii::Utilities::MPI::sum(sums, discretization.communicator(), sums);
-  dealii::Utilities::MPI::max(ends, discretization.communicator(), ends);
-  const double extent = std::hypot(ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]);
-  return sums[0] < thickness_of_sheets * extent * sums[1];
-}
-
 } // namespace
 
 SlaveSurface::SlaveSurface(const ContactPair &pair, const Tool &tool, const Discretization &discretization,
@@ -95,8 +72,7 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
   // Penalties of a refined body remain, so that its pressures continue.
   const double coarse = std::exp2(discretization.levels()[pair.body]);
   double normal_penalty = pair.normal_penalty, tangential_penalty = pair.tangential_penalty;
-  is_sheet = pair.limits_softness() && !pair.input->penalty.is_given &&
-             is_thin(discretization, pair.body, boundary_facets); // (T13)
+  is_sheet = has_sheet_penalty(pair, discretization, boundary_facets);
   if (is_sheet) {
     const double factor = std::min(1., sheet_penalty / normal_penalty);
     normal_penalty *= factor;

@@ -2,6 +2,7 @@
 #include "billet/run/pair_report.h"
 
 #include "billet/algebra/gather.h"
+#include "billet/contact/sheet_penalty.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/discretization/node_keys.h"
@@ -193,6 +194,8 @@ public:
                       projection.patch};
     };
     PairReport report = measure(pair.name, {side}, std::min(tool.removal_time(), end()), surface.size);
+    report.is_sheet = has_sheet_penalty(
+        pair, discretization_, collect_boundary_facets(discretization_, pair.body, pair.boundary_ids));
     report.depends_on_forces =
         tool.is_driven() || tool.control() == Tool::Control::stop || depends_on_forces(pair.body);
     return report;

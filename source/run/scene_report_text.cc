@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/scene_report_text.h"
 
+#include "billet/contact/sheet_penalty.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -114,6 +116,9 @@ void print(const PairReport &pair, const double size, std::ostream &stream) {
   else
     stream << "; never meets " << motions << ", which leave a body at rest that others push";
   stream << (pair.depends_on_forces ? "; loads, driven tools or deformation may change that\n" : "\n");
+  if (pair.is_sheet)
+    stream << label("Penalty") << pair.name << ": " << sheet_penalty
+           << " E/h at first instead of the default, since the body is a thin sheet\n";
 }
 
 void print(const RunReport &run, const double size, std::ostream &stream) {
@@ -175,6 +180,8 @@ Json to_json(const PairReport &pair) {
     object["gap"] = nullptr;
     return object;
   }
+  if (pair.is_sheet)
+    object["sheet penalty"] = sheet_penalty;
   object["gap"] = {{"nodes", pair.gap.n_nodes}, {"facing", pair.gap.n_facing}};
   if (pair.gap.n_facing > 0) {
     object["gap"]["least"] = pair.gap.least;

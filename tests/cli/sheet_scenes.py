@@ -10,12 +10,14 @@ The scenes themselves run in tests/benchmarks.
 from __future__ import annotations
 
 import math
+import re
 import sys
 
-from checks import HERE, SHIPPED, Checks, enter_folder, near, require, run
+from checks import HERE, SHIPPED, Checks, enter_folder, equal, near, require, run
 from pure_bending_theory import MILD_STEEL, bend_and_release, changes, read_release
 from shipped import Rows, history, require_balance, require_page, require_short
 
+THREE_SHEETS = str(HERE / "three_sheets.prm")
 program = sys.argv[1]
 check = Checks()
 enter_folder()
@@ -107,11 +109,21 @@ def _() -> None:
 
 @check("a stack of sheets is as stiff as its closed form")
 def _() -> None:
-    rows = run_variant(str(HERE / "three_sheets.prm"), "three_sheets", {})
+    rows = run_variant(THREE_SHEETS, "three_sheets", {})
     for row in rows[1:]:
         stretch = 1 - 0.03 * row["time"] / 0.15
         theory = 10 * 1000 * math.log(1 / stretch) / stretch
         near(f"force at time {row['time']}", abs(row["lid.force_y"]), theory, 5e-3)
+
+
+@check("--check tells that pairs with tools begin with the penalty of sheets, and no others")
+def _() -> None:
+    told = re.findall(
+        r"^Penalty +(.*): 0\.03 E/h", run(program, "--check", THREE_SHEETS).output, re.MULTILINE
+    )
+    equal("pairs", told, [f"s{sheet} on {tool}" for sheet in range(3) for tool in ("floor", "lid")])
+    given = run(program, "--check", THREE_SHEETS, "--set", "General contact/Normal penalty=1").output
+    require("Penalty" not in given, given)
 
 
 @check("pages")
