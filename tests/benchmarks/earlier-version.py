@@ -32,6 +32,8 @@ CUT: dict[str, Changes] = {
     "cartridge": {"Time stepping/End time": 1e-4},
     "twisted_hemisphere": {"Time stepping/End time": 2.2, "Time stepping/Stops": "1, 2"},
 }
+# Set as profiles did then, where they choose shorter steps now.
+AS_THEN: dict[str, Changes] = {"billet_upsetting": {"Time stepping/Largest step": 0.1}}
 # Changed on purpose since; and settings of both programs without the change.
 ON_PURPOSE = "friction is augmented no further than equilibrium is resolved"
 PENALTY_ALONE: dict[str, Changes] = {
@@ -70,7 +72,13 @@ Rows = list[dict[str, str]]
 def write(scenes: Path, scene: str, changes: Changes, place: Path) -> None:
     text = variant(
         with_absolute_files(read_scene(scenes / f"{scene}.prm"), scenes),
-        {"Output/Folder": "results", "Output/Format": "none", "Output/Verbosity": "quiet", **changes},
+        {
+            "Output/Folder": "results",
+            "Output/Format": "none",
+            "Output/Verbosity": "quiet",
+            **AS_THEN.get(scene, {}),
+            **changes,
+        },
     )
     (place / "scene.prm").write_text(text)
 
@@ -251,7 +259,7 @@ publish(
     (
         f"This page compares the program with that of commit {COMMIT}, before its classes were divided. The"
         " numbers should not change with the form of the code. The scenes are those of that commit, which"
-        " this program still reads.\n\n"
+        " this program still reads. Their steps have the limits that profiles chose then.\n\n"
         "Differences are those of all forces and moments, and of all energies, in all rows that both"
         " histories have. They are relative to the largest vector of that name, or to the largest energy."
         f" Steps and iterations are those of before / now. Allowed is {ALLOWED:g}."
