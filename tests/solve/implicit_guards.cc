@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Limits of what an implicit step may pass over, PathGuard, and of what round-off may take, RoundOffGuard.
+// Limits of what an implicit step may pass over, PathGuard, of what round-off may take, RoundOffGuard, of
+// trials to balance bodies, ResultantGuard, and of sliding under loads, SlidingGuard.
 #include "billet/solve/implicit/path_guard.h"
+#include "billet/solve/implicit/resultant_guard.h"
 #include "billet/solve/implicit/round_off_guard.h"
+#include "billet/solve/implicit/sliding_guard.h"
 
 #include "../scenes/scene_run.h"
 
 #include <deal.II/base/mpi.h>
 
+#include <fstream>
 #include <string>
 
 using namespace billet;
@@ -127,6 +131,60 @@ void check_round_off(SceneRun &run) {
   check("forces below a tenth of the round-off of bodies are none", is_told(9.8) && !is_told(10.2));
 }
 
+/// Steps that go without further iterations after each of eight failures in a row to balance bodies.
+void check_resultants(const SceneRun &run) {
+  ResultantGuard guard(run.problem.equation());
+  const auto n_without = [&guard] {
+    guard.note(false);
+    guard.commit();
+    unsigned int n = 0;
+    for (; !guard.is_hopeful(); ++n)
+      guard.commit();
+    return n;
+  };
+  bool doubles = true;
+  for (const unsigned int n : {0U, 1U, 3U, 7U, 15U, 31U, 63U, 63U})
+    doubles = n_without() == n && doubles;
+  check("failures to balance bodies double the steps without a trial, up to the seventh", doubles);
+  guard.note(true);
+  guard.commit();
+  check("a success ends that", n_without() == 0);
+}
+
+/// A block under a weight whose foot slides by so many facets in a step.
+std::optional<StepFailure> slide(const double facets) {
+  const std::string file = "sliding.prm";
+  std::ofstream(file) << "include " << SOURCE_DIR << "/confined_element.prm\n"
+                      << "subsection Bodies\n subsection block\n  subsection Loads\n   subsection weight\n"
+                      << "    set Type = acceleration\n    set Acceleration = 0 ; 0 ; -1e-9\n   end\n  end\n"
+                      << "  subsection Material\n   set Density = 1\n  end\n end\nend\n";
+  auto parameters = parameters::Scene::read(file);
+  parameters.bodies[0].supports[0].displacement.value[2] = "-1e-3*t";
+  SceneRun run(parameters);
+  run.problem.step(0.5, 0.);
+  ImplicitProblem &problem = run.problem.equation();
+  SlidingGuard guard(problem);
+  problem.step().time = 1.;
+  problem.parts().scheme().start_step(0.5, 1., problem.step().start.displacements,
+                                      problem.parts().tools().start_offsets());
+  problem.start_step(1.);
+  Vector positions = run.discretization.make_owned_vector();
+  positions = problem.step().start.displacements;
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a)
+      positions(element.dofs[3 * a]) = facets; // of size 1
+  positions.compress(dealii::VectorOperation::insert);
+  Vector ghosted = run.discretization.make_ghosted_vector();
+  ghosted = positions;
+  problem.parts().contacts()[0].with_matrix().update(ghosted);
+  DiagnosticList messages;
+  return guard.judge(1., messages);
+}
+
+void check_sliding() {
+  check("loads slide nodes by two facets in a step at most", !slide(1.98) && slide(2.02));
+}
+
 } // namespace
 
 int main(int argc, char *argv[]) {
@@ -138,5 +196,7 @@ int main(int argc, char *argv[]) {
   SceneRun run(read("confined_element.prm"));
   check_lost_steps(run);
   check_round_off(run);
+  check_resultants(run);
+  check_sliding();
   return testing::exit_code();
 }

@@ -163,6 +163,25 @@ void check_far_motion() {
   check("and by ten in all", !is_too_far(9.3, 0.5) && is_too_far(9.7, 0.5));
 }
 
+/// Two bars on springs of which one is softer by this factor.
+void check_stiffest_pairs() {
+  const auto named = [](const double factor) {
+    auto parameters = read_bar("0");
+    parameters.bodies.push_back(parameters.bodies[0]);
+    parameters.bodies.back().name = "other";
+    parameters.pairs.push_back(parameters.pairs[0]);
+    auto &pair = parameters.pairs.back();
+    pair.name = "foot of other";
+    pair.body.value = "other";
+    pair.penalty.normal *= factor;
+    pair.penalty.tangential *= factor;
+    const SceneRun run(parameters);
+    return run.problem.equation().parts().contacts().stiffest_pairs();
+  };
+  check("pairs with a tenth of the stiffest springs are named with it",
+        named(0.102) == "'foot', 'foot of other'" && named(0.098) == "'foot'");
+}
+
 enum class Loss { held, shorter, final };
 
 /// A block above a floor in a step of this part of the longest: contact held it before, at last with this
@@ -296,6 +315,7 @@ int main(int argc, char *argv[]) {
   check_continuation();
   check_balance();
   check_far_motion();
+  check_stiffest_pairs();
   check_losses();
   check_dynamic_balance();
   check_motion();
