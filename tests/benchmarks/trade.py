@@ -19,7 +19,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
         [
             "mesh=0.5,1",
             "steps=10,20,40,80",
-            "largest step=0.25,0.5,1,2",
+            "maximum step=0.25,0.5,1,2",
             "penalty=0.1,1,10",
             "augmentation=0,0.01,0.0001",
             "tangent=exact,consistent,symmetrised lower",
@@ -34,7 +34,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
         "--mesh 2 --reference-mesh given --force die.force_z --outputs force --target 0.8% --repeat 1",
         [
             "steps=10,20,40,80",
-            "largest step=0.25,0.5,1,2",
+            "maximum step=0.25,0.5,1,2",
             "penalty=0.1,1,10",
             "augmentation=0,0.01,0.0001",
             "tangent=exact,consistent,symmetrised lower",
@@ -49,7 +49,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
         "--title|Shallow ironing|--reference-mesh 0.5,1,2 --outputs force --target 5%",
         [
             "mesh=0.5,1",
-            "largest step=0.5,1,2,4",
+            "maximum step=0.5,1,2,4",
             "penalty=0.1,1,10",
             "augmentation=0.01,0.001",
             "tolerance=0.01,0.0001,1e-6",
@@ -84,7 +84,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
         ),
         [
             "mesh=0.5,1",
-            "largest step=0.5,1,2,4",
+            "maximum step=0.5,1,2,4",
             "penalty=0.1,1,10",
             "tangent=exact,consistent,continuum",
             "tolerance=0.01,0.0001,1e-6",
@@ -104,13 +104,13 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
             "contact resolution=1,2,4",
             "penalty=0.1,1,10",
             "mass scaling=1.05,1.2,1.5,2",
-            "kinematics=Hencky,hypoelastic",
+            "elasticity=Hencky,hypoelastic",
             "bulk viscosity=0.25,1,4",
         ],
         # At the end one that drifts: 3000 times the penalty, in steps as long as stability lets them be.
         [
             ["element=assumed strain", "mesh=0.5,1,2"],
-            ["element=assumed strain", "kinematics=neo-Hookean,hypoelastic"],
+            ["element=assumed strain", "elasticity=neo-Hookean,hypoelastic"],
             ["contact resolution=1", "safety factor=0.95", "penalty=10,3000"],
         ],
     ),
@@ -127,7 +127,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
         [
             "mesh=0.5,1,2",
             "element=one point,assumed strain,mean dilatation",
-            "largest step=0.5,1",
+            "maximum step=0.5,1",
             "penalty=0.001,0.1,10",
         ],
         [["mesh=0.5", "element=assumed strain,mean dilatation"]],
@@ -138,7 +138,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
         [
             "mesh=0.5,1",
             "element=assumed strain,mean dilatation,one point",
-            "kinematics=Hencky,neo-Hookean,hypoelastic",
+            "elasticity=Hencky,neo-Hookean,hypoelastic",
             "safety factor=0.95,0.75,0.4",
             "contact resolution=1,2,4",
             "penalty=0.1,1,10",
@@ -148,7 +148,7 @@ SWEEPS: dict[str, tuple[str, str, list[str], list[list[str]]]] = {
             "bulk viscosity=0.25,1,4",
             "search margin=0.25,0.5,1",
         ],
-        [["element=one point", "kinematics=Hencky,hypoelastic"]],
+        [["element=one point", "elasticity=Hencky,hypoelastic"]],
     ),
 }
 

@@ -56,14 +56,14 @@ end
 WHOLE = [
     "--parameters",
     "mesh=0.5,1,2,4",
-    "largest step=0.1,0.5,1",
+    "largest step=0.1,0.5,1",  # old name of 'maximum step'
     "penalty=0.1,1,10",
     "tangent=consistent,continuum,symmetrised lower",
     "line search=none",
     "predictor=extrapolation,tangent",
     "--product",
     "mesh=1,2",
-    "largest step=1,0.5",
+    "maximum step=1,0.5",
     "--repeat",
     "2",
     "--time-limit",
@@ -193,10 +193,10 @@ class TestCommand(unittest.TestCase):
             ("mesh", "0.5"): error(2),
             ("mesh", "2"): error(8),
             ("mesh", "4"): error(16),
-            ("largest step", "0.5"): error(step=0.05),
-            ("largest step", "0.1"): error(step=0.01),
+            ("maximum step", "0.5"): error(step=0.05),
+            ("maximum step", "0.1"): error(step=0.01),
             ("penalty", "10"): error(penalty=100.0),
-            ("mesh 2 × largest step", "0.5"): error(8, 0.05),
+            ("mesh 2 × maximum step", "0.5"): error(8, 0.05),
             ("predictor", "tangent"): error(),
             ("tangent", "consistent"): error(),
         }
@@ -308,7 +308,7 @@ class TestCommand(unittest.TestCase):
         done = self.trade(
             "--parameters",
             "penalty=10",
-            "largest step=0.5",
+            "maximum step=0.5",
             "--reference-mesh",
             "given",
             "--outputs",
@@ -489,7 +489,7 @@ class TestCommand(unittest.TestCase):
         done = self.trade(
             "--parameters",
             "mesh=0.5",
-            "largest step=2",
+            "maximum step=2",
             "--combine",
             "--target",
             "30%",
@@ -510,7 +510,7 @@ class TestCommand(unittest.TestCase):
 
     def test_bad_input(self) -> None:
         cases = [
-            (["--parameters", "speed"], "there is no parameter 'speed'; there are mesh, steps, largest step"),
+            (["--parameters", "speed"], "there is no parameter 'speed'; there are mesh, steps, maximum step"),
             (
                 ["--parameters", "facets"],
                 "the scene cannot use the parameter 'facets': overlap: no bodies touch each other",
@@ -643,7 +643,10 @@ class TestCommand(unittest.TestCase):
         self.assertIn(
             "tangent: contact tangent\n    exact, consistent, continuum, symmetrised lower\n", done.stdout
         )
-        self.assertIn("facets overlap, planed, bilinear, mean gap: no bodies touch each other", done.stdout)
+        self.assertIn("facets overlap, planed: no bodies touch each other", done.stdout)
+        # the program's own words, whatever they are
+        self.assertIn("element: of all bodies\n    assumed strain, mean dilatation, newest\n", done.stdout)
+        self.assertIn("elasticity: the program has no such parameter", done.stdout)
 
     def test_time_that_is_too_short(self) -> None:
         done = self.trade(
@@ -699,6 +702,22 @@ class TestCommand(unittest.TestCase):
         self.assertEqual(pilot(scene, options).entries["Time stepping/Stops"], "0.25, 0.5")
         options.until = 0.1
         self.assertNotIn("Time stepping/Stops", pilot(scene, options).entries)
+
+    def test_choices_of_the_program(self) -> None:
+        """Each choice has the words of the program, and elements and elasticities are its lists."""
+        program = Program(Path(os.environ["BILLET"]), 1)
+        known = parameters.known_parameters(program.words)
+        choices = {name: choice.arguments for name, choice in known.items() if choice.path}
+        self.assertEqual({name for name, words in choices.items() if len(words) < 2}, set())
+
+        def listed(name: str, key: str) -> list[str]:
+            said = subprocess.run(
+                [program.path, "--list", "--json", name], capture_output=True, text=True, check=True
+            ).stdout
+            return [entry["name"] for entry in json.loads(said) if entry["use"].startswith(f"set {key} = ")]
+
+        self.assertEqual(choices["element"], listed("elements", "Element"))
+        self.assertEqual(choices["elasticity"], listed("materials", "Elasticity"))
 
     def test_factors_of_what_a_profile_sets(self) -> None:
         """What the program itself says that it sets."""

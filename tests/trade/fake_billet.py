@@ -33,6 +33,7 @@ end
 subsection Contact pairs
   subsection (name of a contact pair)
     set Normal penalty = 10
+    set Facets = automatic
     set Penetration tolerance = 0
     set Friction coefficient = 0.1
   end
@@ -67,6 +68,8 @@ WORDS = {
     "Predictor": ("extrapolation", "tangent"),
     "Line search": ("energy", "none"),
     "Linear solver": ("automatic", "MUMPS"),
+    "Element": ("assumed strain", "mean dilatation", "newest"),
+    "Facets": ("automatic", "overlap", "planed"),
 }
 
 
@@ -74,6 +77,23 @@ def known(path: str) -> bool:
     return any(path.split("/")[-1] == default.split("/")[-1] for default in entries(DEFAULTS)) or path.split(
         "/"
     )[0] in ("Tools", "Contact pairs")
+
+
+def schema() -> dict[str, Any]:
+    """Returns the JSON Schema of scenes: of the parameters that are words, what they allow."""
+    root: dict[str, Any] = {"properties": {}}
+    for path in entries(DEFAULTS):
+        *sections, key = path.split("/")
+        at = root
+        for name in sections:
+            inside: dict[str, Any] = {"properties": {}, "additionalProperties": False}
+            if name.startswith("(name of"):
+                at["additionalProperties"] = at["additionalProperties"] or inside
+                at = at["additionalProperties"]
+            else:
+                at = at["properties"].setdefault(name, inside)
+        at["properties"][key] = {"enum": WORDS[key]} if key in WORDS else {"type": "string"}
+    return root
 
 
 def check(file: str) -> tuple[dict[str, str], str]:
@@ -203,7 +223,7 @@ def main() -> int:
         print("billet 0 (fake)")
         return 0
     if sys.argv[1] == "--print-parameters":
-        print(DEFAULTS)
+        print(json.dumps(schema()) if "--json" in sys.argv else DEFAULTS)
         return 0
     file = sys.argv[-1]
     scene, against = check(file)

@@ -143,10 +143,9 @@ class TestParameters(unittest.TestCase):
         }
         for name, those in cannot.items():
             for parameter in those:
+                argument = (parameters.PARAMETERS[parameter].arguments or ["a word"])[0]
                 with self.assertRaises(parameters.CannotTurn, msg=f"{name}: {parameter}"):
-                    parameters.PARAMETERS[parameter].make(
-                        shipped(name), parameters.PARAMETERS[parameter].arguments[0]
-                    )
+                    parameters.PARAMETERS[parameter].make(shipped(name), argument)
         with self.assertRaises(parameters.CannotTurn):
             parameters.make_tangent(shipped("hertz_cylinders"), "symmetrised mean")
         self.assertTrue(parameters.make_tangent(shipped("billet_upsetting"), "symmetrised mean"))
@@ -173,6 +172,27 @@ class TestParameters(unittest.TestCase):
         for wrong in ("nothing", "a=1,2 & b=1"):
             with self.assertRaises(UserError):
                 parameters.own_parameter(wrong)
+
+    def test_choices(self) -> None:
+        """Choices have the words of the program but for those that they leave out; others keep their own."""
+        allowed = {
+            "Bodies/NAME/Element": ["assumed strain", "newest"],
+            "Solver/Contact tangent": ["automatic", "exact", "numerical", "continuum"],
+        }
+        known = parameters.known_parameters(lambda path: allowed.get(path, []))
+        self.assertEqual(known["element"].arguments, ["assumed strain", "newest"])
+        self.assertEqual(known["tangent"].arguments, ["exact", "continuum"])
+        self.assertEqual(known["elasticity"].arguments, [])
+        self.assertEqual(known["penalty"].arguments, parameters.PARAMETERS["penalty"].arguments)
+        self.assertEqual(list(known), list(parameters.PARAMETERS))
+
+    def test_old_names(self) -> None:
+        """Old names of parameters stand for the new ones, unless the user has named one so."""
+        known = dict(parameters.PARAMETERS)
+        self.assertEqual(parameters.asked_parameter("kinematics=Hencky", known).name, "elasticity")
+        self.assertEqual(parameters.asked_parameter("largest step=1,2", known).name, "maximum step")
+        own = parameters.own_parameter("kinematics: a/b=1,2")
+        self.assertIs(parameters.asked_parameter("kinematics", {**known, "kinematics": own}), own)
 
     def test_unknown_parameter(self) -> None:
         with self.assertRaisesRegex(UserError, "no parameter 'speed'; there are mesh, steps,"):

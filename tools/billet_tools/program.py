@@ -11,6 +11,7 @@ import subprocess
 import tempfile
 import threading
 import time
+from functools import cached_property
 from json import loads
 from pathlib import Path
 from typing import Any, Sequence
@@ -69,11 +70,27 @@ class Program:
         self.parameters = self._say("--print-parameters")
         self.fingerprint = hash_of_file(path)
 
-    def _say(self, option: str) -> str:
-        done = subprocess.run([str(self.path), option], capture_output=True, text=True)
+    def _say(self, *options: str) -> str:
+        done = subprocess.run([str(self.path), *options], capture_output=True, text=True)
         if done.returncode != 0:
-            raise UserError(f"'{self.path} {option}' ended with {done.returncode}: {done.stderr.strip()}")
+            raise UserError(
+                f"'{self.path} {' '.join(options)}' ended with {done.returncode}: {done.stderr.strip()}"
+            )
         return done.stdout
+
+    @cached_property
+    def schema(self) -> dict[str, Any]:
+        """JSON Schema of scenes."""
+        schema: dict[str, Any] = loads(self._say("--print-parameters", "--json"))
+        return schema
+
+    def words(self, path: str) -> list[str]:
+        """Returns the words that a parameter of scenes allows; none if the program has no such choice."""
+        entry: Any = self.schema
+        for part in path.split("/"):
+            # A user's name is none of the properties.
+            entry = entry.get("properties", {}).get(part) or entry.get("additionalProperties") or {}
+        return list(entry.get("enum", ()))
 
     def check(self, file: Path) -> tuple[int, dict[str, Any], str]:
         """Returns the exit code, what the scene is, and why it is refused, '' if it is not."""

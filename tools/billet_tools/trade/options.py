@@ -135,7 +135,7 @@ def make_parser() -> argparse.ArgumentParser:
         "--reference-steps",
         type=int,
         metavar="N",
-        help="implicit scenes: N, 2N and 4N equal steps (as many as the largest step makes, 20 to 100)",
+        help="implicit scenes: N, 2N and 4N equal steps (as many as the maximum step makes, 20 to 100)",
     )
     add(
         "--reference",

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Callable, Mapping
 
 from .. import UserError
 from ..scene import Changes, Scene
 
 Maker = Callable[[Scene, str], Changes]  # of an argument as text; raises CannotTurn
+Words = Callable[[str], list[str]]  # what the program allows for a path of a scene, as Program.words()
 
 
 class CannotTurn(Exception):
@@ -22,12 +23,15 @@ class CannotTurn(Exception):
 
 @dataclass
 class Parameter:
-    """What is changed, and over which values."""
+    """What is changed, and over which values. Those of a choice are the program's words for the parameter of
+    scenes at `path`, `without` some."""
 
     name: str
     meaning: str
     arguments: list[str]
     make: Maker
+    path: str = ""
+    without: tuple[str, ...] = ()
 
     def turned(self, scene: Scene, argument: str) -> Changes:
         """make(), whose complaints about the argument name the parameter."""
@@ -37,7 +41,8 @@ class Parameter:
             raise UserError(f"the parameter '{self.name}': {error}") from None
 
 
-PARAMETERS: dict[str, Parameter] = {}
+PARAMETERS: dict[str, Parameter] = {}  # choices have no values yet: see known_parameters()
+OLD_NAMES = {"kinematics": "elasticity", "largest step": "maximum step"}
 
 
 def parameter(name: str, meaning: str, *arguments: object) -> Callable[[Maker], Maker]:
@@ -46,6 +51,30 @@ def parameter(name: str, meaning: str, *arguments: object) -> Callable[[Maker], 
         return make
 
     return keep
+
+
+def choice(
+    name: str, meaning: str, path: str, without: tuple[str, ...] = ("automatic",)
+) -> Callable[[Maker], Maker]:
+    """A parameter with the words of the program. In `path`, NAME stands for a name of the user."""
+
+    def keep(make: Maker) -> Maker:
+        PARAMETERS[name] = Parameter(name, meaning, [], make, path, without)
+        return make
+
+    return keep
+
+
+def known_parameters(words: Words) -> dict[str, Parameter]:
+    """All parameters, the choices with those values that the program allows."""
+    return {
+        name: (
+            replace(known, arguments=[word for word in words(known.path) if word not in known.without])
+            if known.path
+            else known
+        )
+        for name, known in PARAMETERS.items()
+    }
 
 
 def number(text: str, allowed: str = "a number > 0", option: str = "") -> float:
@@ -182,7 +211,7 @@ def make_steps(scene: Scene, argument: str) -> Changes:
     return equal_steps(scene, number(argument))
 
 
-@parameter("largest step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
+@parameter("maximum step", "of automatic steps, factor of the scene's", 0.125, 0.25, 0.5, 1, 2)
 def make_max_step(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.get("Time stepping/Step control") != "fixed", "of automatic steps")
@@ -215,7 +244,7 @@ def make_spectral_radius(scene: Scene, argument: str) -> Changes:
     return {"Implicit dynamics/Spectral radius": argument}
 
 
-@parameter("mass", "matrix of implicit dynamics", "consistent", "lumped")
+@choice("mass", "matrix of implicit dynamics", "Implicit dynamics/Mass")
 def make_mass(scene: Scene, argument: str) -> Changes:
     need(scene.scheme == "implicit dynamics", "of implicit dynamics")
     return {"Implicit dynamics/Mass": argument}
@@ -255,24 +284,20 @@ def make_viscosity(scene: Scene, argument: str) -> Changes:
     }
 
 
-@parameter(
+@choice(
     "instructions",
     "instruction set of the element kernels: changes the cost, not the result",
-    "scalar",
-    "SSE2",
-    "AVX2",
-    "AVX-512",
+    "Explicit dynamics/Instruction set",
 )
 def make_instructions(scene: Scene, argument: str) -> Changes:
     explicit(scene)
     return {"Explicit dynamics/Instruction set": argument}
 
 
-@parameter(
+@choice(
     "number type",
     "what elements compute with: float halves the width of numbers, to seven digits",
-    "double",
-    "float",
+    "Explicit dynamics/Number type",
 )
 def make_number_type(scene: Scene, argument: str) -> Changes:
     explicit(scene)
@@ -326,28 +351,20 @@ def make_augmentation(scene: Scene, argument: str) -> Changes:
     return {pair + "Penetration tolerance": argument for pair in pairs(scene)}
 
 
-@parameter(
-    "tangent",
-    "contact tangent",
-    "exact",
-    "consistent",
-    "continuum",
-    "symmetrised lower",
-    "symmetrised mean",
-    "symmetrised upper",
-)
+# The numerical tangent is the exact one, at a high cost.
+@choice("tangent", "contact tangent", "Solver/Contact tangent", without=("automatic", "numerical"))
 def make_tangent(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(has_friction(scene) or not argument.startswith("symmetrised"), "there is no friction to symmetrise")
     return {"Solver/Contact tangent": argument}
 
 
-@parameter("facets", "what nodes of bodies touch", "overlap", "planed", "bilinear", "mean gap")
+@choice("facets", "what nodes of bodies touch", "Contact pairs/NAME/Facets")
 def make_facets(scene: Scene, argument: str) -> Changes:
     return {pair + "Facets": argument for pair in pairs(scene, True)}
 
 
-@parameter("passes", "of nodes against facets: of one side, or of both", "one", "two")
+@choice("passes", "of nodes against facets: of one side, or of both", "Contact pairs/NAME/Passes")
 def make_passes(scene: Scene, argument: str) -> Changes:
     changes = {}
     for pair in pairs(scene, True):
@@ -389,19 +406,19 @@ def make_tolerance(scene: Scene, argument: str) -> Changes:
     return newton_tolerance(number(argument))
 
 
-@parameter("predictor", "where iterations start", "extrapolation", "tangent")
+@choice("predictor", "where iterations start", "Solver/Predictor")
 def make_predictor(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Predictor": argument}
 
 
-@parameter("line search", "of Newton's method", "energy", "none")
+@choice("line search", "of Newton's method", "Solver/Line search")
 def make_line_search(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Line search": argument}
 
 
-@parameter("solver", "linear solver", "MUMPS", "MUMPS symmetric", "CG", "GMRES")
+@choice("solver", "linear solver", "Solver/Linear solver")
 def make_solver(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {"Solver/Linear solver": argument}
@@ -421,7 +438,7 @@ def make_linear_tolerance(scene: Scene, argument: str) -> Changes:
     return {**iterative(scene), "Solver/Linear tolerance": argument}
 
 
-@parameter("forcing", "how exactly an iterative solver solves", "Eisenstat-Walker", "fixed")
+@choice("forcing", "how exactly an iterative solver solves", "Solver/Forcing term")
 def make_forcing(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     return {**iterative(scene), "Solver/Forcing term": argument}
@@ -430,31 +447,20 @@ def make_forcing(scene: Scene, argument: str) -> Changes:
 # --- bodies ---------------------------------------------------------------------------------------
 
 
-@parameter("element", "of all bodies", "assumed strain", "one point", "mean dilatation")
+@choice("element", "of all bodies", "Bodies/NAME/Element")
 def make_element(scene: Scene, argument: str) -> Changes:
     return {f"Bodies/{body}/Element": argument for body in scene.names("Bodies")}
 
 
-@parameter("kinematics", "of all bodies' laws", "Hencky", "neo-Hookean", "hypoelastic")
-def make_kinematics(scene: Scene, argument: str) -> Changes:
+@choice("elasticity", "of all bodies' laws", "Bodies/NAME/Material/Elasticity")
+def make_elasticity(scene: Scene, argument: str) -> Changes:
     return {f"Bodies/{body}/Material/Elasticity": argument for body in scene.names("Bodies")}
 
 
-def has_unsymmetric_tangent(scene: Scene, body: str) -> bool:
-    law = scene.get(f"{body}/Material/Elasticity")
-    return law == "hypoelastic" or (
-        scene.get(f"{body}/Material/Law") == "elastoplastic" and law == "neo-Hookean"
-    )
-
-
-@parameter("material tangent", "of bodies whose exact one is unsymmetric", "exact", "symmetrised")
+@choice("material tangent", "of bodies whose exact one is unsymmetric", "Solver/Material tangent")
 def make_material_tangent(scene: Scene, argument: str) -> Changes:
     implicit(scene)
     need(scene.knows("Solver/Material tangent"), "this billet has no such parameter")
-    need(
-        any(has_unsymmetric_tangent(scene, f"Bodies/{body}") for body in scene.names("Bodies")),
-        "the exact one of every body is symmetric",
-    )
     return {"Solver/Material tangent": argument}
 
 
@@ -469,7 +475,7 @@ def without_target(scene: Scene) -> dict[str, object]:
     return {path: None for path in MESH_TARGET if path in scene.entries}
 
 
-@parameter("profile", "one word for many parameters", "fast", "balanced", "accurate")
+@choice("profile", "one word for many parameters", "Profile")
 def make_profile(scene: Scene, argument: str) -> Changes:
     need(scene.knows("Profile"), "this billet has no such parameter")
     return {"Profile": argument, **without_target(scene), "Target error": None}
@@ -528,6 +534,8 @@ def asked_parameter(text: str, known: Mapping[str, Parameter]) -> Parameter:
     name, equals, arguments = text.partition("=")
     name = name.strip()
     if name not in known:
+        name = OLD_NAMES.get(name, name)
+    if name not in known:
         raise UserError(
             f"there is no parameter '{name}'; there are {', '.join(known)}. "
             "--list says which ones the scene can use; --parameter 'path/to/parameter=value,value' adds one"
@@ -535,12 +543,8 @@ def asked_parameter(text: str, known: Mapping[str, Parameter]) -> Parameter:
     found = known[name]
     if not equals:
         return found
-    return Parameter(
-        name,
-        found.meaning,
-        [a.strip() for a in arguments.split("|" if "|" in arguments else ",") if a.strip()],
-        found.make,
-    )
+    named = [a.strip() for a in arguments.split("|" if "|" in arguments else ",") if a.strip()]
+    return replace(found, arguments=named)
 
 
 # --- the reference --------------------------------------------------------------------------------

@@ -71,7 +71,8 @@ class Candidates:
     def __init__(self, scene: Scene, runner: Runner, options: Options) -> None:
         self.scene, self.runner = scene, runner
         self.own = {k.name: k for k in map(parameters.own_parameter, options.parameter)}
-        self.known = {**parameters.PARAMETERS, **self.own}
+        built_in = parameters.known_parameters(runner.program.words)
+        self.known = {**built_in, **self.own}
         if options.parameters:
             chosen = [parameters.asked_parameter(text, self.known) for text in options.parameters]
             self.parameters = chosen + [
@@ -81,9 +82,7 @@ class Candidates:
             self.parameters = list(self.own.values())
         else:
             self.parameters = [
-                k
-                for k in parameters.PARAMETERS.values()
-                if k.name != "mesh" or options.reference_mesh != GIVEN
+                k for k in built_in.values() if k.name != "mesh" or options.reference_mesh != GIVEN
             ]
             if options.target:
                 self.parameters = [with_value(k, options.target) for k in self.parameters]
@@ -115,6 +114,8 @@ class Candidates:
                 found.append((argument, self.changes(parameter, argument)))
             except parameters.CannotTurn as why:
                 self.left_out.setdefault(parameter.name, {})[argument] = str(why)
+        if not parameter.arguments:
+            self.left_out[parameter.name] = {"": "the program has no such parameter"}
         return found
 
     def _ask(self) -> None:
@@ -150,7 +151,9 @@ class Candidates:
             if self.is_asked and not (found and found[-1][0] is parameter):
                 raise UserError(
                     f"the scene cannot use the parameter '{parameter.name}': "
-                    + "; ".join(f"{a}: {w}" for a, w in self.left_out.get(parameter.name, {}).items())
+                    + "; ".join(
+                        f"{a}: {w}" if a else w for a, w in self.left_out.get(parameter.name, {}).items()
+                    )
                 )
         return found
 
@@ -208,5 +211,7 @@ class Candidates:
             reasons: dict[str, list[str]] = {}
             for argument, why in whys.items():
                 reasons.setdefault(why, []).append(argument)
-            said += [f"  {name} {', '.join(arguments)}: {why}" for why, arguments in reasons.items()]
+            said += [
+                f"  {name} {', '.join(arguments)}".rstrip() + f": {why}" for why, arguments in reasons.items()
+            ]
         return "\n".join(said)

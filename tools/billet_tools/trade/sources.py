@@ -181,7 +181,7 @@ def formulation_sources(scene: Scene) -> list[Source]:
             variant = Variant(label, changes, changes)
             found.append(Source(name, variant, ratio=math.inf, weight=weight, is_of_mesh=is_of_mesh))
 
-    others = of_bodies(scene, "Element", lambda v: v in ("one point", "mean dilatation"), "assumed strain")
+    others = of_bodies(scene, "Element", lambda v: v != "assumed strain", "assumed strain")
     add(ELEMENTS, "elements of assumed strain", others, 3.0, True)
     rates = of_bodies(scene, "Material/Elasticity", lambda v: v == "hypoelastic", "Hencky")
     add("law", "Hencky's law", rates, 1.0)

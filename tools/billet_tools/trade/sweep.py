@@ -136,7 +136,7 @@ PROMISING = (
     "mesh",
     "target error",
     "steps",
-    "largest step",
+    "maximum step",
     "safety factor",
     "element",
     "penalty",
