@@ -22,6 +22,19 @@ namespace billet {
 
 namespace {
 
+/// Limits of linear solutions, beside IterativeSolver::Settings.
+struct Limits {
+  /// Iterations beyond those that the pace of a kept preconditioner lets expect.
+  static constexpr double spare_iterations = 10.;
+  /// Maximum number of starts from the true residual, and the part of it that each has to go below.
+  static constexpr unsigned int max_attempts = 3;
+  static constexpr double progress = 0.5;
+  /// Tolerance of the recursive residual over that of the true one.
+  static constexpr double of_recursive = 0.9;
+  /// Maximum number of directions that GMRES keeps.
+  static constexpr unsigned int max_directions = 100;
+};
+
 /// Base class of Trilinos operators that only apply an inverse.
 class Preconditioner : public Epetra_Operator {
 public:
@@ -350,7 +363,8 @@ bool IterativeSolver::solve(const Vector &b, Vector &x, const double relative_to
   if (!is_lagging_)
     return iterate(b, x, relative_tolerance, settings_.max_iterations);
   const double expected = -std::log(relative_tolerance) / (settings_.min_pace * fresh_pace_);
-  const double maximum = std::min(expected + 10., static_cast<double>(settings_.max_iterations));
+  const double maximum =
+      std::min(expected + Limits::spare_iterations, static_cast<double>(settings_.max_iterations));
   return iterate(b, x, relative_tolerance, static_cast<unsigned int>(maximum)) ||
          (renew() && iterate(b, x, relative_tolerance, settings_.max_iterations));
 }
@@ -377,8 +391,8 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
   const double start = relative_residual_;
   // The recursive residual may be smaller than the true one: then the iterations continue from there.
   unsigned int left = max_iterations;
-  for (unsigned int attempt = 0; relative_residual_ > relative_tolerance && attempt < 3 && left > 0;
-       ++attempt) {
+  for (unsigned int attempt = 0;
+       relative_residual_ > relative_tolerance && attempt < Limits::max_attempts && left > 0; ++attempt) {
     const double before = relative_residual_;
     // Aztec takes non-const pointers, but changes neither the matrix nor the right-hand side.
     AztecOO solver(const_cast<Epetra_CrsMatrix *>(&A), &x, // NOLINT(cppcoreguidelines-pro-type-const-cast)
@@ -388,12 +402,12 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
     solver.SetPrecOperator(multigrid_.get());
     solver.SetAztecOption(AZ_conv, AZ_rhs);
     solver.SetAztecOption(AZ_solver, aztec_solver(settings_.method));
-    solver.SetAztecOption(AZ_kspace, static_cast<int>(std::min(left, 100u)));
-    solver.Iterate(static_cast<int>(left), 0.9 * relative_tolerance);
+    solver.SetAztecOption(AZ_kspace, static_cast<int>(std::min(left, Limits::max_directions)));
+    solver.Iterate(static_cast<int>(left), Limits::of_recursive * relative_tolerance);
     iterations_ += static_cast<unsigned int>(solver.NumIters());
     left -= std::min(left, static_cast<unsigned int>(solver.NumIters()));
     compute_residual();
-    if (!(relative_residual_ < 0.5 * before))
+    if (!(relative_residual_ < Limits::progress * before))
       break;
   }
   if (relative_residual_ <= relative_tolerance) {

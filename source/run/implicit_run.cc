@@ -14,6 +14,11 @@ namespace billet {
 
 namespace {
 
+struct Limits {
+  /// Number of cuts in a row after which the step starts from low penalties.
+  static constexpr unsigned int max_cuts_in_a_row = 4;
+};
+
 EnergyWatch make_energy_watch(const parameters::Scene &parameters) {
   const double max_drift = parameters.scheme().has_inertia ? parameters.implicit_dynamics.max_drift : 0.;
   return max_drift > 0.                    ? EnergyWatch(EnergyWatch::Balance::is_kept, max_drift)
@@ -141,9 +146,8 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
                         .time(from));
   }
   // Steps that fail whatever their length need another start, as do those that cannot be cut.
-  constexpr unsigned int max_cuts_in_a_row = 4;
   if (!newton.is_lost_in_round_off && !newton.is_explained() &&
-      (!may_continue || ++n_failed_ >= max_cuts_in_a_row))
+      (!may_continue || ++n_failed_ >= Limits::max_cuts_in_a_row))
     may_continue = problem_.take_low_penalties() || may_continue;
   if (may_continue)
     return;

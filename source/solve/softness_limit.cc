@@ -27,6 +27,8 @@ struct Limits {
   static constexpr double min_held = 1e-4;
   /// The same for sheets, where less is not significant beside the residual.
   static constexpr double min_held_of_sheet = 0.01;
+  /// ρ of sheets where it is not measured.
+  static constexpr double unknown_ratio = 0.5;
 };
 
 double max_force(const std::vector<ContactSprings> &springs) {
@@ -53,7 +55,7 @@ void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, co
   if (rule == Rule::sheet) {
     const double ratio = before.held > Limits::min_held_of_sheet * before.force
                              ? std::min(change.in_all / before.held, Limits::max_ratio)
-                             : 0.5; // unknown
+                             : Limits::unknown_ratio;
     changed *= ratio / (1. - ratio);
   }
 }

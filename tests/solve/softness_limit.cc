@@ -145,11 +145,27 @@ void check_formula() {
   check("a tenth of it is left", is(slips.excess({springs_of(1., 0., 1., 2e-5)})[0], 0.5));
 }
 
+/// The multiple of the allowed part that is missing in a sheet, whose springs hold this part of the force and
+/// of which an augmentation has added three quarters to it.
+double excess_of_sheet(const double held) {
+  SoftnessLimit limit({SoftnessLimit::Rule::sheet});
+  limit.learn({springs_of(1., held)}, {{SoftnessLimit::Change{held, 0.75 * held}, SoftnessLimit::Change{}}});
+  return limit.excess({springs_of(1., held)})[0];
+}
+
+/// As much as that, if it is half of a geometric series; three times as much, if it is three quarters.
+void check_sheets() {
+  check("augmentations of a sheet show its stiffness if springs hold a hundredth of the force",
+        is(excess_of_sheet(0.0102), 3. * 0.75 * 0.0102 / 0.002) &&
+            is(excess_of_sheet(0.0098), 0.75 * 0.0098 / 0.002));
+}
+
 } // namespace
 
 int main() {
   check_what_is_given_up();
   check_formula();
+  check_sheets();
   for (const double K : {0.3, 0.1, 1e-2, 1e-3, 1e-5})
     for (const unsigned int n_steps : {1U, 10U, 100U}) {
       const std::string name = "K/k = " + std::to_string(K) + ", " + std::to_string(n_steps) + " steps: ";

@@ -12,7 +12,12 @@ using dealii::Tensor;
 
 namespace {
 
-/// Returns a hundred times the force by the last bit of a displacement of the scene's size.
+struct Limits {
+  /// Force by round-off of displacements over that by the last bit of a displacement of the scene's size.
+  static constexpr double last_bits = 100.;
+};
+
+/// Returns the force by round-off of displacements.
 double find_round_off_force(const ExplicitParts &parts) {
   double stiffest = 0.;
   for (const auto &body : parts.scene.bodies())
@@ -20,7 +25,8 @@ double find_round_off_force(const ExplicitParts &parts) {
   const double last_bit = parts.settings().number_type == NumberType::float_precision
                               ? double{std::numeric_limits<float>::epsilon()}
                               : std::numeric_limits<double>::epsilon();
-  return 100. * last_bit * stiffest * parts.discretization.radius() * parts.discretization.radius();
+  return Limits::last_bits * last_bit * stiffest * parts.discretization.radius() *
+         parts.discretization.radius();
 }
 
 /// Returns the sum of the magnitudes of the components.

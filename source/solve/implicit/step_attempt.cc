@@ -5,6 +5,18 @@
 
 namespace billet {
 
+namespace {
+
+/// Limits of iterations that balance bodies, see ResultantGuard.
+struct Limits {
+  /// Maximum number of refinements in a step.
+  static constexpr unsigned int max_refinements = 2;
+  /// Part of what may be out of balance that a refinement aims at, and the minimum factor of its tolerance.
+  static constexpr double aim = 0.5, min_factor = 1e-3;
+};
+
+} // namespace
+
 void StepAttempt::begin(const double t) {
   ImplicitProblem &problem = p_.problem;
   ImplicitParts &parts = problem.parts();
@@ -141,15 +153,14 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
 }
 
 void StepAttempt::balance(Unknowns &x, NewtonReport &report) {
-  constexpr unsigned int max_refinements = 2;
-  constexpr double aim = 0.5, min_factor = 1e-3;
   double part = p_.resultants.find_part();
   if (!p_.resultants.is_hopeful() || report.is_stalled || report.is_lost_in_round_off)
     return;
-  for (unsigned int n = 0; n < max_refinements && part > ResultantGuard::allowed; ++n) {
+  for (unsigned int n = 0; n < Limits::max_refinements && part > ResultantGuard::allowed; ++n) {
     const Unknowns before = x;
-    const NewtonReport refined = p_.solver.refine(std::max(min_factor, aim * ResultantGuard::allowed / part),
-                                                  x.offsets, x.displacements);
+    const NewtonReport refined =
+        p_.solver.refine(std::max(Limits::min_factor, Limits::aim * ResultantGuard::allowed / part),
+                         x.offsets, x.displacements);
     if (refined.converged)
       report.append(refined);
     else {
