@@ -92,7 +92,8 @@ def schema() -> dict[str, Any]:
                 at = at["additionalProperties"]
             else:
                 at = at["properties"].setdefault(name, inside)
-        at["properties"][key] = {"enum": WORDS[key]} if key in WORDS else {"type": "string"}
+        entry: dict[str, Any] = {"enum": WORDS[key]} if key in WORDS else {"type": "string"}
+        at["properties"][key] = entry
     return root
 
 
