@@ -132,14 +132,22 @@ private:
     } catch (const SolutionFailure &failure) { // on all ranks
       if (level >= 0)
         throw;
-      // Too coarse: the ladder begins above.
-      levels_.clear();
-      bodies_.restart();
-      messages_.push_back(
-          Diagnostic(diagnostic::mesh_level_failed,
-                     "Mesh level " + std::to_string(level) + " is left out: " + failure.diagnostic().what()));
-      return ExitCode::failed_solution;
+      leave_out(failure.diagnostic());
+    } catch (const InputError &error) { // on all ranks: coarse faces may miss what boundary ids select
+      if (level >= 0)
+        throw;
+      leave_out(error.diagnostic());
     }
+    return ExitCode::failed_solution;
+  }
+
+  /// Begins again with the next finer level.
+  void leave_out(const Diagnostic &why) {
+    levels_.clear();
+    messages_.push_back(
+        Diagnostic(diagnostic::mesh_level_failed,
+                   "Mesh level " + std::to_string(bodies_.level()) + " is left out: " + why.what()));
+    bodies_.restart();
   }
 
   /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it is the

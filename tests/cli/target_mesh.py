@@ -87,6 +87,16 @@ def _() -> None:
     require(0.5 <= estimate / true <= 4.0, f"estimated {estimate}, true {true}")
 
 
+@check("a level that is too coarse for a boundary id is left out")
+def _() -> None:
+    ran = billet(
+        "Mesh: + set Boundary ids = 6 : x < 0.1 && z > 0.1 && z < 1.3"
+        " & wall: Boundary ids = 0, 6 & " + everything("20 percent")
+    )
+    equal("the first level", levels(ran)[0][0], "0")
+    says(r"^note\[mesh-level-failed\]: Mesh level -2 is left out: .*boundary id 6", ran.said)
+
+
 @check("a target that is out of reach is told, with what it would take")
 def _() -> None:
     ran = billet(everything("1e-4", "Finest mesh level = 0"), code=7)
