@@ -38,8 +38,9 @@ def read_text(name: str | Path) -> str:
 
 
 def read_scene(name: Path) -> str:
-    """Returns the text of a scene with the files that it includes in place of their names."""
-    included = re.compile(r"^ *include +(\S+).*\n", re.MULTILINE)
+    """Returns the text of a scene with the files that it includes in place of their names, but for materials
+    of the program."""
+    included = re.compile(r"^ *include +(?!materials/)(\S+).*\n", re.MULTILINE)
     return included.sub(lambda found: read_scene(name.parent / found[1]), read_text(name))
 
 

@@ -86,6 +86,15 @@ class TestScene(unittest.TestCase):
             scene = Scene(read_scene(folder / "a.prm"))
             self.assertEqual(scene.files(folder), {"Tools/File": (folder / "part.stl").resolve()})
 
+    def test_materials_of_the_program(self) -> None:
+        with TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            (folder / "a.prm").write_text("include materials/steel.prm # at 293\n")
+            self.assertEqual(read_scene(folder / "a.prm"), "include materials/steel.prm # at 293")
+            (folder / "materials").mkdir()
+            (folder / "materials/steel.prm").write_text("set Density = 7.8e-9\n")
+            self.assertEqual(read_scene(folder / "a.prm"), "set Density = 7.8e-9")
+
     def test_defaults(self) -> None:
         scene = Scene(
             "subsection Bodies\n subsection x\n  set A = 1\n end\nend\n",

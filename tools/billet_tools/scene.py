@@ -11,11 +11,15 @@ Changes = Mapping[str, object]  # {path: value}; None takes an entry away
 
 
 def read_scene(path: Path) -> str:
-    """Returns the text of a scene file, with what it includes in place."""
+    """Returns the text of a scene file, with what it includes in place. Lines that include materials of the
+    program stay: any billet finds them."""
     lines = []
     for line in path.read_text().splitlines():
         included = re.match(r"\s*include\s+(\S+)", line)
-        lines.append(read_scene(path.parent / included[1]) if included else line)
+        file = path.parent / included[1] if included else None
+        if file and included and included[1].startswith("materials/") and not file.exists():
+            file = None
+        lines.append(read_scene(file) if file else line)
     return "\n".join(lines)
 
 
