@@ -204,6 +204,13 @@ BENCHMARKS = (
         "beside measured after 40 mm: DX, mm",
     ),
     Case(
+        "Cylindrical cup with Hill's anisotropy, 34 × 18 bricks: height of the ears over the reference's",
+        "closed form, rings of the same stress",
+        "results/cup-ears",
+        {"rim": "Hill, 34 × 18 bricks"},
+        "over same stress",
+    ),
+    Case(
         "Free bend of NUMISHEET 2002, aluminium: angle after springback in degrees",
         "50 to 55 (at second hand)",
         "results/sheet-springback",

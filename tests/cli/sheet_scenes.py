@@ -3,7 +3,8 @@
 """Usage: sheet_scenes.py BILLET
 
 Runs sheets that are bent and spring back in an empty current folder: pure bending beside its closed form,
-and coarse and short variants of the shipped U-bend and free bend beside what geometry and strip theory say.
+and coarse and short variants of the shipped U-bend, free bend and cylindrical cup beside what geometry, strip
+theory and the closed form of ears say.
 The scenes themselves run in tests/benchmarks.
 """
 
@@ -14,6 +15,7 @@ import re
 import sys
 
 from checks import HERE, SHIPPED, Checks, enter_folder, equal, near, require, run
+from earing_theory import Cup
 from pure_bending_theory import MILD_STEEL, bend_and_release, changes, read_release
 from shipped import Rows, history, require_balance, require_page, require_short
 
@@ -107,6 +109,35 @@ def _() -> None:
     near("force of the holder", abs(pressed[-1]["holder.force_y"]), 35.0, 1e-2)
 
 
+def cup_draw_in(folder: str, r_values: tuple[float, float, float]) -> tuple[float, float, float]:
+    """Draw-in at 0, 45 and 90 degrees to the rolling direction, after a fifth of the travel."""
+    last = run_variant(
+        str(SHIPPED / "cylindrical_cup.prm"),
+        folder,
+        {
+            "Bodies/blank/Material/r-values": ", ".join(map(str, r_values)),
+            "Tools/holder/Motion/Removal time": "",
+            "Tools/holder/Motion/Release time": "",
+            "Time stepping/End time": 0.2,
+        },
+    )[-1]
+    near(f"{folder}: force of the holder", abs(last["holder.force_z"]), 20e3, 1e-2)
+    diagonal = math.hypot(last["rim_45.displacement_x"], last["rim_45.displacement_y"])
+    return -last["rim_0.displacement_x"], diagonal, -last["rim_90.displacement_y"]
+
+
+@check("the flange of a cup is drawn in by Hill's anisotropy as the closed form of ears says")
+def _() -> None:
+    r_values = (1.73, 1.34, 2.24)
+    found = cup_draw_in("anisotropic", r_values)
+    theory = Cup(100, 50.5, r_values).draw_ins_of_same_stress(sum(found) / 3)
+    valley, expected = (dd - (dx + dy) / 2 for dx, dd, dy in (found, theory))
+    near("draw-in along the diagonal less that along the axes", valley, expected, 0.2)
+    round_one = cup_draw_in("isotropic", (1, 1, 1))
+    spread = max(round_one) - min(round_one)
+    require(spread < 0.01 * (max(found) - min(found)), f"the isotropic flange is not round by {spread}")
+
+
 @check("a stack of sheets is as stiff as its closed form")
 def _() -> None:
     rows = run_variant(THREE_SHEETS, "three_sheets", {})
@@ -128,7 +159,7 @@ def _() -> None:
 
 @check("pages")
 def _() -> None:
-    for name in ("u_bend", "free_bend"):
+    for name in ("u_bend", "free_bend", "cylindrical_cup"):
         require_short(name)
         require_page(name, name)
 
