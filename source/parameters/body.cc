@@ -546,6 +546,10 @@ void Load::parse(Reader &reader) {
   }
   if (!boundary_ids.is_empty() && !nodes.is_empty())
     reader.reject("Nodes", "no value: 'Boundary ids' says where the load acts");
+  for (const LoadExpression &expression : load.expressions)
+    if (!reader.is_set(expression.key))
+      reader.reject(expression.key,
+                    "a value that the scene sets: it is the size of a load of type '" + type + "'");
   origin = reader.origin();
   parse_times(reader, "the load never fades", *this);
   for (const LoadExpression &expression : load.expressions)

@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/loads/load.h"
 #include "billet/parameters/scene.h"
 #include "billet/run/check.h"
 
@@ -205,12 +206,24 @@ private:
     return remove_place(place);
   }
 
-  /// Gives a parameter a value that stands for the wrong one, so that other errors of its part are found: the
-  /// one that the message advises, a number of a material, or the default of a support or a load. Returns
-  /// false if it cannot, or has done so before.
+  /// Returns the default of a parameter of loads; none if it is not one, or its default is empty.
+  static std::optional<std::string> default_of_load(const SceneFile::Place &place) {
+    if (at(place.path, 2) == "Loads")
+      for (const LoadType &type : load_types())
+        for (const TypeParameter &parameter : type.parameters)
+          if (parameter.key == place.key && !parameter.default_value.empty())
+            return parameter.default_value;
+    return std::nullopt;
+  }
+
+  /// Gives a parameter a value that stands for the wrong one, or for the missing one of a load, so that other
+  /// errors of its part are found: the one that the message advises, a number of a material, or the default
+  /// of a support or a load. Returns false if it cannot, or has done so before.
   bool mend(const SceneFile::Place &place, const std::string &message) {
     const std::string said = without_place(message), kind = at(place.path, 2);
-    if (place.key.empty() || place.is_missing || !file_.is_set(place.path, place.key) ||
+    const std::optional<std::string> size = default_of_load(place);
+    const bool is_set = !place.is_missing && file_.is_set(place.path, place.key);
+    if (place.key.empty() || (!is_set && !size) ||
         (said.rfind(" is '", 0) != 0 && said.rfind(" contains '", 0) != 0))
       return false;
     const bool is_number = said.find("; allowed is a number") != std::string::npos ||
@@ -224,6 +237,8 @@ private:
       value = said.substr(first, said.find('\'', first) - first);
     } else if (kind == "Material" && is_number)
       value = place.key == "Poisson ratio" ? "0.3" : "1";
+    else
+      value = size;
     const bool has_default = kind == "Supports" || kind == "Loads";
     if ((!value && !has_default) || !mended_.insert({place.path, place.key}).second)
       return false;

@@ -191,6 +191,18 @@ def _() -> None:
     equal("number of errors", len(messages_of(errors)), 7)
 
 
+@check("a load without its size does not hide another error of it")
+def _() -> None:
+    errors = errors_of(
+        "block: + subsection Loads\\n subsection p\\n  set Boundary ids = 77\\n end"
+        "\\n subsection q\\n  set Type = force\\n  set Boundary ids = 78\\n end\\nend"
+    )
+    for name, key, ids in (("p", "Pressure", 77), ("q", "Force", 78)):
+        says(rf"\(default\): '{key}' in 'Bodies / block / Loads / {name}' is .* the size of a load", errors)
+        says(rf"'Boundary ids' in 'Bodies / block / Loads / {name}' names boundary id {ids}", errors)
+    equal("number of errors", len(messages_of(errors)), 4)
+
+
 @check("the rest of a scene that depends on a wrong word is named")
 def _() -> None:
     errors = errors_of("Time stepping: Scheme = whatever & block / Material: Young modulus = -1")
