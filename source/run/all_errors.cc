@@ -248,6 +248,9 @@ private:
       file_.add_entry(place.path, place.key, *value, where);
     if (advice_at == std::string::npos) // an advised value is most likely the right one
       keys_.insert({place.path, lower(place.key)});
+    if (place.key == "Scheme") // but these words are everywhere
+      for (const std::string word : {"scheme", "static", "explicit", "implicit", "dynamics"})
+        keys_.insert({{}, word});
     return true;
   }
 
