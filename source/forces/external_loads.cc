@@ -131,10 +131,14 @@ void check_spread(const AppliedLoad &load) {
     width = std::max(width, dealii::cross_product_3d(far, point - centre).norm());
   if (width > least * far.norm_square())
     return;
+  const bool is_line = far.norm() > 0.;
   throw InputError(load.origin + ": the " + load.type + " acts on " +
-                   (far.norm() > 0. ? "nodes on one line, whose forces have no moment about it"
-                                    : "one node, whose force has no moment about it") +
-                   "; allowed are three nodes or more that are not on one line, or 'Boundary ids' of faces");
+                   (is_line ? "nodes on one line, whose forces have no moment about it"
+                            : "one node, whose force has no moment about it") +
+                   "; allowed are three nodes or more that are not on one line, or 'Boundary ids' of faces" +
+                   (is_line ? ". For a moment across the line, two opposite loads 'Type = force' on its ends "
+                              "make a couple"
+                            : ""));
 }
 
 /// Adds a load's forces, which `add` adds to a vector, with its factor at time t.
