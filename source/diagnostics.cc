@@ -188,7 +188,7 @@ Diagnostic Diagnostic::deserialize(const std::string &bytes) {
   Diagnostic diagnostic(diagnostic_kind(object.at("key").get<std::string>()),
                         object.at("message").get<std::string>());
   diagnostic.advice_ = object.at("advice").get<std::string>();
-  diagnostic.topic_ = object.value("topic", ""); // checkpoints of older programs have none
+  diagnostic.topic_ = object.at("topic").get<std::string>();
   for (const Json &part : object.at("parts"))
     diagnostic.parts_.emplace_back(part.at(0).get<std::string>(), part.at(1).get<std::string>());
   for (const Json &value : object.at("values"))

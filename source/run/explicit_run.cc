@@ -81,12 +81,9 @@ void ExplicitRun::load(Resumption &resumption) {
     if (reader.number("interval of checks") == watch_times_.interval())
       watch_times_.begin_after(reader.number("last check"));
     last_.balanced_step = reader.count("balanced step");
-    if (reader.has("watched step")) // checkpoints of older programs lack it
-      last_.watched_step = reader.count("watched step");
-    if (reader.has("estimated step")) { // checkpoints of older programs lack it
-      last_.estimated_step = reader.count("estimated step");
-      last_.interval_start = reader.number("interval start");
-    }
+    last_.watched_step = reader.count("watched step");
+    last_.estimated_step = reader.count("estimated step");
+    last_.interval_start = reader.number("interval start");
     review_.load(reader);
     mesh_errors_.load(reader);
     if (errors_ && reader.has("errors")) {

@@ -66,13 +66,7 @@ void save_fading_pairs(StateWriter &writer, const Scene &scene, const Indices &p
   writer.write_text("fading pairs", lines_of(pairs, names_of_pairs(scene)));
 }
 
-bool has_fading_pairs(const StateReader &reader) {
-  return reader.has("fading pairs") || reader.has("fading");
-}
-
 std::vector<FadingPair> load_fading_pairs(const StateReader &reader, const Scene &scene) {
-  if (!reader.has("fading pairs")) // of a version that knew them by tools
-    return {{std::nullopt, "fading"}};
   std::vector<FadingPair> pairs;
   for (const std::optional<std::size_t> &pair :
        find_names(reader.read_text("fading pairs"), names_of_pairs(scene)))

@@ -176,9 +176,9 @@ def _() -> None:
         write_text(f"{name}.prm", edit(base, edits).text)
         run_to_end(name, f"{name}.prm")
         whole = {row[0]: row for row in rows_of(f"{name}/history.csv")}
-        # At 0.45, at the removal of the tool, and while its forces fade. An explicit run that resumes at the
-        # removal itself does not know the forces of the tool.
-        for number in (9, 19) if scheme == "explicit" else (9, 18, 19):
+        # At the end of the support, while its forces fade, at the removal of the tool, and while its forces
+        # fade.
+        for number in (8, 9, 18, 19):
             again = f"{name}_{number}"
             run_to_end(again, f"{name}.prm", 1, "--restart", f"{name}/checkpoint_{number - 1:05}.h5")
             rows = rows_of(f"{again}/history.csv")

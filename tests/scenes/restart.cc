@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Runs that stop and go on, through a file: the rest is that of the run without interruption, bit by bit on
 // as many ranks, to 1e-8 on others. A press with friction, plasticity, a tool with a force, one that stops,
-// one that is taken away; an impact with all that an explicit scene may have; a ring that touches itself.
+// one that is taken away; an impact with all that an explicit scene may have, also at the removal of its
+// tool; a ring that touches itself.
 #include "../sample_laws.h"
 #include "materials.h"
 #include "restart_run.h"
@@ -56,7 +57,7 @@ int main(int argc, char *argv[]) {
     scene.tools[0].motion.removal_time.value = 0.06e-3;
     scene.tools[0].motion.release_time = 0.02e-3;
     testing::test_going_on<testing::ExplicitStops>(
-        "Impact", scene, {0.04e-3, 0.07e-3},
+        "Impact", scene, {0.04e-3, 0.06e-3, 0.07e-3}, // the second: at the removal
         [](auto &run, const double time, History &history) { run.run(time, 1, history); });
   }
   {

@@ -28,8 +28,6 @@ struct FadingPair {
   std::optional<std::size_t> pair; ///< index in Scene::pairs()
   std::string rows;                ///< name of the rows of its forces
 };
-/// Whether the group of a tool has them.
-bool has_fading_pairs(const StateReader &reader);
 std::vector<FadingPair> load_fading_pairs(const StateReader &reader, const Scene &scene);
 /// Returns the name of the rows of forces at an index of save_fading_pairs().
 std::string fading_rows(std::size_t index);

@@ -85,6 +85,7 @@ void ExplicitDynamics::finish_step() {
   const double t_forces = time();
   parts_.clock.advance();
   parts_.motion.switch_supports(t_forces, time());
+  parts_.tools.remove_due(time(), parts_.contacts, ledger_.works().external);
 }
 
 void ExplicitDynamics::update_ledger() {

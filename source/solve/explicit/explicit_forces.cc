@@ -104,7 +104,8 @@ ExplicitForces::Failure ExplicitForces::compute(const ExplicitClock &clock, cons
   loads_.follow(u);
   try {
     motion.check();
-    tools.remove_due(clock.time(), contacts, loaded_nodes_, external_, works.external);
+    tools.remove_due(clock.time(), contacts, works.external); // at the start of a run
+    tools.add_fading(clock.time(), loaded_nodes_, external_);
     motion.add_fading(clock.time(), external_);
     element_step_ = elements.add_forces({u.data(), v.data(), forces_.data()}, clock, works);
     of_loads_.evaluate(clock.time(), u, v, external_);

@@ -2,6 +2,7 @@
 #include "billet/solve/explicit/explicit_tools.h"
 
 #include "billet/solve/fading_names.h"
+#include "billet/solve/tool_fade.h"
 
 #include <algorithm>
 
@@ -77,40 +78,37 @@ void ExplicitTools::remove(const std::size_t tool, Contacts &contacts, double &e
   tools_[tool].remove();
 }
 
-void ExplicitTools::remove_due(const double t, Contacts &contacts, const std::vector<unsigned int> &nodes,
-                               NodalVectors &forces, double &external_work) {
-  for (std::size_t i = 0; i < tools_.size(); ++i) {
-    if (!tools_[i].is_gone(t))
-      continue;
-    if (!fading_forces_[i])
+void ExplicitTools::remove_due(const double t, Contacts &contacts, double &external_work) {
+  for (std::size_t i = 0; i < tools_.size(); ++i)
+    if (tools_[i].is_gone(t) && !fading_forces_[i])
       remove(i, contacts, external_work);
-    if (const double part = left(i, t); part > 0.)
-      for (const Removed &removed : *fading_forces_[i])
-        for (const unsigned int node : nodes)
-          add_vector(forces.data(), node, part * get_vector(removed.forces.data(), node));
-  }
 }
 
-double ExplicitTools::left(const std::size_t tool, const double t) const {
-  const Tool &gone = scene_.tools()[tool];
-  return gone.release_time() > 0. ? 1. - (t - gone.removal_time()) / gone.release_time() : 0.;
+void ExplicitTools::add_fading(const double t, const std::vector<unsigned int> &nodes,
+                               NodalVectors &forces) const {
+  for (std::size_t i = 0; i < tools_.size(); ++i)
+    if (const double left = left_after_removal(scene_.tools()[i], t); is_fading(i, t))
+      for (const Removed &removed : *fading_forces_[i])
+        for (const unsigned int node : nodes)
+          add_vector(forces.data(), node, left * get_vector(removed.forces.data(), node));
 }
 
 bool ExplicitTools::is_fading(const std::size_t tool, const double t) const {
-  return tools_[tool].is_gone(t) && left(tool, t) > 0.;
+  return fading_forces_[tool] && left_after_removal(scene_.tools()[tool], t) > 0.;
 }
 
 ContactLoad ExplicitTools::fading_load(const std::size_t tool, const double t,
                                        const NodalVectors &displacements,
                                        const std::optional<std::size_t> pair) const {
   ContactLoad load;
-  if (!fading_forces_[tool] || !is_fading(tool, t))
+  if (!is_fading(tool, t))
     return load;
+  const double left = left_after_removal(scene_.tools()[tool], t);
   const Tensor<1, 3> centre = tools_[tool].now().moved_centre();
   for (const Removed &removed : *fading_forces_[tool])
     if (!pair || removed.pair == pair)
       for (unsigned int node = 0; node < nodes_.size(); ++node) {
-        const Tensor<1, 3> force = left(tool, t) * get_vector(removed.forces.data(), node);
+        const Tensor<1, 3> force = left * get_vector(removed.forces.data(), node);
         const Tensor<1, 3> x =
             get_vector(nodes_.positions().data(), node) + get_vector(displacements.data(), node);
         load.force += force;
@@ -203,7 +201,7 @@ void ExplicitTools::load(StateReader &reader, const NodalRows &rows, const bool 
     }
     reader.in(group("tool", *found), [&] {
       tools_[i].load(reader, is_exact);
-      if (has_fading_pairs(reader))
+      if (tools_[i].is_removed())
         load_fading(reader, i, rows, is_exact);
     });
   }

@@ -2,6 +2,7 @@
 #include "billet/solve/implicit/tool_removal.h"
 
 #include "billet/solve/fading_names.h"
+#include "billet/solve/tool_fade.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +10,7 @@
 namespace billet {
 
 double ToolRemoval::fading(const double t, const std::size_t tool) const {
-  const Tool &gone = scene_.tools()[tool];
-  return gone.release_time() > 0. ? std::max(0., 1. - (t - gone.removal_time()) / gone.release_time()) : 0.;
+  return left_after_removal(scene_.tools()[tool], t);
 }
 
 bool ToolRemoval::changes(const double t_n, const double t) const {

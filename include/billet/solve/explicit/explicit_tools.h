@@ -45,10 +45,11 @@ public:
   /// Returns the addition of the free tools' masses to ω² of the contacts [1/time²]. Collective.
   double max_frequency_square() const;
 
-  /// Removes tools that are due from their contacts. Adds the remaining part of removed tools' forces to
-  /// `forces` at these nodes. Their energies leave `external_work`.
-  void remove_due(double t, Contacts &contacts, const std::vector<unsigned int> &nodes, NodalVectors &forces,
-                  double &external_work);
+  /// Removes tools that are due from their contacts, after a step to t: their forces of the last update fade
+  /// from there on, and a checkpoint has them. Their energies leave `external_work`.
+  void remove_due(double t, Contacts &contacts, double &external_work);
+  /// Adds what is left at t of removed tools' forces at these nodes.
+  void add_fading(double t, const std::vector<unsigned int> &nodes, NodalVectors &forces) const;
   /// Changes the velocities of free tools. Collective.
   void kick(const ExplicitClock &clock);
   /// Moves the tools through the step.
@@ -65,8 +66,6 @@ public:
 private:
   std::vector<Placement> placements(const Placement &(FreeTool::*get)() const) const;
   MPI_Comm communicator() const { return nodes_.discretization().communicator(); }
-  /// Returns the part of a removed tool's forces that is left at t.
-  double left(std::size_t tool, double t) const;
   void remove(std::size_t tool, Contacts &contacts, double &external_work);
   void save_fading(StateWriter &writer, std::size_t tool, const NodalRows &rows,
                    const std::vector<unsigned int> &nodes) const;

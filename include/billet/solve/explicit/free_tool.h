@@ -19,6 +19,7 @@ public:
   const Placement &before() const { return before_; } ///< at the start of the step that ends now
   const Placement &now() const { return now_; }
   bool is_gone(const double t) const { return t >= tool_.removal_time(); }
+  bool is_removed() const { return is_removed_; }
   /// Whether kick() needs the contact forces of all ranks.
   bool wants_load() const { return tool_.control() != Tool::Control::motion; }
   /// Whether it starts with a speed, or moves within this time from the start.
