@@ -33,7 +33,7 @@ TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
 PARTS = {"drawing": 0.1, "rolling": 0.1, "impact": 0.25}  # of the time
 MAX_LINES = 40
 # Longer ones: rolling has a support that moves and a roll that turns, the others have three tools.
-MAX_LINES_OF = {"rolling": 50, "bending": 60, "drawing": 60}
+MAX_LINES_OF = {"rolling": 45, "bending": 60, "drawing": 60}
 LISTS = "primitives materials elements loads surfaces friction integrators probes fields history".split()
 
 program = sys.argv[1]
