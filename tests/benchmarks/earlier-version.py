@@ -16,6 +16,7 @@ import tempfile
 from pathlib import Path
 
 from billet_runs import PROGRAM, ROOT, Changes, arguments, count_instructions, number, publish, table
+from billet_tools.kept import hash_of, hash_of_file, read_json, write_json
 from billet_tools.output import read_rows
 from billet_tools.program import ALONE, Measured
 from billet_tools.scene import read_scene, variant, with_absolute_files
@@ -67,6 +68,7 @@ COUNTED: dict[str, tuple[Changes, str, str]] = {
     ),
 }
 Rows = list[dict[str, str]]
+KEPT = ROOT / "results/earlier_version"
 
 
 def write(scenes: Path, scene: str, changes: Changes, place: Path) -> None:
@@ -83,14 +85,25 @@ def write(scenes: Path, scene: str, changes: Changes, place: Path) -> None:
     (place / "scene.prm").write_text(text)
 
 
+def kept_file(program: str, what: str, scene: str, changes: Changes) -> Path:
+    settings = repr(sorted({**AS_THEN.get(scene, {}), **changes}.items()))
+    return KEPT / f"{hash_of(hash_of_file(Path(program)), what, scene, settings)[:24]}.json"
+
+
 def run(program: str, scenes: Path, scene: str, changes: Changes) -> Rows:
+    file = kept_file(program, "rows", scene, changes)
+    kept: Rows | None = read_json(file)
+    if kept is not None:
+        return kept
     with tempfile.TemporaryDirectory() as folder:
         write(scenes, scene, changes, Path(folder))
         done = Measured([program, "scene.prm"], folder, environment=ALONE)
         if done.code not in (0, 6):
             raise SystemExit(f"{program} {scene}: {done.stderr}")
         print(f"[{scene}] {done.seconds:.3g} s", flush=True)
-        return read_rows(Path(folder) / "results/history.csv")
+        rows = read_rows(Path(folder) / "results/history.csv")
+    write_json(file, rows)
+    return rows
 
 
 def is_energy(column: str) -> bool:
@@ -179,11 +192,15 @@ class Compared:
 
 def count(program: str, scenes: Path, scene: str) -> int:
     changes, function, _ = COUNTED[scene]
-    with tempfile.TemporaryDirectory() as folder:
-        write(scenes, scene, changes, Path(folder))
-        instructions = count_instructions(folder, function, program)
-    print(f"[{scene}] {instructions} instructions", flush=True)
-    return instructions
+    file = kept_file(program, "instructions", scene, changes)
+    kept: dict[str, int] | None = read_json(file)
+    if kept is None:
+        with tempfile.TemporaryDirectory() as folder:
+            write(scenes, scene, changes, Path(folder))
+            kept = {"instructions": count_instructions(folder, function, program)}
+        write_json(file, kept)
+    print(f"[{scene}] {kept['instructions']} instructions", flush=True)
+    return kept["instructions"]
 
 
 def count_row(scenes: Path, scene: str) -> list[object]:
@@ -197,25 +214,31 @@ def count_row(scenes: Path, scene: str) -> list[object]:
     ]
 
 
-def outcomes(program: str, tests: Path, folder: Path) -> dict[str, tuple[str, str]]:
-    """The outcomes of scenes at the extremes by name, with their steps and iterations. The plan and
-    the checks are those of that version."""
+def outcomes(program: str, version: Path, chosen: list[str]) -> dict[str, tuple[str, str]]:
+    """The outcomes of scenes at the extremes by name, with their steps and iterations. Plan and checks are
+    those of the version in that folder: its checks read what its program writes."""
+    folder = KEPT / f"extremes-{hash_of_file(Path(program))[:12]}"
     subprocess.run(
         [
             sys.executable,
-            str(tests / "tests/extremes/run.py"),
+            str(version / "tests/extremes/run.py"),
             "--program",
             program,
             "--folder",
             str(folder),
-            "--part",
-            PART,
+            *chosen,
         ],
         check=True,
         env={**os.environ, **ALONE},
     )
     kept = [json.loads(path.read_text()) for path in sorted((folder / "kept").glob("*.json"))]
     return {one["name"]: (one["outcome"], f"{one.get('steps')}, {one.get('iterations')}") for one in kept}
+
+
+def compare_outcomes(earlier: Path) -> list[dict[str, tuple[str, str]]]:
+    """Those of a part of the earlier plan, with both programs."""
+    before = outcomes(BEFORE, earlier, ["--part", PART])
+    return [before, outcomes(PROGRAM, ROOT, [part for name in before for part in ("--only", name)])]
 
 
 def git(*command: str) -> bytes:
@@ -229,6 +252,7 @@ if not BEFORE:
         flush=True,
     )
     raise SystemExit(0)
+KEPT.mkdir(parents=True, exist_ok=True)
 with tempfile.TemporaryDirectory() as folder:
     place = Path(folder)
     with tarfile.open(
@@ -240,11 +264,7 @@ with tempfile.TemporaryDirectory() as folder:
         names = ["billet_upsetting", "press_fit"]
     compared = [Compared(place / "prm", name) for name in names]
     counts = [] if options.quick else [count_row(place / "prm", name) for name in COUNTED]
-    extremes = (
-        []
-        if options.quick
-        else [outcomes(BEFORE, place, place / "before"), outcomes(PROGRAM, place, place / "now")]
-    )
+    extremes = [] if options.quick else compare_outcomes(place)
 same = [scene for scene in compared if scene.is_same]
 exact = [scene for scene in same if scene.difference.largest == 0.0]
 worst = max((abs(float(str(row[4]).split()[0])) for row in counts), default=math.nan)
@@ -281,8 +301,8 @@ publish(
     table(["scene", "part", "before", "now", "change"], counts),
     (
         "## Scenes at the extremes\n\n"
-        f"Part {PART} of the {COMMIT} plan, {len(shared)} scenes, ran with both programs. They were judged by"
-        f" the checks of that version. {len(shared) - len(other)} have the same outcome,"
+        f"Part {PART} of the {COMMIT} plan, {len(shared)} scenes, ran with both programs. Each was judged by"
+        f" the checks of its version. {len(shared) - len(other)} have the same outcome,"
         f" {as_many} as many steps"
         " and iterations. The others are:"
     ),
