@@ -536,7 +536,10 @@ class TestCommand(unittest.TestCase):
             (["--set", "Speed"], "--set is 'Speed'; allowed is 'path/to/parameter=value'"),
             (["--until", "2"], "--until is 2; allowed is a part of the end time"),
             (["--mesh", "3"], "--mesh: the mesh of 'bar' changes by factors of 2 only"),
-            (["--outputs", "colour"], "--outputs is 'colour'; allowed are force, energy, strain, shape, rebound"),
+            (
+                ["--outputs", "colour"],
+                "--outputs is 'colour'; allowed are force, energy, strain, shape, rebound",
+            ),
             (["--outputs", "strain", "--parameters", "predictor"], "the strain profile wants a --line"),
             (["--outputs", "rebound", "--parameters", "predictor"], "nothing rebounds in a static scene"),
             (
