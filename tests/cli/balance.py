@@ -4,12 +4,12 @@
 
 Begins every scene of prm/ in an empty current folder, and stops it some processor time after tools, supports
 or pairs have begun to bear forces. In each line of its history the sum of reactions, contact, loads and
-inertia is that of the residuals. So it is where tools leave and supports or loads begin late, in scenes whose
-times are brought forward. contact_scenes.py, loaded_scenes.py and rubber_scenes.py check all lines of variants
-that run to their ends. Scenes, and the files that they include, must be short.
+inertia is that of the residuals. So it is where tools leave and supports or loads begin late, in scenes
+whose times are brought forward. contact_scenes.py, loaded_scenes.py and rubber_scenes.py check all lines of
+variants that run to their ends. Scenes, and the files that they include, must be short.
 
-Runs rolled_strip.prm, in which an end moment rolls up a thin strip: in each step the reaction is the moment to
-1 % of the largest one so far, (Q4) of the theory.
+Runs rolled_strip.prm, in which an end moment rolls up a thin strip: in each step the reaction is the moment
+to 1 % of the largest one so far, (Q4) of the theory.
 
 Runs switched.prm to its end in every scheme: the columns of tools, supports, loads and inertia have this sum
 while forces fade.

@@ -133,8 +133,8 @@ class Force(Output):
 
 
 class Energy(Output):
-    """Kinetic energy, and what is stored or dissipated, over time. Two meshes share these curves of an impact,
-    and not its forces, which ring."""
+    """Kinetic energy, and what is stored or dissipated, over time. Two meshes share these curves of an
+    impact, and not its forces, which ring."""
 
     name, meaning = "energy", "∫Σ|E − E*| / ∫Σ|E*| over time, of kinetic and of stored or dissipated energy"
     KINETIC = "kinetic_energy"
