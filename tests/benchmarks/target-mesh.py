@@ -105,7 +105,7 @@ class Case(NamedTuple):
 
 def refined(body: str, given: int, layers: int = 0) -> Callable[[int], Changes]:
     def mesh(level: int) -> Changes:
-        changes: Changes = {f"Bodies/{body}/Mesh/Refinements": given + level}
+        changes: dict[str, object] = {f"Bodies/{body}/Mesh/Refinements": given + level}
         if layers:
             changes[f"Bodies/{body}/Mesh/Layers"] = int(layers * 2**level)
         return changes
@@ -117,7 +117,7 @@ def boxes(**bodies: str) -> Callable[[int], Changes]:
     """Subdivided boxes by body: 'nx, ny, nz : the rest'; numbers of 1 stay."""
 
     def mesh(level: int) -> Changes:
-        changes: Changes = {}
+        changes: dict[str, object] = {}
         for body, text in bodies.items():
             counts, rest = text.split(" : ", 1)
             numbers = [n if n == "1" else str(max(1, int(int(n) * 2**level))) for n in counts.split(", ")]
@@ -128,7 +128,7 @@ def boxes(**bodies: str) -> Callable[[int], Changes]:
 
 
 def tubes(level: int) -> Changes:
-    changes: Changes = {}
+    changes: dict[str, object] = {}
     for body in ("left", "right"):
         mesh = f"Bodies/{body}/Mesh/"
         changes[mesh + "Arguments"] = "0, 0 : 0.09 : 0.1 : 1 : 0 : 16 : true"
