@@ -4,12 +4,8 @@
 
 Begins every scene of prm/ in an empty current folder, and stops it some processor time after tools, supports
 or pairs have begun to bear forces. In each line of its history the sum of reactions, contact, loads and
-inertia is that of the residuals. So it is where tools leave and supports or loads begin late, in scenes
-whose times are brought forward. contact_scenes.py, loaded_scenes.py and rubber_scenes.py check all lines of
+inertia is that of the residuals. contact_scenes.py, loaded_scenes.py and rubber_scenes.py check all lines of
 variants that run to their ends. Scenes, and the files that they include, must be short.
-
-Runs rolled_strip.prm, in which an end moment rolls up a thin strip: in each step the reaction is the moment
-to 1 % of the largest one so far, (Q4) of the theory.
 
 Runs switched.prm to its end in every scheme: the columns of tools, supports, loads and inertia have this sum
 while forces fade.
@@ -24,7 +20,6 @@ import signal
 import subprocess
 import sys
 import time
-from typing import Dict, List
 
 from checks import (
     HERE,
@@ -52,10 +47,7 @@ check = Checks()
 enter_folder()
 
 
-Lines = List[Dict[str, float]]
-
-
-def lines_of(folder: str) -> Lines:
+def lines_of(folder: str) -> list[dict[str, float]]:
     """Returns the whole lines of a history that grows."""
     if not os.path.exists(f"{folder}/history.csv"):
         return []
@@ -75,19 +67,17 @@ def processor_time(process: int) -> float:
     return sum(map(int, times)) / os.sysconf("SC_CLK_TCK")
 
 
-def begin(scene: str, folder: str, settings: tuple[str, ...] = (), after: float = 0.0) -> Lines:
-    """Runs a scene for some time after enough lines later than `after` have forces, or to its end."""
-    options = [option for setting in settings for option in ("--set", setting)]
+def begin(scene: str, folder: str) -> list[dict[str, float]]:
+    """Runs a scene for some time after enough lines have forces, or to its end."""
     with open(f"{folder}.log", "w", encoding="utf-8") as log, subprocess.Popen(
-        [program, "--quiet", "--output", folder, *options, scene], stdout=log, stderr=log
+        [program, "--quiet", "--output", folder, scene], stdout=log, stderr=log
     ) as run:
         end = time.monotonic() + SECONDS
         began = math.inf
         while run.poll() is None and time.monotonic() < end:
             time.sleep(0.1)
             spent = processor_time(run.pid)
-            late = [line for line in lines_of(folder)[:-1] if line["time"] > after]
-            if began == math.inf and sum(map(bears, late)) >= N_LINES:
+            if began == math.inf and sum(map(bears, lines_of(folder)[:-1])) >= N_LINES:
                 began = spent
             if spent >= began + EXTRA:
                 break
@@ -97,14 +87,6 @@ def begin(scene: str, folder: str, settings: tuple[str, ...] = (), after: float 
 
 
 n_checked: list[int] = []
-
-
-def require_balanced(lines: Lines) -> None:
-    """Checks the balance of forces in each line."""
-    for line in lines:
-        defect = line["force_balance_defect"]
-        require(abs(defect) <= LIMIT, f"defect {defect} at time {line['time']}")
-    n_checked.append(len(lines))
 
 
 @check("scenes and their parts are short")
@@ -119,47 +101,10 @@ for scene in sorted(SHIPPED.glob("*.prm")):
     def _() -> None:
         lines = begin(str(scene), scene.stem)
         require(sum(map(bears, lines)) > 0, f"none of {len(lines)} lines has a force")
-        require_balanced(lines)
-
-
-def without_tools(time_of_removal: float, *tools: str) -> tuple[str, ...]:
-    """Returns settings that remove these tools then, and let a support take over the strip."""
-    removals = (f"Tools/{tool}/Motion/Removal time={time_of_removal}" for tool in tools)
-    return (f"Bodies/strip/Supports/middle/From={time_of_removal}", *removals)
-
-
-LATE = {  # settings that bring a later part of the scene forward, and the time at which it begins
-    "free_bend": (without_tools(0.05, "punch", "die"), 0.05),
-    "u_bend": (without_tools(0.01, "punch", "die", "holder"), 0.01),
-    "o_ring": (
-        (
-            "Bodies/ring/Loads/oil/From=0.1",
-            "Bodies/ring/Loads/oil/Pressure=0.3*(t - 0.1)",
-            "Time stepping/Stops=0.1",
-        ),
-        0.1,
-    ),
-}
-for name, (settings, after) in LATE.items():
-
-    @check(f"{name}: forces balance after a change at time {after}")
-    def _() -> None:
-        lines = begin(str(SHIPPED / f"{name}.prm"), f"{name}_late", settings, after)
-        n_late = sum(bears(line) for line in lines if line["time"] > after)
-        require(n_late >= N_LINES, f"{n_late} of {len(lines)} lines are later")
-        require_balanced(lines)
-
-
-@check("a strip that an end moment rolls up: moments balance to 1 %")
-def _() -> None:
-    ended = run(program, "--quiet", "--output", "rolled", str(HERE / "rolled_strip.prm"))
-    require(ended.code == 0, ended.output + ended.errors)
-    largest = 0.0
-    for line in history("rolled"):
-        reaction = line["strip.support root.moment_z"]
-        largest = max(largest, abs(reaction))
-        rest = reaction + 1150 * line["time"]
-        require(abs(rest) <= 0.01 * largest, f"{rest} of {largest} at time {line['time']}")
+        for line in lines:
+            defect = line["force_balance_defect"]
+            require(abs(defect) <= LIMIT, f"defect {defect} at time {line['time']}")
+        n_checked.append(len(lines))
 
 
 DYNAMIC = (

@@ -25,32 +25,26 @@ std::vector<Tensor<1, 3>> sum_nodes(const std::vector<const Vector *> &vectors, 
   return result;
 }
 
-/// Calls visit(index among the owned nodes, cell, its vertex) for the owned nodes of each cell.
-template <class Visit> void visit_owned_nodes(const Discretization &discretization, const Visit &visit) {
+/// Returns the body of each owned node.
+std::vector<std::size_t> find_bodies(const Discretization &discretization) {
   const auto &owned = discretization.owned_dofs();
+  std::vector<std::size_t> bodies(owned.n_elements() / 3);
+  std::vector<DofIndex> dofs(discretization.dof_handler().get_fe().n_dofs_per_cell());
   for (const auto &cell : discretization.dof_handler().active_cell_iterators())
-    if (!cell->is_artificial())
-      for (const unsigned int v : cell->vertex_indices())
-        if (const DofIndex dof = cell->vertex_dof_index(v, 0); owned.is_element(dof))
-          visit(owned.index_within_set(dof) / 3, cell, v);
-}
-
-/// Returns the n-th vector, such as that of the n-th owned node.
-template <class Values> Tensor<1, 3> of_node(const Values &values, const std::size_t n) {
-  return Tensor<1, 3>({values[3 * n], values[3 * n + 1], values[3 * n + 2]});
+    if (!cell->is_artificial()) {
+      cell->get_dof_indices(dofs);
+      for (const DofIndex dof : dofs)
+        if (owned.is_element(dof))
+          bodies[owned.index_within_set(dof) / 3] = cell->material_id();
+    }
+  return bodies;
 }
 
 } // namespace
 
 ImplicitReactions::ImplicitReactions(const ImplicitProblem &problem)
     : problem_(problem), supports_(parts_.scene(), parts_.discretization(), parts_.supports().acting()),
-      bodies_of_nodes_(parts_.discretization().owned_dofs().n_elements() / 3),
-      positions_(bodies_of_nodes_.size()), moments_(parts_.scene().bodies().size()) {
-  visit_owned_nodes(parts_.discretization(),
-                    [this](const std::size_t n, const auto &cell, const unsigned int v) {
-                      bodies_of_nodes_[n] = cell->material_id();
-                      positions_[n] = cell->vertex(v);
-                    });
+      bodies_of_nodes_(find_bodies(parts_.discretization())) {
   for (const NamedSupport &support : named_supports(parts_.scene()))
     bodies_of_supports_.push_back(support.body);
   values_.of_supports.resize(named_supports(parts_.scene()).size());
@@ -69,7 +63,6 @@ void ImplicitReactions::start() {
   const std::vector<Tensor<1, 3>> sums =
       sum_nodes({&trial.supports, &trial.internal, &trial.contact}, parts_.communicator());
   balance_bodies(residual, weighted.of_supports);
-  balance_moments(residual, weighted.of_supports);
   values_.of_supports = weighted.of_supports;
   if (parts_.scheme().has_inertia()) {
     parts_.scheme().add_end_inertia(at_end);
@@ -124,37 +117,6 @@ void ImplicitReactions::balance_bodies(const Vector &residual, const std::vector
   }
   for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s)
     values_.of_bodies[bodies_of_supports_[s]].free += of_supports[s].force;
-}
-
-void ImplicitReactions::balance_moments(const Vector &residual, const std::vector<Resultant> &of_supports) {
-  constexpr std::size_t n_sums = 6; // of two vectors
-  const auto rest = owned_values(residual), internal = owned_values(problem_.step().trial.internal),
-             u = owned_values(problem_.step().trial.displacements);
-  std::vector<double> sums(n_sums * moments_.size(), 0.);
-  const auto add = [&](const std::size_t body, const Tensor<1, 3> &first, const Tensor<1, 3> &second) {
-    for (unsigned int i = 0; i < 3; ++i) {
-      sums[n_sums * body + i] += first[i];
-      sums[n_sums * body + 3 + i] += std::abs(second[i]);
-    }
-  };
-  for (std::size_t n = 0; n < positions_.size(); ++n)
-    add(bodies_of_nodes_[n], positions_[n] + of_node(u, n), Tensor<1, 3>({1., 1., 1.}));
-  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
-  for (std::size_t b = 0; b < moments_.size(); ++b)
-    moments_[b].centre = of_node(sums, 2 * b) / sums[n_sums * b + 3];
-  std::fill(sums.begin(), sums.end(), 0.);
-  for (std::size_t n = 0; n < positions_.size(); ++n) {
-    const Tensor<1, 3> arm = positions_[n] + of_node(u, n) - moments_[bodies_of_nodes_[n]].centre;
-    add(bodies_of_nodes_[n], dealii::cross_product_3d(of_node(rest, n), arm),
-        dealii::cross_product_3d(arm, of_node(internal, n)));
-  }
-  dealii::Utilities::MPI::sum(sums, parts_.communicator(), sums);
-  for (std::size_t b = 0; b < moments_.size(); ++b)
-    moments_[b] = {moments_[b].centre, of_node(sums, 2 * b), of_node(sums, 2 * b + 1)};
-  for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s) {
-    BodyMoments &moments = moments_[bodies_of_supports_[s]];
-    moments.free += moment_about(moments.centre, of_supports[s].moment, of_supports[s].force);
-  }
 }
 
 void ImplicitReactions::set_pair(const std::size_t pair, const ContactLoad &load,

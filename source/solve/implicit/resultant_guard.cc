@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/resultant_guard.h"
 
-#include "billet/discretization/body_volumes.h"
 #include "billet/solve/unbalanced_bodies.h"
 
 #include <algorithm>
@@ -19,9 +18,6 @@ struct Limits {
   static constexpr unsigned int max_failures = 7;
 };
 
-/// First number of moments on a body.
-constexpr std::size_t of_moments = 6;
-
 } // namespace
 
 ResultantGuard::ResultantGuard(const ImplicitProblem &problem)
@@ -30,54 +26,31 @@ ResultantGuard::ResultantGuard(const ImplicitProblem &problem)
       largest_(parts_.scene().bodies().size(), OfBody{}), trial_(largest_) {
   for (const NamedSupport &support : named_supports(parts_.scene()))
     bodies_of_supports_.push_back(support.body);
-  for (const double volume : measure_body_volumes(parts_.discretization()))
-    sizes_.push_back(std::cbrt(volume));
 }
 
 double ResultantGuard::find_part() {
   reactions_.start();
   const Reactions &reactions = reactions_.values();
   trial_ = largest_;
+  const auto count = [this](const std::size_t body, const Tensor<1, 3> &force) {
+    for (unsigned int i = 0; i < 3; ++i)
+      trial_[body][i] = std::max(trial_[body][i], std::abs(force[i]));
+  };
   for (std::size_t s = 0; s < bodies_of_supports_.size(); ++s)
-    count(bodies_of_supports_[s], reactions.of_supports[s].force, reactions.of_supports[s].moment);
+    count(bodies_of_supports_[s], reactions.of_supports[s].force);
   for (const auto &contact : parts_.contacts()) {
-    ContactLoad load = contact.measures().compute_load();
-    if (const auto &tool = contact.rigid_tool())
-      load = about_origin(load,
-                          parts_.tools().place(*tool, problem_.step().time, parts_.tools().offsets()[*tool]));
+    const Tensor<1, 3> force = contact.measures().compute_load().force;
     for (const std::size_t body : contact.bodies())
-      count(body, load.force, load.moment);
+      count(body, force);
   }
   double part = 0.;
   for (std::size_t b = 0; b < trial_.size(); ++b) {
-    const BodyBalance &forces = reactions.of_bodies[b];
-    const BodyMoments &moments = reactions_.moments()[b];
-    for (unsigned int i = 0; i < 3; ++i) {
-      trial_[b][3 + i] = std::max(trial_[b][3 + i], forces.nodal);
-      trial_[b][of_moments + 3 + i] = std::max(trial_[b][of_moments + 3 + i], moments.nodal[i]);
-    }
-    part = std::max({part, find_part(b, forces.free, round_off_[b], 0),
-                     find_part(b, moments.free, round_off_[b] * sizes_[b], of_moments)});
-  }
-  return part;
-}
-
-void ResultantGuard::count(const std::size_t body, const Tensor<1, 3> &force, const Tensor<1, 3> &moment) {
-  const Tensor<1, 3> about_centre = moment_about(reactions_.moments()[body].centre, moment, force);
-  for (unsigned int i = 0; i < 3; ++i) {
-    trial_[body][i] = std::max(trial_[body][i], std::abs(force[i]));
-    trial_[body][of_moments + i] = std::max(trial_[body][of_moments + i], std::abs(about_centre[i]));
-  }
-}
-
-double ResultantGuard::find_part(const std::size_t body, const Tensor<1, 3> &free, const double round_off,
-                                 const std::size_t first) const {
-  const OfBody &of_body = trial_[body];
-  double part = 0.;
-  for (unsigned int i = 0; i < 3; ++i) {
-    const double largest = of_body[first + i], nodal = of_body[first + 3 + i];
-    if (largest > UnbalancedBodies::least_force(round_off, nodal, parts_.parameters().solver))
-      part = std::max(part, std::abs(free[i]) / largest);
+    trial_[b][3] = std::max(trial_[b][3], reactions.of_bodies[b].nodal);
+    const double least =
+        UnbalancedBodies::least_force(round_off_[b], trial_[b][3], parts_.parameters().solver);
+    for (unsigned int i = 0; i < 3; ++i)
+      if (trial_[b][i] > least)
+        part = std::max(part, std::abs(reactions.of_bodies[b].free[i]) / trial_[b][i]);
   }
   return part;
 }
@@ -104,13 +77,12 @@ void ResultantGuard::load(StateReader &reader) {
   if (!reader.has("resultants"))
     return;
   const std::vector<double> numbers = reader.read("resultants");
-  constexpr std::size_t of_body = std::tuple_size<OfBody>::value;
-  if (numbers.size() != 2 + of_body * largest_.size())
+  if (numbers.size() != 2 + 4 * largest_.size())
     return; // saved for other bodies
   n_failed_ = static_cast<unsigned int>(numbers[0]);
   n_left_out_ = static_cast<unsigned int>(numbers[1]);
   for (std::size_t b = 0; b < largest_.size(); ++b)
-    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(2 + of_body * b), of_body, largest_[b].begin());
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(2 + 4 * b), 4, largest_[b].begin());
   trial_ = largest_;
 }
 

@@ -10,20 +10,6 @@
 
 namespace billet {
 
-/// Moments of the nodal forces of a body about its centre, the mean of its nodes.
-struct BodyMoments {
-  dealii::Tensor<1, 3> centre; ///< at the end of the step
-  dealii::Tensor<1, 3> free;   ///< of the forces of BodyBalance::free [force length]
-  dealii::Tensor<1, 3> nodal;  ///< magnitudes of the moments of internal forces, by axes [force length]
-};
-
-/// Returns the moment of forces about a centre [force length]. `moment`: about the origin.
-inline dealii::Tensor<1, 3> moment_about(const dealii::Tensor<1, 3> &centre,
-                                         const dealii::Tensor<1, 3> &moment,
-                                         const dealii::Tensor<1, 3> &force) {
-  return moment - dealii::cross_product_3d(centre, force);
-}
-
 /// Reactions of the accepted steps of an implicit scene, at their ends: at a constrained dof, the sum of all
 /// forces without constraints. In dynamics they include inertia, with the accelerations at the end of the
 /// step. The free residual is that of the integrator's balance, which weighs forces of both ends; inertia of
@@ -34,8 +20,6 @@ public:
   explicit ImplicitReactions(const ImplicitProblem &problem);
 
   const Reactions &values() const { return values_; }
-  /// Returns those of the last start().
-  const std::vector<BodyMoments> &moments() const { return moments_; }
   /// Computes the reactions of supports from the last residual, before anything is committed; contact comes
   /// by set_pair(). Collective.
   void start();
@@ -53,17 +37,13 @@ private:
   void add_fading();
   /// Sets the sums over the nodes of each body. `residual`: that of all nodes, with these reactions.
   void balance_bodies(const Vector &residual, const std::vector<Resultant> &of_supports);
-  /// Sets the moments, after these sums.
-  void balance_moments(const Vector &residual, const std::vector<Resultant> &of_supports);
 
   const ImplicitProblem &problem_;
   const ImplicitParts &parts_ = problem_.parts();
   SupportReactions supports_;
   std::vector<std::size_t> bodies_of_nodes_;    ///< owned
-  std::vector<dealii::Point<3>> positions_;     ///< of these nodes, undeformed
   std::vector<std::size_t> bodies_of_supports_; ///< in the order of named_supports()
   Reactions values_;
-  std::vector<BodyMoments> moments_;
 };
 
 } // namespace billet

@@ -9,12 +9,11 @@
 namespace billet {
 
 /// Compares what residuals leave out of balance on each body with the forces of its supports and contact
-/// pairs, and their moments about its centre, (Q4) of doc/theory. 'Force tolerance' is a part of all nodal
-/// forces. Those of bending are large beside the forces and moments that bend, so that the latter need a
-/// smaller residual.
+/// pairs, (Q4) of doc/theory. 'Force tolerance' is a part of all nodal forces. Those of bending are large
+/// beside the forces that bend, so that the latter need a smaller residual.
 class ResultantGuard {
 public:
-  /// Part of the forces along an axis, or of the moments about it, that may be out of balance.
+  /// Part of the forces along an axis that may be out of balance.
   static constexpr double allowed = 0.01;
 
   explicit ResultantGuard(const ImplicitProblem &problem);
@@ -33,22 +32,14 @@ public:
   void load(StateReader &reader);
 
 private:
-  /// By axes, the largest forces on a body so far, and the largest sums of its nodal forces [force]; then the
-  /// same of moments [force length].
-  using OfBody = std::array<double, 12>;
-
-  /// Counts a force on a body, and its moment about the origin.
-  void count(std::size_t body, const dealii::Tensor<1, 3> &force, const dealii::Tensor<1, 3> &moment);
-  /// Returns the largest part of what is out of balance along or about an axis; `first`: in OfBody.
-  double find_part(std::size_t body, const dealii::Tensor<1, 3> &free, double round_off,
-                   std::size_t first) const;
+  /// Largest forces on a body so far, along each axis, and the largest sum of its nodal forces [force].
+  using OfBody = std::array<double, 4>;
 
   const ImplicitProblem &problem_;
   const ImplicitParts &parts_ = problem_.parts();
   ImplicitReactions reactions_;
   std::vector<std::size_t> bodies_of_supports_; ///< in the order of named_supports()
   std::vector<double> round_off_;               ///< by body [force]
-  std::vector<double> sizes_;                   ///< by body [length]
   std::vector<OfBody> largest_, trial_;         ///< by body; `trial_`: of the last find_part(), too
   bool has_failed_ = false;                     ///< in this step
   unsigned int n_failed_ = 0, n_left_out_ = 0;  ///< failures in a row, and steps to go without
