@@ -5,12 +5,11 @@ they cost beside runs set by hand."""
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from itertools import product
 from typing import Callable, Iterator, NamedTuple, Sequence
 
 from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
-from curve_runs import CurveRun, run_all
+from curve_runs import CurveRun
 
 options = arguments("target-mesh")
 TARGETS = (0.1, 0.05, 0.02, 0.01)
@@ -252,42 +251,36 @@ CASES = [
 ]
 
 
+def run_case(case: Case, changes: Changes) -> CurveRun:
+    """Returns a run with the curves that are compared."""
+    run = CurveRun(ROOT / f"{case.scene}.prm", changes)
+    if case.by_energies:
+        run.curves = run.energies
+    return run
+
+
 class Reference:
     """The finest of three meshes, extrapolated by the order that they show."""
 
     def __init__(self, case: Case) -> None:
-        self.runs = [CurveRun(ROOT / f"{case.scene}.prm", changes) for changes in case.references()]
-        self.by_energies = case.by_energies
+        self.runs = [run_case(case, changes) for changes in case.references()]
         before, last = (self.difference(a, b) for a, b in zip(self.runs, self.runs[1:]))
         self.order = min(2.0, math.log2(before / last)) if before > last > 0 else math.nan
         self.factor = 0.0 if math.isnan(self.order) else 1 / (2**self.order - 1)
 
-    def curves_of(self, run: CurveRun) -> dict[str, list[tuple[float, ...]]]:
-        return run.energies if self.by_energies else run.curves
-
-    def at(self, run: CurveRun, name: str, time: float) -> list[float]:
-        curve, times = self.curves_of(run)[name], run.times
-        i = bisect_right(times, time)
-        if i == len(times):
-            return list(curve[-1])
-        before = curve[i - 1] if i > 0 else tuple(0.0 for _ in curve[0])
-        start = times[i - 1] if i > 0 else 0.0
-        part = (time - start) / (times[i] - start)
-        return [a + part * (b - a) for a, b in zip(before, curve[i])]
-
     def difference(self, run: CurveRun, other: CurveRun) -> float:
-        return self.integrate(run, lambda name, time: self.at(other, name, time))
+        return self.integrate(run, other.at)
 
     def exact(self, name: str, time: float) -> list[float]:
-        coarse, fine = (self.at(run, name, time) for run in self.runs[-2:])
+        coarse, fine = (run.at(name, time) for run in self.runs[-2:])
         return [b + self.factor * (b - a) for a, b in zip(coarse, fine)]
 
     def error(self, run: CurveRun) -> float:
         return self.integrate(run, self.exact) if run.finished and run.times else math.nan
 
-    def integrate(self, run: CurveRun, other: Callable[[str, float], list[float]]) -> float:
+    def integrate(self, run: CurveRun, other: Callable[[str, float], Sequence[float]]) -> float:
         """∫Σ|F − F*| dt over ∫Σ|F*| dt at the ends of the run's steps, by the trapezoidal rule."""
-        curves = self.curves_of(run)
+        curves = run.curves
         off, size = [], []
         for i, time in enumerate(run.times):
             exact = {name: other(name, time) for name in curves}
@@ -331,14 +324,13 @@ class Try(NamedTuple):
 
 
 def tries_of(case: Case) -> list[Try]:
-    scene = ROOT / f"{case.scene}.prm"
     reference = Reference(case)
     by_hand = list(case.by_hand())
-    runs = run_all(scene, [changes for _, changes in by_hand], at_once=1)
+    runs = [run_case(case, changes) for _, changes in by_hand]
     errors = [reference.error(run) for run in runs]
     tries = []
     for target in TARGETS:
-        run = CurveRun(scene, case.target(target))
+        run = run_case(case, case.target(target))
         within = [
             (one.seconds, said)
             for one, error, (said, _) in zip(runs, errors, by_hand)
