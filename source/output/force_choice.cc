@@ -2,7 +2,6 @@
 #include "billet/output/force_choice.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace billet {
 
@@ -20,8 +19,8 @@ struct Factors {
 } // namespace
 
 ForceChoice::ForceChoice(const std::size_t n_loads, const std::size_t max_shown, const double lever)
-    : lever_(lever), max_(n_loads) {
-  for (std::size_t i = 0; i < std::min(n_loads, max_shown); ++i)
+    : lever_(lever), max_shown_(std::min(n_loads, max_shown)), max_(n_loads) {
+  for (std::size_t i = 0; i < max_shown_; ++i)
     shown_.push_back({i, false});
 }
 
@@ -39,19 +38,23 @@ bool ForceChoice::update(const std::vector<Load> &loads) {
     max_[i] = {std::max(max_[i].force, loads[i].force), std::max(max_[i].moment, loads[i].moment)};
     largest = std::max(largest, size(i));
   }
+  if (!(largest > 0.))
+    return false;
+  const auto is_shown = [this](const std::size_t load) {
+    return std::any_of(shown_.begin(), shown_.end(),
+                       [load](const Shown &shown) { return shown.load == load; });
+  };
   // What is shown stays before what is a little larger.
   const auto rank = [&](const std::size_t load) {
-    const bool is_shown =
-        std::any_of(shown_.begin(), shown_.end(), [&](const Shown &shown) { return shown.load == load; });
-    return is_shown                                     ? Factors::larger * size(load)
-           : size(load) > Factors::negligible * largest ? size(load)
-                                                        : -1.;
+    return is_shown(load) ? Factors::larger * size(load) : size(load);
   };
-  std::vector<std::size_t> order(max_.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::size_t> order;
+  for (std::size_t load = 0; load < max_.size(); ++load)
+    if (size(load) > Factors::negligible * largest)
+      order.push_back(load);
   std::stable_sort(order.begin(), order.end(),
                    [&](const std::size_t a, const std::size_t b) { return rank(a) > rank(b); });
-  order.resize(shown_.size());
+  order.resize(std::min(order.size(), max_shown_));
   std::sort(order.begin(), order.end());
   std::vector<Shown> chosen;
   for (const std::size_t load : order)

@@ -170,9 +170,10 @@ void Progress::start(const Discretization &discretization, const Solution &solut
   const WholeSection &whole = scene_.whole_section();
   if (whole.kind == WholeSection::Kind::full_circle)
     stream_ << "Forces here are those of the full circle, along its axis: " << whole.factor
-            << " times those of the wedge\n";
+            << " times those of the wedge. In the scene forces are those of the wedge\n";
   if (whole.kind == WholeSection::Kind::per_width)
-    stream_ << "Forces here are those per unit of width: " << whole.factor << " times those of the layer\n";
+    stream_ << "Forces here are those per unit of width: " << whole.factor
+            << " times those of the layer. In the scene forces are those of the layer\n";
 }
 
 void Progress::show_number_of_steps(const double n_steps, const double step) {

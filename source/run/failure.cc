@@ -17,6 +17,8 @@ namespace {
 struct Limits {
   /// Poisson ratio above which few significant digits are left.
   static constexpr double incompressible = 0.49995;
+  /// Part of its value at the end with which a load begins, above which it is sudden.
+  static constexpr double sudden = 0.5;
   /// Norm of the elastic strain deviator above which a law without an exact dissipation unbalances energies.
   static constexpr double large_strain = 0.02;
 };
@@ -50,6 +52,39 @@ std::string join_sentences(const std::vector<std::string> &sentences) {
 
 std::string describe_unstable_law(const bool is_unstable) {
   return is_unstable ? EnergyWatch::advise(EnergyWatch::Cause::unstable_law) : "";
+}
+
+/// Whether a load has most of its final value right after time t, where it begins.
+bool is_sudden_at(const double t, const double end, const AppliedLoad &load) {
+  const bool begins = load.times.from > 0. ? load.times.changes_at(t) && load.times.acts_after(t) : !(t > 0.);
+  const dealii::Point<3> somewhere(1., 1., 1.); // an expression may be 0 at the origin
+  return begins && !load.load.is_spring() &&
+         std::any_of(load.expressions.begin(), load.expressions.end(), [&](const Expression &expression) {
+           const double first = std::abs(expression.value(t, somewhere));
+           return first > 0. && first >= Limits::sudden * std::abs(expression.value(end, somewhere));
+         });
+}
+
+/// Returns advice if a static step fails at whose start a load is applied as a whole: a shorter step has no
+/// smaller load.
+std::string advise_on_sudden_load(const Scene &scene, const double from) {
+  const parameters::Scene &parameters = scene.parameters();
+  if (parameters.scheme().has_inertia)
+    return "";
+  const double end = parameters.time_stepping.end_time;
+  for (const Body &body : scene.bodies())
+    for (const AppliedLoad &load : body.loads)
+      if (is_sudden_at(from, end, load)) {
+        std::ostringstream text;
+        text << "Load '" << load.name << "' of body '" << body.name << "' acts in full from time " << from
+             << " on, so that shorter steps have no smaller load. Let it grow: multiply it by 'min(1, "
+             << (from > 0. ? "(t - " : "t");
+        if (from > 0.)
+          text << from << ")";
+        text << "/" << 0.5 * (end - from) << ")', for example";
+        return text.str();
+      }
+  return "";
 }
 
 /// Returns advice on contact if Newton's method cycles between its states.
@@ -173,8 +208,9 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
   return dealii::Utilities::MPI::max(maximum, discretization.communicator()) > Limits::large_strain;
 }
 
-Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepReport &report,
-                               const double from, const double to, const bool is_unstable) {
+Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, const double from,
+                               const double to, const bool is_unstable) {
+  const parameters::Scene &parameters = scene.parameters();
   const NewtonReport &newton = report.newton;
   const bool has_cause = newton.is_lost_in_round_off || newton.is_explained(); // which is not the iterations
   std::ostringstream what, results;
@@ -187,11 +223,11 @@ Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepRe
       .value("steps", report.step)
       .value("Newton iterations", report.total_iterations)
       .advice(has_cause ? join_sentences({newton.advice, results.str()})
-                        : join_sentences({newton.advice, describe_limit_load(parameters),
-                                          advise_on_cycling(parameters, newton),
-                                          advise_on_steps(parameters, newton),
-                                          describe_incompressibility(parameters),
-                                          describe_unstable_law(is_unstable), results.str()}));
+                        : join_sentences(
+                              {newton.advice, advise_on_sudden_load(scene, from),
+                               describe_limit_load(parameters), advise_on_cycling(parameters, newton),
+                               advise_on_steps(parameters, newton), describe_incompressibility(parameters),
+                               describe_unstable_law(is_unstable), results.str()}));
   return diagnostic;
 }
 

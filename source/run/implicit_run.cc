@@ -152,8 +152,7 @@ void ImplicitRun::reject_step(const double from, const double to, RunOutput &out
   if (may_continue)
     return;
   output.snapshots().write(problem_);
-  throw SolutionFailure(
-      explain_failed_step(parameters_, report_, from, to, stability_.has_unstable_bodies()));
+  throw SolutionFailure(explain_failed_step(scene_, report_, from, to, stability_.has_unstable_bodies()));
 }
 
 void ImplicitRun::after_step(RunOutput &output) {

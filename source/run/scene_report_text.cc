@@ -75,7 +75,8 @@ void print(const BodyReport &body, std::ostream &stream) {
   if (body.circle_factor > 1.)
     stream << label("") << "the full circle has " << number(body.circle_factor) << " times that: volume "
            << number(body.circle_factor * body.volume)
-           << (body.mass > 0. ? ", mass " + number(body.circle_factor * body.mass) : "") << "\n";
+           << (body.mass > 0. ? ", mass " + number(body.circle_factor * body.mass) : "")
+           << "; forces in the scene are those of the wedge\n";
   constexpr double much = 5e-3; // of the volume
   if (const double lacks = body.smooth_volume ? 1. - body.volume / *body.smooth_volume : 0.;
       std::abs(lacks) > much)
@@ -128,7 +129,8 @@ void print(const RunReport &run, const double size, std::ostream &stream) {
   if (run.n_steps > 0.)
     stream << (run.is_minimum ? ", at least " : ", about ") << number(run.n_steps)
            << (run.n_steps == 1. ? " step" : " steps")
-           << (run.max_steps > 0. ? ", up to " + number(run.max_steps) + " if contact lasts\n" : "\n");
+           << (run.max_steps > 0. ? ", up to " + number(run.max_steps) + " if contact lasts" : "")
+           << (run.stable_step ? ", more if elements shrink\n" : "\n");
   else
     stream << ", number of steps unknown: the forces at the start fail\n";
   if (!run.stable_step)

@@ -24,7 +24,8 @@ int main() {
   {
     ForceChoice choice(2, 5, 10.);
     check("all loads that there is room for", text(choice) == "0 1");
-    check("they stay", !choice.update({{0., 0.}, {7., 70.}}) && text(choice) == "0 1");
+    check("then those with forces", choice.update({{0., 0.}, {7., 70.}}) && text(choice) == "1");
+    check("and what comes later", choice.update({{1., 0.}, {7., 70.}}) && text(choice) == "0 1");
   }
   {
     ForceChoice choice(4, 2, 10.);
@@ -39,7 +40,8 @@ int main() {
   }
   {
     ForceChoice choice(3, 2, 10.);
-    check("round-off takes no place", !choice.update({{100., 0.}, {}, {1e-5, 0.}}) && text(choice) == "0 1");
+    check("round-off takes no place, nor does what has no force",
+          choice.update({{100., 0.}, {}, {1e-5, 0.}}) && text(choice) == "0");
     check("a small force does", choice.update({{}, {}, {1e-3, 0.}}) && text(choice) == "0 2");
   }
   {

@@ -7,8 +7,8 @@
 
 namespace billet {
 
-/// Chooses the loads that a table has room for: those that were largest so far. A load without a force, such
-/// as a couple, counts by its moment.
+/// Chooses the loads that a table has room for: those that were largest so far, and none without a force. A
+/// couple counts by its moment.
 class ForceChoice {
 public:
   /// Sizes of the force [force] and of the moment [force length] of a load.
@@ -23,7 +23,7 @@ public:
     bool operator==(const Shown &other) const { return load == other.load && is_moment == other.is_moment; }
   };
 
-  /// Shows the first loads until others are larger. `lever`: size of the model, by which moments are compared
+  /// Shows the first loads until there are forces. `lever`: size of the model, by which moments are compared
   /// with forces [length].
   ForceChoice(std::size_t n_loads, std::size_t max_shown, double lever);
 
@@ -38,6 +38,7 @@ private:
   double size(std::size_t load) const;
 
   double lever_;
+  std::size_t max_shown_;
   std::vector<Load> max_;
   std::vector<Shown> shown_;
 };

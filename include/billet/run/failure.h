@@ -18,8 +18,8 @@ bool has_inexact_dissipation(const Scene &scene, const Discretization &discretiz
 
 /// Explains why an implicit run fails in the step between these times. `is_unstable`: a body is strained
 /// beyond the stability of its law.
-Diagnostic explain_failed_step(const parameters::Scene &parameters, const StepReport &report, double from,
-                               double to, bool is_unstable);
+Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, double from, double to,
+                               bool is_unstable);
 
 /// Explains why an implicit run ends because of this energy imbalance.
 Diagnostic explain_imbalance(const parameters::Scene &parameters, const StepReport &report, double time,
