@@ -5,6 +5,7 @@
 #include "billet/errors.h"
 #include "billet/forces/selected_nodes.h"
 #include "billet/forces/surface_coupling.h"
+#include "billet/geometry/facet_point.h"
 #include "billet/loads/node_site.h"
 #include "billet/mechanics/element_mass.h"
 #include "billet/scene/section_geometry.h"
@@ -41,13 +42,44 @@ Point<3> centre_of(const BoundaryFacet &facet) {
 /// Returns the time of a load's values at time t: after 'Until' they keep those of that time, and fade.
 double time_of_values(const AppliedLoad &load, const double t) { return std::min(t, load.times.until); }
 
-/// Returns the values of the expressions; only one value for a uniform expression.
+bool are_uniform(const std::vector<Expression> &expressions) {
+  return std::all_of(expressions.begin(), expressions.end(),
+                     [](const Expression &value) { return value.is_uniform(); });
+}
+
+/// Returns the undeformed position of a point of a face.
+Point<3> undeformed_place(const LoadedFace &face, const FacetPoint &point, const double *positions) {
+  Tensor<1, 3> place;
+  for (unsigned int a = 0; a < 4; ++a)
+    place += point.N[a] * get_vector(positions, face.nodes[a]);
+  return Point<3>(place);
+}
+
+/// Returns the values of the expressions at the facet_points() of faces, one set after the other for each
+/// face; only those of one face for uniform expressions.
+LoadValues evaluate_at_points(const AppliedLoad &load, const double time,
+                              const std::vector<LoadedFace> &faces, const double *positions) {
+  const double t = time_of_values(load, time);
+  const auto &expressions = load.expressions;
+  const std::size_t n = expressions.size(), n_points = facet_points().size();
+  const bool is_uniform = are_uniform(expressions);
+  const std::size_t n_sets = is_uniform ? 1 : faces.size();
+  LoadValues values(n_points * n, n_sets, is_uniform);
+  for (std::size_t f = 0; f < n_sets; ++f)
+    for (std::size_t q = 0; q < n_points; ++q)
+      for (std::size_t i = 0; i < n; ++i)
+        values.at(f)[q * n + i] =
+            is_uniform ? expressions[i].value(t)
+                       : expressions[i].value(t, undeformed_place(faces[f], facet_points()[q], positions));
+  return values;
+}
+
+/// Returns the values of the expressions at sites; only one set for uniform expressions.
 template <class Site>
 LoadValues evaluate(const AppliedLoad &load, const double time, const std::vector<Site> &sites) {
   const double t = time_of_values(load, time);
   const auto &expressions = load.expressions;
-  const bool is_uniform = std::all_of(expressions.begin(), expressions.end(),
-                                      [](const Expression &value) { return value.is_uniform(); });
+  const bool is_uniform = are_uniform(expressions);
   const std::size_t n_sets = is_uniform ? 1 : sites.size();
   LoadValues values(expressions.size(), n_sets, is_uniform);
   for (std::size_t k = 0; k < n_sets; ++k)
@@ -242,12 +274,24 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
   const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
   auto surface = measure_surface(facets);
   std::vector<LoadedNode> nodes;
+  // Forces that depend on the place alone are integrated; those that resist motions are lumped at the nodes.
+  const bool is_integrated = action.tangent() == LoadTangent::none;
   for (const auto &facet : facets) {
     const std::array<double, 4> areas = facet.corner_areas();
     const auto corners = local_corners(facet, nodes_);
     const Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
-    for (unsigned int a = 0; a < 4; ++a)
+    for (unsigned int a = 0; a < 4 && !is_integrated; ++a)
       nodes.push_back({corners[a], areas[a], normal, centre_of(facet), surface.get()});
+    for (unsigned int q = 0; q < facet_points().size() && is_integrated; ++q) {
+      const FacetPoint &point = facet_points()[q];
+      const auto corner = [&facet](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); };
+      const double area = point.area_vector(corner).norm();
+      Tensor<1, 3> place;
+      for (unsigned int a = 0; a < 4; ++a)
+        place += point.N[a] * corner(a);
+      for (unsigned int a = 0; a < 4; ++a)
+        nodes.push_back({corners[a], point.N[a] * area, normal, Point<3>(place), surface.get()});
+    }
   }
   on_nodes_.push_back({&load, &action, std::move(nodes), std::move(surface)});
 }
@@ -337,7 +381,8 @@ void ExternalLoads::add(const Placed<BodyLoad, WeightedNode> &placed, const doub
 void ExternalLoads::add(const Placed<FaceLoad, LoadedFace> &placed, const double t, const NodalMotion &at,
                         NodalVectors &forces) const {
   add_with_factor(*placed.load, t, forces, [&](double *sum) {
-    placed.action->add_forces(placed.sites, evaluate(*placed.load, t, placed.sites), at, sum);
+    placed.action->add_forces(placed.sites, evaluate_at_points(*placed.load, t, placed.sites, at.positions),
+                              at, sum);
   });
 }
 
@@ -415,7 +460,7 @@ void ExternalLoads::add_tangent(const double t, const NodalVectors &displacement
     if (action->tangent() == LoadTangent::none || factor == 0.)
       continue;
     const TangentSystem target{system.constraints, system.matrix, system.lift, factor * system.weight};
-    const LoadValues values = evaluate(*load, t, faces);
+    const LoadValues values = evaluate_at_points(*load, t, faces, at.positions);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       for (unsigned int a = 0; a < 4; ++a)
         for (unsigned int i = 0; i < 3; ++i)

@@ -78,7 +78,9 @@ void check_sides(std::vector<Side> sides) {
             print(sides[i].end) + ": their normals oppose each other");
 }
 
-SurfacePatches read_patches(std::istream &stream, const std::string &name) {
+} // namespace
+
+SurfacePatches read_coons_patches(std::istream &stream, const std::string &name) {
   SurfacePatches patches;
   std::vector<Side> sides;
   std::string line;
@@ -103,8 +105,6 @@ SurfacePatches read_patches(std::istream &stream, const std::string &name) {
   }
   return patches;
 }
-
-} // namespace
 
 SurfaceType coons_patch_type() {
   return {"coons patch",
@@ -131,7 +131,7 @@ SurfaceType coons_patches_type() {
             const std::string name = input.file("File");
             std::ifstream stream(name);
             try {
-              return read_patches(stream, name);
+              return read_coons_patches(stream, name);
             } catch (const std::invalid_argument &error) {
               input.reject("File", std::string("a file of Coons patches; ") + error.what());
               throw;

@@ -7,7 +7,7 @@ LoadType dead_traction_type();
 
 namespace {
 
-/// F_a = A_a t, where t is a force per undeformed area.
+/// F_a = ∫ N_a t dA, where t is a force per undeformed area, in axes at each point.
 class DeadTraction final : public DeadLoad<NodalLoad> {
 public:
   explicit DeadTraction(const Axes &axes) : axes_(axes) {}
@@ -25,17 +25,16 @@ private:
 } // namespace
 
 LoadType dead_traction_type() {
-  return {
-      "dead traction", "force per undeformed area of the faces, of fixed direction",
-      with_axes({loaded_faces(),
-                 {"Traction", "0 ; 0 ; 0", TypeParameter::Kind::text,
-                  "Three expressions of the undeformed face's centre x, y, z, the time t and the names of "
-                  "amplitudes. [stress]"}}),
-      [](const TypeInput &input) {
-        Load load{{}, std::make_shared<const DeadTraction>(Axes(input))};
-        add_vector_expressions(input, "Traction", true, load);
-        return load;
-      }};
+  return {"dead traction", "force per undeformed area of the faces, of fixed direction",
+          with_axes({loaded_faces(),
+                     {"Traction", "0 ; 0 ; 0", TypeParameter::Kind::text,
+                      "Three expressions of the undeformed position x, y, z, the time t and the names of "
+                      "amplitudes. [stress]"}}),
+          [](const TypeInput &input) {
+            Load load{{}, std::make_shared<const DeadTraction>(Axes(input))};
+            add_vector_expressions(input, "Traction", true, load);
+            return load;
+          }};
 }
 
 } // namespace billet

@@ -17,12 +17,13 @@ public:
   void add_forces(const std::vector<LoadedFace> &faces, const LoadValues &values, const NodalMotion &motion,
                   double *forces) const override {
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      const double p = values.at(f)[0];
+      const double *p = values.at(f);
       const auto positions = faces[f].positions(motion);
       for (const auto &point : facet_points()) {
         const Tensor<1, 3> area = point.area_vector([&](const unsigned int a) { return positions[a]; });
         for (unsigned int a = 0; a < 4; ++a)
-          add_vector(forces, faces[f].nodes[a], -p * point.N[a] * area);
+          add_vector(forces, faces[f].nodes[a], -*p * point.N[a] * area);
+        ++p;
       }
     }
   }
@@ -38,9 +39,9 @@ public:
   /// −∂F_a/∂x_b = ∫ p N_a (N_b,ξ [· × x,η] + N_b,η [x,ξ × ·]) dξdη.
   void add_tangent(const LoadedFace &face, const double *values, const NodalMotion &motion,
                    double /*damping_factor*/, dealii::FullMatrix<double> &matrix) const override {
-    const double p = values[0];
     const auto positions = face.positions(motion);
     for (const auto &point : facet_points()) {
+      const double p = *values++;
       const auto [g_1, g_2] = point.tangents([&](const unsigned int a) { return positions[a]; });
       for (unsigned int b = 0; b < 4; ++b)
         for (unsigned int j = 0; j < 3; ++j) {
@@ -59,15 +60,15 @@ public:
 } // namespace
 
 LoadType pressure_type() {
-  return {"pressure",
-          "stress on the deformed faces, against their outward normal",
-          {loaded_faces(),
-           {"Pressure", "0", TypeParameter::Kind::text,
-            "Expression of the undeformed face's centre x, y, z, the time t and the names of amplitudes. "
-            "[stress]"}},
-          [](const TypeInput &input) {
-            return Load{{{"Pressure", input.text("Pressure"), true}}, std::make_shared<const Pressure>()};
-          }};
+  return {
+      "pressure",
+      "stress on the deformed faces, against their outward normal",
+      {loaded_faces(),
+       {"Pressure", "0", TypeParameter::Kind::text,
+        "Expression of the undeformed position x, y, z, the time t and the names of amplitudes. [stress]"}},
+      [](const TypeInput &input) {
+        return Load{{{"Pressure", input.text("Pressure"), true}}, std::make_shared<const Pressure>()};
+      }};
 }
 
 } // namespace billet

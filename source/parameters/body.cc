@@ -11,6 +11,7 @@
 #include "billet/mechanics/thickness.h"
 #include "billet/nearest_name.h"
 #include "billet/parameters/named_values.h"
+#include "billet/parameters/number_text.h"
 #include "billet/parameters/primitives.h"
 #include "billet/parameters/registered.h"
 #include "billet/vector_text.h"
@@ -434,12 +435,14 @@ void Support::declare(ParameterHandler &prm) {
   prm.declare_entry("Components", "x, y, z", Patterns::Anything(),
                     "Components of the displacement that are prescribed: x, y and z are the first, second "
                     "and third of 'Axes'.");
-  prm.declare_entry("Displacement", "0 ; 0 ; 0", Patterns::Anything(),
-                    "Prescribed displacement: one muParser expression for each of x, y, z, or for each of "
-                    "'Components' alone, "
-                    "in the order x, y, z; of the reference position x, y, z, the time t and the names of "
-                    "amplitudes. Other "
-                    "components have no effect. [length]");
+  prm.declare_entry(
+      "Displacement", "0 ; 0 ; 0", Patterns::Anything(),
+      "Prescribed displacement: one muParser expression for each of x, y, z, or for each of "
+      "'Components' alone, "
+      "in the order x, y, z; of the reference position x, y, z, the time t and the names of "
+      "amplitudes. Of "
+      "other components only 0 is allowed. In cylindrical 'Axes', components x and y held together "
+      "turn a node by its circumferential displacement over its radius. [length]");
   for (const TypeParameter &parameter : Axes::parameters())
     declare_parameter(prm, parameter, parameter.meaning);
   prm.declare_entry("From", "0", Patterns::Double(),
@@ -465,6 +468,11 @@ std::array<std::string, 3> read_displacement(const Reader &reader, const std::ar
   if (has_empty_component(expressions) || (expressions.size() != 3 && expressions.size() != n))
     reader.reject("Displacement", "three expressions for x, y and z, or one for each of 'Components' alone, "
                                   "separated by commas or semicolons, such as '0 ; 0 ; 0.5*t'");
+  for (std::size_t i = 0; expressions.size() == 3 && i < 3; ++i)
+    if (!components[i] && !is_zero(expressions[i]))
+      reader.reject("Displacement", std::string("0 for the component ") + "xyz"[i] +
+                                        ", which 'Components' does not have. Add it to 'Components', or set "
+                                        "its displacement to 0");
   std::array<std::string, 3> displacement{"0", "0", "0"};
   std::size_t next = 0;
   for (std::size_t i = 0; i < 3; ++i)

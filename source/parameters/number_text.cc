@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/parameters/number_text.h"
 
+#include "billet/registered_type.h"
+
 #include <regex>
+#include <stdexcept>
 
 namespace billet::parameters {
 
@@ -24,6 +27,14 @@ std::string number_remedy(const std::string &text) {
     return "; write " + match[1].str() + ", without '" + match[4].str() +
            "': numbers have no units, and all of a scene use one consistent system";
   return "";
+}
+
+bool is_zero(const std::string &expression) {
+  try {
+    return parse_number(expression) == 0.;
+  } catch (const std::invalid_argument &) {
+    return false;
+  }
 }
 
 } // namespace billet::parameters

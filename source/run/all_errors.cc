@@ -74,8 +74,12 @@ public:
     std::vector<std::pair<SceneFile::Place, std::string>> places;
     for (const Diagnostic &error : errors) {
       const std::optional<SceneFile::Place> place = file_.find_place(error.what());
+      const bool is_repeated = std::any_of(found_.begin(), found_.end(), [&](const Diagnostic &before) {
+        return before.what() == error.what();
+      });
       const bool is_consequence = !is_first && (!place || follows(*place, error.what()));
-      if (!is_consequence) {
+      if (is_repeated) { // its part is still to be taken out
+      } else if (!is_consequence) {
         found_.push_back(error);
         if (place)
           reported_.insert(part_of(place->path));

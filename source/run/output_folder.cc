@@ -3,11 +3,12 @@
 
 #include "billet/errors.h"
 #include "billet/output/console_log.h"
+#include "billet/parameters/scene_files.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <regex>
 #include <unistd.h>
 #include <vector>
@@ -23,12 +24,18 @@ std::string quote_folder(const parameters::Scene &parameters) {
   return parameters.output.folder.origin + " is '" + parameters.output.folder.value + "'";
 }
 
-/// Whether a run has left its results in this folder.
-bool has_results(const fs::path &folder) {
-  constexpr std::array<const char *, 3> files = {"history.csv", "diagnostics.jsonl", log_file};
+/// Whether a folder has one of these files.
+bool has_any(const fs::path &folder, const std::initializer_list<const char *> files) {
   std::error_code error;
   return std::any_of(files.begin(), files.end(),
                      [&](const char *file) { return fs::is_regular_file(folder / file, error); });
+}
+
+/// Whether a file is one of these, also by another name.
+bool is_among(const std::vector<std::string> &sources, const fs::path &file) {
+  std::error_code error;
+  return std::any_of(sources.begin(), sources.end(),
+                     [&](const std::string &source) { return fs::equivalent(source, file, error); });
 }
 
 /// Whether a file or folder is this folder or anywhere in it.
@@ -51,6 +58,9 @@ void check_movable(const parameters::Scene &parameters, const fs::path &folder) 
     refuse("it holds the current folder");
   if (is_inside(parameters.file_name, folder))
     refuse("it holds the scene file");
+  for (const std::string &source : parameters::find_files(parameters))
+    if (is_inside(source, folder))
+      refuse("it holds '" + source + "', which the scene reads");
   if (parameters.restart.is_wanted() && is_inside(parameters.restart.file.value, folder))
     refuse("it holds the checkpoint from which the run resumes");
   const fs::path parent = fs::weakly_canonical(folder, error).parent_path();
@@ -82,11 +92,14 @@ std::string move_aside(const parameters::Scene &parameters, const fs::path &fold
   }
 }
 
-/// Removes checkpoints and fields of an earlier run, of which a shorter one would not write over all, and the
-/// lists of its fields.
+/// Names of checkpoints and fields, of which a shorter run would not write over all, and of lists of fields.
+const char *const snapshots =
+    "checkpoint_[0-9]{5,10}\\.h5|fields_[0-9]{5,10}(\\.[0-9]+)?\\.(vtm|vtu|pvtu|h5)|"
+    "scene\\.pvd|fields\\.xdmf";
+
+/// Removes checkpoints and fields of an earlier run.
 void remove_snapshots(const fs::path &folder) {
-  const std::regex snapshot("checkpoint_[0-9]{5,10}\\.h5|fields_[0-9]{5,10}(\\.[0-9]+)?\\.(vtm|vtu|pvtu|h5)|"
-                            "scene\\.pvd|fields\\.xdmf");
+  const std::regex snapshot(snapshots);
   std::error_code error;
   std::vector<fs::path> files;
   for (const auto &entry : fs::directory_iterator(folder, error))
@@ -94,6 +107,16 @@ void remove_snapshots(const fs::path &folder) {
       files.push_back(entry.path());
   for (const fs::path &file : files)
     fs::remove(file, error);
+}
+
+/// Refuses a folder with a file of the scene that results would replace.
+void check_sources(const parameters::Scene &parameters, const fs::path &folder) {
+  const std::vector<std::string> sources = parameters::find_files(parameters);
+  std::error_code error;
+  for (const auto &entry : fs::directory_iterator(folder, error))
+    if (is_name_of_result(entry.path().filename().string()) && is_among(sources, entry.path()))
+      throw InputError(quote_folder(parameters) + ", where results would replace '" + entry.path().string() +
+                       "', which the scene reads; allowed is another folder");
 }
 
 [[noreturn]] void refuse_writing(const parameters::Scene &parameters) {
@@ -113,6 +136,31 @@ void make_folder(const parameters::Scene &parameters) {
 
 } // namespace
 
+bool is_name_of_result(const std::string &name) {
+  const std::regex results(std::string(snapshots) +
+                           "|scene_as_run\\.prm|history(_until_.*)?\\.csv|diagnostics\\.jsonl|billet\\.log|"
+                           "(capabilities|error_estimate|mesh_levels)\\.csv|show_in_paraview\\.py|"
+                           "refinement\\.h5|scene\\.png(\\.log)?");
+  return std::regex_match(name, results);
+}
+
+bool has_results(const std::string &folder) {
+  return has_any(folder, {"history.csv", "diagnostics.jsonl", log_file});
+}
+
+std::string scene_copy(const parameters::Scene &parameters) {
+  const fs::path folder = parameters.output.folder.value, copy = folder / "scene.prm",
+                 second = folder / "scene_as_run.prm";
+  std::error_code error;
+  // The log of this run may have begun.
+  const bool is_of_a_run =
+      has_any(folder, {"history.csv", "diagnostics.jsonl"}) && !fs::exists(second, error);
+  return (!fs::exists(copy, error) || (is_of_a_run && !is_among(parameters::find_files(parameters), copy))
+              ? copy
+              : second)
+      .string();
+}
+
 void check_output_folder(const parameters::Scene &parameters, const EarlierResults earlier) {
   std::error_code error;
   const fs::path results = parameters.output.folder.value;
@@ -128,8 +176,9 @@ void check_output_folder(const parameters::Scene &parameters, const EarlierResul
                      ", where another run writes its results; allowed is a folder that no other run uses");
   if (earlier == EarlierResults::moved_aside && has_results(results))
     return check_movable(parameters, results);
-  for (const std::string name : {"scene.prm", "history.csv", log_file}) {
-    const fs::path file = results / name;
+  check_sources(parameters, results);
+  for (const fs::path &file :
+       {fs::path(scene_copy(parameters)), results / "history.csv", results / log_file}) {
     if (fs::exists(file, error) && (fs::is_directory(file, error) || access(file.c_str(), W_OK) != 0))
       throw InputError(quote_folder(parameters) + allowed + file.string() + "' cannot be overwritten");
   }
@@ -150,7 +199,7 @@ std::string prepare_output_folder(const parameters::Scene &parameters, const Ear
 
 void write_scene(const parameters::Scene &parameters) {
   make_folder(parameters);
-  std::ofstream copy(fs::path(parameters.output.folder.value) / "scene.prm");
+  std::ofstream copy(scene_copy(parameters));
   copy << parameters.text;
   if (!copy.flush())
     refuse_writing(parameters);

@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 #include <sys/resource.h>
@@ -52,6 +53,15 @@ std::string percent(const double part) {
   text.precision(2);
   text << 100. * part << " %";
   return text.str();
+}
+
+/// Returns the results in a folder, without the copy of the scene if that is 'scene.prm'.
+std::vector<fs::path> results_in(const fs::path &folder) {
+  std::vector<fs::path> results;
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder))
+    if (is_name_of_result(entry.path().filename().string()))
+      results.push_back(entry.path());
+  return results;
 }
 
 /// Climbs from level to level.
@@ -96,13 +106,34 @@ private:
     fail_together(communicator_, [&] {
       if (!is_first_)
         return;
+      const bool are_replaced = options_.replaces_results && has_results(folder_);
       prepare_output_folder(given_, earlier);
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
-        if (entry.path().filename().string().rfind("mesh_level_", 0) == 0)
-          fs::remove_all(entry.path());
+      clear_levels(are_replaced);
       if (options_.log != nullptr)
         options_.log->open(folder_ + "/" + log_file, false);
     });
+  }
+
+  /// Removes the results of levels of an earlier run. Throws InputError if they are not to be replaced: then
+  /// another program has left them.
+  void clear_levels(const bool are_replaced) const {
+    const std::regex level("mesh_level_-?[0-9]+");
+    std::vector<fs::path> folders;
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder_))
+      if (std::regex_match(entry.path().filename().string(), level) && has_results(entry.path().string()))
+        folders.push_back(entry.path());
+    for (const fs::path &folder : folders) {
+      if (!are_replaced)
+        throw InputError(given_.output.folder.origin + " is '" + folder_ + "', where '" +
+                         folder.filename().string() +
+                         "' has results of another run; allowed is a folder without them");
+      if (!fs::exists(folder / "scene_as_run.prm"))
+        fs::remove(folder / "scene.prm");
+      for (const fs::path &file : results_in(folder))
+        fs::remove(file);
+      std::error_code error;
+      fs::remove(folder, error); // unless it has files of the user
+    }
   }
 
   /// Runs on the next levels. Returns the exit code, also of a coarse level that fails.
@@ -193,9 +224,15 @@ private:
     fail_together(communicator_, [&] {
       if (!is_first_)
         return;
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder_of(levels_.back().level)))
-        fs::rename(entry.path(), fs::path(folder_) / entry.path().filename());
-      fs::remove(folder_of(levels_.back().level));
+      const fs::path last = folder_of(levels_.back().level);
+      const std::vector<fs::path> results = results_in(last);
+      const bool has_second = fs::exists(last / "scene_as_run.prm");
+      fs::rename(last / (has_second ? "scene_as_run.prm" : "scene.prm"), scene_copy(given_));
+      for (const fs::path &file : results)
+        if (file.filename() != "scene_as_run.prm")
+          fs::rename(file, fs::path(folder_) / file.filename());
+      std::error_code error;
+      fs::remove(last, error); // unless it has files of the user
       write_table();
     });
   }

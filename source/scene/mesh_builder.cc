@@ -24,26 +24,34 @@ using dealii::Triangulation;
 
 namespace {
 
-/// Returns the part of an exception's message that names the problem, on one line; deal.II surrounds its own
-/// with rulers, and breaks it into lines.
-std::string essence(const std::exception &error) {
-  std::istringstream lines(error.what());
-  std::string line, result;
-  bool after_information = false;
-  while (std::getline(lines, line)) {
-    if (line.find("Additional information") != std::string::npos) {
-      after_information = true;
-      continue;
-    }
-    if (!after_information)
-      continue;
-    if (!line.empty() && line[0] == '-')
-      break;
-    std::istringstream words(line);
-    for (std::string word; words >> word;)
-      result += (result.empty() ? "" : " ") + word;
-  }
+/// Returns the words of a deal.II message between two of its headings, on one line; it breaks lines anywhere
+/// and ends with a ruler.
+std::string words_between(const std::string &message, const std::string &heading, const std::string &next) {
+  const std::size_t begin = message.find(heading);
+  if (begin == std::string::npos)
+    return "";
+  const std::size_t end = message.find(next, begin);
+  std::istringstream words(
+      message.substr(begin + heading.size(), end == std::string::npos ? end : end - begin - heading.size()));
+  std::string result;
+  for (std::string word; words >> word;)
+    result += (result.empty() ? "" : " ") + word;
   return result;
+}
+
+/// Returns the part of an exception's message that names the problem, on one line: deal.II's explanation, or
+/// the condition that it requires. Its list of all elements that a point may be in becomes one sentence.
+std::string essence(const std::exception &error) {
+  const std::string message = error.what(),
+                    information = "Additional information:", condition = "The violated condition was:";
+  const std::string text = words_between(message, information, "\n---");
+  if (text.find("Transformation to chart coordinates") != std::string::npos)
+    return "Its curved elements overlap or turn inside out";
+  if (!text.empty())
+    return text;
+  const std::string required = words_between(message, condition, information);
+  return required.empty() || required == "false" ? "deal.II gives no reason; check sizes and their order"
+                                                 : "deal.II requires " + required;
 }
 
 std::string describe_refusal(const parameters::Mesh &parameters) {
@@ -61,16 +69,52 @@ public:
   AssertionsThrow &operator=(const AssertionsThrow &) = delete;
 };
 
-template <int dim> void generate_primitive(const parameters::Mesh &parameters, Triangulation<dim> &mesh) {
+/// Returns "x" if the mesh has no extent along x, beyond round-off; empty if it has a volume.
+template <int dim> std::string missing_extent(const Triangulation<dim> &mesh) {
+  constexpr double rounding = 1e-12;
+  const auto corners = dealii::GridTools::compute_bounding_box(mesh).get_boundary_points();
+  const dealii::Tensor<1, dim> extents = corners.second - corners.first;
+  for (unsigned int i = 0; i < dim; ++i)
+    if (!(extents[i] > rounding * extents.norm()))
+      return {"xyz"[i]};
+  return "";
+}
+
+/// Refuses a primitive without a volume.
+template <int dim> void check_primitive(const parameters::Mesh &parameters, const Triangulation<dim> &mesh) {
+  if (mesh.n_active_cells() == 0)
+    throw InputError(describe_refusal(parameters) + ". It has no elements");
+  if (const std::string axis = missing_extent(mesh); !axis.empty())
+    throw InputError(describe_refusal(parameters) + ". It has no extent along " + axis);
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (!(cell->measure() > 0.)) {
+      std::ostringstream message;
+      message << describe_refusal(parameters) << ". Its element with the centre at (" << cell->center()
+              << ") is inverted. Check the order of sizes and corners";
+      throw InputError(message.str());
+    }
+}
+
+/// Calls `make`, which makes or refines a primitive, and refuses arguments that deal.II refuses.
+template <class Make> void make_primitive(const parameters::Mesh &parameters, const Make &make) {
   try {
     const AssertionsThrow refusals_are_errors;
-    dealii::GridGenerator::generate_from_name_and_arguments(mesh, parameters.primitive.value,
-                                                            parameters.arguments);
+    make();
   } catch (const std::exception &error) {
     throw InputError(describe_refusal(parameters) + ". " + essence(error));
   }
-  if (mesh.n_active_cells() == 0)
-    throw InputError(describe_refusal(parameters));
+}
+
+template <int dim> void generate_primitive(const parameters::Mesh &parameters, Triangulation<dim> &mesh) {
+  make_primitive(parameters, [&] {
+    dealii::GridGenerator::generate_from_name_and_arguments(mesh, parameters.primitive.value,
+                                                            parameters.arguments);
+  });
+  check_primitive(parameters, mesh);
+}
+
+template <int dim> void refine_primitive(const parameters::Mesh &parameters, Triangulation<dim> &mesh) {
+  make_primitive(parameters, [&] { mesh.refine_global(parameters.refinements); });
 }
 
 /// Turns the section, x the radius and y the height, about the axis of z. Bricks on the axis become prisms:
@@ -189,8 +233,10 @@ void generate_extruded(const parameters::Mesh &parameters, const MeshDetail deta
     make_section(parameters, *loaded, refined);
   } else
     generate_primitive(parameters, refined);
-  if (detail == MeshDetail::full)
+  if (detail == MeshDetail::full && loaded)
     refined.refine_global(parameters.refinements);
+  else if (detail == MeshDetail::full)
+    refine_primitive(parameters, refined);
   dealii::GridGenerator::flatten_triangulation(refined, section);
   section.reset_all_manifolds();
   if (parameters.section_area.value > 0.)
@@ -294,6 +340,23 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
   }
 }
 
+namespace {
+
+/// Refuses 'Positions' that leave no volume. An outline may have none where the full mesh has one, such as a
+/// bar that is rolled to a ring: then the full mesh tells.
+void check_positions(const parameters::Body &body, const MeshDetail detail, const Triangulation<3> &mesh) {
+  const std::string axis = missing_extent(mesh);
+  if (body.mesh.positions.value.empty() || axis.empty())
+    return;
+  if (detail == MeshDetail::full)
+    throw InputError(body.mesh.positions.origin + " leave the body no extent along " + axis +
+                     "; allowed are expressions that keep its volume");
+  Triangulation<3> full;
+  build_body_mesh(body, MeshDetail::full, full);
+}
+
+} // namespace
+
 void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Triangulation<3> &mesh,
                      NodeSets *const sets) {
   const parameters::Mesh &parameters = body.mesh;
@@ -305,7 +368,7 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
   case parameters::Mesh::Source::primitive:
     generate_primitive(parameters, mesh);
     if (detail == MeshDetail::full)
-      mesh.refine_global(parameters.refinements);
+      refine_primitive(parameters, mesh);
     break;
   case parameters::Mesh::Source::file:
     if (parameters.section.value != parameters::Mesh::Section::solid) {
@@ -322,6 +385,7 @@ void build_body_mesh(const parameters::Body &body, const MeshDetail detail, Tria
   flatten(mesh);
   if (parameters.section.value != parameters::Mesh::Section::axisymmetric)
     move_vertices(parameters, mesh);
+  check_positions(body, detail, mesh);
   if (parameters.scale != 1.)
     dealii::GridTools::scale(parameters.scale, mesh);
   if (parameters.rotation_angle != 0.)

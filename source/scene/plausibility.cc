@@ -6,6 +6,7 @@
 #include "billet/scene/course_checks.h"
 #include "billet/scene/law_checks.h"
 #include "billet/scene/section_checks.h"
+#include "billet/scene/turning_supports.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -448,6 +449,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
   append(diagnostics, check_user_laws(scene));
   append(diagnostics, check_heating(scene));
   append(diagnostics, check_course(scene));
+  append(diagnostics, check_turning_supports(scene, mesh, communicator));
   check_places(scene, start, diagnostics);
   append(diagnostics, check_tools_of_sections(scene, mesh, communicator));
   append(diagnostics, check_loads_of_sections(scene, mesh, communicator));

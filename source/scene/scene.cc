@@ -4,9 +4,11 @@
 #include "billet/errors.h"
 #include "billet/material/state_fields.h"
 #include "billet/parameters/material_texts.h"
+#include "billet/parameters/number_text.h"
 #include "billet/parameters/reader.h"
 #include "billet/scene/boundary_names.h"
 #include "billet/scene/mesh_refinements.h"
+#include "billet/scene/turning_supports.h"
 #include "billet/usage.h"
 
 #include <nlohmann/json.hpp>
@@ -64,15 +66,6 @@ ControlWords describe_control(const Tool::Control control) {
   throw std::logic_error("a tool's control has no description");
 }
 
-/// Whether the expression is the plain number 0; other expressions that vanish are known only when evaluated.
-bool is_zero(const std::string &expression) {
-  try {
-    return parse_number(expression) == 0.;
-  } catch (const std::invalid_argument &) {
-    return false;
-  }
-}
-
 AppliedLoad make_load(const parameters::Load &parameters,
                       const std::vector<parameters::Amplitude> &amplitudes, const double fade_time) {
   const LoadTimes times{parameters.from, parameters.until, parameters.fade_time.value_or(fade_time)};
@@ -125,7 +118,8 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
     constraint.offset = plane.offset;
     body.constraints.push_back(constraint);
   }
-  for (const auto &support : parameters.supports)
+  for (const auto &support : parameters.supports) {
+    const std::array<std::string, 3> displacement = directed_displacement(support);
     for (unsigned int i = 0; i < 3; ++i)
       if (support.components[i]) {
         Constraint constraint;
@@ -137,13 +131,14 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
         constraint.times = {support.from, support.until, support.fade_time.value_or(fade_time)};
         if (!support.axes.are_global())
           constraint.axes = std::make_shared<const Axes>(support.axes);
-        body.expressions.push_back(std::make_unique<Expression>(support.displacement.value[i],
+        body.expressions.push_back(std::make_unique<Expression>(displacement[i],
                                                                 Expression::Variables::time_and_position,
                                                                 amplitudes, support.displacement.origin));
-        if (!is_zero(support.displacement.value[i]))
+        if (!parameters::is_zero(displacement[i]))
           constraint.value = body.expressions.back().get();
         body.constraints.push_back(constraint);
       }
+  }
   return body;
 }
 

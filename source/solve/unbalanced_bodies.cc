@@ -23,8 +23,17 @@ std::vector<double> UnbalancedBodies::find_round_off(const Scene &scene,
   constexpr double rounding = 1e-14;
   const std::vector<double> volumes = measure_body_volumes(discretization);
   std::vector<double> result;
-  for (std::size_t b = 0; b < volumes.size(); ++b)
-    result.push_back(rounding * scene.bodies()[b].young_modulus * std::pow(volumes[b], 2. / 3.));
+  for (std::size_t b = 0; b < volumes.size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    const auto n_own = static_cast<double>(discretization.elements(b).size());
+    const double n = dealii::Utilities::MPI::sum(n_own, discretization.communicator());
+    LoadedSurface surface;
+    surface.stiffness = body.young_modulus / std::cbrt(volumes[b] / n);
+    double stiffness = body.young_modulus / std::cbrt(volumes[b]); // per area
+    for (const AppliedLoad &load : body.loads)
+      stiffness += load.load.properties().bound(surface).stiffness;
+    result.push_back(rounding * stiffness * volumes[b]);
+  }
   return result;
 }
 

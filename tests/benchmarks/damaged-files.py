@@ -32,6 +32,7 @@ TARGETS = (
     Target("CAD: text of STEP and IGES", "fuzz.cad_text", 10000),
     Target("CAD: STEP and IGES, by OpenCASCADE", "geometry.damaged_cad", 1200),
     Target("STL", "fuzz.stl", 10000),
+    Target("files of Coons patches", "fuzz.coons", 1000),
     Target("tables of numbers", "fuzz.table", 10000),
     Target("scenes", "fuzz.scene", 1500),
     Target("checkpoints", "fuzz.checkpoint", 10000),

@@ -238,6 +238,44 @@ def _() -> None:
     says(r"^note\[unchecked-parts\]: .*'Contact pairs / top on die'", errors)
 
 
+def two_cubes(mesh: str) -> str:
+    """Returns a scene of two cubes with contact of everything, the first with these lines in its mesh."""
+    lines = (
+        "set Primitive = subdivided_hyper_rectangle",
+        "set Arguments = 3, 3, 3 : {0}, 0, 0 : {1}, 10, 10",
+    )
+    other = "\n".join(lines).format(20, 30)
+    return (
+        "set Contact = all\nsubsection Bodies\n"
+        + "".join(
+            f"subsection {name}\nsubsection Mesh\n{of_mesh}\nend\n"
+            "subsection Material\nset Young modulus = 1000\nend\n"
+            f"set Symmetry planes = x = {x} ; y = 0 ; z = 0\nend\n"
+            for name, of_mesh, x in (("a", mesh or "\n".join(lines).format(0, 10), 0), ("b", other, 20))
+        )
+        + "end\n"
+    )
+
+
+@check("what is wrong with a body's mesh is found first, and told once")
+def _() -> None:
+    flat = "set Primitive = hyper_rectangle\nset Arguments = 0, 0, 0 : 10, 10, 0"
+    cube = "set Primitive = subdivided_hyper_rectangle\nset Arguments = 3, 3, 3 : 0, 0, 0 : 10, 10, 10\n"
+    thin = cube.replace("10, 10, 10", "10, 10, 1e-70")
+    for mesh, said in (
+        ("", ""),
+        (flat, "'Primitive' in 'Bodies / a / Mesh' is 'hyper_rectangle' .* no extent along z"),
+        (thin, "'Primitive' in 'Bodies / a / Mesh' is .* no extent along z"),
+        (cube + "set Positions = x ; y ; 0*z", "'Positions' .* leave the body no extent along z"),
+        (cube + "set Positions = x ; y ; -z", "'Bodies / a': the element .* is degenerate or inverted"),
+    ):
+        write_text("cubes.prm", two_cubes(mesh))
+        ended = run(PROGRAM, "--check", "cubes.prm")
+        equal("exit code", ended.code, 2 if said else 0)
+        equal(f"number of errors with {mesh}", len(messages_of(ended.errors)), 1 if said else 0)
+        says(said, ended.errors)
+
+
 @check("a run says the same, and writes nothing")
 def _() -> None:
     write_text("scene.prm", edit(BLOCK, INDEPENDENT).text)

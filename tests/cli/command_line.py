@@ -128,6 +128,55 @@ def _() -> None:
     says("it holds the current folder", billet("--output", ".", "cup1.prm", code=2).errors)
 
 
+@check("the copy of a scene replaces no file of the user")
+def _() -> None:
+    os.makedirs("own")
+    write_text("own/base.prm", UNNAMED)
+    mine = "# mine\ninclude base.prm\nset Time stepping/End time = 0.5\n"
+    write_text("own/scene.prm", mine)
+    for scene, options in (("own/scene.prm", []), ("own/scene.prm", ["--force"]), ("cup1.prm", ["--force"])):
+        billet("--output", "own", *options, scene)
+        equal("the scene", read_text("own/scene.prm"), mine)
+        says(r"^\s*set End time", read_text("own/scene_as_run.prm"))
+    equal("the end", last_time("own"), 1.0)
+    billet(
+        "--output", "own", "--force", "--set", "Time stepping/End time=0.25", "own/scene_as_run.prm", code=2
+    )
+    # In a folder without results, a scene that is not read is the user's, too.
+    os.makedirs("drawer")
+    write_text("drawer/scene.prm", mine)
+    billet("--output", "drawer", "cup1.prm")
+    equal("the scene", read_text("drawer/scene.prm"), mine)
+    # A copy of a run is replaced.
+    billet("--output", "drawer2", "cup1.prm")
+    billet("--output", "drawer2", "--force", "--set", "Time stepping/End time=0.25", "cup1.prm")
+    says("set End time = 0.25", read_text("drawer2/scene.prm"))
+    require(not Path("drawer2/scene_as_run.prm").exists(), "a second copy")
+
+
+@check("results replace no file that the scene reads, nor are these moved")
+def _() -> None:
+    table = "time,value\n0,0\n1,0.1\n"
+    os.makedirs("bench")
+    write_text("bench/history.csv", table)
+    write_text("bench/notes.txt", "mine")
+    amplitude = "ramp: - Times & ramp: - Values & ramp: + set File = {0}"
+    write_text("bench.prm", edit(UNNAMED, amplitude.format("bench/history.csv")).text)
+    for options in ([], ["--force"], ["--check"]):
+        said = billet("--output", "bench", *options, "bench.prm", code=2).errors
+        says("bench/history.csv', which the scene reads", said)
+    equal("the table", read_text("bench/history.csv"), table)
+    os.makedirs("linked")
+    os.symlink("../bench/history.csv", "linked/history.csv")
+    said = billet("--output", "linked", "--force", "bench.prm", code=2).errors
+    says("linked/history.csv', which the scene reads; allowed is another folder", said)
+    write_text("drawer2/ramp.csv", table)
+    write_text("bench.prm", edit(UNNAMED, amplitude.format("drawer2/ramp.csv")).text)
+    says("it holds 'drawer2/ramp.csv'", billet("--output", "drawer2", "bench.prm", code=2).errors)
+    billet("--output", "drawer2", "--force", "bench.prm")
+    equal("the table", read_text("drawer2/ramp.csv"), table)
+
+
 @check("a symbolic link stays, and what it names is moved")
 def _() -> None:
     os.makedirs("disk")

@@ -12,8 +12,23 @@ it would take.
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
-from checks import HERE, Checks, Program, Run, Runner, enter_folder, equal, read_text, require, says
+from checks import (
+    HERE,
+    Checks,
+    Program,
+    Run,
+    Runner,
+    enter_folder,
+    equal,
+    read_text,
+    require,
+    run,
+    says,
+    write_text,
+)
+from edits import edit
 
 BEAM = read_text(HERE / "cantilever.prm")
 runner = Runner(Program(sys.argv[1:]))
@@ -66,6 +81,21 @@ def _() -> None:
     alone = billet(f"Mesh: Arguments = {counts} : 0, 0, 0 : 20, 1, 10 & + set Target error = 0.0666667")
     equal("the force", ran.last(FORCE), alone.last(FORCE))
     ran.text(f"mesh_level_{last - 1}/history.csv")
+
+
+@check("folders and files of the user stay")
+def _() -> None:
+    write_text("kept.prm", edit(BEAM, FINE + everything("20 percent") + " & Output: - Folder").text)
+    mine = ("mesh_level_notes/mine", "mesh_level_-2/mine", "mesh_level_-1/mine", "scene.prm")
+    for file in mine:
+        Path("kept", file).parent.mkdir(parents=True, exist_ok=True)
+        write_text(f"kept/{file}", "mine")
+    program = Program(sys.argv[1:])
+    for options in ([], ["--force"]):
+        equal("the exit code", run(*program.on(1, *options, "--output", "kept", "kept.prm")).code, 0)
+        for file in mine:
+            equal(file, read_text(f"kept/{file}"), "mine")
+        says("Target error of = everything", read_text("kept/scene_as_run.prm"))
 
 
 @check("a body whose part of the error is small stays behind, and the error shown is the true one")

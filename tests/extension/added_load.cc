@@ -35,7 +35,7 @@ LoadType added_traction_type() {
           "on the undeformed faces, in a fixed direction",
           {loaded_faces(),
            {"Traction", "0 ; 0 ; 0", TypeParameter::Kind::text,
-            "Three expressions of the undeformed face's centre, the time t and the names of amplitudes. "
+            "Three expressions of the undeformed position, the time t and the names of amplitudes. "
             "[stress]"}},
           [](const TypeInput &input) {
             Load load{{}, std::make_shared<const AddedTraction>()};

@@ -131,8 +131,11 @@ void check_load(const std::string &name, const NodalLoad &load, const LoadValues
 
 void check_load(const std::string &name, const std::string &type, const std::string &lines) {
   const Load load = testing::make_load(type, "set Boundary ids = 0\n" + lines).load;
-  LoadValues values(load.expressions.size(), 1, true);
-  for (std::size_t i = 0; i < load.expressions.size(); ++i)
+  // Loads on faces have values at each Gauss point, one set after the other.
+  const bool is_on_faces = std::holds_alternative<std::shared_ptr<const FaceLoad>>(load.action);
+  const std::size_t n_values = load.expressions.size() * (is_on_faces ? facet_points().size() : 1);
+  LoadValues values(n_values, 1, true);
+  for (std::size_t i = 0; i < n_values; ++i)
     values.at(0)[i] = 3. + static_cast<double>(i);
   if (const auto *face = std::get_if<std::shared_ptr<const FaceLoad>>(&load.action))
     check_load(name, **face, values);

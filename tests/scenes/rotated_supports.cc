@@ -7,9 +7,72 @@
 #include <deal.II/base/utilities.h>
 #include <deal.II/physics/transformations.h>
 
+#include "billet/scene/turning_supports.h"
+
+#include <fstream>
+
 using namespace billet;
 using billet::testing::check;
 using billet::testing::SceneRun;
+
+namespace {
+
+/// A shaft about an axis beside the origin, with a support of these lines on its upper end, which by time 1
+/// turns by 2 rad and, if it holds the radius, widens by 2 %.
+parameters::Scene read_shaft(const std::string &lines) {
+  std::ofstream("shaft.prm") << "subsection Bodies\n  subsection shaft\n    subsection Mesh\n"
+                                "      set Primitive = subdivided_hyper_rectangle\n"
+                                "      set Arguments = 2, 2, 6 : 2, -4, 0 : 4, -2, 12\n"
+                                "    end\n    subsection Material\n"
+                                "      set Young modulus = 1000\n      set Poisson ratio = 0.3\n"
+                                "    end\n    subsection Supports\n"
+                                "      subsection foot\n        set Boundary ids = 4\n      end\n"
+                                "      subsection top\n        set Boundary ids = 5\n"
+                                "        set Axes = cylindrical\n        set Axis point = 3, -3, 7\n"
+                                "        set Axis direction = 0, 0, 2\n"
+                             << lines
+                             << "      end\n    end\n  end\nend\n"
+                                "subsection Output\n  set Format = none\nend\n";
+  return parameters::Scene::read("shaft.prm");
+}
+
+const std::string radius = "sqrt((x - 3)^2 + (y + 3)^2)", turn = radius + "*2*t";
+
+bool warns(const std::string &lines) {
+  const Scene scene(read_shaft(lines));
+  const Discretization discretization(scene, MPI_COMM_WORLD);
+  return !check_turning_supports(scene, discretization.dof_handler().get_triangulation(), MPI_COMM_WORLD)
+              .empty();
+}
+
+/// A support that holds radius and circumference turns its nodes about the axis.
+void check_twisted_shaft() {
+  const std::string lines = "        set Displacement = 0.02*t*" + radius + " ; " + turn + " ; 0\n";
+  SceneRun run(read_shaft(lines));
+  run.finish();
+  const dealii::Tensor<1, 3> middle({3., -3., 0.});
+  const auto R = dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+      dealii::Point<3>(0., 0., 1.), 2.);
+  testing::WorstError error;
+  for (const auto &element : run.discretization.elements(0))
+    for (unsigned int a = 0; a < n_element_nodes; ++a) {
+      const dealii::Tensor<1, 3> X = element.cell->vertex(a) - middle;
+      dealii::Tensor<1, 3> x = X, wanted = R * (1.02 * X);
+      wanted[2] = X[2];
+      for (unsigned int i = 0; i < 3; ++i)
+        x[i] += run.problem.state().displacements(element.dofs[3 * a + i]);
+      if (X[2] > 11.9 && dealii::Tensor<1, 3>({X[0], X[1], 0.}).norm() > 1e-9) // the axis has no direction
+        error.add((x - wanted).norm());
+    }
+  check("twisted shaft: a rotation, and a wider end", error.value(), 1e-10);
+  check("twisted shaft: no warning", !warns(lines));
+  const std::string alone = "        set Components = y\n";
+  check("a free radius: large turns are warned of", warns(alone + "        set Displacement = " + turn + "\n"));
+  check("a free radius: small turns are not",
+        !warns(alone + "        set Displacement = 0.04*" + turn + "\n"));
+}
+
+} // namespace
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -59,5 +122,6 @@ int main(int argc, char *argv[]) {
     refused = std::string(error.what()).find("contradict") != std::string::npos;
   }
   check("contradicting supports are refused", refused);
+  check_twisted_shaft();
   return billet::testing::exit_code();
 }

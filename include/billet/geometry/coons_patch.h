@@ -6,6 +6,8 @@
 #include "billet/geometry/surface_patch.h"
 
 #include <array>
+#include <istream>
+#include <string>
 
 namespace billet {
 
@@ -95,6 +97,10 @@ private:
   std::vector<Ball> balls_; ///< balls that contain the cells
   BoundingBox box_;
 };
+
+/// Reads the patches of a text file, one a line, which messages call `name`. Throws std::invalid_argument if
+/// it has none, a line is none, or adjacent patches have opposite orientations.
+SurfacePatches read_coons_patches(std::istream &stream, const std::string &name);
 
 } // namespace billet
 

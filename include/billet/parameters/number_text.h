@@ -10,6 +10,9 @@ namespace billet::parameters {
 /// '200,000'. Returns "" if there is no such advice.
 std::string number_remedy(const std::string &text);
 
+/// Whether an expression is the plain number 0; others that vanish are known only when evaluated.
+bool is_zero(const std::string &expression);
+
 } // namespace billet::parameters
 
 #endif

@@ -26,7 +26,8 @@ public:
   /// does the round-off of Young's modulus times the body's size squared.
   DiagnosticList judge() const;
 
-  /// Returns the round-off of Young's modulus times the size squared, of each body [force]. Collective.
+  /// Returns the round-off of Young's modulus times the size squared, of each body, and of its springs and
+  /// rigid faces, whose stiffnesses act on positions [force]. Collective.
   static std::vector<double> find_round_off(const Scene &scene, const Discretization &discretization);
   /// Returns the force up to which one does not count, as judge() says; `nodal`: see BodyBalance.
   static double least_force(double round_off, double nodal, const parameters::Solver &settings);
