@@ -69,7 +69,7 @@ SurfaceType rectangle_type() {
               input.reject("Direction", "a direction across the normal");
             const double length = input.positive("Length"), width = input.positive("Width");
             // Profile along x, normal along y: extruded along x × n.
-            Axes axes(input.vector("Centre"), normal, direction);
+            ProfileAxes axes(input.vector("Centre"), normal, direction);
             axes.y = normal;
             axes.z = dealii::cross_product_3d(axes.x, axes.y);
             return single_patch<ExtrudedProfile>(flat_profile(-0.5 * length, 0.5 * length), axes,

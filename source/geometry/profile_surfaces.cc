@@ -136,8 +136,8 @@ SurfaceType extruded_profile_type() {
                 input.reject("Length", "a number > 0, or nothing");
               half = 0.5 * length[0];
             }
-            return single_patch<ExtrudedProfile>(profile, Axes(input.vector("Origin"), axis, direction),
-                                                 -half, half);
+            return single_patch<ExtrudedProfile>(
+                profile, ProfileAxes(input.vector("Origin"), axis, direction), -half, half);
           }};
 }
 
@@ -145,7 +145,7 @@ namespace {
 
 /// Rounded rectangle along which a profile is swept.
 struct SweepPath {
-  Axes axes;
+  ProfileAxes axes;
   std::array<double, 2> half; ///< half lengths along x and y
   double radius;              ///< of the corners, > 0
 };
@@ -160,14 +160,14 @@ SweepPath read_path(const TypeInput &input) {
   const double radius = input.positive("Corner radius");
   if (2. * radius > std::min(lengths[0], lengths[1]) * (1. + 1e-12))
     input.reject("Corner radius", "at most half of both 'Path lengths'");
-  return {Axes(input.vector("Origin"), axis, direction), {0.5 * lengths[0], 0.5 * lengths[1]}, radius};
+  return {ProfileAxes(input.vector("Origin"), axis, direction), {0.5 * lengths[0], 0.5 * lengths[1]}, radius};
 }
 
 /// Adds the four sides, the four corners, and the flat face inside at `height` if it is asked for.
 SurfacePatches sweep(const SweepPath &path, const Profile &along_sides, const Profile &around_corners,
                      const bool has_face, const double height, const bool is_up) {
   SurfacePatches patches;
-  const Axes &axes = path.axes;
+  const ProfileAxes &axes = path.axes;
   for (unsigned int side = 0; side < 4; ++side) {
     const double angle = 0.5 * M_PI * side;
     const dealii::Tensor<1, 3> outwards = std::round(std::cos(angle)) * axes.x +
@@ -176,18 +176,18 @@ SurfacePatches sweep(const SweepPath &path, const Profile &along_sides, const Pr
     const double reach = path.half[side % 2], half = path.half[1 - side % 2] - path.radius;
     if (half > 1e-12 * reach)
       patches.push_back(std::make_unique<ExtrudedProfile>(
-          along_sides, Axes(axes.origin + reach * outwards, -forwards, outwards), -half, half));
+          along_sides, ProfileAxes(axes.origin + reach * outwards, -forwards, outwards), -half, half));
     patches.push_back(std::make_unique<RevolvedProfile>(
         around_corners,
-        Axes(axes.origin + (reach - path.radius) * outwards + half * forwards, axes.z, outwards), 0.,
+        ProfileAxes(axes.origin + (reach - path.radius) * outwards + half * forwards, axes.z, outwards), 0.,
         0.5 * M_PI));
   }
   const std::array<double, 2> inside = {path.half[0] - path.radius, path.half[1] - path.radius};
   if (has_face && std::min(inside[0], inside[1]) > 1e-12 * path.half[0]) {
     const Profile line({Profile::Segment::line(Point({-inside[0], height}), Point({inside[0], height}))},
                        is_up ? Profile::Outside::left : Profile::Outside::right);
-    patches.push_back(
-        std::make_unique<ExtrudedProfile>(line, Axes(axes.origin, -axes.y, axes.x), -inside[1], inside[1]));
+    patches.push_back(std::make_unique<ExtrudedProfile>(line, ProfileAxes(axes.origin, -axes.y, axes.x),
+                                                        -inside[1], inside[1]));
   }
   return patches;
 }

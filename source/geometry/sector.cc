@@ -22,12 +22,12 @@ SurfacePatches revolve(const TypeInput &input, const Profile &profile, const dea
   const double sector = input.number("Sector");
   if (!(sector > 0. && sector <= 360.))
     input.reject("Sector", "a number > 0 and <= 360");
-  Axes axes(origin, axis);
+  ProfileAxes axes(origin, axis);
   if (sector < 360.) {
     const auto start = input.direction("Start");
     if (dealii::cross_product_3d(start, axis).norm() < 1e-6)
       input.reject("Start", "a direction across the axis");
-    axes = Axes(origin, axis, start);
+    axes = ProfileAxes(origin, axis, start);
   } else if (input.is_set("Start"))
     input.reject("Start", "no value: the surface goes all around");
   return single_patch<RevolvedProfile>(profile, axes, 0., sector * M_PI / 180.);

@@ -38,17 +38,18 @@ void add_grid(const std::vector<std::vector<Tensor<1, 3>>> &rows, SurfaceMesh &s
 
 } // namespace
 
-Axes::Axes(const Tensor<1, 3> &origin, const Tensor<1, 3> &axis, const Tensor<1, 3> &towards)
+ProfileAxes::ProfileAxes(const Tensor<1, 3> &origin, const Tensor<1, 3> &axis, const Tensor<1, 3> &towards)
     : origin(origin), z(axis) {
   x = towards - (towards * axis) * axis;
   x /= x.norm();
   y = dealii::cross_product_3d(z, x);
 }
 
-Axes::Axes(const Tensor<1, 3> &origin, const Tensor<1, 3> &axis)
-    : Axes(origin, axis, Frame::from_normal(axis).q) {}
+ProfileAxes::ProfileAxes(const Tensor<1, 3> &origin, const Tensor<1, 3> &axis)
+    : ProfileAxes(origin, axis, Frame::from_normal(axis).q) {}
 
-RevolvedProfile::RevolvedProfile(Profile profile, const Axes &axes, const double from, const double sweep)
+RevolvedProfile::RevolvedProfile(Profile profile, const ProfileAxes &axes, const double from,
+                                 const double sweep)
     : profile_(std::move(profile)), axes_(axes), from_(from), sweep_(sweep), is_full_(sweep >= 2. * M_PI) {}
 
 ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
@@ -130,7 +131,8 @@ void RevolvedProfile::draw(const OutputRegion &region, SurfaceMesh &surface_mesh
   add_grid(rows, surface_mesh);
 }
 
-ExtrudedProfile::ExtrudedProfile(Profile profile, const Axes &axes, const double low, const double high)
+ExtrudedProfile::ExtrudedProfile(Profile profile, const ProfileAxes &axes, const double low,
+                                 const double high)
     : profile_(std::move(profile)), axes_(axes), low_(low), high_(high) {}
 
 ClosestPoint ExtrudedProfile::closest_point(const Tensor<1, 3> &x) const {

@@ -8,14 +8,14 @@
 namespace billet {
 
 /// Three orthonormal directions and an origin.
-struct Axes {
+struct ProfileAxes {
   dealii::Tensor<1, 3> origin, x, y, z;
 
   /// Makes axes with z along `axis` (unit vector), x as close to `towards` as possible, and y = z × x.
-  Axes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis,
-       const dealii::Tensor<1, 3> &towards);
+  ProfileAxes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis,
+              const dealii::Tensor<1, 3> &towards);
   /// Makes axes with z along `axis` and an arbitrary x orthogonal to it.
-  Axes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis);
+  ProfileAxes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis);
 
   dealii::Tensor<1, 3> from_origin(const double a, const double b, const double c) const {
     return origin + a * x + b * y + c * z;
@@ -28,7 +28,7 @@ class RevolvedProfile final : public SurfacePatch {
 public:
   /// Revolves the profile from the angle `from`, measured from the x axis, over `sweep` > 0 [radians]; 2π or
   /// more is a full revolution. No point of the profile may have a negative radius.
-  RevolvedProfile(Profile profile, const Axes &axes, double from = 0., double sweep = 2. * M_PI);
+  RevolvedProfile(Profile profile, const ProfileAxes &axes, double from = 0., double sweep = 2. * M_PI);
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
   BoundingBox bounding_box() const override;
@@ -36,7 +36,7 @@ public:
 
 private:
   Profile profile_;
-  Axes axes_;
+  ProfileAxes axes_;
   double from_, sweep_;
   bool is_full_;
 };
@@ -45,7 +45,7 @@ private:
 class ExtrudedProfile final : public SurfacePatch {
 public:
   /// Extrudes the profile from z = `low` to `high`, which may be infinite.
-  ExtrudedProfile(Profile profile, const Axes &axes, double low, double high);
+  ExtrudedProfile(Profile profile, const ProfileAxes &axes, double low, double high);
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;
   BoundingBox bounding_box() const override;
@@ -53,7 +53,7 @@ public:
 
 private:
   Profile profile_;
-  Axes axes_;
+  ProfileAxes axes_;
   double low_, high_;
 };
 
