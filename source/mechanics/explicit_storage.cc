@@ -12,7 +12,6 @@
 namespace billet {
 
 using dealii::Tensor;
-using Element = LaneElement;
 namespace last = explicit_kernels::last;
 namespace mean_gradient = explicit_kernels::mean_gradient;
 namespace one_point = explicit_kernels::one_point;
@@ -153,7 +152,7 @@ ExplicitStorage<Number>::ExplicitStorage(const unsigned int n_lanes, const Elast
                                          const LaneLaw law, const LaneElement element,
                                          const PlasticNumbers &plastic)
     : n_lanes_(n_lanes), elastic_(elastic), law_(law), element_(element), plastic_(plastic) {
-  const bool is_one_point = element == Element::one_point;
+  const bool is_one_point = element == LaneElement::one_point;
   n_tensor_ = is_rate() ? 5 : 6;
   layout_.n_point_history = n_tensor_ + (plastic.has_alpha ? n_parts : 0) +
                             (plastic.has_yield_stress ? 1 : 0) + plastic.n_state * n_parts;
@@ -291,7 +290,7 @@ bool ExplicitStorage<Number>::initialize_mean_gradient(const std::size_t element
   if (!(det > 0.))
     return false;
   const Tensor<2, 3> inverse = invert(jacobian);
-  const bool is_one_point = element_ == Element::one_point;
+  const bool is_one_point = element_ == LaneElement::one_point;
   const double squares = is_one_point ? bound_squares(rows_of_mean(geometry))
                                       : bound_squares(rows_of_all(geometry, inverse, 1.));
   lambda = geometry.volume * bound_metric(inverse) * squares;
@@ -370,7 +369,7 @@ bool ExplicitStorage<Number>::initialize_element(const std::size_t element, cons
   for (const double w : reference.volumes)
     volume += w;
 
-  if (element_ != Element::mean_dilatation) {
+  if (element_ != LaneElement::mean_dilatation) {
     if (!initialize_mean_gradient(element, positions, min_mass, yield_stress, lambda))
       return false;
   } else {
@@ -428,8 +427,8 @@ double ExplicitStorage<Number>::scale_mass(const std::size_t element, const doub
   const bool is_last = element + 1 == n_elements_;
   for (std::size_t e = element; e == element || (is_last && e % n_lanes_ != 0); ++e) {
     const auto divide = [&](const std::size_t k) { set_constant(e, k, constant(e, k) / factor); };
-    divide(element_ == Element::mean_dilatation ? 1 : mean_gradient::bound);
-    if (element_ == Element::one_point)
+    divide(element_ == LaneElement::mean_dilatation ? 1 : mean_gradient::bound);
+    if (element_ == LaneElement::one_point)
       divide(one_point::bound_of_all);
     set_history(e, last::omega, history(e, last::omega) / factor);
   }
@@ -453,7 +452,7 @@ template <class Visit>
 void ExplicitStorage<Number>::visit_points(const std::size_t element, const double *displacements,
                                            const Visit &visit) const {
   const ElementVectors X = gather(element, reference_positions_.data()), u = gather(element, displacements);
-  if (element_ == Element::one_point) {
+  if (element_ == LaneElement::one_point) {
     ElementVectors x;
     std::transform(X.begin(), X.end(), u.begin(), x.begin(), std::plus<>());
     const ModalGeometry reference(X), current(x);
@@ -469,7 +468,7 @@ void ExplicitStorage<Number>::visit_points(const std::size_t element, const doub
       visit(first_point_, reference.volume, J, jacobian, invert(reference_jacobian));
     return;
   }
-  if (element_ == Element::assumed_strain) {
+  if (element_ == LaneElement::assumed_strain) {
     using Brick = AssumedStrainElement<>;
     const Brick brick(elastic_, {});
     Brick::Reference reference;
@@ -581,7 +580,7 @@ void ExplicitStorage<Number>::set_states(const std::size_t element, const double
           set_history(element, k++, yield_stress[q]);
         for (std::size_t n = 0; n < plastic_.n_state; ++n)
           set_in_parts(element, k, state.flow[n]);
-        if (plastic_.has_alpha && element_ == Element::one_point)
+        if (plastic_.has_alpha && element_ == LaneElement::one_point)
           set_hourglass(element, displacements, jacobian, true);
         ++q;
       });
@@ -593,7 +592,7 @@ void ExplicitStorage<Number>::renew(const double *displacements, const bool from
   if (!is_single)
     return;
   const bool is_volume_alone =
-      element_ == Element::mean_dilatation && (is_rate() || (plastic_.has_alpha && !from_the_start));
+      element_ == LaneElement::mean_dilatation && (is_rate() || (plastic_.has_alpha && !from_the_start));
   for (std::size_t element = 0; element < n_elements_; ++element) {
     if (is_volume_alone) {
       ElementVectors x = gather(element, reference_positions_.data());
@@ -610,7 +609,7 @@ void ExplicitStorage<Number>::renew(const double *displacements, const bool from
                    set_history(element, last::volume, volume_ratio - 1.);
                    if (plastic_.has_alpha && !from_the_start)
                      return;
-                   if (element_ == Element::one_point)
+                   if (element_ == LaneElement::one_point)
                      set_hourglass(element, displacements, jacobian, false);
                    if (is_rate())
                      return;
@@ -640,7 +639,7 @@ void ExplicitStorage<Number>::set_history(const std::size_t element, const doubl
 template <class Number>
 Tensor<2, 3> ExplicitStorage<Number>::inverse_reference(const ElementVectors &positions,
                                                         const unsigned int point) const {
-  if (element_ == Element::mean_dilatation) {
+  if (element_ == LaneElement::mean_dilatation) {
     ReferenceElement reference;
     compute_reference_element(positions, reference);
     return compute_inverse_jacobian(reference, point);
@@ -680,7 +679,7 @@ void ExplicitStorage<Number>::set_parent_hourglass(const std::size_t element, co
 template <class Number>
 void ExplicitStorage<Number>::set_parent_history(const std::size_t element, const ParentElement &parent,
                                                  const double *displacements) {
-  const bool is_one_point = element_ == Element::one_point;
+  const bool is_one_point = element_ == LaneElement::one_point;
   const unsigned int from = is_one_point ? 0 : parent.child;
   const double *const point = parent.state + first_point_ + from * layout_.n_point_history;
   const Tensor<2, 3> X_xi = invert(inverse_reference(parent.positions, from));
