@@ -301,10 +301,12 @@ std::size_t Diagnostics::count(const Severity severity) const {
   }));
 }
 
-bool Diagnostics::has(const DiagnosticKind &kind) const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [&](const Entry &entry) { return &entry.first.kind() == &kind; });
+std::size_t Diagnostics::count(const DiagnosticKind &kind) const {
+  return static_cast<std::size_t>(std::count_if(
+      entries_.begin(), entries_.end(), [&](const Entry &entry) { return &entry.first.kind() == &kind; }));
 }
+
+bool Diagnostics::has(const DiagnosticKind &kind) const { return count(kind) > 0; }
 
 std::string Diagnostics::count_in_words() const {
   std::string words;

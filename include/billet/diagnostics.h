@@ -173,6 +173,8 @@ public:
 
   /// Returns the number of different messages of this severity; repetitions do not count.
   std::size_t count(Severity severity) const;
+  /// Returns the number of different messages of this kind.
+  std::size_t count(const DiagnosticKind &kind) const;
   /// Whether a message of this kind was reported.
   bool has(const DiagnosticKind &kind) const;
   /// Returns "1 error, 3 warnings"; empty if there is neither.
