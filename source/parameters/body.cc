@@ -541,7 +541,7 @@ void Load::parse(Reader &reader) {
   if (chosen == nullptr) // the selection has refused all other names
     throw std::logic_error("unknown load '" + type + "'");
   join_parameters(load_types())
-      .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it");
+      .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it", "Type");
   boundary_ids = reader.boundaries("Boundary ids");
   nodes = read_nodes(reader, "Nodes");
   load = chosen->make(reader);
