@@ -20,6 +20,10 @@ namespace {
 
 constexpr std::array<const char *, 5> part_names = {{"body", "pair", "tool", "support", "origin"}};
 
+bool is_printed(const std::string &part) {
+  return std::any_of(part_names.begin(), part_names.end(), [&](const char *name) { return part == name; });
+}
+
 std::vector<const DiagnosticKind *> &registry() {
   static std::vector<const DiagnosticKind *> kinds;
   return kinds;
@@ -101,7 +105,8 @@ std::string Diagnostic::advice() const { return advice_.empty() ? kind_->remedy 
 std::string Diagnostic::identity() const {
   std::string identity = kind_->key;
   for (const auto &[what, name] : parts_)
-    identity += "\n" + what + "\n" + name;
+    if (is_printed(what))
+      identity += "\n" + what + "\n" + name;
   return topic_.empty() ? identity : identity + "\n\n" + topic_;
 }
 
@@ -109,7 +114,8 @@ std::string Diagnostic::text() const {
   std::string where;
   const auto add = [&where](const std::string &part) { where += (where.empty() ? "" : ", ") + part; };
   for (const auto &[what, name] : parts_)
-    add(what == "origin" ? name : what + " '" + name + "'");
+    if (is_printed(what))
+      add(what == "origin" ? name : what + " '" + name + "'");
   if (position_)
     add("at (" + print((*position_)[0], 5) + ", " + print((*position_)[1], 5) + ", " +
         print((*position_)[2], 5) + ")");
@@ -301,10 +307,12 @@ std::size_t Diagnostics::count(const Severity severity) const {
   }));
 }
 
-bool Diagnostics::has(const DiagnosticKind &kind) const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [&](const Entry &entry) { return &entry.first.kind() == &kind; });
+std::size_t Diagnostics::count(const DiagnosticKind &kind) const {
+  return static_cast<std::size_t>(std::count_if(
+      entries_.begin(), entries_.end(), [&](const Entry &entry) { return &entry.first.kind() == &kind; }));
 }
+
+bool Diagnostics::has(const DiagnosticKind &kind) const { return count(kind) > 0; }
 
 std::string Diagnostics::count_in_words() const {
   std::string words;

@@ -29,7 +29,7 @@ APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every layer
 FOR_ALL = set(
     "compatibility diagnostic_kinds diagnostics disjoint_sets error_notes errors nearest_name plugin"
-    " printable registered_type shipped spent_time state trial usage vector_text version"
+    " printable registered_type scene_fault shipped spent_time state trial usage vector_text version"
     " without_traps".split()
 )
 ABOVE_ALL = {"main"}  # files that may include everything

@@ -6,14 +6,14 @@
 #include "billet/material/hardening.h"
 #include "billet/mechanics/explicit_block.h"
 
-#include <array>
+#include <stdexcept>
+#include <string>
 
 /// Pairs of elements and laws, as the tests name them.
 namespace billet::testing {
 
-enum class Kinematics { hencky, neo_hookean, hypoelastic };
-inline constexpr std::array all_kinematics = {Kinematics::hencky, Kinematics::neo_hookean,
-                                              Kinematics::hypoelastic};
+// Names of elasticities in the program's table.
+inline const std::string hencky = "Hencky", neo_hookean = "neo-Hookean", hypoelastic = "hypoelastic";
 
 /// Moduli and, unless elastic, hardening.
 struct MaterialLaw {
@@ -31,50 +31,39 @@ struct MaterialLaw {
   bool is_plastic() const { return hardening.stress != nullptr; }
 };
 
-inline SharedLaw make_law(const MaterialLaw &material, const Kinematics kinematics) {
-  switch (kinematics) {
-  case Kinematics::hencky:
-    return make_hencky_law(material.elastic, material.hardening.stress);
-  case Kinematics::neo_hookean:
-    return make_neo_hookean_law(material.elastic, material.hardening.stress);
-  case Kinematics::hypoelastic:
-    return make_hypoelastic_law(material.elastic, material.hardening.stress);
-  }
-  return nullptr;
+/// Returns the law with an elasticity that two moduli determine.
+inline SharedLaw make_law(const MaterialLaw &material, const std::string &elasticity) {
+  const ElasticityType *type = elasticity_types().find(elasticity);
+  SharedLaw law = type != nullptr ? type->find_law(material.elastic, material.hardening.stress) : nullptr;
+  if (law == nullptr)
+    throw std::logic_error("no law of the elasticity '" + elasticity + "' with two moduli");
+  return law;
 }
 
-inline std::string name_of(const Kinematics kinematics) {
-  return make_law({{1., 1.}, {}}, kinematics)->name();
-}
-
-/// An element, and the law that it is used with.
+/// An element, and the elasticity of the law that it is used with.
 struct LawFormulation : ElementFormulation {
-  using Kinematics = testing::Kinematics;
-
-  Kinematics kinematics = Kinematics::hencky;
+  std::string elasticity = hencky;
 };
 
 /// The same of explicit dynamics.
 struct Formulation : ExplicitFormulation {
-  using Kinematics = testing::Kinematics;
-
-  Kinematics kinematics = Kinematics::hencky;
+  std::string elasticity = hencky;
 };
 
 inline std::unique_ptr<ElementBlock> make_element_block(const MaterialLaw &material,
                                                         const LawFormulation &formulation = {}) {
-  return billet::make_element_block(make_law(material, formulation.kinematics), formulation);
+  return billet::make_element_block(make_law(material, formulation.elasticity), formulation);
 }
 
 inline std::unique_ptr<ExplicitBlock> make_explicit_block(const MaterialLaw &material, const double density,
                                                           const Formulation &formulation) {
-  return billet::make_explicit_block(make_law(material, formulation.kinematics), density, formulation);
+  return billet::make_explicit_block(make_law(material, formulation.elasticity), density, formulation);
 }
 
 inline bool has_symmetric_tangent(const LawFormulation &formulation, const bool is_plastic) {
   const MaterialLaw law =
       is_plastic ? MaterialLaw{{1., 1.}, LinearHardening{1., 0.}} : MaterialLaw{{1., 1.}, {}};
-  return make_law(law, formulation.kinematics)->has_symmetric_moduli();
+  return make_law(law, formulation.elasticity)->has_symmetric_moduli();
 }
 
 } // namespace billet::testing

@@ -21,7 +21,8 @@ inline const DiagnosticKind
 
 inline const DiagnosticKind
     old_name("old-name", Severity::warning,
-             "The scene uses the old name of a parameter or of a value. Version 1.0 will refuse it.",
+             "The scene uses the old name of a parameter or of a value. Version 1.0 will refuse it. The "
+             "warning does not count for 'Warnings = errors'.",
              "Convert the scene by 'billet --update-scene'");
 
 inline const DiagnosticKind keywords_unread(

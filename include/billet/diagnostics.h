@@ -52,7 +52,8 @@ public:
   Diagnostic &support(const std::string &name) { return part("support", name); }
   /// Sets the place in the scene file: "scene.prm:12: 'Radius' in ...".
   Diagnostic &origin(const std::string &text) { return part("origin", text); }
-  /// Sets the name of a part; `what` is one of the five above. An empty name is left out.
+  /// Sets the name of a part, where `what` is one of the five above, or other data, which are kept but not
+  /// printed. An empty name is left out.
   Diagnostic &part(const std::string &what, const std::string &name);
   Diagnostic &at(const dealii::Tensor<1, 3> &position) {
     position_ = position;
@@ -173,6 +174,8 @@ public:
 
   /// Returns the number of different messages of this severity; repetitions do not count.
   std::size_t count(Severity severity) const;
+  /// Returns the number of different messages of this kind.
+  std::size_t count(const DiagnosticKind &kind) const;
   /// Whether a message of this kind was reported.
   bool has(const DiagnosticKind &kind) const;
   /// Returns "1 error, 3 warnings"; empty if there is neither.

@@ -13,6 +13,14 @@ namespace billet {
 
 namespace {
 
+struct Limits {
+  /// Reach of the search over the largest gap that counts as closed, so that gaps at this limit are found.
+  static constexpr double beyond_gap = 1.1;
+  /// Penetration over the size or the wall of a facet up to which nodes are found: all methods find nodes
+  /// there, and all elements are thicker.
+  static constexpr double part_of_facet = 0.4;
+};
+
 /// Returns the key of a facet: unique, and the same on any number of ranks. It is made of those of two
 /// opposite corners, unless these are of a refined body and have too many bits.
 std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
@@ -40,11 +48,10 @@ BodySurfaces::BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const 
       facet.surface = surface;
       facet.key = make_key(boundary, node_keys);
       areas.push_back(boundary.area_vector().norm());
-      facet.reach = std::max(contact_reach(boundary), 1.1 * pair.overlap.closed_gap);
+      facet.reach = std::max(contact_reach(boundary), Limits::beyond_gap * pair.overlap.closed_gap);
       facet.bulge = bulge_of(boundary, pair.correction);
       facet.wall = boundary.thickness;
-      constexpr double part_of_facet = 0.4; // all methods find nodes there, and all elements are thicker
-      penetrations.push_back(part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
+      penetrations.push_back(Limits::part_of_facet * std::min(std::sqrt(areas.back()), boundary.thickness));
       for (unsigned int a = 0; a < 4; ++a) {
         const auto [entry, is_new] =
             index.emplace(boundary.dofs[a][0], static_cast<unsigned int>(local_nodes.size()));

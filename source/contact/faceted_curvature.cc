@@ -20,6 +20,12 @@ using dealii::Tensor;
 
 namespace {
 
+struct Limits {
+  /// Chord gap, and error of the surface correction, over the largest displacement, above which a run warns:
+  /// about the error of an engineering result. A motion much larger than the gap closes it in any case.
+  static constexpr double notable = 0.03;
+};
+
 /// Collects the facets of all ranks with these boundary ids, those of this rank first.
 std::vector<SmoothFacet> collect_facets(const Discretization &discretization, const std::size_t body,
                                         const std::vector<unsigned int> &boundary_ids,
@@ -254,7 +260,7 @@ DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &
 
 DiagnosticList find_faceted_curvature(const Scene &scene, const Discretization &discretization,
                                       const Vector &displacements, const double time) {
-  const double notable = 0.03 * displacements.linfty_norm();
+  const double notable = Limits::notable * displacements.linfty_norm();
   DiagnosticList diagnostics;
   for (const auto &pair : scene.body_pairs()) {
     if (pair.correction.kind != Correction::Kind::none) {

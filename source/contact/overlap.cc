@@ -26,6 +26,15 @@ using dealii::Tensor;
 
 namespace {
 
+struct Limits {
+  /// Overlap over the chords of both faces, up to which faces that fit each other start: heights of chords
+  /// neglect higher powers of the facet size over the radius.
+  static constexpr double beyond_chords = 1.01;
+  /// Depth of the middle of a facet over that of its edges: on a sphere, chords of both directions add up,
+  /// (C8).
+  static constexpr double chords_of_sphere = 2., chords_of_cylinder = 1.;
+};
+
 template <class Points> BoundingBox box_around(const Points &points) {
   BoundingBox box = BoundingBox::empty();
   for (const auto &point : points)
@@ -393,10 +402,9 @@ void check_overlap(const Scene &scene, const std::size_t pair, const Discretizat
   // Allowed penetrations are limited to those that contact finds: half of those that a step loses.
   const bool is_by_overlaps = bodies.facets == FacetMethod::overlap;
   const double found = min_reach * (is_by_overlaps ? 0.5 * FacetOverlaps::penetration : 1.);
-  // The middle of a facet of a sphere is as far below the surface as its edges of both directions together,
-  // (C8).
+  const bool is_sphere = bodies.correction.kind == parameters::ContactPair::Correction::Kind::sphere;
   const double of_edges =
-      bodies.correction.kind == parameters::ContactPair::Correction::Kind::sphere ? 2.02 : 1.01;
+      Limits::beyond_chords * (is_sphere ? Limits::chords_of_sphere : Limits::chords_of_cylinder);
   const double allowed = bodies.overlap.is_allowed ? found
                                                    : bodies.input->initial.allowed_penetration.value * size +
                                                          of_edges * (chords[0] + chords[1]);

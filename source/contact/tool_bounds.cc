@@ -69,30 +69,38 @@ double ToolBounds::stiffness_against_tool() const {
   if (parts_.step.is_removed || !parts_.tool.is_driven())
     return sum;
   const Placement &placement = parts_.step.placement;
-  const bool turns = parts_.tool.control() == Tool::Control::moment,
-             has_friction = parts_.pair.has_friction();
-  const auto add = [&](const unsigned int i, const double area) {
+  const bool turns = parts_.tool.control() == Tool::Control::moment;
+  const Tensor<1, 3> along = turns ? Tensor<1, 3>() : parts_.tool.force_direction(),
+                     about = turns ? parts_.tool.rotation_axis() : Tensor<1, 3>();
+  // Adds the part of the normal spring; returns (a·a) − (a·n)², a the motion of the node with the tool.
+  const auto add_normal = [&](const unsigned int i, const double area) {
     const ToolContactState &state = parts_.states[i];
-    const ContactPoint &node = parts_.slaves.nodes[i];
     const Tensor<1, 3> n = // undefined for open nodes
         state.status != ContactStatus::open
             ? state.normal
             : placement.rotation *
-                  parts_.step.surface.project(placement.to_tool(state.position), node.patch).normal;
-    const Tensor<1, 3> a = turns ? dealii::cross_product_3d(parts_.tool.rotation_axis(),
-                                                            state.position - placement.moved_centre())
-                                 : parts_.tool.force_direction();
+                  parts_.step.surface.project(placement.to_tool(state.position), parts_.slaves.nodes[i].patch)
+                      .normal;
+    const Tensor<1, 3> a = along + dealii::cross_product_3d(about, state.position - placement.moved_centre());
     const double normal = a * n;
     sum += area * stiffness_ahead(i) * normal * normal;
-    if (has_friction)
-      sum += area * node.stiffness.tangential * (a * a - normal * normal);
+    return a * a - normal * normal;
   };
-  with_tool_springs(parts_, [&](const auto &springs) {
-    visit_touching(parts_, [&](const ContactFacet &facet, const unsigned int corner, const double area) {
-      add(facet.nodes[corner], springs.of(facet.nodes[corner]).max_area(area, facet.shallow_areas[corner]));
+  const auto visit_all = [&](const auto &add) {
+    with_tool_springs(parts_, [&](const auto &springs) {
+      visit_touching(parts_, [&](const ContactFacet &facet, const unsigned int corner, const double area) {
+        add(facet.nodes[corner], springs.of(facet.nodes[corner]).max_area(area, facet.shallow_areas[corner]));
+      });
     });
-  });
-  visit_near(add);
+    visit_near(add);
+  };
+  if (parts_.pair.has_friction())
+    visit_all([&](const unsigned int i, const double area) {
+      const double across = add_normal(i, area);
+      sum += area * parts_.slaves.nodes[i].stiffness.tangential * across;
+    });
+  else
+    visit_all(add_normal);
   return sum;
 }
 

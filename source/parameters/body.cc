@@ -541,7 +541,7 @@ void Load::parse(Reader &reader) {
   if (chosen == nullptr) // the selection has refused all other names
     throw std::logic_error("unknown load '" + type + "'");
   join_parameters(load_types())
-      .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it");
+      .reject_unused(reader, chosen->parameters, "a load of type '" + type + "' does not use it", "Type");
   boundary_ids = reader.boundaries("Boundary ids");
   nodes = read_nodes(reader, "Nodes");
   load = chosen->make(reader);
@@ -692,10 +692,10 @@ void check_plane_of_section(const Reader &reader, const Mesh &mesh, const Symmet
   const double along = std::abs(plane.normal * mesh.rotated(dealii::Tensor<1, 3>({0., 0., 1.})));
   if (mesh.section.value == Mesh::Section::axisymmetric && along < 1. - rounding)
     reader.reject("Symmetry planes", "planes across the axis, such as z = 0: 'Section = axisymmetric' has "
-                                     "those through the axis by itself");
+                                     "those through the axis by default");
   if (mesh.section.value == Mesh::Section::plane_strain && along > rounding)
     reader.reject("Symmetry planes", "planes along the width, such as x = 0: 'Section = plane strain' has "
-                                     "those across it by itself");
+                                     "those across it by default");
 }
 
 } // namespace

@@ -216,7 +216,8 @@ void TimeStepping::parse(Reader &reader) {
          {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",
           "Shrink iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
       if (reader.is_set(key) && reader.text(key) != "automatic") // as a scene that includes this one says
-        reader.reject(key, "no value: the steps of an explicit scene follow from its elements");
+        reader.reject_beside({"Scheme"}, key,
+                             "no value: the steps of an explicit scene follow from its elements");
     return;
   }
   control = chosen(step_controls, reader.text("Step control"));
@@ -252,7 +253,7 @@ void TimeStepping::parse(Reader &reader) {
   if (error_tolerance >= 1.)
     reader.reject("Error tolerance", "a number >= 0 and < 1");
   if (error_tolerance > 0. && type_of(scheme).has_inertia)
-    reader.reject("Error tolerance", "no value: that of 'Implicit dynamics' holds");
+    reader.reject_beside({"Scheme"}, "Error tolerance", "no value: that of 'Implicit dynamics' holds");
   few_iterations = reader.count("Growth iterations");
   many_iterations = reader.count("Shrink iterations");
   if (many_iterations <= few_iterations)

@@ -2,6 +2,7 @@
 #include "billet/parameters/expression_check.h"
 
 #include "billet/errors.h"
+#include "billet/scene_fault.h"
 #include "billet/without_traps.h"
 
 #include <deal.II/base/function_parser.h>
@@ -88,10 +89,15 @@ void check_expression(const std::string &text, const ExpressionVariables variabl
   for (const std::string &name : known)
     allowed += (allowed.empty() ? "" : ", ") + name;
   const std::string unknown = find_unknown_name(text, known);
-  throw InputError(origin + " contains '" + text + "'; allowed is a muParser expression of " + allowed +
-                   (has_free_comma(text) ? ". Write decimals with a point, not with a comma"
-                    : unknown.empty()    ? ""
-                                         : "; '" + unknown + "' is unknown"));
+  SceneFault fault{SceneFault::Kind::wrong_value};
+  if (!unknown.empty())
+    fault.depends_on.push_back(unknown);
+  throw InputError(scene_error(origin + " contains '" + text + "'; allowed is a muParser expression of " +
+                                   allowed +
+                                   (has_free_comma(text) ? ". Write decimals with a point, not with a comma"
+                                    : unknown.empty()    ? ""
+                                                         : "; '" + unknown + "' is unknown"),
+                               fault));
 }
 
 } // namespace billet

@@ -3,6 +3,7 @@
 
 #include "billet/errors.h"
 #include "billet/parameters/number_text.h"
+#include "billet/scene_fault.h"
 #include "billet/vector_text.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -27,8 +28,35 @@ bool is_beyond_reach(const double value) {
   return std::abs(value) > max_number || (value != 0. && std::abs(value) < min_number);
 }
 
-InputError refuse(const std::string &origin, const std::string &value, const std::string &allowed) {
-  return InputError(origin + " is '" + value + "'; allowed is " + allowed);
+InputError refuse(const std::string &origin, const std::string &value, const std::string &allowed,
+                  const SceneFault &fault) {
+  return InputError(scene_error(origin + " is '" + value + "'; allowed is " + allowed, fault));
+}
+
+/// Returns the parameters that the allowed values depend on: by convention, a text names them in quotes,
+/// 'Key' or 'Key = value'.
+std::vector<std::string> parameters_in(const std::string &allowed) {
+  std::vector<std::string> names;
+  for (std::size_t at = allowed.find('\''); at != std::string::npos; at = allowed.find('\'', at + 1)) {
+    if (at > 0 && std::isalpha(static_cast<unsigned char>(allowed[at - 1])) != 0) // an apostrophe
+      continue;
+    const std::size_t end = allowed.find('\'', at + 1);
+    if (end == std::string::npos)
+      break;
+    const std::string quoted = allowed.substr(at + 1, end - at - 1);
+    names.push_back(dealii::Utilities::trim(quoted.substr(0, quoted.find('='))));
+    at = end;
+  }
+  return names;
+}
+
+bool is_number(const std::string &text) {
+  try {
+    parse_number(text);
+    return true;
+  } catch (const std::invalid_argument &) {
+    return false;
+  }
 }
 
 std::vector<double> parse_numbers(const Reader &reader, const std::string &key,
@@ -59,7 +87,7 @@ void Reader::leave() {
 }
 
 double Reader::replace(const std::string &key, const std::string &allowed, const double value) const {
-  const InputError error = refuse(origin(key), prm_.get(key), allowed);
+  const InputError error = refuse(origin(key), prm_.get(key), allowed, {SceneFault::Kind::wrong_number});
   if (!collects_)
     throw error;
   errors_.add(error.diagnostics());
@@ -74,11 +102,19 @@ std::string Reader::origin(const std::string &key) const {
 std::string Reader::origin() const { return file_.where(path_) + ": '" + join(path_) + "'"; }
 
 void Reader::reject(const std::string &key, const std::string &allowed) const {
+  reject_beside(parameters_in(allowed), key, allowed);
+}
+
+void Reader::reject_beside(const std::vector<std::string> &others, const std::string &key,
+                           const std::string &allowed) const {
   // A number that stands for a wrong one in this subsection may be the reason: then that error stays alone.
   const Diagnostic *const known = path_.empty() ? nullptr : errors_.find(" in '" + join(path_) + "' is '");
   if (known != nullptr)
     throw InputError(*known);
-  throw refuse(origin(key), prm_.get(key), allowed);
+  const std::string value = prm_.get(key);
+  const bool is_wrong_alone = is_number(value) && others.empty();
+  throw refuse(origin(key), value, allowed,
+               {is_wrong_alone ? SceneFault::Kind::wrong_number : SceneFault::Kind::wrong_value, "", others});
 }
 
 std::string Reader::text(const std::string &key) const { return prm_.get(key); }

@@ -50,13 +50,16 @@ bool ParameterUnion::is_any_set(const std::function<bool(const std::string &)> &
 }
 
 void ParameterUnion::reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,
-                                   const std::string &reason) const {
+                                   const std::string &reason, const std::string &selector) const {
   for (const Entry &entry : entries_) {
     const std::string &key = entry.parameter.key;
     const bool is_used = std::any_of(used.begin(), used.end(),
                                      [&](const TypeParameter &parameter) { return parameter.key == key; });
-    if (!is_used && reader.is_set(key))
+    if (is_used || !reader.is_set(key))
+      continue;
+    if (selector.empty())
       reader.reject(key, "no value: " + reason);
+    reader.reject_beside({selector}, key, "no value: " + reason);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "billet/parameters/general_contact.h"
 #include "billet/parameters/libraries.h"
 #include "billet/parameters/scene_update.h"
+#include "billet/scene_fault.h"
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -55,8 +56,10 @@ void declare_all(ParameterHandler &prm, const Outline &outline) {
   const auto &names_below = outline.names_below;
   prm.declare_entry("Title", "", dealii::Patterns::Anything(),
                     "Title of the scene, for the console and --check.");
-  prm.declare_entry("Warnings", "report", dealii::Patterns::Selection("report|errors"),
-                    "errors: a run that ends with warnings exits with code 6, but completes.");
+  prm.declare_entry(
+      "Warnings", "report", dealii::Patterns::Selection("report|errors"),
+      "errors: a run that ends with warnings exits with code 6, but completes. Old names do not "
+      "count: the warning 'old-name' leaves the exit code as it is.");
   prm.declare_entry(
       libraries_key, "", dealii::Patterns::Anything(),
       "Shared libraries with types of your own, such as laws, separated by ';': names of files, "
@@ -123,9 +126,10 @@ template <class T> std::size_t index_of(const std::vector<T> &list, const Locate
     names.push_back(list[i].name);
   }
   const std::string advice = did_you_mean(name.value, names);
-  throw InputError(name.origin + " is '" + name.value + "'" +
-                   (advice.empty() ? "; allowed" : advice + " Allowed") +
-                   " is one of: " + (known.empty() ? "(none is defined)" : known));
+  throw InputError(scene_error(
+      name.origin + " is '" + name.value + "'" + (advice.empty() ? "; allowed" : advice + " Allowed") +
+          " is one of: " + (known.empty() ? "(none is defined)" : known),
+      {SceneFault::Kind::wrong_value, nearest_name(name.value, names), {name.value}}));
 }
 
 void check_amplitude_name(const std::string &name, const std::string &file_name) {
@@ -270,6 +274,11 @@ std::string default_folder(const std::string &file_name) {
   return holds_scene ? name + ".results" : name;
 }
 
+/// Returns the error of a parameter that the scheme excludes.
+InputError excluded_by_scheme(const std::string &text) {
+  return InputError(scene_error(text, {SceneFault::Kind::excluded, "", {"Scheme"}}));
+}
+
 /// Refuses what the scene does not have, or a body that it does not name.
 void check_probe(const Scene &scene, const Probe &probe) {
   if (probe.probe.has_body() && probe.body.value.empty() && scene.bodies.size() > 1)
@@ -277,13 +286,14 @@ void check_probe(const Scene &scene, const Probe &probe) {
   const std::size_t body = scene.body_index(probe);
   const std::string is_static = "'Scheme' in 'Time stepping' is " + name_of(scene.time_stepping.scheme);
   if (!scene.scheme().has_inertia && probe.probe.reads(ProbeQuantity::Kind::velocity))
-    throw InputError(probe.origin_of_quantities + " names 'velocity'; allowed are other quantities, since " +
-                     is_static + ", without velocities");
+    throw excluded_by_scheme(probe.origin_of_quantities +
+                             " names 'velocity'; allowed are other quantities, since " + is_static +
+                             ", without velocities");
   const auto *energies = std::get_if<ProbedEnergies>(&probe.probe.where);
   if (!scene.scheme().has_inertia && energies != nullptr &&
       energies->numerator == ProbedEnergies::Numerator::kinetic)
-    throw InputError(probe.origin_of_energy + " is 'kinetic'; allowed are other energies, since " +
-                     is_static + ", without kinetic energy");
+    throw excluded_by_scheme(probe.origin_of_energy + " is 'kinetic'; allowed are other energies, since " +
+                             is_static + ", without kinetic energy");
   const bool has_pair = std::any_of(scene.pairs.begin(), scene.pairs.end(), [&](const ContactPair &pair) {
     return scene.body_index(pair) == body ||
            (pair.is_between_bodies() && scene.second_body_index(pair) == body);
@@ -345,12 +355,13 @@ private:
     if (scene_.scheme().has_inertia)
       require(body.material.density.value > 0., {path[0], path[1], "Material"}, "Density");
     if (scene_.scheme().has_inertia && body.is_stabilised.value)
-      throw InputError(body.is_stabilised.origin +
-                       " is 'until contact'; allowed is 'none', since 'Scheme' is " + name_of_scheme() +
-                       ": the mass of a body resists its motion");
+      throw excluded_by_scheme(body.is_stabilised.origin +
+                               " is 'until contact'; allowed is 'none', since 'Scheme' is " +
+                               name_of_scheme() + ": the mass of a body resists its motion");
     if (!scene_.scheme().has_matrix && body.points_through.value > 2)
-      throw InputError(body.points_through.origin + " is '" + std::to_string(body.points_through.value) +
-                       "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
+      throw excluded_by_scheme(body.points_through.origin + " is '" +
+                               std::to_string(body.points_through.value) +
+                               "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
     const bool in_float = scene_.explicit_dynamics.number_type == NumberType::float_precision;
     if (!scene_.scheme().has_matrix && in_float && !has_kernel(body.element.value, *body.material.law))
       throw InputError(
@@ -384,12 +395,12 @@ private:
                          .origin(entry->where));
   }
   [[noreturn]] void refuse_entry(const SceneFile::Path &path, const std::string &key) const {
-    throw InputError(file_.where(path, key) + ": '" + key + "'" + in(file_.written_path(path, key)) +
-                     " is '" + file_.value(path, key, "") +
-                     "'; allowed is no value: 'Scheme' in 'Time stepping' is " + name_of_scheme() +
-                     (sets_scheme_ ? " (" + file_.where(scheme_path, "Scheme") + "). --set '" +
-                                         join(path, "/") + "/" + key + "=' takes the value away"
-                                   : ""));
+    throw excluded_by_scheme(file_.where(path, key) + ": '" + key + "'" + in(file_.written_path(path, key)) +
+                             " is '" + file_.value(path, key, "") +
+                             "'; allowed is no value: 'Scheme' in 'Time stepping' is " + name_of_scheme() +
+                             (sets_scheme_ ? " (" + file_.where(scheme_path, "Scheme") + "). --set '" +
+                                                 join(path, "/") + "/" + key + "=' takes the value away"
+                                           : ""));
   }
   static std::string join(const SceneFile::Path &path, const std::string &separator) {
     std::string names;
@@ -406,9 +417,10 @@ private:
   }
   void require(const bool is_there, const SceneFile::Path &path, const std::string &key) const {
     if (!is_there)
-      throw InputError(file_.where(path, key) + ": '" + key + "'" + in(path) + " is '" +
-                       file_.value(path, key, "0") + "'; allowed is a number > 0, since the scheme is " +
-                       name_of_scheme());
+      throw InputError(scene_error(file_.where(path, key) + ": '" + key + "'" + in(path) + " is '" +
+                                       file_.value(path, key, "0") +
+                                       "'; allowed is a number > 0, since the scheme is " + name_of_scheme(),
+                                   {SceneFault::Kind::wrong_number, "", {"Scheme"}}));
   }
 
   static const SceneFile::Path scheme_path;

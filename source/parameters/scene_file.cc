@@ -7,6 +7,7 @@
 #include "billet/parameters/missing_end.h"
 #include "billet/parameters/number_text.h"
 #include "billet/parameters/renames.h"
+#include "billet/scene_fault.h"
 #include "billet/shipped.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -117,8 +118,15 @@ std::string single_spaced(const std::string &text) {
   return result;
 }
 
-/// Returns the end of a message about a value: what ParameterHandler's pattern allows, in plain words.
-std::string describe_pattern(const std::string &message, const std::string &value) {
+/// End of a message about a value, and the message as data.
+struct PatternError {
+  std::string text;
+  SceneFault fault;
+};
+
+/// Returns what ParameterHandler's pattern allows, in plain words.
+PatternError describe_pattern(const std::string &message, const std::string &value) {
+  using Kind = SceneFault::Kind;
   // The message is "... does not match the given pattern <[Double ...]>."; deal.II breaks it into lines at
   // any blank.
   std::istringstream words(message);
@@ -129,24 +137,26 @@ std::string describe_pattern(const std::string &message, const std::string &valu
   const auto begin = text.rfind(before);
   const auto end = text.find("]>", begin);
   if (begin == std::string::npos || end == std::string::npos)
-    return "; " + text;
+    return {"; " + text, {Kind::wrong_value}};
   const std::string pattern = text.substr(begin + before.size(), end - begin - before.size());
   if (pattern.find("List of <[Double") != std::string::npos)
-    return "; allowed is numbers, separated by commas";
+    return {"; allowed is numbers, separated by commas", {Kind::wrong_value}};
   if (pattern.find("List of <[Integer") != std::string::npos)
-    return "; allowed is whole numbers, separated by commas";
+    return {"; allowed is whole numbers, separated by commas", {Kind::wrong_value}};
   if (pattern.compare(0, 6, "Double") == 0)
-    return "; allowed is a number" + parameters::number_remedy(value);
+    return {"; allowed is a number" + parameters::number_remedy(value), {Kind::wrong_number}};
   if (pattern.compare(0, 7, "Integer") == 0)
-    return "; allowed is a whole number, not negative";
+    return {"; allowed is a whole number, not negative", {Kind::wrong_value}};
   if (pattern.compare(0, 4, "Bool") == 0)
-    return "; allowed is true or false";
+    return {"; allowed is true or false", {Kind::wrong_value}};
   if (pattern.compare(0, 9, "Selection") != 0)
-    return "; allowed is " + pattern;
+    return {"; allowed is " + pattern, {Kind::wrong_value}};
   const std::string names = trim(pattern.substr(10));
-  const std::string advice = did_you_mean(value, dealii::Utilities::split_string_list(names, '|'));
-  return (advice.empty() ? "; allowed" : advice + " Allowed") +
-         " is one of: " + dealii::Utilities::replace_in_string(names, "|", ", ");
+  const std::vector<std::string> known = dealii::Utilities::split_string_list(names, '|');
+  const std::string advice = did_you_mean(value, known);
+  return {(advice.empty() ? "; allowed" : advice + " Allowed") +
+              " is one of: " + dealii::Utilities::replace_in_string(names, "|", ", "),
+          {Kind::wrong_value, nearest_name(value, known)}};
 }
 
 } // namespace
@@ -563,7 +573,7 @@ private:
 
 struct SetResult {
   bool is_declared = true;
-  std::string wrong_value; ///< end of the message; empty if the value is allowed
+  std::optional<PatternError> error; ///< none: the value is allowed
 };
 
 SetResult try_to_set(dealii::ParameterHandler &prm, const SceneFile::Entry &entry) {
@@ -575,7 +585,7 @@ SetResult try_to_set(dealii::ParameterHandler &prm, const SceneFile::Entry &entr
   } catch (const dealii::ParameterHandler::ExcEntryUndeclared &) {
     result.is_declared = false;
   } catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &error) {
-    result.wrong_value = describe_pattern(error.what(), entry.value);
+    result.error = describe_pattern(error.what(), entry.value);
   }
   for (std::size_t i = 0; i < entry.path.size(); ++i)
     prm.leave_subsection();
@@ -586,7 +596,12 @@ SetResult try_to_set(dealii::ParameterHandler &prm, const SceneFile::Entry &entr
 
 void SceneFile::set_all(dealii::ParameterHandler &prm) const {
   DiagnosticList errors = errors_;
-  const auto add = [&errors](const std::string &error) { errors.emplace_back(diagnostic::bad_input, error); };
+  const auto add = [&errors](const std::string &error, const SceneFault &fault) {
+    errors.push_back(scene_error(error, fault));
+  };
+  const auto unknown_name = [](const std::string &name, const std::vector<std::string> &known) {
+    return SceneFault{SceneFault::Kind::unknown_name, nearest_name(name, known)};
+  };
   std::vector<Path> unknown;
   const auto refuse_subsection = [&](const Path &path, const std::string &where) {
     const Path above(path.begin(), path.end() - 1);
@@ -595,8 +610,9 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
     const Declared declared(prm);
     if (std::find(unknown.begin(), unknown.end(), path) == unknown.end())
       add(where + ": there is no subsection '" + join(path) + "'" +
-          declared.advice(did_you_mean(path.back(), declared.subsections(above)),
-                          above.empty() ? "at the top level" : "in '" + join(above) + "'", above));
+              declared.advice(did_you_mean(path.back(), declared.subsections(above)),
+                              above.empty() ? "at the top level" : "in '" + join(above) + "'", above),
+          unknown_name(path.back(), declared.subsections(above)));
     unknown.push_back(path);
   };
   for (const auto &subsection : subsections_)
@@ -605,7 +621,7 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
 
   const auto has_unknown_shape = [&](const Path &path) {
     const Entry *shape = find(path, "Shape");
-    return shape != nullptr && !try_to_set(prm, *shape).wrong_value.empty();
+    return shape != nullptr && try_to_set(prm, *shape).error.has_value();
   };
   for (const auto &entry : entries_) {
     if (!entry.path.empty() && !prm.subsection_path_exists(entry.path)) {
@@ -618,7 +634,7 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
       }
       continue;
     }
-    const auto [is_declared, wrong_value] = try_to_set(prm, entry);
+    const auto [is_declared, error] = try_to_set(prm, entry);
     if (!entry.source.empty()) // what is wrong with it is told of the entry that it copies
       continue;
     const std::string place = entry.path.empty() ? "" : " in '" + join(entry.path) + "'";
@@ -628,9 +644,11 @@ void SceneFile::set_all(dealii::ParameterHandler &prm) const {
       const Declared declared(prm);
       const std::string near = did_you_mean(entry.key, declared.parameters(entry.path));
       add(entry.where + ": there is no parameter '" + entry.key + "'" + place +
-          declared.advice(near.empty() ? declared.other_place(entry.key) : near, "here", entry.path));
-    } else if (!wrong_value.empty())
-      add(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value + "'" + wrong_value);
+              declared.advice(near.empty() ? declared.other_place(entry.key) : near, "here", entry.path),
+          unknown_name(entry.key, declared.parameters(entry.path)));
+    } else if (error)
+      add(entry.where + ": '" + entry.key + "'" + place + " is '" + entry.value + "'" + error->text,
+          error->fault);
   }
   if (!errors.empty())
     throw InputError(errors);

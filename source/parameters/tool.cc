@@ -291,7 +291,8 @@ FrictionPointer read_friction(const Reader &reader) {
   if (type == nullptr) // the selection has refused all other names
     throw std::logic_error("unknown friction law '" + reader.text("Friction law") + "'");
   join_parameters(friction_law_types())
-      .reject_unused(reader, type->parameters, "'" + type->name + "' friction does not use it");
+      .reject_unused(reader, type->parameters, "'" + type->name + "' friction does not use it",
+                     "Friction law");
   return type->make(reader);
 }
 

@@ -6,9 +6,9 @@
 #include "billet/loads/load.h"
 #include "billet/parameters/scene.h"
 #include "billet/run/check.h"
+#include "billet/scene_fault.h"
 
 #include <algorithm>
-#include <cctype>
 #include <exception>
 #include <iterator>
 #include <map>
@@ -26,35 +26,8 @@ bool begins_with(const Path &path, const Path &start) {
   return path.size() >= start.size() && std::equal(start.begin(), start.end(), path.begin());
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-/// Whether a text has a word, as expressions have names.
-bool has_word(const std::string &text, const std::string &word) {
-  const auto is_of_word = [](const char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-  };
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || !is_of_word(text[at - 1])) && (end == text.size() || !is_of_word(text[end])))
-      return true;
-  }
-  return false;
-}
-
-/// Returns a message without its place, "file:line: 'Key' in 'Path'".
-std::string without_place(const std::string &message) {
-  const std::size_t quote = message.find(": '");
-  if (quote == std::string::npos)
-    return message;
-  std::size_t end = message.find('\'', quote + 3);
-  const std::string in = "' in '";
-  if (end != std::string::npos && message.compare(end, in.size(), in) == 0)
-    end = message.find('\'', end + in.size());
-  return end == std::string::npos ? message : message.substr(end + 1);
+bool contains(const std::vector<std::string> &list, const std::string &name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 /// Scene file of which parts with errors are taken out.
@@ -71,30 +44,30 @@ public:
   bool take_out(const DiagnosticList &errors) {
     const bool is_first = n_rounds_++ == 0;
     bool changes = false;
-    std::vector<std::pair<SceneFile::Place, std::string>> places;
+    std::vector<std::pair<SceneFile::Place, SceneFault>> places;
     for (const Diagnostic &error : errors) {
       const std::optional<SceneFile::Place> place = file_.find_place(error.what());
       const bool is_repeated = std::any_of(found_.begin(), found_.end(), [&](const Diagnostic &before) {
         return before.what() == error.what();
       });
-      const bool is_consequence = !is_first && (!place || follows(*place, error.what()));
+      const bool is_consequence = !is_first && (!place || follows(*place, fault_of(error)));
       if (is_repeated) { // its part is still to be taken out
       } else if (!is_consequence) {
         found_.push_back(error);
         if (place)
           reported_.insert(part_of(place->path));
-      } else if (place && !(is_dynamic_ && has_word(lower(error.what()), "scheme")))
+      } else if (place && !(is_dynamic_ && contains(fault_of(error).depends_on, scheme)))
         unchecked_.insert({part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)"
                                                  : reported_.count(part_of(place->path)) > 0
                                                      ? " (other parameters)"
                                                      : ""});
       if (place)
-        places.emplace_back(*place, error.what());
+        places.emplace_back(*place, fault_of(error));
       // A statement without a place is left out when the file is read.
       changes = changes || (is_first && !place);
     }
-    for (const auto &[place, message] : places)
-      changes = take_out(place, message) || changes;
+    for (const auto &[place, fault] : places)
+      changes = take_out(place, fault) || changes;
     return changes && !all_depends_;
   }
 
@@ -125,6 +98,8 @@ public:
   }
 
 private:
+  static constexpr const char *scheme = "Scheme";
+
   static std::string at(const Path &path, const std::size_t i) { return i < path.size() ? path[i] : ""; }
 
   static bool is_named(const std::string &section) {
@@ -145,7 +120,7 @@ private:
   }
 
   /// Whether an error may be due to what was taken out before.
-  bool follows(const SceneFile::Place &place, const std::string &message) const {
+  bool follows(const SceneFile::Place &place, const SceneFault &fault) const {
     const Path &path = place.path;
     if (mended_.count({path, place.key}) > 0)
       return true;
@@ -156,16 +131,11 @@ private:
           return may_miss(path, changed) || (place.key.empty() && may_touch(path, changed));
         }))
       return true;
-    const std::string text = without_place(message), words = lower(text);
-    return std::any_of(
-               names_.begin(), names_.end(),
-               [&](const std::string &name) { return text.find("'" + name + "'") != std::string::npos; }) ||
-           std::any_of(amplitudes_.begin(), amplitudes_.end(),
-                       [&](const std::string &name) { return has_word(text, name); }) ||
-           std::any_of(keys_.begin(), keys_.end(), [&](const auto &key) {
-             return (!is_named(at(key.first, 0)) || begins_with(path, key.first)) &&
-                    has_word(words, key.second);
-           });
+    return std::any_of(fault.depends_on.begin(), fault.depends_on.end(), [&](const std::string &other) {
+      return names_.count(other) > 0 || std::any_of(keys_.begin(), keys_.end(), [&](const auto &key) {
+               return key.second == other && (!is_named(at(key.first, 0)) || begins_with(path, key.first));
+             });
+    });
   }
 
   /// Whether something in a subsection may be missing since another one has changed.
@@ -185,12 +155,12 @@ private:
   }
 
   /// Takes out what has an error. Returns whether the scene has changed.
-  bool take_out(const SceneFile::Place &place, const std::string &message) {
+  bool take_out(const SceneFile::Place &place, const SceneFault &fault) {
     const Path &path = place.path;
     const std::string section = at(path, 0), name = at(path, 1), kind = at(path, 2);
-    if (mend(place, message))
+    if (mend(place, fault))
       return true;
-    note_key(place, message);
+    note_key(place, fault);
     if (section == "Bodies" && path.size() > 1) {
       if (kind == "Mesh")
         return replace_mesh(name);
@@ -221,25 +191,19 @@ private:
   }
 
   /// Gives a parameter a value that stands for the wrong one, or for the missing one of a load, so that other
-  /// errors of its part are found: the one that the message advises, a number of a material, or the default
-  /// of a support or a load. Returns false if it cannot, or has done so before.
-  bool mend(const SceneFile::Place &place, const std::string &message) {
-    const std::string said = without_place(message), kind = at(place.path, 2);
+  /// errors of its part are found: the one that the user probably meant, a number of a material, or the
+  /// default of a support or a load. Returns false if it cannot, or has done so before.
+  bool mend(const SceneFile::Place &place, const SceneFault &fault) {
+    const std::string kind = at(place.path, 2);
     const std::optional<std::string> size = default_of_load(place);
     const bool is_set = !place.is_missing && file_.is_set(place.path, place.key);
-    if (place.key.empty() || (!is_set && !size) ||
-        (said.rfind(" is '", 0) != 0 && said.rfind(" contains '", 0) != 0))
+    if (place.key.empty() || (!is_set && !size) || !fault.is_of_value())
       return false;
-    const bool is_number = said.find("; allowed is a number") != std::string::npos ||
-                           said.find("; allowed is a finite number") != std::string::npos;
-    const std::string advice = "'; did you mean '";
+    const bool is_kind = place.key == scheme || place.key == "Type" || place.key == "Shape";
     std::optional<std::string> value;
-    const std::size_t advice_at = said.find(advice);
-    const bool is_kind = place.key == "Scheme" || place.key == "Type" || place.key == "Shape";
-    if (advice_at != std::string::npos && is_kind) {
-      const std::size_t first = advice_at + advice.size();
-      value = said.substr(first, said.find('\'', first) - first);
-    } else if (kind == "Material" && is_number)
+    if (!fault.suggestion.empty() && is_kind)
+      value = fault.suggestion;
+    else if (kind == "Material" && fault.kind == SceneFault::Kind::wrong_number)
       value = place.key == "Poisson ratio" ? "0.3" : "1";
     else
       value = size;
@@ -250,28 +214,23 @@ private:
     file_.remove(place.path, place.key);
     if (value)
       file_.add_entry(place.path, place.key, *value, where);
-    if (advice_at == std::string::npos) // an advised value is most likely the right one
-      keys_.insert({place.path, lower(place.key)});
-    if (place.key == "Scheme") // but these words are everywhere
-      for (const std::string word : {"scheme", "static", "explicit", "implicit", "dynamics"})
-        keys_.insert({{}, word});
+    if (fault.suggestion.empty() || place.key == scheme) // others are most likely right
+      keys_.insert({place.path, place.key});
     return true;
   }
 
   /// Remembers a parameter, on which others of its subsection may depend, and on those of other sections all.
-  void note_key(const SceneFile::Place &place, const std::string &message) {
-    const std::string scheme = "Scheme", advice = "did you mean '";
-    if (without_place(message).find("'" + scheme + "'") != std::string::npos) // one such error is enough
-      keys_.insert({{}, lower(scheme)});
+  void note_key(const SceneFile::Place &place, const SceneFault &fault) {
+    if (fault.kind == SceneFault::Kind::excluded) // one such error is enough
+      for (const std::string &other : fault.depends_on)
+        keys_.insert({{}, other});
     if (place.key.empty())
       return;
-    std::string key = place.key;
-    if (const std::size_t begin = message.find(advice); begin != std::string::npos) // for an unknown one
-      key = message.substr(begin + advice.size(),
-                           message.find('\'', begin + advice.size()) - begin - advice.size());
-    for (const std::string &word : {place.key, key})
-      keys_.insert({place.path, lower(word)});
-    all_depends_ = all_depends_ || place.key == scheme || key == scheme || key == "Libraries";
+    const std::string key = fault.suggestion.empty() ? place.key : fault.suggestion; // of an unknown one
+    for (const std::string &one : {place.key, key}) {
+      keys_.insert({place.path, one});
+      all_depends_ = all_depends_ || one == scheme || one == "Libraries";
+    }
   }
 
   /// Takes out an entry, or a subsection that is unknown.
@@ -297,10 +256,7 @@ private:
   /// Takes out a body, a tool, a pair, a probe or an amplitude, and pairs and probes that name it.
   bool remove_part(const Path &part) {
     const std::string section = part[0], name = part[1];
-    if (section == "Amplitudes")
-      amplitudes_.insert(name);
-    else
-      names_.insert(name);
+    names_.insert(name);
     if (section == "Bodies")
       unchecked_[part] = " (supports, loads, contact, probes)";
     if (section == "Bodies" || section == "Tools")
@@ -323,14 +279,14 @@ private:
   /// Makes a static scene a dynamic one, in which a body needs no support. Returns false if it is one.
   bool make_dynamic() {
     const Path section{"Time stepping"};
-    const std::string key = "Scheme", scheme = file_.value(section, key, "static");
-    if (scheme != "static" && scheme != "quasi-static")
+    const std::string now = file_.value(section, scheme, "static");
+    if (now != "static" && now != "quasi-static")
       return false;
     const std::string where = where_of(section);
-    file_.remove(section, key);
+    file_.remove(section, scheme);
     file_.add_subsection(section, where);
-    file_.add_entry(section, key, "implicit dynamics", where);
-    keys_.insert({{}, lower(key)});
+    file_.add_entry(section, scheme, "implicit dynamics", where);
+    keys_.insert({{}, scheme});
     is_dynamic_ = true;
     return true;
   }
@@ -376,8 +332,8 @@ private:
   std::set<Path> replaced_;                       ///< materials and meshes
   std::map<Path, unsigned int> n_rounds_of_;
   std::set<std::string> meshless_;
-  std::set<std::string> names_, amplitudes_;    ///< of parts that were taken out
-  std::set<std::pair<Path, std::string>> keys_; ///< that were taken out, in lower case
+  std::set<std::string> names_;                 ///< of parts that were taken out
+  std::set<std::pair<Path, std::string>> keys_; ///< that were taken out
   unsigned int n_rounds_ = 0;
   bool is_dynamic_ = false;  ///< whether it has been made so
   bool all_depends_ = false; ///< on a parameter with an error

@@ -144,7 +144,7 @@ std::vector<std::string> list_changes(const parameters::ExplicitDynamics &steps,
   add(true, "a 'Safety factor' below " + number(steps.safety_factor));
   add(true, "a 'Contact resolution' above " + number(steps.contact_resolution));
   add(pair.has_friction() && pair.penalty_is_factor && pair.normal_penalty < for_chatter,
-      "for bodies that hop with strong friction, 'Normal penalty = " + number(for_chatter) + "'");
+      "for bodies that bounce with strong friction, 'Normal penalty = " + number(for_chatter) + "'");
   return changes;
 }
 

@@ -16,6 +16,13 @@ namespace billet {
 
 namespace {
 
+struct Limits {
+  /// A residual of the norm r sums up to a resultant of at most √N r over N nodes. Contact forces of the
+  /// norm f on N^⅔ nodes of a surface have a resultant of about √(N^⅔) f. Relative residuals of resultants
+  /// are thus those of nodal forces times N to this power, 1/2 − 1/3.
+  static constexpr double power_of_sums = 1. / 6.;
+};
+
 /// Whether the penetration tolerances of all pairs are left to the target error.
 bool may_choose_penetration(const parameters::Scene &parameters) {
   return parameters.target_error > 0. && !parameters.pairs.empty() &&
@@ -62,9 +69,8 @@ bool ErrorWatch::is_wanted(const parameters::Scene &parameters) {
 ErrorWatch::ErrorWatch(const Scene &scene, const Discretization &discretization, ImplicitSolution &problem)
     : problem_(problem),
       controls_(1, ErrorControl(tolerances_of(scene), scene.parameters().time_stepping.end_time)),
-      // The sum of N nodal forces is at most √N of their norm, and that of the forces on some N^⅔ nodes of a
-      // surface about the square root of their number times theirs.
-      residual_factor_(std::pow(static_cast<double>(discretization.n_global_elements()), 1. / 6.)),
+      residual_factor_(
+          std::pow(static_cast<double>(discretization.n_global_elements()), Limits::power_of_sums)),
       end_time_(scene.parameters().time_stepping.end_time), measures_steps_(depends_on_steps(scene)),
       measures_penetration_(scene.parameters().target_error > 0. &&
                             !(scene.pairs().empty() && scene.body_pairs().empty())),

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Usage: element_cost forces|tangents
 //
-// Evaluates every implicit element with every kinematics, linear hardening, `n_elements` of them in a step in
-// which all points yield, `n_rounds` times: for a profiler, which tells them by the names of their LawBlock.
-// Prints the number of evaluations of each.
+// Evaluates every implicit element with every elasticity of metals, linear hardening, `n_elements` of them in
+// a step in which all points yield, `n_rounds` times: for a profiler, which tells them by the names of their
+// LawBlock. Prints the number of evaluations of each.
 #include "../sample_formulations.h"
+#include "../sample_laws.h"
 
 #include <iostream>
 #include <random>
@@ -25,10 +26,10 @@ int main(int argc, char *argv[]) {
   };
   const MaterialLaw material{ElasticModuli::from_young_poisson(2e5, 0.3), LinearHardening{700., 300.}};
   for (const auto element : all_elements())
-    for (const auto kinematics : testing::all_kinematics) {
+    for (const auto &elasticity : testing::metal_elasticities()) {
       LawFormulation formulation;
       formulation.element = element;
-      formulation.kinematics = kinematics;
+      formulation.elasticity = elasticity;
       const auto block = make_element_block(material, formulation);
       std::vector<ElementVectors> positions(n_elements), displacements(n_elements);
       for (std::size_t e = 0; e < n_elements; ++e)

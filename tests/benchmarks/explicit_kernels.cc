@@ -173,14 +173,13 @@ int main(int argc, char *argv[]) {
       {"assumed strain", Formulation::Element::assumed_strain},
       {"mean dilatation", Formulation::Element::mean_dilatation},
       {"one point", Formulation::Element::one_point}};
-  const std::pair<const char *, Formulation::Kinematics> kinematics[] = {
-      {"hypoelastic", Formulation::Kinematics::hypoelastic},
-      {"neo-Hookean", Formulation::Kinematics::neo_hookean},
-      {"Hencky", Formulation::Kinematics::hencky}};
+  const std::pair<const char *, std::string> laws[] = {{"hypoelastic", testing::hypoelastic},
+                                                       {"neo-Hookean", testing::neo_hookean},
+                                                       {"Hencky", testing::hencky}};
   std::printf("%zu elements, triad %.1f GB/s\n", cube.elements.size(), measure_triad());
   std::printf("%-8s %-6s %6s", "", "", "GF/s");
   for (const auto &element : elements)
-    for (const auto &law : kinematics)
+    for (const auto &law : laws)
       if (n > 0)
         std::printf("  %s %s", element.first, law.first);
   std::printf("\n");
@@ -193,12 +192,12 @@ int main(int argc, char *argv[]) {
         continue;
       std::printf("%-8s %-6s %6.1f", set.first, type.first, measure_peak(set.second));
       for (const auto &element : elements)
-        for (const auto &law : kinematics) {
+        for (const auto &law : laws) {
           if (n == 0)
             continue;
           Formulation formulation;
           formulation.element = element.second;
-          formulation.kinematics = law.second;
+          formulation.elasticity = law.second;
           formulation.instructions = set.second;
           formulation.number_type = type.second;
           std::printf("  %8.0f", measure(cube, formulation, n_steps));

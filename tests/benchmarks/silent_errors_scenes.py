@@ -143,12 +143,12 @@ def bending() -> list[Case]:
     for i, (along, through) in enumerate(meshes):
         for j, law in enumerate(("elastic", "plastic")):
             element, radius = elements[(i + j) % 3], radii[(2 * i + 3 * j + i // 3) % 6]
-            knobs: dict[str, Any] = dict(
+            settings: dict[str, Any] = dict(
                 along=along, through=through, element=element, law=law, radius=radius
             )
             near = Reference(
-                strip(**knobs, penalty=300, initial=0.01, largest=0.02, solver=EXACT),
-                strip(**knobs, penalty=1000, initial=0.005, largest=0.01, solver=EXACT),
+                strip(**settings, penalty=300, initial=0.01, largest=0.02, solver=EXACT),
+                strip(**settings, penalty=1000, initial=0.005, largest=0.01, solver=EXACT),
                 frozenset(OF_THE_MESH),
                 force_curve(["punch"]),
             )
@@ -167,7 +167,7 @@ def bending() -> list[Case]:
                 Case(
                     "bending",
                     f"{along} x {through} bricks, {element}, {law}, radius {radius}, {name}",
-                    strip(**knobs, **numerics),
+                    strip(**settings, **numerics),
                     (near, far),
                 )
                 for name, numerics in BENDING_NUMERICS.items()
@@ -247,7 +247,7 @@ def pressed_blocks() -> list[Case]:
     )
     cases = []
     for i in range(26):
-        knobs: dict[str, Any] = dict(
+        settings: dict[str, Any] = dict(
             lower=meshes[i % 4][0],
             upper=meshes[i % 4][1],
             slave=("upper", "lower")[(i // 2) % 2],
@@ -256,17 +256,22 @@ def pressed_blocks() -> list[Case]:
         )
         gap = gaps[i % 5]
 
-        def clock(time: Array, gap: float = gap, press: float = knobs["press"]) -> Array:
+        def clock(time: Array, gap: float = gap, press: float = settings["press"]) -> Array:
             return ((gap + press) * time - gap) / press
 
-        said = ", ".join(f"{key} {value}" for key, value in knobs.items())
+        said = ", ".join(f"{key} {value}" for key, value in settings.items())
         left_out = ("penalty 1", "penalty 30", "penalty 100")[i % 3]
         for name, numerics in BLOCK_NUMERICS.items():
             if name == left_out:
                 continue
             # The limit of high penalties depends on the mesh where a facet reaches over a rim: the penalty is
             # the run's own.
-            stiff: dict[str, Any] = {**knobs, "gap": 0, "penalty": numerics.get("penalty"), "solver": EXACT}
+            stiff: dict[str, Any] = {
+                **settings,
+                "gap": 0,
+                "penalty": numerics.get("penalty"),
+                "solver": EXACT,
+            }
             near = Reference(
                 blocks(**stiff, initial=0.01, largest=0.02),
                 blocks(**stiff, initial=0.005, largest=0.01),
@@ -274,7 +279,7 @@ def pressed_blocks() -> list[Case]:
                 force_curve(["face"], clock),
             )
             cases.append(
-                Case("blocks", f"{said}, gap {gap}, {name}", blocks(**knobs, gap=gap, **numerics), (near,))
+                Case("blocks", f"{said}, gap {gap}, {name}", blocks(**settings, gap=gap, **numerics), (near,))
             )
     return cases
 
@@ -377,7 +382,7 @@ def flights() -> list[Case]:
     for i in range(28):
         target, flier = list(TARGETS)[i % 4], list(FLIERS)[(i // 4) % 2]
         thickness = min(TARGETS[target][1][2], FLIERS[flier][1][2])
-        knobs: dict[str, Any] = dict(
+        settings: dict[str, Any] = dict(
             target=target,
             flier=flier,
             speed=(10, 1, 30)[i % 3],
@@ -387,21 +392,21 @@ def flights() -> list[Case]:
             slave=("flier", "target")[(i // 2) % 2],
             faces=("all", "facing")[(i // 4) % 2 ^ i % 2],
         )
-        far, near, after = 100 * thickness, 0.004 * knobs["speed"] ** 0.5, 0.03
-        step = 2e-5 if knobs["speed"] > 1 else 4e-5
-        start = [knobs["oblique"] * knobs["speed"], 0, -knobs["speed"]]
+        far, near, after = 100 * thickness, 0.004 * settings["speed"] ** 0.5, 0.03
+        step = 2e-5 if settings["speed"] > 1 else 4e-5
+        start = [settings["oblique"] * settings["speed"], 0, -settings["speed"]]
         reference = Reference(
-            flight(**knobs, distance=near, after=after, fixed=step),
-            flight(**knobs, distance=near, after=after, fixed=step / 2),
+            flight(**settings, distance=near, after=after, fixed=step),
+            flight(**settings, distance=near, after=after, fixed=step / 2),
             frozenset(OF_THE_MESH),
             impulse("1", start),
         )
-        said = ", ".join(f"{key} {value}" for key, value in knobs.items())
+        said = ", ".join(f"{key} {value}" for key, value in settings.items())
         cases += [
             Case(
                 "flights",
                 f"{said}, {name}",
-                flight(**knobs, distance=far, after=after, **numerics),
+                flight(**settings, distance=far, after=after, **numerics),
                 (reference,),
             )
             for name, numerics in FLIGHT_NUMERICS.items()
@@ -637,17 +642,19 @@ def stacks() -> list[Case]:
     cases = []
     for plates in (2, 3, 4, 5):
         for j, motion in enumerate(("sheared", "twisted")):
-            knobs: dict[str, Any] = dict(plates=plates, motion=motion, friction=(0.1, 0.3)[(plates + j) % 2])
+            settings: dict[str, Any] = dict(
+                plates=plates, motion=motion, friction=(0.1, 0.3)[(plates + j) % 2]
+            )
             near = Reference(
-                stack(**knobs, penalty=100, initial=0.02, largest=0.1, solver=EXACT),
-                stack(**knobs, penalty=300, initial=0.02, largest=0.05, solver=EXACT),
+                stack(**settings, penalty=100, initial=0.02, largest=0.1, solver=EXACT),
+                stack(**settings, penalty=300, initial=0.02, largest=0.05, solver=EXACT),
                 frozenset(OF_THE_MESH),
                 force_at([f"f{plates - 1}"], (1, 2, 2.5)),
                 0.05,
             )
-            said = ", ".join(f"{key} {value}" for key, value in knobs.items())
+            said = ", ".join(f"{key} {value}" for key, value in settings.items())
             cases += [
-                Case("stacks", f"{said}, {name}", stack(**knobs, **numerics), (near,))
+                Case("stacks", f"{said}, {name}", stack(**settings, **numerics), (near,))
                 for name, numerics in STACK_NUMERICS.items()
             ]
     return cases

@@ -121,6 +121,17 @@ for scene in OLD:
         equal("its report", again.errors, "scene.prm: all names are current\n")
 
 
+@check("an old name is a warning that is no error where warnings are errors, beside others that are")
+def _() -> None:
+    text = read_text(HERE / "block.prm").replace(STEPS, STEPS + "  set Most iterations = 40\n")
+    for penalty, code, counted in (("10", 0, "1 warning"), ("1e-3", 6, "3 warnings")):
+        write_text("block.prm", re.sub(r"(Normal penalty +=) 10", rf"\1 {penalty}", text))
+        ran = run(program, "block.prm", "--set", "Warnings=errors")
+        equal("exit code", ran.code, code)
+        says(rf"^Completed in \S+ with {counted}\.", ran.output)
+        says(r"^warning\[old-name\]", ran.output)
+
+
 @check("there are shipped scenes with old names")
 def _() -> None:
     require(len(SHIPPED) >= 3, f"{len(SHIPPED)} of them")

@@ -31,7 +31,8 @@ inline void check_surface(const std::string &name, const RigidSurface &surface,
     for (const auto &point : surface_mesh.points)
       nearest = std::min(nearest, (x - point).norm());
     nearer.add(std::max(0., std::abs(here.gap) - nearest) / reach);
-    const auto other = surface.project(x, static_cast<unsigned int>(i % surface.n_patches()));
+    const auto &elsewhere = surface_mesh.points[i % surface_mesh.points.size()];
+    const auto other = surface.project(x, surface.project(elsewhere).patch);
     guess.add(std::abs(other.gap - here.gap) / reach);
     if (!here.exists)
       continue;

@@ -46,7 +46,7 @@ ElementEnergies compare(const MaterialLaw &law, const Element element, const Ele
   LawFormulation formulation;
   formulation.element = element;
   ElementEnergies energies;
-  if (!ElementComparison(make_law(law, formulation.kinematics), formulation).compare(x, u, energies))
+  if (!ElementComparison(make_law(law, formulation.elasticity), formulation).compare(x, u, energies))
     energies.used = std::nan("");
   return energies;
 }
@@ -185,7 +185,7 @@ int main() {
     const double yield = 2., modulus = 50.;
     MaterialLaw plastic = law;
     plastic.hardening = LinearHardening{yield, modulus};
-    const ElementComparison comparison(make_law(plastic, LawFormulation().kinematics), {});
+    const ElementComparison comparison(make_law(plastic, LawFormulation().elasticity), {});
     const double stiffness = 3. * law.elastic.shear;
     const auto energy = [&](const double strain) {
       return comparison.energy(0., 0.5 * stiffness * strain * strain);

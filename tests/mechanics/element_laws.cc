@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Every element with every kinematics: the element matrix against differences of the forces, virgin and with
-// a history, and with points that yield beside others that do not; symmetry where it is promised, and the
-// symmetrised one as the symmetric part of the exact one; rigid body motions; six zero eigenvalues and no
-// other; the patch test; balance.
+// Every element with every registered elasticity: the element matrix against differences of the forces,
+// virgin and with a history, and with points that yield beside others that do not; symmetry where it is
+// promised, and the symmetrised one as the symmetric part of the exact one; rigid body motions; six zero
+// eigenvalues and no other; the patch test; balance.
 
 #include "elements.h"
 
@@ -19,7 +19,7 @@ using namespace billet::testing;
 /// A history, and displacements that go on from it.
 struct Case {
   std::string name;
-  MaterialLaw material;
+  SharedLaw law;
   std::vector<NodalTensor> history;
   NodalTensor u;
   double step, tolerance;
@@ -37,13 +37,14 @@ struct Errors {
   }
 };
 
-void test_tangent(const LawFormulation &formulation, const Case &test, Errors &errors) {
-  const std::string name = name_of(formulation) + ", " + test.name;
+void test_tangent(const std::string &formulation_name, const ElementFormulation &formulation,
+                  const Case &test, Errors &errors) {
+  const std::string name = formulation_name + ", " + test.name;
   const NodalTensor X = distorted_cube();
   const auto make = [&](const bool is_symmetrised) {
-    LawFormulation chosen = formulation;
+    ElementFormulation chosen = formulation;
     chosen.is_symmetrised = is_symmetrised;
-    auto block = make_block(test.material, X, chosen);
+    auto block = make_block(test.law, X, chosen);
     for (const NodalTensor &u : test.history) {
       compute_force(*block, u);
       block->commit();
@@ -59,8 +60,7 @@ void test_tangent(const LawFormulation &formulation, const Case &test, Errors &e
         (matrix - compute_difference(*block, test.u, test.step)).norm() / matrix.norm(), test.tolerance);
 
   const double asymmetry = (matrix - transpose(matrix)).norm() / matrix.norm();
-  const bool is_plastic = test.material.is_plastic();
-  if (has_symmetric_tangent(formulation, is_plastic))
+  if (test.law->has_symmetric_moduli())
     errors.symmetry.add(asymmetry);
   else {
     ElementMatrix symmetrised;
@@ -73,7 +73,7 @@ void test_tangent(const LawFormulation &formulation, const Case &test, Errors &e
     for (unsigned int a = 0; a < n_element_nodes; ++a)
       translation[3 * a + i] = 1.;
     rigid.add(multiply(K, translation).norm() / matrix.norm());
-    if (formulation.kinematics == LawFormulation::Kinematics::hypoelastic)
+    if (test.law->is_rate_form())
       continue; // a rotation on top of another deformation turns its stress but for the error of the step
     Tensor<2, 3> spin;
     spin[i][(i + 1) % 3] = -1.;
@@ -87,9 +87,10 @@ void test_tangent(const LawFormulation &formulation, const Case &test, Errors &e
 }
 
 /// Undeformed: six rigid body modes, no hourglass mode.
-void test_modes(const LawFormulation &formulation, const std::string &shape, const NodalTensor &X) {
+void test_modes(const std::string &name, const ElementFormulation &formulation, const SharedLaw &law,
+                const NodalTensor &X) {
   ElementMatrix K;
-  compute_force(*make_block({steel, linear}, X, formulation), NodalTensor(), &K);
+  compute_force(*make_block(law, X, formulation), NodalTensor(), &K);
   dealii::LAPACKFullMatrix<double> matrix(n_element_dofs);
   dealii::FullMatrix<double> eigenvectors;
   dealii::Vector<double> eigenvalues;
@@ -99,15 +100,15 @@ void test_modes(const LawFormulation &formulation, const std::string &shape, con
   const double size = to_tensor(K).norm();
   matrix.compute_eigenvalues_symmetric(-size, 2. * size, 0., eigenvalues, eigenvectors);
   std::sort(eigenvalues.begin(), eigenvalues.end());
-  check(name_of(formulation) + ", " + shape + ", six rigid body modes",
-        eigenvalues.size() == n_element_dofs && std::abs(eigenvalues[0]) < 1e-14 * size &&
-            std::abs(eigenvalues[5]) < 1e-14 * size);
-  check(name_of(formulation) + ", " + shape + ", no other soft mode", eigenvalues[6] > 1e-3 * size);
+  check(name + ", six rigid body modes", eigenvalues.size() == n_element_dofs &&
+                                             std::abs(eigenvalues[0]) < 1e-14 * size &&
+                                             std::abs(eigenvalues[5]) < 1e-14 * size);
+  check(name + ", no other soft mode", eigenvalues[6] > 1e-3 * size);
 }
 
 /// A cube of eight elements, distorted inside, under uniform F: the forces on the middle node cancel, and
 /// each element reports the same stress.
-void test_patch(const LawFormulation &formulation) {
+void test_patch(const std::string &name, const ElementFormulation &formulation, const SharedLaw &law) {
   Random random;
   std::array<Tensor<1, 3>, 27> points;
   for (unsigned int p = 0; p < 27; ++p) {
@@ -128,7 +129,7 @@ void test_patch(const LawFormulation &formulation) {
       for (unsigned int i = 0; i < 3; ++i)
         X[3 * a + i] = points[p][i];
     }
-    const auto block = make_block({steel, linear}, X, formulation);
+    const auto block = make_block(law, X, formulation);
     const NodalTensor u = displace(F, X);
     const Tensor<1, 3> force = node(compute_force(*block, u), 7 - cell);
     block->commit();
@@ -139,9 +140,8 @@ void test_patch(const LawFormulation &formulation) {
     sum += force;
     scale = std::max(scale, force.norm());
   }
-  check(name_of(formulation) + ", patch of eight elements, middle node in balance", sum.norm() / scale,
-        1e-11);
-  check(name_of(formulation) + ", patch of eight elements, uniform stress", stress_error.value(), 1e-11);
+  check(name + ", patch of eight elements, middle node in balance", sum.norm() / scale, 1e-11);
+  check(name + ", patch of eight elements, uniform stress", stress_error.value(), 1e-11);
 }
 
 /// A law in rate form with a pressure of its own, p = κ (J − 1) in place of κ ln J.
@@ -202,51 +202,90 @@ void test_own_pressure(const ElementFormulation &formulation, const std::string 
         (matrix - compute_difference(*block, u, 1e-5)).norm() / matrix.norm(), 1e-8);
 }
 
+struct Deformations {
+  Random random;
+  NodalTensor X = distorted_cube();
+
+  NodalTensor deform(const double uniform, const double nodal) {
+    return displace(unit + random.tensor(uniform), X) + random_nodal(random, nodal);
+  }
+};
+
+/// Rigid body modes and the patch test.
+void test_modes_and_patch(const std::string &name, const ElementFormulation &formulation,
+                          const SharedLaw &law) {
+  test_modes(name + ", cube", formulation, law, cube());
+  test_modes(name + ", distorted element", formulation, law, distorted_cube());
+  test_patch(name, formulation, law);
+}
+
+void test_metal(const LawFormulation &formulation) {
+  Deformations deformations;
+  const NodalTensor &X = deformations.X;
+  const std::string name = name_of(formulation);
+  Errors errors;
+  const NodalTensor small = deformations.deform(0.05, 0.02), large = deformations.deform(0.1, 0.05);
+  const Tensor<2, 3> Q = deformations.random.rotation();
+  const NodalTensor turned = transform(Q, X + large) - X;
+  const auto run = [&](const Case &test) { test_tangent(name, formulation, test, errors); };
+  const auto law = [&](const MaterialLaw &material) { return make_law(material, formulation.elasticity); };
+  const SharedLaw elastic = law({steel, {}}), plastic = law({steel, linear});
+  run({"elastic, undeformed", elastic, {}, NodalTensor(), 1e-5, 1e-9});
+  run({"elastic, first step", elastic, {}, large, 1e-5, 1e-9});
+  run({"elastic, second step", elastic, {small}, large, 1e-5, 1e-9});
+  run({"Poisson's ratio 0.4999",
+       law({ElasticModuli::from_young_poisson(2e5, 0.4999), linear}),
+       {},
+       large,
+       1e-5,
+       1e-8});
+  const auto run_hardening = [&](const std::string &hardening_name, const auto &hardening) {
+    const SharedLaw hardens = law({steel, hardening});
+    run({hardening_name + ", first step", hardens, {}, large, 1e-5, 1e-8});
+    run({hardening_name + ", second step", hardens, {small}, large, 1e-5, 1e-8});
+    run({hardening_name + ", third step, turned", hardens, {small, large}, 1.02 * turned, 1e-5, 1e-8});
+  };
+  for_each_hardening(run_hardening, /*with_ludwik=*/true);
+  // Smaller steps, lest a point crosses yield.
+  run({"some points yield", plastic, {}, deformations.deform(0., 0.0025), 1e-7, 1e-7});
+  run({"unloading", plastic, {small}, 0.99 * small, 1e-7, 1e-7});
+  // The mean gradient of a one-point element stays as it is: all flow is by the stabilisation.
+  NodalTensor bending;
+  for (unsigned int a = 0; a < n_element_nodes; ++a)
+    bending[3 * a] = (a == 0 || a == 3 || a == 4 || a == 7) ? 0.02 : -0.02;
+  run({"bending", plastic, {}, bending, 1e-5, 1e-8});
+  run({"bending, second step", plastic, {bending}, 1.3 * bending, 1e-5, 1e-8});
+  errors.check_all(name);
+  test_modes_and_patch(name, formulation, plastic);
+}
+
+/// An elasticity that does not support plasticity.
+void test_rubber(const std::string &name, const ElementFormulation &formulation, const SharedLaw &law) {
+  Deformations deformations;
+  Errors errors;
+  const NodalTensor large = deformations.deform(0.1, 0.05), larger = deformations.deform(0.2, 0.1);
+  const NodalTensor turned =
+      transform(deformations.random.rotation(), deformations.X + larger) - deformations.X;
+  const auto run = [&](const Case &test) { test_tangent(name, formulation, test, errors); };
+  run({"undeformed", law, {}, NodalTensor(), 1e-5, 1e-9});
+  run({"first step", law, {}, large, 1e-5, 1e-9});
+  run({"second step, turned", law, {large}, turned, 1e-5, 1e-9});
+  errors.check_all(name);
+  test_modes_and_patch(name, formulation, law);
+}
+
 int main() {
   for_each_formulation([](const LawFormulation &formulation) {
-    if (formulation.kinematics == LawFormulation::Kinematics::hypoelastic)
+    if (formulation.elasticity == hypoelastic)
       test_own_pressure(formulation, name_of(formulation));
   });
-  for_each_formulation([](const LawFormulation &formulation) {
-    Random random;
-    const NodalTensor X = distorted_cube();
-    Errors errors;
-    const auto deform = [&](const double uniform, const double nodal) {
-      return displace(unit + random.tensor(uniform), X) + random_nodal(random, nodal);
-    };
-    const NodalTensor small = deform(0.05, 0.02), large = deform(0.1, 0.05);
-    const Tensor<2, 3> Q = random.rotation();
-    const NodalTensor turned = transform(Q, X + large) - X;
-    const auto run = [&](const Case &test) { test_tangent(formulation, test, errors); };
-    const MaterialLaw elastic{steel, {}};
-    run({"elastic, undeformed", elastic, {}, NodalTensor(), 1e-5, 1e-9});
-    run({"elastic, first step", elastic, {}, large, 1e-5, 1e-9});
-    run({"elastic, second step", elastic, {small}, large, 1e-5, 1e-9});
-    run({"Poisson's ratio 0.4999",
-         {ElasticModuli::from_young_poisson(2e5, 0.4999), linear},
-         {},
-         large,
-         1e-5,
-         1e-8});
-    for_each_hardening([&](const std::string &name, const auto &hardening) {
-      const MaterialLaw material{steel, hardening};
-      run({name + ", first step", material, {}, large, 1e-5, 1e-8});
-      run({name + ", second step", material, {small}, large, 1e-5, 1e-8});
-      run({name + ", third step, turned", material, {small, large}, 1.02 * turned, 1e-5, 1e-8});
-    });
-    // Smaller steps, lest a point crosses yield.
-    run({"some points yield", {steel, linear}, {}, deform(0., 0.0025), 1e-7, 1e-7});
-    run({"unloading", {steel, linear}, {small}, 0.99 * small, 1e-7, 1e-7});
-    // The mean gradient of a one-point element stays as it is: all flow is by the stabilisation.
-    NodalTensor bending;
-    for (unsigned int a = 0; a < n_element_nodes; ++a)
-      bending[3 * a] = (a == 0 || a == 3 || a == 4 || a == 7) ? 0.02 : -0.02;
-    run({"bending", {steel, linear}, {}, bending, 1e-5, 1e-8});
-    run({"bending, second step", {steel, linear}, {bending}, 1.3 * bending, 1e-5, 1e-8});
-    errors.check_all(name_of(formulation));
-    test_modes(formulation, "cube", cube());
-    test_modes(formulation, "distorted element", X);
-    test_patch(formulation);
-  });
+  for_each_formulation(&test_metal);
+  const auto laws = rubber_laws();
+  for (const auto element : all_elements())
+    for (const auto &[name, law] : laws) {
+      ElementFormulation formulation;
+      formulation.element = element;
+      test_rubber(std::string(element.name()) + ", " + name, formulation, law);
+    }
   return exit_code();
 }

@@ -64,7 +64,7 @@ double flowing(const LawFormulation &formulation, const Tensor<2, 3> &rate) {
 
 int main() {
   LawFormulation formulation;
-  formulation.kinematics = LawFormulation::Kinematics::neo_hookean;
+  formulation.elasticity = neo_hookean;
   Tensor<2, 3> sheared = unit, shear_rate;
   sheared[0][1] = 2.;
   shear_rate[0][1] = 1.;
@@ -85,10 +85,10 @@ int main() {
     const std::string name = element.name();
     for (const auto &[state, F] : states)
       check(name + ", elastic, " + state, elastic(formulation, F) > 0.);
-    formulation.kinematics = LawFormulation::Kinematics::hencky;
+    formulation.elasticity = hencky;
     for (const auto &[state, rate] : rates)
       check(name + ", ideal flow, " + state, flowing(formulation, rate) > 0.);
-    formulation.kinematics = LawFormulation::Kinematics::neo_hookean;
+    formulation.elasticity = neo_hookean;
   }
   formulation.element = ElementFormulation::Element::mean_dilatation;
   check("mean dilatation buckles, pressed to 0.4", elastic(formulation, stretch(1.2, 1.2, 0.4)) < -0.1);

@@ -92,29 +92,33 @@ inline NodalTensor distorted_cube() {
 inline NodalTensor displace(const Tensor<2, 3> &F, const NodalTensor &X) { return transform(F - unit, X); }
 
 inline std::string name_of(const LawFormulation &formulation) {
-  const SharedLaw law = make_law({{1., 1.}, {}}, formulation.kinematics);
   const std::string points =
       formulation.points_through > 2 ? std::to_string(formulation.points_through) + " points through, " : "";
-  return std::string(formulation.element.name()) + ", " + points + law->name();
+  return std::string(formulation.element.name()) + ", " + points + formulation.elasticity;
 }
 
-/// Calls run(formulation) for every element and kinematics.
+/// Calls run(formulation) for every element and elasticity of metals.
 template <class Function> void for_each_formulation(const Function &run) {
   for (const auto element : all_elements())
-    for (const auto kinematics : all_kinematics) {
+    for (const auto &elasticity : metal_elasticities()) {
       LawFormulation formulation;
       formulation.element = element;
-      formulation.kinematics = kinematics;
+      formulation.elasticity = elasticity;
       run(formulation);
     }
 }
 
-inline std::unique_ptr<ElementBlock> make_block(const MaterialLaw &material, const NodalTensor &X,
-                                                const LawFormulation &formulation = {}) {
-  auto block = make_element_block(material, formulation);
+inline std::unique_ptr<ElementBlock> make_block(const SharedLaw &law, const NodalTensor &X,
+                                                const ElementFormulation &formulation) {
+  auto block = billet::make_element_block(law, formulation);
   std::size_t offender = 0;
   AssertThrow(block->initialize({to_array(X)}, offender), dealii::ExcInternalError());
   return block;
+}
+
+inline std::unique_ptr<ElementBlock> make_block(const MaterialLaw &material, const NodalTensor &X,
+                                                const LawFormulation &formulation = {}) {
+  return make_block(make_law(material, formulation.elasticity), X, formulation);
 }
 
 inline NodalTensor compute_force(ElementBlock &block, const NodalTensor &u, ElementMatrix *matrix = nullptr) {

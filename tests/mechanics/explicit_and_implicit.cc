@@ -8,9 +8,8 @@
 using namespace billet;
 using namespace billet::testing;
 
-LawFormulation implicit_twin(const Formulation &formulation) {
-  LawFormulation twin;
-  twin.kinematics = formulation.kinematics;
+ElementFormulation implicit_twin(const ExplicitFormulation &formulation) {
+  ElementFormulation twin;
   twin.element = formulation.element;
   return twin;
 }
@@ -25,18 +24,19 @@ ElementVectors gather(const Mesh &mesh, const std::size_t element, const NodalAr
 /// Twelve elements that share nodes, along a path towards a random target of the given size, and back, in
 /// steps of dt. With a rate factor that kernels have, they integrate the plastic work of nonlinear hardening
 /// by the trapezoidal rule; then it is not compared, since these steps are large.
-void test_path(const std::string &name, const Formulation &chosen, const MaterialLaw &material,
-               const double size, const double scatter, const double tolerance, const double dt = 1e-6,
-               const bool compares_work = true) {
+void test_law_path(const std::string &full_name, const ExplicitFormulation &chosen, const SharedLaw &law,
+                   const double size, const double scatter, const double tolerance, const double dt = 1e-6,
+                   const bool compares_work = true) {
+  const bool is_plastic = law->has_plasticity();
   WorstError force_error, summary_error, energy_error;
   bool yields = false, has_hourglass = false;
   for (const auto instructions : {InstructionSet::scalar, InstructionSet::automatic}) {
     Random random;
-    Formulation formulation = chosen;
+    ExplicitFormulation formulation = chosen;
     formulation.instructions = instructions;
-    Body body(make_mesh({3, 2, 2}, 0.2, random), material, formulation);
+    Body body(make_mesh({3, 2, 2}, 0.2, random), law, formulation);
     const Mesh &mesh = body.mesh();
-    const auto reference = make_element_block(material, implicit_twin(formulation));
+    const auto reference = billet::make_element_block(law, implicit_twin(formulation));
     std::vector<ElementVectors> X;
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
       X.push_back(gather(mesh, e, mesh.positions));
@@ -57,7 +57,7 @@ void test_path(const std::string &name, const Formulation &chosen, const Materia
       NodalArray u = direction, expected(u.size());
       for (double &component : u)
         component *= t;
-      double scale = 5e-3 * material.elastic.shear; // forces of small strains
+      double scale = 5e-3 * law->elastic().shear; // forces of small strains
       for (std::size_t e = 0; e < X.size(); ++e) {
         ElementVectors force;
         AssertThrow(reference->evaluate(e, gather(mesh, e, u), force, nullptr, step),
@@ -89,14 +89,19 @@ void test_path(const std::string &name, const Formulation &chosen, const Materia
       energy_error.add(std::abs(body.result().hourglass_energy - hourglass) / scale);
     }
   }
-  const std::string full_name = name_of(chosen) + ", " + name;
   check(full_name + ", forces", force_error.value(), tolerance);
   check(full_name + ", summaries", summary_error.value(), tolerance);
   check(full_name + ", energies", energy_error.value(), tolerance);
-  check(full_name + (!material.is_plastic() ? ", no plastic strain" : ", plastic strain"),
-        yields == (material.is_plastic()));
+  check(full_name + (is_plastic ? ", plastic strain" : ", no plastic strain"), yields == is_plastic);
   check(full_name + ", hourglass energy where there is one point",
         has_hourglass == (chosen.element == Formulation::Element::one_point));
+}
+
+void test_path(const std::string &name, const Formulation &chosen, const MaterialLaw &material,
+               const double size, const double scatter, const double tolerance, const double dt = 1e-6,
+               const bool compares_work = true) {
+  test_law_path(name_of(chosen) + ", " + name, chosen, make_law(material, chosen.elasticity), size, scatter,
+                tolerance, dt, compares_work);
 }
 
 /// Plastic work of a stretched element in many steps, against the points'.
@@ -106,7 +111,8 @@ void test_plastic_work(const std::string &name, const Formulation &formulation, 
   constexpr unsigned int n_steps = 1000;
   const NodalTensor X = distorted_cube();
   Body body(make_mesh(X), material, formulation);
-  const auto reference = make_block(material, X, implicit_twin(formulation));
+  const auto reference =
+      make_block(make_law(material, formulation.elasticity), X, implicit_twin(formulation));
   PointStep step;
   step.dt = dt;
   double sum = 0., volume = 0.;
@@ -168,11 +174,12 @@ void test_rates(const Formulation &formulation) {
 
 int main() {
   for (const auto element : all_elements())
-    for (const auto kinematics : all_kinematics) {
-      const Formulation formulation = make_formulation(element, kinematics);
-      for_each_hardening([&](const std::string &name, const auto &hardening) {
+    for (const auto &elasticity : metal_elasticities()) {
+      const Formulation formulation = make_formulation(element, elasticity);
+      const auto run_hardening = [&](const std::string &name, const auto &hardening) {
         test_path(name, formulation, {steel, hardening}, 0.3, 0.15, 1e-11);
-      });
+      };
+      for_each_hardening(run_hardening, /*with_ludwik=*/true);
       test_path("Voce softening", formulation, {steel, VoceHardening{450., 400., 16.93, 20.}}, 0.3, 0.15,
                 1e-11);
       test_path("power law, convex", formulation, {steel, PowerLawHardening{565.3, 1., 1.5}}, 0.3, 0.15,
@@ -183,6 +190,12 @@ int main() {
       test_path("plastic after large elastic strain", formulation,
                 {steel, LinearHardening{0.3 * young, 0.1 * young}}, 0.4, 0.15, 1e-11);
       test_rates(formulation);
+    }
+  // Laws without kernels, computed element by element.
+  for (const auto element : all_elements())
+    for (const auto &[name, law] : rubber_laws()) {
+      const Formulation formulation = make_formulation(element, name);
+      test_law_path(name_of(formulation), formulation, law, 0.3, 0.15, 1e-11);
     }
   return exit_code();
 }

@@ -69,7 +69,9 @@ inline Mesh make_mesh(const NodalTensor &X) {
 class Body {
 public:
   Body(Mesh mesh, const MaterialLaw &material, const Formulation &formulation)
-      : mesh_(std::move(mesh)), block_(make_explicit_block(material, density, formulation)),
+      : Body(std::move(mesh), make_law(material, formulation.elasticity), formulation) {}
+  Body(Mesh mesh, const SharedLaw &law, const ExplicitFormulation &formulation)
+      : mesh_(std::move(mesh)), block_(billet::make_explicit_block(law, density, formulation)),
         last_(mesh_.positions.size()), velocities_(mesh_.positions.size()), forces_(mesh_.positions.size()) {
     std::size_t offender = 0;
     AssertThrow(block_->initialize(mesh_.elements, mesh_.positions.data(), offender),
@@ -119,26 +121,25 @@ private:
 };
 
 /// Without viscosity.
-inline Formulation make_formulation(const Formulation::Element element,
-                                    const Formulation::Kinematics kinematics,
+inline Formulation make_formulation(const Formulation::Element element, const std::string &elasticity,
                                     const InstructionSet instructions = InstructionSet::automatic) {
   Formulation formulation;
   formulation.element = element;
-  formulation.kinematics = kinematics;
+  formulation.elasticity = elasticity;
   formulation.linear_viscosity = formulation.quadratic_viscosity = 0.;
   formulation.instructions = instructions;
   return formulation;
 }
 
 inline std::string name_of(const Formulation &formulation) {
-  return std::string(formulation.element.name()) + ", " + name_of(formulation.kinematics);
+  return std::string(formulation.element.name()) + ", " + formulation.elasticity;
 }
 
 /// Calls run(formulation) for every kernel.
 template <class Function> void for_each_kernel(const Function &run) {
   for (const auto element : all_elements())
-    for (const auto kinematics : all_kinematics)
-      run(make_formulation(element, kinematics));
+    for (const auto &elasticity : metal_elasticities())
+      run(make_formulation(element, elasticity));
 }
 
 } // namespace billet::testing

@@ -12,7 +12,6 @@ using namespace billet;
 using namespace billet::testing;
 
 using Element = Formulation::Element;
-using Kinematics = Formulation::Kinematics;
 
 namespace {
 
@@ -283,7 +282,7 @@ void test_slow_loading(const Formulation &formulation) {
         rounded.renew();
     }
     const std::string name = name_of(formulation) + (is_plastic ? ", slow flow, " : ", slow loading, ");
-    const bool is_biased = !is_plastic && formulation.kinematics == Kinematics::hypoelastic;
+    const bool is_biased = !is_plastic && formulation.elasticity == hypoelastic;
     check(name + "forces", (f - g).norm() / f.norm(), is_plastic ? 1e-4 : is_biased ? 1e-3 : 3e-5);
     if (is_plastic)
       check(name + "plastic strain",

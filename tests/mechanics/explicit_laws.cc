@@ -7,7 +7,6 @@ using namespace billet;
 using namespace billet::testing;
 
 using Element = Formulation::Element;
-using Kinematics = Formulation::Kinematics;
 
 /// A point that goes through F after F; dev τ and α as each law has them.
 struct NeoHookeanPoint {
@@ -139,7 +138,7 @@ void test_compression(const Formulation &formulation) {
   const double total = -std::log(0.36);
   const double alpha = (3. * steel.shear * total - 700.) / (3. * steel.shear + 300.);
   const double yield = 700. + 300. * alpha;
-  const double order = formulation.kinematics == Kinematics::neo_hookean ? 6e-3 : 0.;
+  const double order = formulation.elasticity == neo_hookean ? 6e-3 : 0.;
   const double mises = std::sqrt(1.5) * summary.cauchy_stress.norm();
   check(name_of(formulation) + ", compression to 36 %, plastic strain",
         std::abs(summary.equivalent_plastic_strain / alpha - 1.), 2e-5 + order);
@@ -172,15 +171,15 @@ void test_again(const Formulation &formulation, const MaterialLaw &material) {
 
 int main() {
   for (const auto element : all_elements()) {
-    const Formulation neo_hookean = make_formulation(element, Kinematics::neo_hookean),
-                      hypoelastic = make_formulation(element, Kinematics::hypoelastic);
+    const Formulation with_neo_hookean = make_formulation(element, neo_hookean),
+                      with_hypoelastic = make_formulation(element, hypoelastic);
     const auto never = [](const double) { return -1.; };
-    test_path<NeoHookeanPoint>(neo_hookean, "elastic", {steel, {}}, never);
-    test_path<HypoelasticPoint>(hypoelastic, "elastic", {steel, {}}, never);
+    test_path<NeoHookeanPoint>(with_neo_hookean, "elastic", {steel, {}}, never);
+    test_path<HypoelasticPoint>(with_hypoelastic, "elastic", {steel, {}}, never);
     for_each_hardening([&](const std::string &name, const auto &hardening) {
       const auto yield = [&hardening](const double alpha) { return hardening.stress(alpha); };
-      test_path<NeoHookeanPoint>(neo_hookean, name, {steel, hardening}, yield);
-      test_path<HypoelasticPoint>(hypoelastic, name, {steel, hardening}, yield);
+      test_path<NeoHookeanPoint>(with_neo_hookean, name, {steel, hardening}, yield);
+      test_path<HypoelasticPoint>(with_hypoelastic, name, {steel, hardening}, yield);
     });
   }
   for_each_kernel([](const Formulation &formulation) {

@@ -12,7 +12,6 @@
 using namespace billet;
 using namespace billet::testing;
 
-using Kinematics = Formulation::Kinematics;
 using Matrix = dealii::LAPACKFullMatrix<double>;
 
 /// A deformation in two steps: u_0, then u_0 + Δt v, the state that is looked at.

@@ -103,7 +103,7 @@ int main() {
       check(to + ", no work", std::abs(body.result().plastic_work), 1e-9);
       if (has_one)
         check(to + ", no hourglass energy", body.result().hourglass_energy, 1e-9);
-      else if (formulation.kinematics != testing::Formulation::Kinematics::hypoelastic) {
+      else if (formulation.elasticity != testing::hypoelastic) {
         LawFormulation twin;
         twin.element = formulation.element;
         const auto reference = testing::make_block(material, X, twin);

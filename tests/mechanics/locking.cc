@@ -181,10 +181,10 @@ int main() {
   for_each_formulation([](const LawFormulation &formulation) {
     const std::string name = name_of(formulation) + ", ";
     // The closed form is the Hencky law's; that of midpoint strains has an error of second order in the step.
-    if (formulation.kinematics == LawFormulation::Kinematics::hencky)
+    if (formulation.elasticity == hencky)
       for (const unsigned int n_steps : {5, 50})
         test_upsetting(n_steps, formulation, 1e-10);
-    else if (formulation.kinematics == LawFormulation::Kinematics::hypoelastic)
+    else if (formulation.elasticity == hypoelastic)
       test_upsetting(200, formulation, 1e-4);
     check(name + "thick cylinder, Poisson's ratio 0.3", cylinder_error(0.3, 1, formulation), 0.02);
     for (const auto &[ratio, nu] :

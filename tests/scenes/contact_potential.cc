@@ -120,7 +120,7 @@ void test_bar() {
   }
 }
 
-/// The block stands under its weight, is thrown along the floor, tumbles and hops.
+/// The block stands under its weight, is thrown along the floor, tumbles and bounces.
 void test_chatter() {
   struct Case {
     std::string name;
@@ -142,8 +142,8 @@ void test_chatter() {
     scene.explicit_dynamics.safety_factor = safety;
     ExplicitRun run(scene);
     run.finish(1e-4, [] {});
-    check("hops with " + name + " friction: energy", run.worst_drift, 5e-3);
-    check("hops with " + name + " friction: friction takes energy",
+    check("bounces with " + name + " friction: energy", run.worst_drift, 5e-3);
+    check("bounces with " + name + " friction: friction takes energy",
           run.state().energies.friction > 0.3 * run.state().energies.initial);
   }
 }

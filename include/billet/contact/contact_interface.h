@@ -73,7 +73,7 @@ public:
   std::size_t group_index() const { return group_index_; }
   virtual void save(StateWriter &writer, const NodeKeys &keys) const = 0;
   virtual void load(const StateReader &reader, const NodeKeys &keys) = 0;
-  /// After load(): tells how gaps of a coarser mesh fade. New nodes of a finer mesh lie on chords of its
+  /// After load(): sets how gaps of a coarser mesh fade. New nodes of a finer mesh lie on chords of its
   /// faces, inside a curved tool. They keep the gaps that the coarser mesh had, and come out of the tool
   /// from `begin` to `end` [time]. Pairs of bodies, and implicit dynamics, have the gaps of the finer mesh at
   /// once. `is_finer`: whether the mesh is finer than the one that load() reads, after begin().

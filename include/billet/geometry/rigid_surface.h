@@ -48,7 +48,6 @@ public:
   /// `width` the maximum relevant distance beyond the edge [length]. The torsion of edges is neglected.
   EdgePoint edge_point(const dealii::Tensor<1, 3> &x, unsigned int patch, double width) const;
 
-  std::size_t n_patches() const { return patches_.size(); }
   const BoundingBox &bounding_box() const { return box_; }
   SurfaceMesh surface_mesh(const OutputRegion &region) const;
 

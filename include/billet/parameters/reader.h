@@ -103,7 +103,11 @@ public:
   std::string origin() const;
   bool is_set(const std::string &key) const override { return file_.is_set(path_, key); }
 
+  /// Names in quotes in `allowed` are parameters on which the error depends.
   [[noreturn]] void reject(const std::string &key, const std::string &allowed) const override;
+  /// The same, with the parameters on which the error depends.
+  [[noreturn]] void reject_beside(const std::vector<std::string> &others, const std::string &key,
+                                  const std::string &allowed) const;
 
 private:
   void enter(const std::string &name);

@@ -25,9 +25,10 @@ public:
   void declare(dealii::ParameterHandler &prm) const;
   /// Whether the user set one of the parameters.
   bool is_any_set(const std::function<bool(const std::string &)> &is_set) const;
-  /// Refuses each parameter that the user set and that is not in `used`. `reason` follows "no value: ".
-  void reject_unused(const Reader &reader, const std::vector<TypeParameter> &used,
-                     const std::string &reason) const;
+  /// Refuses each parameter that the user set and that is not in `used`. `reason` follows "no value: ";
+  /// `selector` is the parameter that selects the type, if `reason` does not quote it.
+  void reject_unused(const Reader &reader, const std::vector<TypeParameter> &used, const std::string &reason,
+                     const std::string &selector = "") const;
 
 private:
   struct Entry {

@@ -68,7 +68,9 @@ struct Augmentation::Limits {
   static constexpr double min_held_of_sheet = 0.01;
   /// Change of the force, as part of the largest, up to which a pair is settled.
   static constexpr double settled = 5e-3;
-  /// Penalty above which the user is told of a raise [E/h].
+  /// Room that a penalty needs to rise, which it does by whole octaves.
+  static constexpr double octave = 2.;
+  /// Penalty above which a note about a raise is printed [E/h].
   static constexpr double notable_penalty = 1000.;
 };
 
@@ -134,7 +136,7 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
       room[i] *= series.added[i] > Limits::nearly_all && errors[i] > Limits::much ? Limits::more_of_confined
                  : contacts[i].rigid_tool()                                       ? Limits::more_of_tools
                                                                                   : 1.;
-    if (!(errors[i] > 1. && left > Limits::slow && room[i] >= 2.))
+    if (!(errors[i] > 1. && left > Limits::slow && room[i] >= Limits::octave))
       continue;
     factors[i] = whole_octaves(
         left < 1. ? std::min(room[i], left / (1. - left) * (1. - Limits::wanted) / Limits::wanted) : room[i]);

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What knobs that have no table of their own cost and change: line search, predictor, forcing, symmetry of
+"""What settings that have no table of their own cost and change: line search, predictor, forcing, symmetry of
 the model, smoothing of facets and the margin of their search, and which facets."""
 
 from billet_runs import ROOT, Changes, arguments, number, percent, publish, table
 from curve_runs import error, run_all
 
-options = arguments("knobs")
+options = arguments("settings")
 
 MESH = "Bodies/billet/Mesh/"
 LENGTH = {
@@ -41,7 +41,7 @@ KINDS = [
     ("bilinear", "two"),
 ]
 
-# scene, what all of its runs have, [(knob, value, changes)], the first is what errors are measured against
+# scene, what all of its runs have, [(setting, value, changes)], the first is what errors are measured against
 GROUPS: list[tuple[str, Changes, list[tuple[str, str, Changes]]]] = [
     (
         "billet_upsetting",
@@ -116,16 +116,16 @@ GROUPS: list[tuple[str, Changes, list[tuple[str, str, Changes]]]] = [
 ]
 
 rows = []
-for scene, common, knobs in GROUPS:
+for scene, common, settings in GROUPS:
     runs = run_all(
         ROOT / f"prm/{scene}.prm",
-        [{**common, **changes} for _, _, changes in knobs],
+        [{**common, **changes} for _, _, changes in settings],
         options.ranks,
         at_once=1,
     )
-    for (knob, value, _), run in zip(knobs, runs):
+    for (setting, value, _), run in zip(settings, runs):
         rows.append(
-            [scene, knob, value]
+            [scene, setting, value]
             + (
                 [
                     run.steps,
@@ -139,7 +139,7 @@ for scene, common, knobs in GROUPS:
         )
 
 publish(
-    "knobs",
+    "settings",
     "Cost and effect of the remaining settings",
     options,
     (
