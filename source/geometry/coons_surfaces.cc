@@ -44,6 +44,19 @@ std::vector<std::string> split(const std::string &line) {
   return parts;
 }
 
+/// Replaces tabs and carriage returns by blanks. Refuses other control characters, since messages quote a
+/// line.
+void clean(std::string &line) {
+  for (char &c : line) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\t' || c == '\r')
+      c = ' ';
+    else if (code < ' ' || code == 0x7F)
+      throw std::invalid_argument("a control character, of code " + std::to_string(code) +
+                                  ", stands in the line");
+  }
+}
+
 /// Side of a patch of a set; the two adjacent patches traverse it in opposite directions.
 struct Side {
   dealii::Tensor<1, 3> start, middle, end;
@@ -85,10 +98,12 @@ SurfacePatches read_coons_patches(std::istream &stream, const std::string &name)
   std::vector<Side> sides;
   std::string line;
   for (unsigned int number = 1; std::getline(stream, line); ++number) {
-    const auto parts = split(line.substr(0, line.find('#')));
-    if (parts.empty())
-      continue;
+    line.erase(std::min(line.size(), line.find('#')));
     try {
+      clean(line);
+      const auto parts = split(line);
+      if (parts.empty())
+        continue;
       const Sketch curves = read_curves(parts);
       patches.push_back(std::make_unique<CoonsPatch>(curves));
       add_sides(curves, number, sides);

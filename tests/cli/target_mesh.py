@@ -85,7 +85,7 @@ def _() -> None:
 
 @check("folders and files of the user stay")
 def _() -> None:
-    write_text("kept.prm", edit(BEAM, FINE + everything("20 percent") + " & Output: - Folder").text)
+    write_text("kept.prm", edit(BEAM, FINE + everything("20 percent")).text)
     mine = ("mesh_level_notes/mine", "mesh_level_-2/mine", "mesh_level_-1/mine", "scene.prm")
     for file in mine:
         Path("kept", file).parent.mkdir(parents=True, exist_ok=True)
