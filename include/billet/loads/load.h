@@ -23,7 +23,7 @@ namespace billet {
 struct LoadExpression {
   std::string key; ///< key of the parameter that holds it
   std::string text;
-  bool uses_position; ///< whether x, y, z are variables, too: the centre of the undeformed face
+  bool uses_position; ///< whether x, y, z are variables, too: the undeformed position
 };
 
 /// Values of a load's expressions at its sites: one set at each, or one for all.
@@ -87,12 +87,14 @@ struct LoadedFace {
   }
 };
 
-/// Corner of a face under a load. A node has one for each of its faces.
+/// Corner of a face under a load. A node has one for each of its faces; under a load without a tangent, one
+/// for each Gauss point of a face.
 struct LoadedNode {
   unsigned int node;
   double area;                 ///< share of the undeformed face, the integral of N_a [length²]
   dealii::Tensor<1, 3> normal; ///< outward unit normal of the undeformed face
-  dealii::Point<3> centre;     ///< centre of the undeformed face
+  dealii::Point<3>
+      centre; ///< of the undeformed face, or the Gauss point; expressions have their values there
   const LoadedSurface *surface = nullptr;
 };
 
@@ -150,7 +152,8 @@ public:
 /// Load on the deformed faces of a body.
 class FaceLoad : public LoadAction {
 public:
-  /// Adds the forces on all faces [force].
+  /// Adds the forces on all faces [force]. `values` of a face are those at its facet_points(), one set of
+  /// expressions after the other.
   virtual void add_forces(const std::vector<LoadedFace> &faces, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
   /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one face, 12 × 12, three rows for each corner [force/length]. It
