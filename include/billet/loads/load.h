@@ -93,8 +93,7 @@ struct LoadedNode {
   unsigned int node;
   double area;                 ///< share of the undeformed face, the integral of N_a [length²]
   dealii::Tensor<1, 3> normal; ///< outward unit normal of the undeformed face
-  dealii::Point<3>
-      centre; ///< of the undeformed face, or the Gauss point; expressions have their values there
+  dealii::Point<3> centre;     ///< of the undeformed face, or the Gauss point: place of expressions
   const LoadedSurface *surface = nullptr;
 };
 
