@@ -372,7 +372,7 @@ publish(
         "- Reference: meshes twice as fine as the finest that is allowed, extrapolated by the order that the"
         " last three show. It has 160 steps and penetrations below 1e-4 of a facet; explicit ones a penalty"
         " factor of 30.\n"
-        "- Told: the run says that it does not reach the target, and exits with code 7.\n"
+        "- Reported: the run says that it does not reach the target, and exits with code 7.\n"
         "- By hand: meshes half as fine, as given and twice as fine; 3, 10 and 40 equal steps; penalties, or"
         " augmented to 0.01 or 0.001. In explicit scenes penalty factors of 1, 3 and 10, and safety factors."
         " That is 27 settings at most, and the cheapest that is within the target is known afterwards.\n"
@@ -384,7 +384,7 @@ publish(
         f" the cheapest run by hand. For {len(tries) - n_compared} no run by hand is within the target."
     ),
     table(
-        ["scene", "target", "error", "told", "CPU seconds", "cheapest by hand", "ratio"],
+        ["scene", "target", "error", "reported", "CPU seconds", "cheapest by hand", "ratio"],
         [row(case, one) for case, one in tries],
     ),
 )

@@ -51,8 +51,8 @@ void check_twisted_shaft() {
   SceneRun run(read_shaft(lines));
   run.finish();
   const dealii::Tensor<1, 3> middle({3., -3., 0.});
-  const auto R = dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
-      dealii::Point<3>(0., 0., 1.), 2.);
+  const auto R =
+      dealii::Physics::Transformations::Rotations::rotation_matrix_3d(dealii::Point<3>(0., 0., 1.), 2.);
   testing::WorstError error;
   for (const auto &element : run.discretization.elements(0))
     for (unsigned int a = 0; a < n_element_nodes; ++a) {
@@ -67,7 +67,8 @@ void check_twisted_shaft() {
   check("twisted shaft: a rotation, and a wider end", error.value(), 1e-10);
   check("twisted shaft: no warning", !warns(lines));
   const std::string alone = "        set Components = y\n";
-  check("a free radius: large turns are warned of", warns(alone + "        set Displacement = " + turn + "\n"));
+  check("a free radius: large turns are warned of",
+        warns(alone + "        set Displacement = " + turn + "\n"));
   check("a free radius: small turns are not",
         !warns(alone + "        set Displacement = 0.04*" + turn + "\n"));
 }

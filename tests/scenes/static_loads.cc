@@ -239,7 +239,8 @@ void check_places() {
                                 "        set Pressure = 1e-3*x\n");
   check("pressure by place: force", std::abs(pressed[0][2] / -(1e-3 / 2.) - 1.), 1e-4);
   check("pressure by place: moment", std::abs(pressed[1][1] / (1e-3 / 3.) - 1.), 2e-3);
-  // The integral of the distance from the middle of a unit square. At centres of 2 x 2 faces it is 7.6 % less.
+  // The integral of the distance from the middle of a unit square. At centres of 2 x 2 faces it is 7.6 %
+  // less.
   const double exact = 1e-3 * (std::sqrt(2.) + std::log(1. + std::sqrt(2.))) / 6.;
   const auto around = reaction(traction + "        set Traction = 0 ; 1e-3 ; 0\n"
                                           "        set Axes = cylindrical\n"
