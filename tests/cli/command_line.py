@@ -134,7 +134,12 @@ def _() -> None:
     write_text("own/base.prm", UNNAMED)
     mine = "# mine\ninclude base.prm\nset Time stepping/End time = 0.5\n"
     write_text("own/scene.prm", mine)
-    for scene, options in (("own/scene.prm", []), ("own/scene.prm", ["--force"]), ("cup1.prm", ["--force"])):
+    none: list[str] = []
+    for scene, options in (
+        ("own/scene.prm", none),
+        ("own/scene.prm", ["--force"]),
+        ("cup1.prm", ["--force"]),
+    ):
         billet("--output", "own", *options, scene)
         equal("the scene", read_text("own/scene.prm"), mine)
         says("^subsection Bodies$", read_text("own/scene_as_run.prm"))
@@ -162,7 +167,8 @@ def _() -> None:
     write_text("bench/notes.txt", "mine")
     amplitude = "ramp: - Times & ramp: - Values & ramp: + set File = {0}"
     write_text("bench.prm", edit(UNNAMED, amplitude.format("bench/history.csv")).text)
-    for options in ([], ["--force"], ["--check"]):
+    none: list[str] = []
+    for options in (none, ["--force"], ["--check"]):
         said = billet("--output", "bench", *options, "bench.prm", code=2).errors
         says("bench/history.csv', which the scene reads", said)
     equal("the table", read_text("bench/history.csv"), table)

@@ -91,7 +91,8 @@ def _() -> None:
         Path("kept", file).parent.mkdir(parents=True, exist_ok=True)
         write_text(f"kept/{file}", "mine")
     program = Program(sys.argv[1:])
-    for options in ([], ["--force"]):
+    none: list[str] = []
+    for options in (none, ["--force"]):
         equal("the exit code", run(*program.on(1, *options, "--output", "kept", "kept.prm")).code, 0)
         for file in mine:
             equal(file, read_text(f"kept/{file}"), "mine")
