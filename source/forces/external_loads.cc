@@ -47,11 +47,11 @@ bool are_uniform(const std::vector<Expression> &expressions) {
                      [](const Expression &value) { return value.is_uniform(); });
 }
 
-/// Returns the undeformed position of a point of a face.
-Point<3> undeformed_place(const LoadedFace &face, const FacetPoint &point, const double *positions) {
+/// Returns the position of a point of a face; position(a) is that of corner a.
+template <class Position> Point<3> place_of(const FacetPoint &point, const Position &position) {
   Tensor<1, 3> place;
   for (unsigned int a = 0; a < 4; ++a)
-    place += point.N[a] * get_vector(positions, face.nodes[a]);
+    place += point.N[a] * position(a);
   return Point<3>(place);
 }
 
@@ -70,7 +70,9 @@ LoadValues evaluate_at_points(const AppliedLoad &load, const double time,
       for (std::size_t i = 0; i < n; ++i)
         values.at(f)[q * n + i] =
             is_uniform ? expressions[i].value(t)
-                       : expressions[i].value(t, undeformed_place(faces[f], facet_points()[q], positions));
+                       : expressions[i].value(t, place_of(facet_points()[q], [&](const unsigned int a) {
+                                                return get_vector(positions, faces[f].nodes[a]);
+                                              }));
   return values;
 }
 
@@ -277,20 +279,23 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
   // Forces that depend on the place alone are integrated; those that resist motions are lumped at the nodes.
   const bool is_integrated = action.tangent() == LoadTangent::none;
   for (const auto &facet : facets) {
-    const std::array<double, 4> areas = facet.corner_areas();
     const auto corners = local_corners(facet, nodes_);
     const Tensor<1, 3> normal = facet.area_vector() / facet.area_vector().norm();
-    for (unsigned int a = 0; a < 4 && !is_integrated; ++a)
-      nodes.push_back({corners[a], areas[a], normal, centre_of(facet), surface.get()});
-    for (unsigned int q = 0; q < facet_points().size() && is_integrated; ++q) {
-      const FacetPoint &point = facet_points()[q];
-      const auto corner = [&facet](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); };
-      const double area = point.area_vector(corner).norm();
-      Tensor<1, 3> place;
+    const auto add = [&](const std::array<double, 4> &areas, const Point<3> &place) {
       for (unsigned int a = 0; a < 4; ++a)
-        place += point.N[a] * corner(a);
-      for (unsigned int a = 0; a < 4; ++a)
-        nodes.push_back({corners[a], point.N[a] * area, normal, Point<3>(place), surface.get()});
+        nodes.push_back({corners[a], areas[a], normal, place, surface.get()});
+    };
+    if (!is_integrated) {
+      add(facet.corner_areas(), centre_of(facet));
+      continue;
+    }
+    const auto corner = [&facet](const unsigned int a) { return Tensor<1, 3>(facet.corners[a]); };
+    for (const FacetPoint &point : facet_points()) {
+      const double whole = point.area_vector(corner).norm();
+      std::array<double, 4> areas = point.N;
+      for (double &area : areas)
+        area *= whole;
+      add(areas, place_of(point, corner));
     }
   }
   on_nodes_.push_back({&load, &action, std::move(nodes), std::move(surface)});

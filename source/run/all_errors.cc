@@ -47,22 +47,11 @@ public:
     std::vector<std::pair<SceneFile::Place, SceneFault>> places;
     for (const Diagnostic &error : errors) {
       const std::optional<SceneFile::Place> place = file_.find_place(error.what());
-      const bool is_repeated = std::any_of(found_.begin(), found_.end(), [&](const Diagnostic &before) {
-        return before.what() == error.what();
-      });
-      const bool is_consequence = !is_first && (!place || follows(*place, fault_of(error)));
-      if (is_repeated) { // its part is still to be taken out
-      } else if (!is_consequence) {
-        found_.push_back(error);
-        if (place)
-          reported_.insert(part_of(place->path));
-      } else if (place && !(is_dynamic_ && contains(fault_of(error).depends_on, scheme)))
-        unchecked_.insert({part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)"
-                                                 : reported_.count(part_of(place->path)) > 0
-                                                     ? " (other parameters)"
-                                                     : ""});
+      const SceneFault fault = fault_of(error);
+      if (!is_found(error)) // of one that is, the part is still to be taken out
+        note(error, place, fault, is_first);
       if (place)
-        places.emplace_back(*place, fault_of(error));
+        places.emplace_back(*place, fault);
       // A statement without a place is left out when the file is read.
       changes = changes || (is_first && !place);
     }
@@ -105,6 +94,25 @@ private:
   static bool is_named(const std::string &section) {
     return section == "Bodies" || section == "Tools" || section == "Contact pairs" || section == "Probes" ||
            section == "Amplitudes";
+  }
+
+  bool is_found(const Diagnostic &error) const {
+    return std::any_of(found_.begin(), found_.end(),
+                       [&](const Diagnostic &before) { return before.what() == error.what(); });
+  }
+
+  /// Notes an error, or that its part stays unchecked, since it follows from an earlier one.
+  void note(const Diagnostic &error, const std::optional<SceneFile::Place> &place, const SceneFault &fault,
+            const bool is_first) {
+    if (is_first || (place && !follows(*place, fault))) {
+      found_.push_back(error);
+      if (place)
+        reported_.insert(part_of(place->path));
+    } else if (place && !(is_dynamic_ && contains(fault.depends_on, scheme)))
+      unchecked_.insert({part_of(place->path), place->path.size() == 2 && place->key.empty() ? " (support)"
+                                               : reported_.count(part_of(place->path)) > 0
+                                                   ? " (other parameters)"
+                                                   : ""});
   }
 
   /// Returns the part that is taken out if there is an error at this place; otherwise its subsection.

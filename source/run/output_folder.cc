@@ -97,6 +97,9 @@ const char *const snapshots =
     "checkpoint_[0-9]{5,10}\\.h5|fields_[0-9]{5,10}(\\.[0-9]+)?\\.(vtm|vtu|pvtu|h5)|"
     "scene\\.pvd|fields\\.xdmf";
 
+/// Names of the copy of the scene: the second where the first is a file of the user.
+const char *const first_copy = "scene.prm", *const second_copy = "scene_as_run.prm";
+
 /// Removes checkpoints and fields of an earlier run.
 void remove_snapshots(const fs::path &folder) {
   const std::regex snapshot(snapshots);
@@ -148,9 +151,14 @@ bool has_results(const std::string &folder) {
   return has_any(folder, {"history.csv", "diagnostics.jsonl", log_file});
 }
 
+std::string left_copy(const std::string &folder) {
+  const fs::path second = fs::path(folder) / second_copy;
+  return (fs::exists(second) ? second : fs::path(folder) / first_copy).string();
+}
+
 std::string scene_copy(const parameters::Scene &parameters) {
-  const fs::path folder = parameters.output.folder.value, copy = folder / "scene.prm",
-                 second = folder / "scene_as_run.prm";
+  const fs::path folder = parameters.output.folder.value, copy = folder / first_copy,
+                 second = folder / second_copy;
   std::error_code error;
   // The log of this run may have begun.
   const bool is_of_a_run =

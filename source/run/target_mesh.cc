@@ -127,8 +127,7 @@ private:
         throw InputError(given_.output.folder.origin + " is '" + folder_ + "', where '" +
                          folder.filename().string() +
                          "' has results of another run; allowed is a folder without them");
-      if (!fs::exists(folder / "scene_as_run.prm"))
-        fs::remove(folder / "scene.prm");
+      fs::remove(left_copy(folder.string()));
       for (const fs::path &file : results_in(folder))
         fs::remove(file);
       std::error_code error;
@@ -225,12 +224,9 @@ private:
       if (!is_first_)
         return;
       const fs::path last = folder_of(levels_.back().level);
-      const std::vector<fs::path> results = results_in(last);
-      const bool has_second = fs::exists(last / "scene_as_run.prm");
-      fs::rename(last / (has_second ? "scene_as_run.prm" : "scene.prm"), scene_copy(given_));
-      for (const fs::path &file : results)
-        if (file.filename() != "scene_as_run.prm")
-          fs::rename(file, fs::path(folder_) / file.filename());
+      fs::rename(left_copy(last.string()), scene_copy(given_));
+      for (const fs::path &file : results_in(last))
+        fs::rename(file, fs::path(folder_) / file.filename());
       std::error_code error;
       fs::remove(last, error); // unless it has files of the user
       write_table();

@@ -28,6 +28,9 @@ bool has_results(const std::string &folder);
 /// runs, the copy is 'scene_as_run.prm'.
 std::string scene_copy(const parameters::Scene &parameters);
 
+/// Returns the file of the copy that a run has left in a folder.
+std::string left_copy(const std::string &folder);
+
 /// Throws InputError if the scene's output folder does not exist and cannot be made, is not writable, has
 /// results that would have to be moved aside but cannot be, is in use by another run, or has files that the
 /// scene is made of and that results would replace.
