@@ -107,7 +107,7 @@ Diagnostic MeshChange::describe(const RestartReport &report, const double force_
   what << ". The energy changes by " << report.energy_change;
   Diagnostic message(diagnostic::mesh_refined, what.str());
   // Each refinement is a message of its own.
-  message.part("mesh", std::to_string(1 + std::accumulate(levels.begin(), levels.end(), 0U)));
+  message.topic(std::to_string(1 + std::accumulate(levels.begin(), levels.end(), 0U)));
   message.time(time).value("energy change", report.energy_change);
   if (report.force_scale > 0.)
     message.value("imbalance", report.imbalance / report.force_scale);
