@@ -466,6 +466,7 @@ int main(int argc, char *argv[]) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (const auto code = billet::launch(arguments))
     return *code;
+  billet::prepare_for_one_process();
   // Only the program's name is passed on: PETSc, if deal.II has it, would interpret --check as its own
   // option. One thread for each rank: more would be idle.
   int n_for_libraries = 1;

@@ -40,6 +40,14 @@ void pass_on(const int signal) {
 
 [[noreturn]] void refuse(const std::string &what) { throw InputError("command line: " + what); }
 
+/// Whether mpirun or a batch system started this process as one of its ranks.
+bool is_launched() {
+  const std::array<const char *, 5> variables = {
+      {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_SIZE", "PMI_RANK"}};
+  return std::any_of(variables.begin(), variables.end(),
+                     [](const char *variable) { return std::getenv(variable) != nullptr; });
+}
+
 /// Takes "--ranks N" from the arguments. Returns N; empty if it is not there.
 std::string take_ranks(std::vector<std::string> &arguments) {
   const auto option = std::find(arguments.begin(), arguments.end(), "--ranks");
@@ -49,7 +57,7 @@ std::string take_ranks(std::vector<std::string> &arguments) {
   if (number.empty() || number.size() > 5 || number.find_first_not_of("0123456789") != std::string::npos ||
       std::stoi(number) < 1)
     refuse("'--ranks' is '" + number + "'; allowed is a whole number from 1 to " + std::to_string(max_ranks));
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr)
+  if (is_launched())
     refuse("'--ranks' is not allowed under mpirun; allowed is one of the two");
   arguments.erase(option, option + 2);
   return number;
@@ -115,6 +123,15 @@ std::optional<int> launch(const std::vector<std::string> &arguments) {
     std::cerr << error.diagnostic().text() << std::endl;
     return static_cast<int>(ExitCode::bad_input);
   }
+}
+
+void prepare_for_one_process() {
+  if (is_launched())
+    return;
+  constexpr int keep = 0;                               // what the user has set
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", keep); // no launcher beside it
+  setenv("OMPI_MCA_pml", "ob1", keep);
+  setenv("OMPI_MCA_btl", "self", keep);
 }
 
 int report_exit_code(const int code, const bool is_first) {
