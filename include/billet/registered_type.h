@@ -39,6 +39,8 @@ public:
   virtual std::vector<std::string> parts(const std::string &key, char separator = ';') const = 0;
   /// Returns the name of a file, which is relative to the scene file, as a path from the working directory.
   virtual std::string file(const std::string &key) const = 0;
+  /// Returns "file:line: 'Key' in 'path'", for messages of later checks.
+  virtual std::string origin(const std::string &key) const = 0;
   /// Throws "file:line: 'Key' in 'path' is 'value'; allowed is `allowed`".
   [[noreturn]] virtual void reject(const std::string &key, const std::string &allowed) const = 0;
 };

@@ -28,7 +28,7 @@ std::vector<ThicknessAxis> find_thickness_axes(const Scene &scene, const std::si
     const auto axis = find_thickness_axis(positions[e], direction);
     if (!axis) {
       std::ostringstream message;
-      message << scene.parameters().bodies[b].thickness_direction.origin << " is (" << direction
+      message << scene.parameters().bodies[b].element.value.direction_origin << " is (" << direction
               << ") at the element with its centre at (" << centre
               << "); allowed is a direction that is nearer to one axis of each element than to the others by "
                  "10 degrees";

@@ -3,8 +3,11 @@
 #include "billet/mechanics/element_comparison.h"
 #include "billet/mechanics/law_block.h"
 
+#include "billet/vector_text.h"
+
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace billet {
 
@@ -66,6 +69,42 @@ constexpr ElementKind kind = {"assumed strain",
                               /*may_be_soft=*/false,
                               &find_plane_factors};
 
+const std::string points_key = "Points through thickness", direction_key = "Thickness direction";
+
+/// Returns "2|3|5|7".
+std::string numbers_through() {
+  std::string text;
+  for (const unsigned int n : all_points_through)
+    text += (text.empty() ? "" : "|") + std::to_string(n);
+  return text;
+}
+
+std::vector<TypeParameter> layer_parameters() {
+  return {{points_key, "2", TypeParameter::Kind::choice,
+           numbers_through() +
+               ": Gauss points of each brick along the thickness direction. More than 2 need a static scene "
+               "or implicit dynamics. Use 5 for the springback of sheets, with two bricks through the "
+               "thickness rather than one."},
+          {direction_key, "", TypeParameter::Kind::text,
+           "Direction from the inner to the outer side, for more than 2 points through the thickness. Three "
+           "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' for a plate or 'x ; "
+           "y ; 0' for a tube about z. Each brick uses its axis nearest to it."}};
+}
+
+void read_layers(const TypeInput &input, ElementChoice &choice) {
+  choice.points_through = static_cast<unsigned int>(std::stoul(input.text(points_key)));
+  choice.thickness_direction = split_vector(input.text(direction_key));
+  choice.points_origin = input.origin(points_key);
+  choice.direction_origin = input.origin(direction_key);
+  const bool has_layers = choice.points_through > AssumedStrainElement<>::points_through;
+  if (has_layers && choice.thickness_direction.size() != 3)
+    input.reject(direction_key,
+                 "three expressions, separated by commas or semicolons, such as '0 ; 0 ; 1', since '" +
+                     points_key + "' is more than 2");
+  if (!has_layers && !choice.thickness_direction.empty())
+    input.reject(direction_key, "no value: '" + points_key + " = 2' does not use it");
+}
+
 } // namespace
 
 const BrickElement BrickElement::assumed_strain(kind);
@@ -73,7 +112,8 @@ const BrickElement BrickElement::assumed_strain(kind);
 ElementType assumed_strain_type() {
   return make_element_type(
       BrickElement::assumed_strain,
-      "eight points, accurate in bending with one brick through a thickness and in plastic flow");
+      "eight points, accurate in bending with one brick through a thickness and in plastic flow",
+      layer_parameters(), &read_layers);
 }
 
 } // namespace billet

@@ -3,7 +3,6 @@
 
 #include "billet/mechanics/element_block.h"
 
-#include <stdexcept>
 #include <utility>
 
 namespace billet {
@@ -12,42 +11,29 @@ ElementType assumed_strain_type();
 ElementType mean_dilatation_type();
 ElementType one_point_type();
 
-TypeTable<BrickElement> &element_types() {
-  static TypeTable<BrickElement> types{assumed_strain_type(), mean_dilatation_type(), one_point_type()};
+TypeTable<ElementChoice, ElementType> &element_types() {
+  static TypeTable<ElementChoice, ElementType> types{assumed_strain_type(), mean_dilatation_type(),
+                                                     one_point_type()};
   return types;
 }
 
-namespace {
-
-/// Input of a type without parameters.
-class NoInput final : public TypeInput {
-public:
-  bool is_set(const std::string &) const override { return false; }
-  std::string text(const std::string &key) const override { reject(key, ""); }
-  bool flag(const std::string &key) const override { reject(key, ""); }
-  double number(const std::string &key) const override { reject(key, ""); }
-  double positive(const std::string &key) const override { reject(key, ""); }
-  double not_negative(const std::string &key) const override { reject(key, ""); }
-  std::vector<double> numbers(const std::string &key) const override { reject(key, ""); }
-  dealii::Tensor<1, 3> vector(const std::string &key) const override { reject(key, ""); }
-  dealii::Tensor<1, 3> direction(const std::string &key) const override { reject(key, ""); }
-  std::vector<std::string> parts(const std::string &key, char) const override { reject(key, ""); }
-  std::string file(const std::string &key) const override { reject(key, ""); }
-  [[noreturn]] void reject(const std::string &key, const std::string &) const override {
-    throw std::logic_error("elements have no parameter '" + key + "'");
-  }
-};
-
-} // namespace
-
-ElementType make_element_type(const BrickElement element, std::string meaning) {
-  return {element.name(), std::move(meaning), {}, [element](const TypeInput &) { return element; }};
+ElementType make_element_type(const BrickElement element, std::string meaning,
+                              std::vector<TypeParameter> parameters,
+                              std::function<void(const TypeInput &, ElementChoice &)> read) {
+  const auto make = [element, read = std::move(read)](const TypeInput &input) {
+    ElementChoice choice;
+    choice.type = element;
+    if (read)
+      read(input, choice);
+    return choice;
+  };
+  return {{element.name(), std::move(meaning), std::move(parameters), make}, element};
 }
 
 std::vector<BrickElement> all_elements() {
   std::vector<BrickElement> elements;
   for (const ElementType &type : element_types())
-    elements.push_back(type.make(NoInput()));
+    elements.push_back(type.element);
   return elements;
 }
 

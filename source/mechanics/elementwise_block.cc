@@ -42,6 +42,7 @@ public:
         wave_speed_(std::sqrt((law_->elastic().bulk + 4. / 3. * law_->elastic().shear) / density)) {
     ElementFormulation implicit;
     implicit.element = formulation.element;
+    implicit.constants = formulation.constants;
     block_ = make_element_block(law_, implicit);
   }
 

@@ -575,30 +575,12 @@ template <class Condition> std::string name_elements(const Condition &is_named) 
   return names;
 }
 
-/// Returns "2|3|5|7".
-std::string numbers_through() {
-  std::string text;
-  for (const unsigned int n : all_points_through)
-    text += (text.empty() ? "" : "|") + std::to_string(n);
-  return text;
-}
-
 } // namespace
 
 void Body::declare(ParameterHandler &prm, const std::vector<std::string> &support_names,
                    const std::vector<std::string> &load_names) {
   declare_selection(prm, "Element", BrickElement::assumed_strain.name(), element_types(),
                     "Formulation of the bricks.");
-  prm.declare_entry("Points through thickness", "2", Patterns::Selection(numbers_through()),
-                    "Gauss points of each brick along the thickness direction. More than 2 need " +
-                        name_elements([](const BrickElement other) { return other.has_layers(); }) +
-                        " and a static scene or implicit dynamics. Use 5 for the springback of sheets, with "
-                        "two bricks through the thickness rather than one.");
-  prm.declare_entry(
-      "Thickness direction", "", Patterns::Anything(),
-      "Direction from the inner to the outer side, for more than 2 points through the thickness. Three "
-      "muParser expressions of the undeformed position x, y, z, such as '0 ; 0 ; 1' for a plate or 'x ; y ; "
-      "0' for a tube about z. Each brick uses its axis nearest to it.");
   prm.declare_entry(
       "Refinement times", "", Patterns::Anything(),
       "Times, ascending and separated by commas, at each of which every brick of this body is divided into "
@@ -721,27 +703,12 @@ void Body::parse(Reader &reader) {
       });
   });
   element = reader.located("Element", make_selected(reader, "Element", element_types()));
-  if (element.value.is_stabilised() && find_user_subroutine(*material.law) != nullptr)
+  if (element.value.type.is_stabilised() && find_user_subroutine(*material.law) != nullptr)
     reader.reject("Element",
                   name_elements([](const BrickElement other) { return !other.is_stabilised(); }) +
-                      ", since the law is a subroutine: '" + element.value.name() +
+                      ", since the law is a subroutine: '" + element.value.type.name() +
                       "' stabilises a body by its yield stress, which a subroutine does not tell, and "
                       "forces would be several times too large");
-  points_through =
-      reader.located("Points through thickness",
-                     static_cast<unsigned int>(std::stoul(reader.text("Points through thickness"))));
-  thickness_direction =
-      reader.located("Thickness direction", split_vector(reader.text("Thickness direction")));
-  if (points_through.value > 2 && !element.value.has_layers())
-    reader.reject("Points through thickness", "2, since only " + name_elements([](const BrickElement other) {
-                                                return other.has_layers();
-                                              }) + " takes more");
-  if (points_through.value > 2 && thickness_direction.value.size() != 3)
-    reader.reject("Thickness direction",
-                  "three expressions, separated by commas or semicolons, such as '0 ; 0 ; 1', since 'Points "
-                  "through thickness' is more than 2");
-  if (points_through.value == 2 && !thickness_direction.value.empty())
-    reader.reject("Thickness direction", "no value: 'Points through thickness = 2' does not use it");
   refinement_times = reader.located("Refinement times", reader.numbers("Refinement times"));
   for (std::size_t i = 0; i < refinement_times.value.size(); ++i)
     if (!(refinement_times.value[i] > (i == 0 ? 0. : refinement_times.value[i - 1])))

@@ -166,7 +166,7 @@ private:
   }
   BrickElement element(const std::string &body) const {
     BrickElement element = BrickElement::assumed_strain;
-    read(body, [&](Reader &reader) { element = make_selected(reader, "Element", element_types()); });
+    read(body, [&](Reader &reader) { element = find_selected(reader, "Element", element_types()).element; });
     return element;
   }
   /// Calls `read` in the subsection of a body, up to the first value that is refused.

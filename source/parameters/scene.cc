@@ -155,7 +155,8 @@ public:
     if (!body.material.temperature.value.empty())
       check(body.material.temperature.value, Variables::time, amplitudes_, body.material.temperature.origin);
     check_all(body.initial_velocity, amplitudes_);
-    check_all(body.thickness_direction, {});
+    for (const std::string &component : body.element.value.thickness_direction)
+      check(component, Variables::time_and_position, {}, body.element.value.direction_origin);
     check_all(body.mesh.positions, {});
     for (const auto &[id, condition] : body.mesh.boundary_ids.value)
       check(condition, Variables::time_and_position, {}, body.mesh.boundary_ids.origin);
@@ -358,17 +359,18 @@ private:
       throw excluded_by_scheme(body.is_stabilised.origin +
                                " is 'until contact'; allowed is 'none', since 'Scheme' is " +
                                name_of_scheme() + ": the mass of a body resists its motion");
-    if (!scene_.scheme().has_matrix && body.points_through.value > 2)
-      throw excluded_by_scheme(body.points_through.origin + " is '" +
-                               std::to_string(body.points_through.value) +
+    if (!scene_.scheme().has_matrix && body.element.value.points_through > 2)
+      throw excluded_by_scheme(body.element.value.points_origin + " is '" +
+                               std::to_string(body.element.value.points_through) +
                                "'; allowed is 2, since 'Scheme' in 'Time stepping' is explicit");
     const bool in_float = scene_.explicit_dynamics.number_type == NumberType::float_precision;
-    if (!scene_.scheme().has_matrix && in_float && !has_kernel(body.element.value, *body.material.law))
+    if (!scene_.scheme().has_matrix && in_float && !has_kernel(body.element.value.type, *body.material.law))
       throw InputError(
           file_.where({"Explicit dynamics"}, "Number type") +
           ": 'Number type' in 'Explicit dynamics' is 'float'; allowed is double, since no kernel "
           "computes body '" +
-          body.name + "' in float: " + body.element.value.name() + ", " + describe_law(*body.material.law));
+          body.name + "' in float: " + body.element.value.type.name() + ", " +
+          describe_law(*body.material.law));
     if (!scene_.scheme().has_matrix)
       return;
     if (!scene_.scheme().has_inertia)

@@ -55,9 +55,9 @@ void check_body(const parameters::Scene &scene, const parameters::Body &body) {
   if (times.size() > max_refinements)
     throw InputError(origin + " has " + std::to_string(times.size()) + " times; allowed are at most " +
                      std::to_string(max_refinements) + ", for each divides every element into eight");
-  if (body.points_through.value > 2)
+  if (body.element.value.points_through > 2)
     throw InputError(origin + " refines a body with 'Points through thickness = " +
-                     std::to_string(body.points_through.value) +
+                     std::to_string(body.element.value.points_through) +
                      "', whose layers cannot be carried over; allowed are 2 points, or a finer mesh from the "
                      "start by 'Refinements' in Mesh");
   const auto check_nodes = [&](const std::string &what, const NodeSelection &nodes) {

@@ -103,10 +103,10 @@ Body make_body(const parameters::Body &parameters, const std::vector<parameters:
   for (const auto &component : parameters.initial_velocity.value)
     body.initial_velocity.emplace_back(component, Expression::Variables::time_and_position, amplitudes,
                                        parameters.initial_velocity.origin);
-  for (const auto &component : parameters.thickness_direction.value)
+  for (const auto &component : parameters.element.value.thickness_direction)
     body.thickness_direction.emplace_back(component, Expression::Variables::time_and_position,
                                           std::vector<parameters::Amplitude>(),
-                                          parameters.thickness_direction.origin);
+                                          parameters.element.value.direction_origin);
   for (const auto &load : parameters.loads)
     body.loads.push_back(make_load(load, amplitudes, fade_time));
   for (const auto &plane : parameters.symmetry_planes.value) {
@@ -253,10 +253,10 @@ WholeSection find_whole_section(const std::vector<parameters::Body> &bodies) {
 
 /// Returns element, unless it is the default one, and law.
 std::string describe_law(const parameters::Body &body) {
-  const BrickElement element = body.element.value;
+  const BrickElement element = body.element.value.type;
   return (element != BrickElement::assumed_strain ? std::string(element.name()) + ", " : "") +
-         (body.points_through.value > 2
-              ? std::to_string(body.points_through.value) + " points through the thickness, "
+         (body.element.value.points_through > 2
+              ? std::to_string(body.element.value.points_through) + " points through the thickness, "
               : "") +
          body.material.law->summary();
 }
@@ -294,8 +294,9 @@ void select_nodes(const parameters::Body &parameters, Body &body) {
 
 ElementFormulation make_formulation(const parameters::Body &parameters) {
   ElementFormulation formulation;
-  formulation.element = parameters.element.value;
-  formulation.points_through = parameters.points_through.value;
+  formulation.element = parameters.element.value.type;
+  formulation.points_through = parameters.element.value.points_through;
+  formulation.constants = parameters.element.value.constants;
   return formulation;
 }
 

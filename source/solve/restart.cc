@@ -42,10 +42,8 @@ SharedLaw find_law(const std::string &elasticity, const SharedLaw &law) {
 }
 
 std::optional<BrickElement> find_element(const std::string &name) {
-  for (const BrickElement element : all_elements())
-    if (element.name() == name)
-      return element;
-  return {};
+  const ElementType *type = element_types().find(name);
+  return type == nullptr ? std::optional<BrickElement>() : type->element;
 }
 
 constexpr const char *explicit_method = "explicit", *implicit_method = "implicit", *in_float = "float",
@@ -53,6 +51,7 @@ constexpr const char *explicit_method = "explicit", *implicit_method = "implicit
 
 constexpr std::uint64_t max_ranks = 1U << 20U;
 
+constexpr const char *constants_entry = "element constants";
 constexpr const char *level_entry = "level"; // of a body's mesh
 
 /// Returns the fields that save_fields() has written; none if there were none.
@@ -90,12 +89,14 @@ std::optional<std::vector<std::size_t>> find_places(const std::vector<StateField
 } // namespace
 
 HistoryFormat format_of(const ElementFormulation &formulation, const PointLaw &law) {
-  return {implicit_method, formulation.element.name(), law.name(), in_double, formulation.points_through};
+  return {implicit_method, formulation.element.name(), law.name(),
+          in_double,       formulation.points_through, formulation.constants};
 }
 
 HistoryFormat format_of(const ExplicitFormulation &formulation, const PointLaw &law) {
   const bool is_float = formulation.number_type == NumberType::float_precision;
-  return {explicit_method, formulation.element.name(), law.name(), is_float ? in_float : in_double, 2};
+  return {explicit_method,      formulation.element.name(), law.name(), is_float ? in_float : in_double, 2,
+          formulation.constants};
 }
 
 void save_format(StateWriter &writer, const HistoryFormat &format) {
@@ -104,11 +105,17 @@ void save_format(StateWriter &writer, const HistoryFormat &format) {
   writer.write_text("elasticity", format.elasticity);
   writer.write_text("number type", format.number_type);
   writer.write("points through", {static_cast<double>(format.points_through)});
+  if (!format.constants.empty())
+    writer.write(constants_entry, format.constants);
 }
 
 HistoryFormat load_format(const StateReader &reader) {
-  return {reader.read_text("method"), reader.read_text("element"), reader.read_text("elasticity"),
-          reader.read_text("number type"), to_count(reader.number("points through"))};
+  return {reader.read_text("method"),
+          reader.read_text("element"),
+          reader.read_text("elasticity"),
+          reader.read_text("number type"),
+          to_count(reader.number("points through")),
+          reader.has(constants_entry) ? reader.read(constants_entry) : std::vector<double>()};
 }
 
 namespace {
@@ -339,6 +346,7 @@ std::vector<ElementStress> stress_of_implicit(const ForeignHistory &history,
   ElementFormulation formulation;
   formulation.element = history.element;
   formulation.points_through = history.format.points_through;
+  formulation.constants = history.format.constants;
   const auto block = make_element_block(history.law, formulation);
   std::vector<ElementVectors> positions;
   positions.reserve(history.elements.size());
@@ -374,6 +382,7 @@ std::vector<ElementStress> stress_of_explicit(const ForeignHistory &history,
   ExplicitFormulation formulation;
   formulation.instructions = InstructionSet::scalar;
   formulation.element = history.element;
+  formulation.constants = history.format.constants;
   if (history.format.number_type == in_float)
     formulation.number_type = NumberType::float_precision;
   const auto block = make_explicit_block(history.law, 1., formulation);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // An element that the library does not know, the fully integrated brick, registered here and named by a
 // scene: uniaxial tension against mean dilatation, which is the same where the strain is uniform, in statics
-// and explicitly; advice where it locks in bending.
+// and explicitly; advice where it locks in bending; a parameter of its own, kept by a checkpoint.
 
+#include "../scenes/restart_run.h"
 #include "pulled_cube.h"
 
 #include "billet/diagnostic_kinds.h"
@@ -18,7 +19,7 @@ using billet::testing::check;
 
 namespace {
 
-/// Q1 with 2 × 2 × 2 points: F as it is.
+/// Q1 with 2 × 2 × 2 points: F as it is. A part of the volume is solid, the rest is holes.
 class FullyIntegratedElement {
 public:
   static constexpr unsigned int n_points = n_element_points;
@@ -32,10 +33,14 @@ public:
   };
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
 
-  FullyIntegratedElement(const ElasticModuli &, const ElementFormulation &) {}
+  FullyIntegratedElement(const ElasticModuli &, const ElementFormulation &formulation)
+      : solid_part_(formulation.constants.empty() ? 1. : formulation.constants[0]) {}
 
-  static bool initialize(const ElementVectors &positions, Reference &reference) {
-    return compute_reference_element(positions, reference);
+  bool initialize(const ElementVectors &positions, Reference &reference) const {
+    const bool is_sound = compute_reference_element(positions, reference);
+    for (double &volume : reference.volumes)
+      volume *= solid_part_;
+    return is_sound;
   }
   static bool compute(const Reference &reference, const ElementVectors &displacements,
                       Kinematics &kinematics) {
@@ -92,6 +97,8 @@ public:
   }
 
 private:
+  double solid_part_;
+
   static void add(const double w, const Gradients<n_element_nodes> &g,
                   const dealii::SymmetricTensor<2, 3> &tau, const SpatialModuli &moduli,
                   ElementMatrix &matrix) {
@@ -116,6 +123,19 @@ constexpr ElementKind kind = {"fully integrated",
                               &compare_points<FullyIntegratedElement>,
                               /*may_lock_in_bending=*/true};
 const BrickElement fully_integrated(kind);
+
+const char *const solid_part = "Solid part";
+
+ElementType make_type() {
+  return make_element_type(
+      fully_integrated, "eight points, for comparisons",
+      {{solid_part, "1", TypeParameter::Kind::number, "Part without holes, from 0 to 1."}},
+      [](const TypeInput &input, ElementChoice &choice) {
+        choice.constants = {input.positive(solid_part)};
+        if (choice.constants[0] > 1.)
+          input.reject(solid_part, "a number from 0 to 1");
+      });
+}
 
 const std::string plastic = "set Young modulus = 200e3\nset Poisson ratio = 0.3\nset Yield stress = 300\n"
                             "set Hardening modulus = 500\nset Elasticity = ",
@@ -229,6 +249,41 @@ end
         message != nullptr && message->advice() == "Use 'Element = assumed strain'");
 }
 
+/// The parameter of the element scales forces and energies, and the history knows it: a run that resumes with
+/// another one begins from stresses.
+void check_parameter() {
+  const std::string half = "fully integrated\n    set Solid part = 0.5", law = plastic + "Hencky";
+  const auto whole = testing::pull("fully integrated", law, 1.2, 1., 20),
+             part = testing::pull(half, law, 1.2, 1., 20);
+  check("half of it is solid, statics", std::abs(part.plastic / (0.5 * whole.plastic) - 1.), 1e-9);
+  const auto fast = testing::pull_explicitly("fully integrated", law, 1.2, 2e-4),
+             fast_part = testing::pull_explicitly(half, law, 1.2, 2e-4);
+  check("half of it is solid, explicit", std::abs(fast_part.plastic / (0.5 * fast.plastic) - 1.), 2e-3);
+  const auto scene_of = [&](const std::string &element) {
+    return testing::read_pulled_cube(element, law, 1.2, 1., false, 10);
+  };
+  testing::History ignored, rest, expected;
+  testing::ImplicitSolutionRun first(scene_of(half), MPI_COMM_WORLD);
+  first.run(0.5, ignored);
+  first.save("half.h5");
+  first.run(1., expected);
+  testing::ImplicitSolutionRun same(scene_of(half), MPI_COMM_WORLD);
+  check("a run resumes with the parameter", same.load("half.h5").is_exact);
+  same.run(1., rest);
+  check("to the last bit", testing::are_same_bits(expected, rest));
+  testing::ImplicitSolutionRun other(scene_of("fully integrated"), MPI_COMM_WORLD);
+  check("and not exactly with another one", !other.load("half.h5").is_exact);
+  check("a value that its type refuses",
+        testing::refusal([&] {
+          scene_of("fully integrated\n    set Solid part = 2");
+        }).find("'Solid part' in 'Bodies / cube' is '2'; allowed is a number from 0 to 1") !=
+            std::string::npos);
+  check("another element has none",
+        testing::refusal([&] {
+          scene_of("one point\n    set Solid part = 0.5");
+        }).find("allowed is no value: 'Element = one point' does not use it") != std::string::npos);
+}
+
 /// The explicit kernels do not have the element, so that the profile 'fast' leaves its numbers double.
 void check_number_type() {
   const auto read = [](const std::string &lines) {
@@ -268,11 +323,12 @@ end
 
 int main(int argc, char *argv[]) {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  element_types().add(make_element_type(fully_integrated, "eight points, for comparisons"));
+  element_types().add(make_type());
   check_bending();
   check_plane_factors();
   check_advice();
   check_number_type();
+  check_parameter();
   for (const std::string law : {"Hencky", "neo-Hookean", "hypoelastic"}) {
     const auto found = testing::pull("fully integrated", plastic + law, 1.2, 1., 20),
                wanted = testing::pull("mean dilatation", plastic + law, 1.2, 1., 20);

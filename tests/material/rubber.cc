@@ -128,6 +128,7 @@ std::shared_ptr<const SpatialLaw> make_law(const std::string &name,
     Tensor<1, 3> direction(const std::string &key) const override { reject(key, "no direction"); }
     std::vector<std::string> parts(const std::string &key, char) const override { reject(key, "no parts"); }
     std::string file(const std::string &key) const override { reject(key, "no file"); }
+    std::string origin(const std::string &key) const override { return "'" + key + "'"; }
     [[noreturn]] void reject(const std::string &key, const std::string &allowed) const override {
       throw std::invalid_argument("'" + key + "': allowed is " + allowed);
     }

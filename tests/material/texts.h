@@ -42,6 +42,7 @@ public:
     return dealii::Utilities::split_string_list(text(key), separator);
   }
   std::string file(const std::string &key) const override { return text(key); }
+  std::string origin(const std::string &key) const override { return "'" + key + "'"; }
   [[noreturn]] void reject(const std::string &key, const std::string &allowed) const override {
     throw std::invalid_argument("'" + key + "': allowed is " + allowed);
   }

@@ -59,7 +59,7 @@ void test_taylor_bar(const BrickElement element) {
   parameters::Scene scene = parameters::Scene::read(std::string(SOURCE_DIR) + "/../../prm/taylor_bar.prm");
   scene.bodies[0].mesh.refinements = 1;
   scene.bodies[0].mesh.n_layers = 16;
-  scene.bodies[0].element.value = element;
+  scene.bodies[0].element.value.type = element;
   const History exact = run(scene, NumberType::double_precision, 4e-6),
                 rounded = run(scene, NumberType::float_precision, 4e-6);
   const std::string name = element == BrickElement::one_point ? "one point" : "mean dilatation";
@@ -79,7 +79,7 @@ void test_taylor_bar(const BrickElement element) {
 /// It turns by a fifth of a circle, in strains of 1e-3 and some 10,000 steps.
 void test_flight(const BrickElement element, const std::string &elasticity) {
   parameters::Scene scene = testing::read_test_scene("explicit_float.prm");
-  scene.bodies[0].element.value = element;
+  scene.bodies[0].element.value.type = element;
   testing::set_elasticity(scene.bodies[0].material, elasticity);
   const double interval = scene.time_stepping.end_time / 100.;
   const History exact = run(scene, NumberType::double_precision, interval),

@@ -28,7 +28,7 @@ double order_of_convergence(const std::vector<NewtonIteration> &iterations) {
 /// number. A tangent that is wrong by 0.1 % has 1e3 and more.
 void test_squares(const std::string &name, const BrickElement element, const std::string &elasticity) {
   parameters::Scene parameters = testing::read_shipped_scene("billet_upsetting.prm");
-  parameters.bodies[0].element.value = element;
+  parameters.bodies[0].element.value.type = element;
   testing::set_elasticity(parameters.bodies[0].material, elasticity);
   parameters.solver.force_tolerance = 1e-11;
   testing::set_fixed_steps(parameters, 25);

@@ -16,9 +16,9 @@ parameters::Scene read(const unsigned int n_points) {
   parameters::Scene scene = testing::read_test_scene("points_through.prm");
   scene.solver.force_tolerance = 1e-10;
   scene.solver.energy_tolerance = 1e-20;
-  scene.bodies[0].points_through.value = n_points;
+  scene.bodies[0].element.value.points_through = n_points;
   if (n_points == 2)
-    scene.bodies[0].thickness_direction.value.clear();
+    scene.bodies[0].element.value.thickness_direction.clear();
   return scene;
 }
 
@@ -88,9 +88,9 @@ void test_transfer(const unsigned int from, const unsigned int to, const std::st
     run.save("layers.h5");
   }
   parameters::Scene scene = read(to);
-  scene.bodies[0].thickness_direction.value.clear();
+  scene.bodies[0].element.value.thickness_direction.clear();
   if (to > 2)
-    scene.bodies[0].thickness_direction.value = {"0", "0", direction};
+    scene.bodies[0].element.value.thickness_direction = {"0", "0", direction};
   scene.restart.file.value = "layers.h5";
   testing::ImplicitSolutionRun run(scene, MPI_COMM_WORLD);
   const RestartReport report = run.load(scene.restart.file.value);

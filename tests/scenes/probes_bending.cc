@@ -35,9 +35,9 @@ void check_near(const std::string &name, const double value, const double exact,
 
 parameters::Scene read_strip(const unsigned int n_points, const std::string &axis, const double curvature) {
   parameters::Scene scene = testing::read_test_scene("probes_bent.prm");
-  scene.bodies[0].points_through.value = n_points;
+  scene.bodies[0].element.value.points_through = n_points;
   if (n_points > 2)
-    scene.bodies[0].thickness_direction.value = {"0", "0", axis};
+    scene.bodies[0].element.value.thickness_direction = {"0", "0", axis};
   scene.bodies[0].supports[1].displacement.value[0] = "4*t*z*" + std::to_string(curvature);
   return scene;
 }

@@ -31,7 +31,7 @@ int main(int argc, char *argv[]) {
   {
     parameters::Scene scene = testing::read_test_scene("restart_press.prm");
     scene.solver.force_tolerance = 1e-11;
-    scene.bodies[0].element.value = BrickElement::one_point;
+    scene.bodies[0].element.value.type = BrickElement::one_point;
     testing::set_elasticity(scene.bodies[0].material, "hypoelastic");
     for (auto &pair : scene.pairs)
       pair.penetration_tolerance = 0.; // whether to augment once more may hang on round-off, and so on ranks

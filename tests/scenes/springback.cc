@@ -168,7 +168,7 @@ int main(int argc, char *argv[]) {
     test(name, scene, reference, false);
   }
   parameters::Scene scene = bending;
-  scene.bodies[0].element.value = BrickElement::one_point;
+  scene.bodies[0].element.value.type = BrickElement::one_point;
   test("One point", scene, reference, true);
   return testing::exit_code();
 }

@@ -19,6 +19,7 @@ struct ElementFormulation {
   Element element = Element::assumed_strain;
   unsigned int points_through = 2; ///< for assumed strains: one of all_points_through
   bool is_symmetrised = false;     ///< whether an unsymmetric tangent is replaced by its symmetric part
+  std::vector<double> constants;   ///< ElementChoice::constants
 };
 
 /// Averages and integrals over one element, for output.

@@ -8,8 +8,11 @@
 #include "billet/mechanics/plane_factors.h"
 #include "billet/registered_type.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace billet {
 
@@ -69,13 +72,27 @@ private:
   const ElementKind *kind_;
 };
 
-/// Elements that a scene file can name. A new one is a file in source/mechanics/ with its class, its kind and
-/// a function that returns its type, and its name in the table of element_type.cc.
-using ElementType = RegisteredType<BrickElement>;
-TypeTable<BrickElement> &element_types();
+/// What a scene chooses of the elements of a body.
+struct ElementChoice {
+  BrickElement type = BrickElement::assumed_strain;
+  unsigned int points_through = 2;              ///< through the thickness: one of all_points_through
+  std::vector<std::string> thickness_direction; ///< expressions of x, y, z; empty with two points
+  std::string points_origin, direction_origin;  ///< their places in the scene file, for messages
+  std::vector<double> constants;                ///< parameters of the element itself, in an order of its own
+};
 
-/// Returns the type of an element; it has no parameters.
-ElementType make_element_type(BrickElement element, std::string meaning);
+/// Elements that a scene file can name. A new one is a file in source/mechanics/ with its class, its kind,
+/// its parameters and a function that returns its type, and its name in the table of element_type.cc.
+struct ElementType : RegisteredType<ElementChoice> {
+  BrickElement element = BrickElement::assumed_strain;
+};
+TypeTable<ElementChoice, ElementType> &element_types();
+
+/// Returns the type of an element. `read` completes what a scene chooses from the parameters, if there are
+/// any.
+ElementType make_element_type(BrickElement element, std::string meaning,
+                              std::vector<TypeParameter> parameters = {},
+                              std::function<void(const TypeInput &, ElementChoice &)> read = nullptr);
 /// Returns the elements of all types.
 std::vector<BrickElement> all_elements();
 

@@ -28,6 +28,7 @@ struct ExplicitFormulation {
   double quadratic_viscosity = 1.2; ///< c_2, acts in compression only; ≥ 0
   InstructionSet instructions = InstructionSet::automatic;
   NumberType number_type = NumberType::double_precision; ///< float computes twice as many elements at once
+  std::vector<double> constants;                         ///< ElementChoice::constants
 };
 
 /// Element that was divided into eight, of which `child` is one.

@@ -113,9 +113,7 @@ struct Body {
   std::string origin;
   Mesh mesh;
   Material material;
-  Located<BrickElement> element{BrickElement::assumed_strain, ""};
-  Located<unsigned int> points_through; ///< integration points through the thickness, for assumed strains
-  Located<std::vector<std::string>> thickness_direction; ///< expressions of x, y, z; empty with two points
+  Located<ElementChoice> element;
   std::vector<Support> supports;
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z

@@ -98,7 +98,7 @@ public:
   template <class T> Located<T> located(const std::string &key, T value) const {
     return {std::move(value), origin(key)};
   }
-  std::string origin(const std::string &key) const;
+  std::string origin(const std::string &key) const override;
   /// Returns the place of the current subsection, for messages about missing parameters.
   std::string origin() const;
   bool is_set(const std::string &key) const override { return file_.is_set(path_, key); }

@@ -76,10 +76,12 @@ struct HistoryFormat {
   std::string method; ///< implicit or explicit
   std::string element, elasticity, number_type;
   unsigned int points_through;
+  std::vector<double> constants; ///< of the element
 
   bool operator==(const HistoryFormat &other) const {
     return method == other.method && element == other.element && elasticity == other.elasticity &&
-           number_type == other.number_type && points_through == other.points_through;
+           number_type == other.number_type && points_through == other.points_through &&
+           constants == other.constants;
   }
   bool operator!=(const HistoryFormat &other) const { return !(*this == other); }
 };

@@ -17,7 +17,8 @@ namespace {
 ExplicitFormulation formulation_of(const parameters::Scene &scene, const parameters::Body &body) {
   const auto &dynamics = scene.explicit_dynamics;
   ExplicitFormulation formulation;
-  formulation.element = make_formulation(body).element;
+  formulation.element = body.element.value.type;
+  formulation.constants = body.element.value.constants;
   formulation.linear_viscosity = dynamics.linear_viscosity;
   formulation.quadratic_viscosity = dynamics.quadratic_viscosity;
   formulation.instructions = dynamics.instructions;
