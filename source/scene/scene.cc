@@ -576,6 +576,15 @@ std::array<bool, 3> Scene::free_directions() const {
   return are_free;
 }
 
+namespace {
+
+/// Returns "1 support" or "2 supports".
+std::string counted(const std::size_t n, const std::string &what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+} // namespace
+
 std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
   std::vector<CapabilityUse> uses;
   const auto add = [&uses](const Capability capability, const bool is_used, const std::string &how) {
@@ -599,7 +608,7 @@ std::vector<Scene::CapabilityUse> Scene::capability_uses() const {
           part(std::count_if(bodies_.begin(), bodies_.end(),
                              [](const Body &body) { return body.formulation.element.is_stabilised(); }),
                bodies_.size(), "bodies"));
-  add(Capability::contact, capabilities_.contact, std::to_string(n_all_pairs) + " pairs");
+  add(Capability::contact, capabilities_.contact, counted(n_all_pairs, "pair"));
   add(Capability::friction, capabilities_.friction,
       "history of " +
           part(n_pairs([](const auto &pair) { return pair.has_friction(); }), n_all_pairs, "pairs"));
@@ -679,8 +688,8 @@ void Scene::describe(std::ostream &stream) const {
     const std::size_t n = count_elements_of(body);
     n_elements += n;
     stream << "Body           " << body.name << ": " << n << " hexahedra, " << describe_refinements(body, n)
-           << describe_law(body) << ", " << body.symmetry_planes.value.size() << " symmetry planes, "
-           << body.supports.size() << " supports, " << body.loads.size() << " loads"
+           << describe_law(body) << ", " << counted(body.symmetry_planes.value.size(), "symmetry plane")
+           << ", " << counted(body.supports.size(), "support") << ", " << counted(body.loads.size(), "load")
            << (body.is_stabilised.value ? ", contact stabilisation until contact\n" : "\n");
   }
   for (const auto &tool : tools_) {
