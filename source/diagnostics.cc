@@ -20,10 +20,6 @@ namespace {
 
 constexpr std::array<const char *, 5> part_names = {{"body", "pair", "tool", "support", "origin"}};
 
-bool is_printed(const std::string &part) {
-  return std::any_of(part_names.begin(), part_names.end(), [&](const char *name) { return part == name; });
-}
-
 std::vector<const DiagnosticKind *> &registry() {
   static std::vector<const DiagnosticKind *> kinds;
   return kinds;
@@ -105,8 +101,7 @@ std::string Diagnostic::advice() const { return advice_.empty() ? kind_->remedy 
 std::string Diagnostic::identity() const {
   std::string identity = kind_->key;
   for (const auto &[what, name] : parts_)
-    if (is_printed(what))
-      identity += "\n" + what + "\n" + name;
+    identity += "\n" + what + "\n" + name;
   return topic_.empty() ? identity : identity + "\n\n" + topic_;
 }
 
@@ -114,8 +109,7 @@ std::string Diagnostic::text() const {
   std::string where;
   const auto add = [&where](const std::string &part) { where += (where.empty() ? "" : ", ") + part; };
   for (const auto &[what, name] : parts_)
-    if (is_printed(what))
-      add(what == "origin" ? name : what + " '" + name + "'");
+    add(what == "origin" ? name : what + " '" + name + "'");
   if (position_)
     add("at (" + print((*position_)[0], 5) + ", " + print((*position_)[1], 5) + ", " +
         print((*position_)[2], 5) + ")");
@@ -173,6 +167,8 @@ std::string Diagnostic::serialize() const {
   object["message"] = what_;
   object["advice"] = advice_;
   object["topic"] = topic_;
+  if (!data_.empty())
+    object["data"] = Json::binary({data_.begin(), data_.end()});
   object["parts"] = Json::array();
   for (const auto &[what, name] : parts_)
     object["parts"].push_back(Json::array({what, name}));
@@ -195,6 +191,10 @@ Diagnostic Diagnostic::deserialize(const std::string &bytes) {
                         object.at("message").get<std::string>());
   diagnostic.advice_ = object.at("advice").get<std::string>();
   diagnostic.topic_ = object.at("topic").get<std::string>();
+  if (object.contains("data")) {
+    const auto &data = object["data"].get_binary();
+    diagnostic.data_.assign(data.begin(), data.end());
+  }
   for (const Json &part : object.at("parts"))
     diagnostic.parts_.emplace_back(part.at(0).get<std::string>(), part.at(1).get<std::string>());
   for (const Json &value : object.at("values"))

@@ -9,18 +9,12 @@
 
 namespace billet {
 
-namespace {
-
-constexpr const char *part_name = "fault"; // no part that messages print
-
-} // namespace
-
 Diagnostic with_fault(Diagnostic error, const SceneFault &fault) {
   const nlohmann::json data = {{"kind", static_cast<int>(fault.kind)},
                                {"suggestion", fault.suggestion},
                                {"depends on", fault.depends_on}};
   const auto bytes = nlohmann::json::to_cbor(data); // which holds any bytes of a name
-  return error.part(part_name, std::string(bytes.begin(), bytes.end()));
+  return error.data({bytes.begin(), bytes.end()});
 }
 
 Diagnostic scene_error(const std::string &text, const SceneFault &fault) {
@@ -28,7 +22,7 @@ Diagnostic scene_error(const std::string &text, const SceneFault &fault) {
 }
 
 SceneFault fault_of(const Diagnostic &error) {
-  const std::string bytes = error.part(part_name);
+  const std::string &bytes = error.data();
   if (bytes.empty())
     return {};
   const nlohmann::json data = nlohmann::json::from_cbor(bytes.begin(), bytes.end());

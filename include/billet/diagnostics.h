@@ -52,8 +52,7 @@ public:
   Diagnostic &support(const std::string &name) { return part("support", name); }
   /// Sets the place in the scene file: "scene.prm:12: 'Radius' in ...".
   Diagnostic &origin(const std::string &text) { return part("origin", text); }
-  /// Sets the name of a part, where `what` is one of the five above, or other data, which are kept but not
-  /// printed. An empty name is left out.
+  /// Sets the name of a part; `what` is one of the five above. An empty name is left out.
   Diagnostic &part(const std::string &what, const std::string &name);
   Diagnostic &at(const dealii::Tensor<1, 3> &position) {
     position_ = position;
@@ -83,6 +82,11 @@ public:
     topic_ = std::move(text);
     return *this;
   }
+  /// Keeps bytes for the program itself, such as a SceneFault; not printed.
+  Diagnostic &data(std::string bytes) {
+    data_ = std::move(bytes);
+    return *this;
+  }
   /// Replaces the kind; the rest stays.
   Diagnostic &change_kind(const DiagnosticKind &kind) {
     kind_ = &kind;
@@ -91,6 +95,7 @@ public:
 
   const DiagnosticKind &kind() const { return *kind_; }
   const std::string &what() const { return what_; }
+  const std::string &data() const { return data_; }
   const std::optional<double> &time() const { return time_; }
   const std::optional<double> &measure() const { return measure_; }
   const std::vector<std::pair<std::string, double>> &values() const { return values_; }
@@ -111,7 +116,7 @@ public:
 
 private:
   const DiagnosticKind *kind_;
-  std::string what_, advice_, topic_;
+  std::string what_, advice_, topic_, data_;
   std::vector<std::pair<std::string, std::string>> parts_;
   std::vector<std::pair<std::string, double>> values_;
   std::optional<dealii::Tensor<1, 3>> position_;

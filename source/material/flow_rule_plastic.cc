@@ -199,6 +199,10 @@ public:
       add(sum, 2. / 3. * law_.rule_.backstress[j].modulus, kappa_[j]);
     return transform(trial_.rotation, from_kelvin(sum));
   }
+  /// Returns κ_j in space.
+  SymmetricTensor<2, 3> strain_of_term(const std::size_t j) const {
+    return transform(trial_.rotation, from_kelvin(kappa_[j]));
+  }
   /// Returns the energy that the terms of backstress store, (H9) of doc/theory.md [stress].
   double backstress_energy() const {
     double sum = 0.;
@@ -214,6 +218,7 @@ public:
     law_.flow_->advance(alpha_n, increment_.alpha, step_.dt, history_n_.flow, history.flow);
     history.temperature_rise = heat_.rise;
     history.dissipated += (heat_.factor - 1.) * heat_.work;
+    double of_backstress = 0.; // its work
     const Tensor<2, 3> inverse = dealii::invert(trial_.A);
     const auto pull_back = [&](const double factor, const Vector6 &twice_strain, const Tensor<2, 3> &outer) {
       Vector6 exponent{};
@@ -228,9 +233,16 @@ public:
       history.inverse_metrics[j] = pull_back(2., kappa_[j], V);
       Vector6 start = terms_[j].value();
       add(start, -1., flow_strain_.value());
-      history.dissipated += 2. / 3. * term.modulus *
-                            integrate_recovery(term.rate * increment_.alpha, start, flow_strain_.value());
+      const double recovered = 2. / 3. * term.modulus *
+                               integrate_recovery(term.rate * increment_.alpha, start, flow_strain_.value());
+      history.dissipated += recovered;
+      of_backstress +=
+          recovered + term.modulus / 3. *
+                          (dot(kappa_[j], kappa_[j]) - dot(terms_[j].value(), terms_[j].value()) +
+                           2. * dot(terms_[j].value(), flow_strain_.value()) -
+                           dot(flow_strain_.value(), flow_strain_.value()));
     }
+    history.temperature_rise += law_.rule_.heating * of_backstress;
   }
 
   /// Computes the moduli in space, and the derivatives of the share of a stabilisation.
@@ -614,6 +626,49 @@ FlowRulePlasticity<has_directions, is_thermal>::find_history(const Tensor<2, 3> 
 }
 
 template <bool has_directions, bool is_thermal>
+std::vector<double> FlowRulePlasticity<has_directions, is_thermal>::memory(const Tensor<2, 3> &F,
+                                                                           const History &history) const {
+  std::vector<double> numbers = flow_->numbers_of(history.flow);
+  numbers.push_back(history.dissipated);
+  numbers.push_back(history.temperature_rise);
+  Trial trial;
+  const PointStep at_rest;
+  const bool is_sound = prepare(F, history, trial);
+  Return solution(*this, trial, history, at_rest);
+  const bool has_strains = is_sound && solution.start();
+  for (std::size_t j = 0; j < rule_.backstress.size(); ++j) {
+    const SymmetricTensor<2, 3> kappa = has_strains ? solution.strain_of_term(j) : SymmetricTensor<2, 3>();
+    for (unsigned int i = 0; i < 6; ++i)
+      numbers.push_back(kappa.access_raw_entry(i));
+  }
+  return numbers;
+}
+
+template <bool has_directions, bool is_thermal>
+void FlowRulePlasticity<has_directions, is_thermal>::remember(const Tensor<2, 3> &F,
+                                                              const std::vector<double> &memory,
+                                                              History &history) const {
+  auto number = memory.begin();
+  std::copy_n(number, flow_->n_state(), history.flow.begin());
+  number += static_cast<std::ptrdiff_t>(flow_->n_state());
+  history.dissipated = *number++;
+  history.temperature_rise = *number++;
+  Trial trial;
+  if (rule_.backstress.empty() || !prepare(F, history, trial))
+    return;
+  const Tensor<2, 3> V = std::exp(trial.log_J / 3.) * Tensor<2, 3>(exponential(trial.strain)),
+                     to_body = dealii::invert(trial.A) * V, to_frame = dealii::transpose(trial.rotation);
+  history.backstress = 0.;
+  for (std::size_t j = 0; j < rule_.backstress.size(); ++j) {
+    SymmetricTensor<2, 3> kappa;
+    for (unsigned int i = 0; i < 6; ++i)
+      kappa.access_raw_entry(i) = *number++;
+    history.backstress += 2. / 3. * rule_.backstress[j].modulus * kappa;
+    history.inverse_metrics[j] = transform(to_body, exponential(2. * transform(to_frame, kappa)));
+  }
+}
+
+template <bool has_directions, bool is_thermal>
 std::optional<double>
 FlowRulePlasticity<has_directions, is_thermal>::flow_slope(const History &history,
                                                            const double temperature) const {
@@ -624,8 +679,9 @@ FlowRulePlasticity<has_directions, is_thermal>::flow_slope(const History &histor
                  rate_factor = at_rest > 0. ? flow_->plastic_work(alpha, history.flow) / at_rest : 1.,
                  theta = rule_.thermal->value_at(alpha, at);
     const auto [theta_slope, theta_hardening] = rule_.thermal->slopes_at(alpha, at);
-    const double softening = rule_.heating * rate_factor * theta_slope * stress * stress;
-    return rate_factor * (theta * (slope + softening) + theta_hardening * stress) +
+    const double of_backstress = described_flow_->stress(alpha) - stress,
+                 heat = rule_.heating * (theta * rate_factor * stress + of_backstress);
+    return rate_factor * (theta * slope + theta_slope * stress * heat + theta_hardening * stress) +
            described_flow_->slope(alpha) - slope;
   } else
     return {};

@@ -156,12 +156,21 @@ VolumetricEnergy read_volumetric_energy(const TypeInput &input, const double she
     throw std::logic_error("unknown type '" + input.text(volumetric_law_key) + "'");
   if (input.is_set(bulk_key) == input.is_set(poisson_key))
     input.reject(bulk_key, "a bulk modulus, or else a 'Poisson ratio': exactly one of them");
-  if (input.is_set(bulk_key))
-    return {type->make(input), input.positive(bulk_key)};
+  const auto bulk_at = [shear](const double poisson) {
+    return 2. * shear * (1. + poisson) / (3. * (1. - 2. * poisson));
+  };
+  if (input.is_set(bulk_key)) {
+    constexpr double rounding = 1e-9;
+    const double bulk = input.positive(bulk_key), most = bulk_at(greatest_poisson_ratio);
+    if (!(bulk <= most * (1. + rounding)))
+      input.reject(bulk_key, "a number up to " + std::to_string(most) +
+                                 ", at which Poisson's ratio is 0.49999: rubber has a finite bulk modulus");
+    return {type->make(input), bulk};
+  }
   const double poisson = input.number(poisson_key);
   if (!(poisson > -1. && poisson <= greatest_poisson_ratio))
     input.reject(poisson_key, "a number > -1 and <= 0.49999: rubber has a finite bulk modulus");
-  return {type->make(input), 2. * shear * (1. + poisson) / (3. * (1. - 2. * poisson))};
+  return {type->make(input), bulk_at(poisson)};
 }
 
 } // namespace

@@ -108,7 +108,7 @@ struct UmatLaw::Call {
     nstatv = static_cast<int>(law.settings().initial_state.size());
     nprops = static_cast<int>(law.settings().constants.size());
     celent = law.settings().element_length;
-    law.write_name(cmname);
+    write_name(law.settings().name, cmname);
     write_tensor(turn(increment.rotation, read_tensor(state_n + Place::stress)), (*arrays)[stress]);
     response.sse = state_n[energies];
     response.spd = state_n[energies + 1];
@@ -167,7 +167,9 @@ bool UmatLaw::perform(Call &call) const {
   const GuardedArrays &arrays = *arrays_;
   if (!check(arrays[Call::stress], 6, "a stress", "STRESS") ||
       !check(arrays[Call::ddsdde], 36, "a tangent", "DDSDDE") ||
-      !check(arrays[Call::statev], arrays.size(Call::statev), "a state variable", "STATEV"))
+      !check(arrays[Call::statev], arrays.size(Call::statev), "a state variable", "STATEV") ||
+      !check(&call.response.sse, 1, "an energy", "SSE") ||
+      !check(&call.response.spd, 1, "an energy", "SPD") || !check(&call.response.scd, 1, "an energy", "SCD"))
     return false;
   accept();
   return true;

@@ -130,19 +130,6 @@ void UserLaw::initialize(double *state) const {
   std::copy(settings_.initial_state.begin(), settings_.initial_state.end(), state + n_own_state);
 }
 
-/// Returns ½ τ : C⁻¹ τ with the initial moduli.
-double UserLaw::elastic_energy(const double *state) const {
-  const Tensor<2, 3> F = read_gradient(state);
-  const SymmetricTensor<2, 3> tau =
-      dealii::determinant(F) * turn(frame(F), read_tensor(state + Place::stress));
-  Matrix6 C;
-  for (unsigned int i = 0; i < 6; ++i)
-    for (unsigned int j = 0; j < 6; ++j)
-      C[i][j] = initial_[i][j] * (i < 3 ? 1. : std::sqrt(2.)) * (j < 3 ? 1. : std::sqrt(2.));
-  const Vector6 kelvin = to_kelvin(tau);
-  return 0.5 * dot(kelvin, LinearSystem6(C).solve(kelvin));
-}
-
 double UserLaw::stored_energy(const Tensor<2, 3> &, double, const double *state) const {
   return has_stored_energy_ ? state[energies] : state[work] - dissipated_energy(state);
 }
@@ -173,16 +160,29 @@ void UserLaw::set_stress(const Tensor<2, 3> &F, const SymmetricTensor<2, 3> &dev
   write_tensor(turn(to_frame, log_strain), state + Place::strain);
   if (plastic_strain_ < n_state())
     state[plastic_strain_] = equivalent_plastic_strain;
-  state[work] = elastic_energy(state);
+  Matrix6 C; // the initial moduli
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int j = 0; j < 6; ++j)
+      C[i][j] = initial_[i][j] * (i < 3 ? 1. : std::sqrt(2.)) * (j < 3 ? 1. : std::sqrt(2.));
+  const Vector6 kelvin = to_kelvin(tau);
+  state[work] = 0.5 * dot(kelvin, LinearSystem6(C).solve(kelvin));
   if (has_stored_energy_)
     state[energies] = state[work];
 }
 
+std::vector<double> UserLaw::memory(const Tensor<2, 3> &, const double *const state) const {
+  return {state + energies, state + n_state()};
+}
+
+void UserLaw::remember(const Tensor<2, 3> &, const std::vector<double> &memory, double *const state) const {
+  std::copy(memory.begin(), memory.end(), state + energies);
+}
+
 Tensor<2, 3> UserLaw::frame(const Tensor<2, 3> &) const { return dealii::unit_symmetric_tensor<3>(); }
 
-void UserLaw::write_name(char (&target)[80]) const {
+void write_name(const std::string &name, char (&target)[80]) {
   std::fill(std::begin(target), std::end(target), ' ');
-  std::copy_n(settings_.name.begin(), std::min(settings_.name.size(), sizeof target), target);
+  std::copy_n(name.begin(), std::min(name.size(), sizeof target), target);
 }
 
 bool UserLaw::refuse(const std::string &what, const bool is_final) const {

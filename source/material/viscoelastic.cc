@@ -364,6 +364,24 @@ void ViscoelasticLaw::set_stress(const Tensor<2, 3> &F, const SymmetricTensor<2,
           state + n_common + n_term * i);
 }
 
+std::vector<double> ViscoelasticLaw::memory(const Tensor<2, 3> &, const double *const state) const {
+  return {state + 6, state + n_state()};
+}
+
+void ViscoelasticLaw::remember(const Tensor<2, 3> &, const std::vector<double> &memory,
+                               double *const state) const {
+  SymmetricTensor<2, 3> missing; // of the stress
+  for (std::size_t i = 0; i < series_.times.size(); ++i)
+    missing += read(state + n_common + n_term * i);
+  std::copy(memory.begin(), memory.end(), state + 6);
+  for (std::size_t i = 0; i < series_.times.size(); ++i)
+    missing -= read(state + n_common + n_term * i);
+  for (std::size_t i = 0; i < series_.times.size(); ++i) {
+    double *const term = state + n_common + n_term * i;
+    write(read(term) + series_.moduli[i] / (1. - series_.lasting_share()) * missing, term);
+  }
+}
+
 std::string ViscoelasticLaw::summary() const {
   const std::string stability = describe_stability(elastic_.isochoric_energy());
   return PointLaw::summary() + " with viscosity" + (stability.empty() ? "" : ", " + stability);

@@ -86,7 +86,7 @@ public:
     points_.assign(4 + n,
                    1); // newer versions of Abaqus have the number of the point and others behind nblock
     points_[0] = static_cast<int>(n);
-    law.write_name(name_);
+    write_name(law.settings().name, name_);
   }
 
   std::size_t size() const { return n_; }

@@ -300,6 +300,8 @@ public:
       const PointState &state = states[q % states.size()];
       compute_distortion(state.tensor, stress[q].deviator);
       stress[q].equivalent_plastic_strain = state.equivalent_plastic_strain;
+      if (flow_ != nullptr)
+        stress[q].memory = flow_->numbers_of(state.flow); // as the memory of all laws that kernels have
     }
     return stress;
   }
@@ -315,15 +317,14 @@ public:
     ElementStress wanted = corners;
     if (storage_.n_points() == 1) {
       wanted[0] = PointStress();
-      for (const PointStress &point : corners) {
-        wanted[0].deviator += 0.125 * point.deviator;
-        wanted[0].equivalent_plastic_strain += 0.125 * point.equivalent_plastic_strain;
-      }
+      for (const PointStress &point : corners)
+        wanted[0].add(1. / n_element_nodes, point);
     }
     std::vector<PointState> states;
     std::vector<double> yield_stress;
     for (const PointStress &point : wanted) {
       states.push_back({0., 0., elastic_tensor(point.deviator), point.equivalent_plastic_strain, {}});
+      std::copy(point.memory.begin(), point.memory.end(), states.back().flow.begin());
       yield_stress.push_back(flow_ != nullptr ? flow_->stress(point.equivalent_plastic_strain) : 0.);
     }
     storage_.set_states(element, displacements, states, yield_stress);

@@ -40,25 +40,29 @@ void transfer_column(std::vector<PointStress> &column, const unsigned int n_thro
   double to_begin = 0.;
   for (unsigned int l = 0; l < n_through; ++l) {
     const double to_end = to_begin + to.weights[l];
-    double covered = 0., from_begin = 0.;
+    double from_begin = 0.;
     for (unsigned int m = 0; m < column.size(); ++m) {
       const double from_end = from_begin + from.weights[m];
-      const double part = std::min(to_end, from_end) - std::max(to_begin, from_begin);
+      const double part = (std::min(to_end, from_end) - std::max(to_begin, from_begin)) / to.weights[l];
       if (part > 0.) {
-        covered += part;
-        result[l].deviator += part * column[m].deviator;
-        result[l].equivalent_plastic_strain += part * column[m].equivalent_plastic_strain;
+        result[l].add(part, column[m]);
       }
       from_begin = from_end;
     }
-    result[l].deviator /= covered;
-    result[l].equivalent_plastic_strain /= covered;
     to_begin = to_end;
   }
   column = result;
 }
 
 } // namespace
+
+void PointStress::add(const double part, const PointStress &other) {
+  deviator += part * other.deviator;
+  equivalent_plastic_strain += part * other.equivalent_plastic_strain;
+  memory.resize(other.memory.size());
+  for (std::size_t k = 0; k < memory.size(); ++k)
+    memory[k] += part * other.memory[k];
+}
 
 const GaussRule &gauss_rule(const unsigned int n_through) {
   static const std::array<GaussRule, all_points_through.size()> rules = [] {

@@ -272,6 +272,20 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       (missing.before > 0 ? "; it is probably missing before line " + std::to_string(missing.before) : ""));
 }
 
+namespace {
+
+/// Returns what to do where no file of materials has this name.
+std::string advise_on_material(const std::string &name) {
+  std::vector<std::string> known;
+  std::error_code ignored;
+  for (const auto &entry :
+       std::filesystem::directory_iterator(find_shipped({"share/billet/materials", "materials"}), ignored))
+    known.push_back("materials/" + entry.path().filename().string());
+  return did_you_mean(name, known) + "; 'billet --list materials' names those of the program";
+}
+
+} // namespace
+
 void SceneFile::include(const std::string &statement, const std::string &where, const std::string &name,
                         Path &path, const std::vector<unsigned int> &files) {
   if (statement.empty())
@@ -287,7 +301,8 @@ void SceneFile::include(const std::string &statement, const std::string &where, 
   }
   std::ifstream stream(included);
   if (!stream || std::filesystem::is_directory(included))
-    fail(where + ": the included file '" + included + "' cannot be read");
+    fail(where + ": the included file '" + included + "' cannot be read" +
+         (statement.compare(0, materials.size(), materials) == 0 ? advise_on_material(statement) : ""));
   scan_file(stream, included, path, files);
 }
 

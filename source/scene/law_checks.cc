@@ -56,6 +56,32 @@ const DiagnosticKind molten_at_start(
     "thermal factor.",
     "Check 'Temperature' against 'Melting temperature': both have the same unit and zero");
 
+const DiagnosticKind material_not_mirrored(
+    "material-not-mirrored", Severity::warning,
+    "The plastic flow of a body is not symmetric about a symmetry plane, or about the sides of its section. "
+    "The material axes are neither along the plane nor normal to it. The other half would not be the mirror "
+    "image of the body, and forces are wrong.",
+    "Choose 'Axes' of the anisotropy along the normal of the plane, or compute the whole body");
+
+/// Returns the norm of the difference of the stresses at a yielding point and at its mirror image about a
+/// plane, over that of the stress; nothing if the law refuses the strains.
+std::optional<double> find_asymmetry(const PointLaw &law, const double temperature, const double dt,
+                                     const dealii::Tensor<1, 3> &normal) {
+  const double strain = 10. * law.flow_stress()->stress(0.) / (3. * law.elastic().shear);
+  const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
+  // All of its components differ, so that no anisotropy is hidden.
+  const dealii::SymmetricTensor<2, 3> E(
+      dealii::Tensor<2, 3>({{1., 0.5, 0.4}, {0.5, -0.3, 0.7}, {0.4, 0.7, -0.6}}));
+  const dealii::Tensor<2, 3> F = identity + strain * E,
+                             R = identity - 2. * dealii::outer_product(normal, normal);
+  LawPoint point(law, temperature), image(law, temperature);
+  const auto stress = point.evaluate(F, dt), mirrored = image.evaluate(R * F * R, dt);
+  if (!stress || !mirrored || !(law.equivalent_plastic_strain(point.state().data()) > 0.))
+    return {};
+  const auto back = dealii::symmetrize(R * dealii::Tensor<2, 3>(*mirrored) * R);
+  return (dealii::deviator(*stress) - dealii::deviator(back)).norm() / dealii::deviator(*stress).norm();
+}
+
 /// Heating of a point that flows, at the start of the run.
 struct Heating {
   double per_energy; ///< rise of the temperature by dissipated energy per volume [temperature/stress]
@@ -173,6 +199,31 @@ DiagnosticList check_heating(const Scene &scene) {
            << " of that without thermal factor";
       diagnostics.push_back(
           Diagnostic(molten_at_start, text.str()).body(body.name).measure("flow stress", heating->strength));
+    }
+  }
+  return diagnostics;
+}
+
+DiagnosticList check_mirrored_laws(const Scene &scene) {
+  constexpr double allowed = 1e-3, part = 0.01; // `part`: of the end time
+  DiagnosticList diagnostics;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const Body &body = scene.bodies()[b];
+    if (!body.law->has_plasticity())
+      continue;
+    for (const auto &plane : scene.parameters().bodies[b].symmetry_planes.value) {
+      const auto asymmetry =
+          find_asymmetry(*body.law, body.temperature != nullptr ? body.temperature->value(0.) : 0.,
+                         part * scene.parameters().time_stepping.end_time, plane.normal);
+      if (!asymmetry || *asymmetry <= allowed)
+        continue;
+      std::ostringstream text;
+      text.precision(2);
+      text << "The material is not symmetric about '" << plane.text
+           << "': the stress of a mirrored strain differs by " << 100. * *asymmetry << " %";
+      diagnostics.push_back(
+          Diagnostic(material_not_mirrored, text.str()).body(body.name).measure("asymmetry", *asymmetry));
+      break;
     }
   }
   return diagnostics;

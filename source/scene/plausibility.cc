@@ -448,6 +448,7 @@ DiagnosticList check_plausibility(const Scene &scene, const Triangulation<3> &me
     check_yield_stress(body, diagnostics);
   append(diagnostics, check_user_laws(scene));
   append(diagnostics, check_heating(scene));
+  append(diagnostics, check_mirrored_laws(scene));
   append(diagnostics, check_course(scene));
   append(diagnostics, check_turning_supports(scene, mesh, communicator));
   check_places(scene, start, diagnostics);

@@ -415,9 +415,14 @@ std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &s
                      (law == nullptr ? format.elasticity : format.element) + "'");
   const ForeignHistory history{reader, of, discretization.elements(body), format, *element, law};
   const auto keys = element_keys(discretization, body);
-  if (format.method == explicit_method)
-    return stress_of_explicit(history, keys, LocalNodes(discretization), body, displacements, t);
-  return stress_of_implicit(history, keys, displacements, t);
+  auto stresses = format.method == explicit_method
+                      ? stress_of_explicit(history, keys, LocalNodes(discretization), body, displacements, t)
+                      : stress_of_implicit(history, keys, displacements, t);
+  if (law != of.law) // which remembers other things
+    for (ElementStress &element_stress : stresses)
+      for (PointStress &point : element_stress)
+        point.memory.clear();
+  return stresses;
 }
 
 std::vector<std::string> group_names(StateReader &reader, const std::string &kind) {

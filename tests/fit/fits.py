@@ -192,6 +192,10 @@ class Command(unittest.TestCase):
             ("uniaxial_stretch,uniaxial_stress\n1.5,x\n", "row 1, uniaxial: 'x' is no number"),
             ("uniaxial_stretch,uniaxial_stress\n-1,2\n", "must be > 0"),
             ("uniaxial_stretch,uniaxial_stress\n1,0\n", "no points"),
+            ("uniaxial_stretch;uniaxial_stress\n1,5;0,2\n", "its cells are separated by ';'"),
+            ("uniaxial_stretch,uniaxial_stress\n1.5,0.2,7\n", "row 1 has more cells"),
+            ("uniaxial_stretch,uniaxial_stress\n1.5,-0.2\n", "row 1, uniaxial: the stress -0.2 at"),
+            ("uniaxial_stretch,uniaxial_stress\n1,0.05\n", "without stress the stretch is 1"),
         ):
             self.file.write_text(text)
             with self.assertRaises(UserError) as caught:

@@ -54,6 +54,11 @@ public:
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                        double equivalent_plastic_strain) const;
 
+  /// Returns what PointLaw::memory() says: state of the flow stress, dissipation, temperature rise, and κ_j
+  /// in space.
+  std::vector<double> memory(const dealii::Tensor<2, 3> &F, const History &history) const;
+  void remember(const dealii::Tensor<2, 3> &F, const std::vector<double> &memory, History &history) const;
+
   std::vector<StateField> fields() const;
   void store(const History &history, double *numbers) const;
   History restore(const double *numbers) const;

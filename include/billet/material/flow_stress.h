@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace billet {
 
@@ -62,6 +63,10 @@ public:
   virtual PlasticIncrement solve(double q, double m, double alpha_n, double dt) const = 0;
 
   virtual std::size_t n_state() const { return 0; }
+  /// Returns the numbers of a state that are in use.
+  std::vector<double> numbers_of(const State &state) const {
+    return {state.begin(), state.begin() + static_cast<std::ptrdiff_t>(n_state())};
+  }
   /// Overwrites `state` with the state at the end of a step.
   virtual void advance(double alpha_n, double delta_alpha, double dt, const State &state_n,
                        State &state) const {

@@ -140,6 +140,13 @@ public:
     result.push_back({flow_state_name, flow_->n_state()});
     return result;
   }
+  /// Returns the state of the flow stress, see PointLaw::memory().
+  std::vector<double> memory(const dealii::Tensor<2, 3> &, const History &history) const {
+    return flow_->numbers_of(history.flow);
+  }
+  static void remember(const dealii::Tensor<2, 3> &, const std::vector<double> &memory, History &history) {
+    std::copy(memory.begin(), memory.end(), history.flow.begin());
+  }
   void store(const History &history, double *numbers) const {
     HypoelasticElasticity::store(history, numbers);
     numbers[15] = history.equivalent_plastic_strain;

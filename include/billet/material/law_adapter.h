@@ -11,12 +11,39 @@
 
 namespace billet {
 
+/// Which of its optional members a value type has.
+namespace adapter {
+
+template <class L> constexpr auto has_memory(int) -> decltype(static_cast<void>(&L::memory), bool()) {
+  return true;
+}
+template <class L> constexpr bool has_memory(long) { return false; }
+
+template <class L> constexpr auto has_flow_slope(int) -> decltype(static_cast<void>(&L::flow_slope), bool()) {
+  return true;
+}
+template <class L> constexpr bool has_flow_slope(long) { return false; }
+
+template <class L>
+constexpr auto has_own_bound(int) -> decltype(static_cast<void>(&L::bound_stiffness), bool()) {
+  return true;
+}
+template <class L> constexpr bool has_own_bound(long) { return false; }
+
+template <class L> constexpr auto finds_temperature(int) -> decltype(L::depends_on_temperature) {
+  return L::depends_on_temperature;
+}
+template <class L> constexpr bool finds_temperature(long) { return false; }
+
+} // namespace adapter
+
 /// PointLaw made from a value type such as HenckyElasticity, which has
 ///   Moduli, has_plasticity, is_rate_form, has_symmetric_moduli, has_exact_dissipation
 ///   History                        its state, with default values of the undeformed point
 ///   fields(), store(), restore()   names of that state, and the state as numbers; none if History is empty
 ///   update(), elastic_energy(), plastic_work(), equivalent_plastic_strain(), elastic()
 ///   find_history()                 unless History is empty
+///   memory(), remember()           if the history has more than stress and equivalent plastic strain
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   depends_on_temperature         true, if it reads PointStep::temperature
@@ -36,16 +63,21 @@ public:
   std::string name() const override { return name_; }
   const ElasticModuli &elastic() const override { return law_.elastic(); }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override {
-    return find_bound(law_, tau, 0);
+    if constexpr (adapter::has_own_bound<Law>(0))
+      return law_.bound_stiffness(tau);
+    else
+      return PointLaw::bound_stiffness(tau);
   }
-  bool has_bound_of_stiffness() const override { return Law::has_plasticity || has_own_bound<Law>(0); }
+  bool has_bound_of_stiffness() const override {
+    return Law::has_plasticity || adapter::has_own_bound<Law>(0);
+  }
   std::shared_ptr<const FlowStress> shared_flow_stress() const override {
     if constexpr (Law::has_plasticity)
       return law_.flow_stress();
     else
       return nullptr;
   }
-  bool depends_on_temperature() const override { return finds_temperature<Law>(0); }
+  bool depends_on_temperature() const override { return adapter::finds_temperature<Law>(0); }
   bool has_symmetric_moduli() const override { return Law::has_symmetric_moduli; }
   bool is_rate_form() const override { return Law::is_rate_form; }
   bool has_exact_dissipation() const override { return Law::has_exact_dissipation; }
@@ -97,6 +129,23 @@ public:
       law_.store(law_.find_history(F, deviator, equivalent_plastic_strain), state);
   }
 
+  std::vector<double> memory([[maybe_unused]] const dealii::Tensor<2, 3> &F,
+                             [[maybe_unused]] const double *state) const override {
+    if constexpr (adapter::has_memory<Law>(0))
+      return law_.memory(F, restore(state));
+    else
+      return {};
+  }
+  void remember([[maybe_unused]] const dealii::Tensor<2, 3> &F,
+                [[maybe_unused]] const std::vector<double> &memory,
+                [[maybe_unused]] double *state) const override {
+    if constexpr (adapter::has_memory<Law>(0)) {
+      History history = restore(state);
+      law_.remember(F, memory, history);
+      law_.store(history, state);
+    }
+  }
+
   std::optional<double>
   min_wave_stiffness([[maybe_unused]] const std::array<double, 3> &stretches) const override {
     if constexpr (Law::has_plasticity)
@@ -105,8 +154,12 @@ public:
       return law_.min_wave_stiffness(stretches);
   }
 
-  std::optional<double> flow_slope(const double *state, const double temperature) const override {
-    return find_flow_slope(law_, state, temperature, 0);
+  std::optional<double> flow_slope([[maybe_unused]] const double *state,
+                                   [[maybe_unused]] const double temperature) const override {
+    if constexpr (adapter::has_flow_slope<Law>(0))
+      return law_.flow_slope(restore(state), temperature);
+    else
+      return {};
   }
 
   std::optional<LaneLaw> lane_law() const override { return find_lane_law<Law>(0); }
@@ -116,35 +169,6 @@ private:
     return L::lane_law;
   }
   template <class L> static std::optional<LaneLaw> find_lane_law(long) { return {}; }
-
-  template <class L>
-  auto find_bound(const L &law, const dealii::SymmetricTensor<2, 3> &tau, int) const
-      -> decltype(law.bound_stiffness(tau)) {
-    return law.bound_stiffness(tau);
-  }
-  template <class L> double find_bound(const L &, const dealii::SymmetricTensor<2, 3> &tau, long) const {
-    return PointLaw::bound_stiffness(tau);
-  }
-  template <class L>
-  static constexpr auto has_own_bound(int)
-      -> decltype(std::declval<const L &>().bound_stiffness(dealii::SymmetricTensor<2, 3>()), bool()) {
-    return true;
-  }
-  template <class L> static constexpr bool has_own_bound(long) { return false; }
-
-  template <class L>
-  auto find_flow_slope(const L &law, const double *state, const double temperature, int) const
-      -> decltype(law.flow_slope(History(), temperature)) {
-    return law.flow_slope(restore(state), temperature);
-  }
-  template <class L> std::optional<double> find_flow_slope(const L &, const double *, double, long) const {
-    return {};
-  }
-
-  template <class L> static constexpr auto finds_temperature(int) -> decltype(L::depends_on_temperature) {
-    return L::depends_on_temperature;
-  }
-  template <class L> static constexpr bool finds_temperature(long) { return false; }
 
   History restore([[maybe_unused]] const double *state) const {
     if constexpr (has_history)

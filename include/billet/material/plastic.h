@@ -30,6 +30,13 @@ public:
             {"equivalent plastic strain", 1},
             {flow_state_name, flow_->n_state()}};
   }
+  /// Returns the state of the flow stress, see PointLaw::memory().
+  std::vector<double> memory(const dealii::Tensor<2, 3> &, const History &history) const {
+    return flow_->numbers_of(history.flow);
+  }
+  static void remember(const dealii::Tensor<2, 3> &, const std::vector<double> &memory, History &history) {
+    std::copy(memory.begin(), memory.end(), history.flow.begin());
+  }
   void store(const History &history, double *numbers) const {
     for (unsigned int i = 0; i < 6; ++i)
       numbers[i] = history.inverse_plastic_metric.access_raw_entry(i);

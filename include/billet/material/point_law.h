@@ -109,6 +109,14 @@ public:
   /// below the yield stress.
   virtual void set_stress(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                           double equivalent_plastic_strain, double *state) const = 0;
+  /// Returns what a state at F has beside its stress and its equivalent plastic strain, such as backstress.
+  /// The numbers may be averaged over points; remember() takes them.
+  virtual std::vector<double> memory(const dealii::Tensor<2, 3> & /*F*/, const double * /*state*/) const {
+    return {};
+  }
+  /// Completes a state from set_stress() at F by a memory() of this law, which may be that of other points.
+  virtual void remember(const dealii::Tensor<2, 3> & /*F*/, const std::vector<double> & /*memory*/,
+                        double * /*state*/) const {}
 
   /// Returns the minimum stiffness of plane waves over the shear modulus at these principal stretches, (M7)
   /// of doc/theory.md; nothing if the law cannot compute it. If it is negative, ellipticity is lost and

@@ -25,6 +25,9 @@ struct UserLawSettings {
   std::string idle_subroutines; ///< names of subroutines in the library that are not called
 };
 
+/// Writes the name of a material as Fortran has it, with spaces behind.
+void write_name(const std::string &name, char (&target)[80]);
+
 /// Base of the laws of material subroutines. The state of a point has the deformation gradient, the stress,
 /// the strain, energies, the work, the clock of the last step and a bound of the moduli, and then the state
 /// variables. Energies are (U5) of doc/theory.md. A shorter step follows if the subroutine returns numbers
@@ -59,6 +62,10 @@ public:
   /// The pressure is κ ln J. State variables are initial, except for the equivalent plastic strain.
   void set_stress(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                   double equivalent_plastic_strain, double *state) const override;
+  /// Returns energies, clock, bound of moduli and state variables.
+  std::vector<double> memory(const dealii::Tensor<2, 3> &F, const double *state) const override;
+  void remember(const dealii::Tensor<2, 3> &F, const std::vector<double> &memory,
+                double *state) const override;
   std::optional<double> min_wave_stiffness(const std::array<double, 3> &) const override { return {}; }
 
   const LawRefusal &refusal() const override { return refusal_; }
@@ -101,8 +108,6 @@ protected:
   void symmetrise(SpatialModuli &C) const;
   /// Returns the rotation between the frame of the stress in the state and space at F.
   virtual dealii::Tensor<2, 3> frame(const dealii::Tensor<2, 3> &F) const;
-  /// Writes name and padding of the material.
-  void write_name(char (&target)[80]) const;
 
   /// Calls the subroutine, guarded. Returns false and sets the refusal if it does not return.
   bool call(void (*function)(void *), void *data) const;
@@ -114,8 +119,6 @@ protected:
   void accept() const;
 
 private:
-  double elastic_energy(const double *state) const;
-
   const char *kind_;
   UserLawSettings settings_;
   std::string title_;

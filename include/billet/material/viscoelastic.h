@@ -54,6 +54,10 @@ public:
   double equivalent_plastic_strain(const double *) const override { return 0.; }
   void set_stress(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                   double equivalent_plastic_strain, double *state) const override;
+  std::vector<double> memory(const dealii::Tensor<2, 3> &F, const double *state) const override;
+  /// Keeps the stress: the terms share what is missing by their moduli.
+  void remember(const dealii::Tensor<2, 3> &F, const std::vector<double> &memory,
+                double *state) const override;
   /// Returns that of a fast deformation from rest.
   std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const override {
     return elastic_.min_wave_stiffness(stretches);

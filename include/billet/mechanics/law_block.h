@@ -248,6 +248,8 @@ public:
       if (update(reference, kinematics, q, at_rest_, state, scratch_.data(), stress[q].deviator, nullptr))
         stress[q].deviator = dealii::deviator(stress[q].deviator);
       stress[q].equivalent_plastic_strain = law_.equivalent_plastic_strain(state);
+      stress[q].memory =
+          law_.memory(Element::template deformation<Form::is_rate_form>(reference, kinematics, q), state);
     }
     std::fill(stress.begin() + n_points, stress.end(), stress[n_points - 1]);
     return stress;
@@ -278,14 +280,14 @@ public:
       const unsigned int n_shared = static_cast<unsigned int>(stress.size()) / n_points;
       for (unsigned int q = 0; q < n_points; ++q) {
         PointStress mean;
-        for (unsigned int p = q * n_shared; p < (q + 1) * n_shared; ++p) {
-          mean.deviator += stress[p].deviator / n_shared;
-          mean.equivalent_plastic_strain += stress[p].equivalent_plastic_strain / n_shared;
-        }
+        for (unsigned int p = q * n_shared; p < (q + 1) * n_shared; ++p)
+          mean.add(1. / n_shared, stress[p]);
         double *state = state_of(state_n_, element, q);
+        const auto &F = Element::template deformation<Form::is_rate_form>(reference, kinematics, q);
         law_.initialize(state);
-        law_.set_stress(Element::template deformation<Form::is_rate_form>(reference, kinematics, q),
-                        mean.deviator, mean.equivalent_plastic_strain, state);
+        law_.set_stress(F, mean.deviator, mean.equivalent_plastic_strain, state);
+        if (!mean.memory.empty())
+          law_.remember(F, mean.memory, state);
       }
     }
     if constexpr (Element::is_stabilised && keeps_element_history)

@@ -43,10 +43,15 @@ std::optional<ThicknessAxis> find_thickness_axis(const ElementVectors &positions
 /// is the thickness direction. Node a of the rotated brick is node turn_corners(axis)[a] of the brick.
 std::array<unsigned int, n_element_nodes> turn_corners(const ThicknessAxis &axis);
 
-/// State of a material point, independent of its law and kinematics; sufficient to continue with others.
+/// State of a material point, independent of its kinematics and, without its memory, of its law; sufficient
+/// to continue with others.
 struct PointStress {
   dealii::SymmetricTensor<2, 3> deviator; ///< deviator of the Kirchhoff stress [stress]
   double equivalent_plastic_strain = 0.;
+  std::vector<double> memory; ///< PointLaw::memory(); empty for other laws
+
+  /// Adds a part of another state to this one.
+  void add(double part, const PointStress &other);
 };
 
 /// States of the points of a brick. With two points through each direction they are in the order of the

@@ -16,6 +16,9 @@ DiagnosticList check_user_laws(const Scene &scene);
 /// Measures how much plastic work heats each body, and warns where units cannot fit each other.
 DiagnosticList check_heating(const Scene &scene);
 
+/// Warns of materials that are not symmetric about a symmetry plane of their body.
+DiagnosticList check_mirrored_laws(const Scene &scene);
+
 /// Returns the messages of material subroutines as messages of the program.
 DiagnosticList describe(const std::vector<SubroutineMessage> &messages);
 

@@ -344,6 +344,18 @@ class Flow:
             lambda t: t - temperature - rise * thermal_factor(self.k, t), temperature, temperature + rise
         )
 
+    def work_of_backstress(self, backs: list[float], gain: float, da: float) -> float:
+        """Work on a plastic strain `gain` along, while the equivalent one grows by `da`: ∫ x dε of
+        dx = C dε - g x dα."""
+        rate, work = gain / da, 0.0
+        for (c, g), x in zip(self.terms, backs):
+            if g > 0:
+                lost = -math.expm1(-g * da) / g
+                work += rate * (x * lost + c * rate / g * (da - lost))
+            else:
+                work += rate * (x * da + 0.5 * c * rate * da * da)
+        return work
+
     def bar(self, strains: Steps, times: Steps) -> tuple[float, Three, float, float]:
         """(stress, strains, equivalent plastic strain, temperature) at the last of the strains, reached at
         these times from 0 on; each step is monotone."""
@@ -373,7 +385,11 @@ class Flow:
             if after(0.0)[0] > 0:
                 most = abs(e * (strain - plastic) - sum(backs)) * self.strength / e
                 da = solve(lambda x: after(x)[0], 0.0, most)
-            _, plastic, backs, temperature = after(da)
+            old = plastic
+            _, plastic, new, temperature = after(da)
+            if k.heat and da > 0:  # heats at the end of the step
+                temperature += HEATS / capacity(k, e) * self.work_of_backstress(backs, plastic - old, da)
+            backs = new
             alpha += da
             stress = e * (strain - plastic)
         elastic = stress / e

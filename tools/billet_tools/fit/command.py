@@ -27,9 +27,12 @@ def main(arguments: Sequence[str]) -> int:
         print(f"initial shear modulus {fit.law.shear_modulus():.4g}")
         for warning in fit.law.warn():
             print(f"# {warning}")
-        if not fit.law.shear_modulus() > 0:
-            print("# billet refuses this law: its initial shear modulus is not positive")
-        print(fit.law.paste(options.poisson) + "\n")
+        if fit.law.shear_modulus() > 0:
+            print(fit.law.paste(options.poisson) + "\n")
+        else:
+            print("# no lines for a scene: billet refuses an initial shear modulus that is not positive\n")
+    if not any(fit.law.shear_modulus() > 0 for fit in fits):
+        raise UserError(f"{file}: no law with a positive initial shear modulus fits these data")
     picture = Path(options.picture) if options.picture else file.with_suffix(".png")
     draw(data, fits, picture)
     print(f"# picture: {picture}")

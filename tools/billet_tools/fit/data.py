@@ -48,8 +48,14 @@ def read_data(file: Path) -> Data:
         lines = [line for line in file.read_text().splitlines() if line.strip() and line.strip()[0] != "#"]
     except (OSError, UnicodeDecodeError) as error:
         raise UserError(f"{file}: cannot be read: {error}") from None
-    rows = list(csv.DictReader(lines, skipinitialspace=True))
-    columns = [name.strip() for name in rows[0]] if rows else []
+    if lines and ";" in lines[0]:
+        raise UserError(f"{file}: its cells are separated by ';'; use commas, and points in numbers")
+    reader = csv.DictReader(lines, skipinitialspace=True)
+    rows = list(reader)
+    columns = [name.strip() for name in reader.fieldnames or ()]
+    for number, row in enumerate(rows, 1):
+        if None in row:
+            raise UserError(f"{file}: row {number} has more cells than there are columns")
     unknown = [
         name
         for name in columns
@@ -66,7 +72,7 @@ def read_data(file: Path) -> Data:
             raise UserError(f"{file}: {mode} has not one stretch and one stress; " + HELP)
         pairs = []
         for number, row in enumerate(rows, 1):
-            cells = {name.strip(): (cell or "").strip() for name, cell in row.items() if name is not None}
+            cells = {name.strip(): (cell or "").strip() for name, cell in row.items()}
             first, second = cells[f"{mode}_{kinds[0]}"], cells[f"{mode}_stress"]
             if not first and not second:
                 continue
@@ -74,7 +80,13 @@ def read_data(file: Path) -> Data:
             stretch = parse_cell(first, place) + (1 if kinds[0] == "strain" else 0)
             if not stretch > 0:
                 raise UserError(f"{place}: a stretch must be > 0")
-            pairs.append((stretch, parse_cell(second, place)))
+            stress = parse_cell(second, place)
+            if stress * (stretch - 1) < 0 or (stretch == 1 and stress != 0):
+                raise UserError(
+                    f"{place}: the stress {stress:g} at a stretch of {stretch:g}; tension has stretches above"
+                    " 1, and without stress the stretch is 1. Check columns, signs and the zero of the strain"
+                )
+            pairs.append((stretch, stress))
         points = numpy.array(sorted(pair for pair in pairs if pair[0] != 1.0))
         if len(points) > 0:
             data[mode] = Points(points[:, 0], points[:, 1])
