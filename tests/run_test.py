@@ -55,8 +55,8 @@ def run(folder: Path, command: Sequence[str]) -> int:
     # up to Open MPI 5, from 6 on
     variables = {"OMPI_MCA_hwloc_base_binding_policy": "none", "PRTE_MCA_bindto": "none"}
     if not any(Path(word).name.startswith("mpi") for word in command):
-        # As the program does by itself: one process needs no network, whose search takes half a second.
-        variables |= {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
+        # As the program does by itself: one process needs no network, whose search takes time.
+        variables |= {"OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
     with open("stdout", "wb") as output:
         return subprocess.run(
             ["bash", "-c", '. "$0" && exec "$@"', str(ENVIRONMENT), *command],

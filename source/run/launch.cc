@@ -129,7 +129,6 @@ void prepare_for_one_process() {
   if (is_launched())
     return;
   constexpr int keep = 0;                               // what the user has set
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", keep); // no launcher beside it
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_btl", "self", keep);
 }

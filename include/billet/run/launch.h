@@ -14,8 +14,9 @@ namespace billet {
 /// as SIGUSR1 does, with a checkpoint. To be called before MPI starts.
 std::optional<int> launch(const std::vector<std::string> &arguments);
 
-/// Lets a process that no launcher started begin MPI without networks, which takes half the time of
-/// `billet --version`. Does nothing else. To be called before MPI starts; other MPIs than Open MPI ignore it.
+/// Lets a process that no launcher started begin MPI without networks: the search for these takes a
+/// third of the time of `billet --version`. To be called before MPI starts; other MPIs than Open MPI ignore
+/// it.
 void prepare_for_one_process();
 
 /// Returns the exit code of a process: `code`, or 0 if launch() reads the code from its file. `is_first`: on
