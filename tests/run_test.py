@@ -57,6 +57,7 @@ def run(folder: Path, command: Sequence[str]) -> int:
     if not any(Path(word).name.startswith("mpi") for word in command):
         # As the program does by itself: one process needs no network, whose search takes half a second.
         variables |= {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
+        variables |= {"OMPI_MCA_orte_create_session_dirs": "0", "OMPI_MCA_sharedfp": "individual"}
     with open("stdout", "wb") as output:
         return subprocess.run(
             ["bash", "-c", '. "$0" && exec "$@"', str(ENVIRONMENT), *command],

@@ -132,6 +132,9 @@ void prepare_for_one_process() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", keep); // no launcher beside it
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_btl", "self", keep);
+  // Isolated processes of a machine would share one folder, which the first to end takes from the others.
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
+  setenv("OMPI_MCA_sharedfp", "individual", keep); // needs no such folder to write files
 }
 
 int report_exit_code(const int code, const bool is_first) {

@@ -521,6 +521,15 @@ def _() -> None:
         says(f"'{option[0]}' is not allowed here", said)
 
 
+@check("a run on one process needs no temporary folder, which another run could take away")
+def _() -> None:
+    write_text("alone.prm", BLOCK)
+    unset = [word for name in ("orte_create_session_dirs", "sharedfp") for word in ("-u", f"OMPI_MCA_{name}")]
+    ended = run("env", *unset, "TMPDIR=/proc/none", *program.on(1, "alone.prm"), environment={})
+    equal("exit code", ended.code, 0)
+    require(not ended.errors, ended.errors)
+
+
 # --- what shells know ----------------------------------------------------------------------------
 
 
