@@ -331,4 +331,16 @@ def _() -> None:
     require(n_files > 8, f"only {n_files} files")
 
 
+@check("tutorials have the steps and iterations of this program")
+def _() -> None:
+    _, *rows = rows_of(str(HERE.parents[1] / "doc/tutorials/values.csv"))
+    kept = {row[0]: row[2] for row in rows if row[1] == "steps and Newton iterations"}
+    for name, folder in (("springback", "run_bending"), ("forging", "results/billet_upsetting")):
+        head, *rows = rows_of(f"{folder}/history.csv")
+        last = dict(zip(head, map(float, rows[-1])))
+        n_steps, n_iterations = map(float, kept[name].split(" and "))
+        near(f"steps of {name}", last["step"], n_steps, 0.1)  # other machines round otherwise
+        near(f"iterations of {name}", last["total_iterations"], n_iterations, 0.1)
+
+
 sys.exit(check.finish())
