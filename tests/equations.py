@@ -78,8 +78,9 @@ def check_contents(equations: Equations) -> list[str]:
         stated = RANGE.search(path.read_text(encoding="utf-8"))
         if not stated or not number_of(stated) in (labels[0][1] + labels[-1][1], labels[0][1]):
             errors.append(f"{path}: lacks a line 'Equations ({labels[0][1]}) to ({labels[-1][1]}).'")
-        if f"({THEORY.name}/{path.name})" not in contents:
-            errors.append(f"{CONTENTS}: has no link to {THEORY.name}/{path.name}")
+        row = f"({THEORY.name}/{path.name}) | ({labels[0][1]}) to ({labels[-1][1]}) |"
+        if row not in contents:
+            errors.append(f"{CONTENTS}: the table of chapters lacks '{row}'")
     return errors
 
 

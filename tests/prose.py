@@ -8,8 +8,8 @@ sentence more than 25 words, no paragraph more than five sentences. Tables, code
 
 Words are what stands between blanks, per cent and words of code within a line among them, but no operators. A
 formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
-one. Cells of tables, also of those in lists, have no more than 25 words between semicolons, but for tables of
-results, which have messages of the program.
+one. Tables have a head. Their cells, also of those in lists, have no more than 25 words between semicolons,
+but for tables of results, which have messages of the program.
 
 FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
 """
@@ -33,6 +33,7 @@ WITH_MESSAGES = ("doc/results/", "doc/messages.md")  # --program checks those
 FENCE = re.compile(r"\s*(`{3,}|~{3,}|\$\$)")
 ITEM = re.compile(r"(\s*)(?:[-*+]|\d+[.)])\s+(.*)")
 SKIPPED = re.compile(r"\s*(?:#|\||<!--|:::|\(\S+\)=$|\[\S+\]: |-{3,}$)")
+RULE = re.compile(r"\s*\|(?:\s*:?-+:?\s*\|)+\s*$")
 ABBREVIATION = re.compile(
     r"\b(?:e\.g|i\.e|cf|ch|vol|no|pp?|eds?|eqs?|figs?|sec|vs|al|st|approx)\.$", re.IGNORECASE
 )
@@ -147,15 +148,21 @@ def paragraphs_of(text: str) -> list[Paragraph]:
     return found
 
 
-def faults_of_cells(text: str) -> list[Fault]:
-    """Returns cells of tables with too many words between semicolons."""
+def faults_of_tables(text: str) -> list[Fault]:
+    """Returns tables without a head, and cells with too many words between semicolons."""
     faults = []
     fence = ""
-    for number, line in enumerate(text.splitlines(), 1):
+    was_row = False
+    lines = [*text.splitlines(), ""]
+    for number, line in enumerate(lines[:-1], 1):
         opened = FENCE.match(line)
         if opened and (not fence or opened[1].startswith(fence)):
             fence = "" if fence else opened[1]
-        if fence or not line.lstrip().startswith("|"):
+        is_row = not fence and line.lstrip().startswith("|")
+        if is_row and not was_row and not RULE.match(lines[number]):
+            faults.append(Fault(number, "a table without a head, which no site shows as one"))
+        was_row = is_row
+        if not is_row:
             continue
         for cell in plain(line).split("|"):
             faults += [
@@ -245,8 +252,8 @@ def check_pages(names: list[str]) -> int:
     n_errors = 0
     for name in names:
         text = (ROOT / name).read_text(encoding="utf-8")
-        cells = [] if name.startswith(WITH_MESSAGES) else faults_of_cells(text)
-        for fault in sorted(faults_of(text) + cells):
+        tables = [] if name.startswith(WITH_MESSAGES) else faults_of_tables(text)
+        for fault in sorted(faults_of(text) + tables):
             print(f"{name}:{fault.line}: {fault.what}")
             n_errors += 1
     return n_errors
@@ -273,13 +280,15 @@ SAMPLES: tuple[tuple[str, list[str]], ...] = (
     ("It is `" + "code " * 13 + "`\nand 2 % = " + "word " * 9 + "\n", ["27 words"]),
     ("It is `code. code` of 2 %. Then it is `a | b`.\n", []),
 )
-CELLS: tuple[tuple[str, int], ...] = (
-    ("- item\n\n  | a | " + "word " * 26 + "|\n", 1),
-    ("| `" + "code " * 14 + "` " + "word " * 12 + "|\n", 1),
-    ("| a | " + "word " * 26 + "|\n", 1),
-    ("| " + "word " * 20 + "| " + "word " * 20 + "|\n", 0),
-    ("| " + "word " * 20 + "one; two " + "word " * 20 + "|\n", 0),
+TABLES: tuple[tuple[str, int], ...] = (
+    ("- item\n\n  | a | b |\n  |---|:-:|\n  | a | " + "word " * 26 + "|\n", 1),
+    ("| `" + "code " * 14 + "` " + "word " * 12 + "|\n|---|\n", 1),
+    ("| a | b |\n| --- | --- |\n| a | " + "word " * 26 + "|\n", 1),
+    ("| " + "word " * 20 + "| " + "word " * 20 + "|\n|---|---|\n", 0),
+    ("| " + "word " * 20 + "one; two " + "word " * 20 + "|\n|---|\n", 0),
     ("```\n| " + "word " * 26 + "|\n```\n", 0),
+    ("| a |\n|---|\n| b |\n\n| c |\n", 1),
+    ("| a |\n| b |\n", 1),
 )
 
 
@@ -291,11 +300,11 @@ def self_check() -> int:
         if len(faults) != len(expected) or not all(f.startswith(e) for f, e in zip(faults, sorted(expected))):
             print(f"{text[:40]!r}: found {faults}, expected {expected}")
             n_errors += 1
-    for text, n_expected in CELLS:
-        if len(faults_of_cells(text)) != n_expected:
-            print(f"{text[:40]!r}: found {faults_of_cells(text)}, expected {n_expected}")
+    for text, n_expected in TABLES:
+        if len(faults_of_tables(text)) != n_expected:
+            print(f"{text[:40]!r}: found {faults_of_tables(text)}, expected {n_expected}")
             n_errors += 1
-    print(f"{len(SAMPLES) + len(CELLS)} samples, {n_errors} errors")
+    print(f"{len(SAMPLES) + len(TABLES)} samples, {n_errors} errors")
     return n_errors
 
 

@@ -171,8 +171,13 @@ class Insertions:
         raise SystemExit("no table of safe ranges in results/extremes.md")
 
     def _insert_changes(self, page: str) -> str:
-        """Shows CHANGELOG.md."""
-        return self._from_root("CHANGELOG.md")
+        """Shows CHANGELOG.md, and the news that become its lines at the next release, latest first."""
+        news = []
+        for file in sorted((self._root / "doc/news").glob("20*.md"), reverse=True):
+            text = re.sub(r"^#", "###", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
+            news.append(text.strip().replace("](../", "]("))
+        head = "## News since the last line of this list"
+        return "\n\n".join([self._from_root("CHANGELOG.md").rstrip(), head, *news])
 
     def _insert_contributing(self, page: str) -> str:
         """Shows CONTRIBUTING.md, and CODE_OF_CONDUCT.md as its last chapter."""

@@ -63,7 +63,8 @@ std::vector<std::string> FieldWriter::groups() const {
 
 std::string FieldWriter::file_to_open() const {
   return index().empty() ? ""
-                         : folder_ + "/" + index() + " (or run " + folder_ + "/" + paraview_script_name + ")";
+                         : folder_ + "/" + index() + " (or paraview --script=" + folder_ + "/" +
+                               paraview_script_name + ")";
 }
 
 void FieldWriter::write(const Solution &solution) {

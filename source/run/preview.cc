@@ -177,8 +177,8 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
   const Picture picture = draw_picture(folder + "/" + paraview_script_name, folder + "/scene.png");
   if (parameters.output.verbosity == parameters::Output::Verbosity::quiet)
     return;
-  stream << parameters.file_name << ": open in ParaView: " << folder << "/scene.pvd (or run " << folder << "/"
-         << paraview_script_name << ")\n"
+  stream << parameters.file_name << ": open in ParaView: " << folder
+         << "/scene.pvd (or paraview --script=" << folder << "/" << paraview_script_name << ")\n"
          << (picture.file.empty() ? "No picture: " + picture.reason : "Picture: " + picture.file) << "\n";
 }
 

@@ -5,9 +5,9 @@
 Runs in an empty current folder.
 
 A cube with backstress, or one that plastic work heats, is pulled to a strain of 0.26 and pushed back.
-Half-way it resumes with another element, with more points through the thickness, or in another scheme. It ends with
-the force of the run that is not interrupted, for the strain is uniform. Without the memory of the law, forces
-would be off by 70 %.
+Half-way it resumes with another element, with more points through the thickness, or in another scheme.
+It ends with the force of the run that is not interrupted, for the strain is uniform. Without the memory
+of the law, forces would be off by 70 %.
 """
 
 from __future__ import annotations

@@ -11,7 +11,9 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import sys
+from pathlib import Path
 
 from checks import (
     HERE,
@@ -263,14 +265,55 @@ def _() -> None:
     near("force of the table", last["pad.support table.force_y"], 41.5, 2e-3)
 
 
+def scene_of(name: str) -> str:
+    """Returns the path of a scene that a page names."""
+    for path in (SHIPPED / name.removeprefix("prm/"), SHIPPED / "templates" / name):
+        if path.exists():
+            return str(path)
+    return name
+
+
+def commands_of(text: str) -> list[tuple[str, list[str]]]:
+    """Returns the scenes that a page runs, and what it sets in them; lone settings belong to its first scene."""
+    found: list[tuple[str, list[str]]] = []
+    for line in re.findall(r"^billet .*\.prm.*$", text, re.M):
+        words = shlex.split(line)
+        scene = next(word for word in words if word.endswith(".prm"))
+        found.append((scene, [word for before, word in zip(words, words[1:]) if before == "--set"]))
+    for code in re.findall(r"`(--set [^`]+)`", text):
+        found.append((found[0][0], [word for word in shlex.split(" ".join(code.split())) if word != "--set"]))
+    return found
+
+
+@check("what Getting started and the tutorials change in scenes is accepted")
+def _() -> None:
+    n_commands = 0
+    for page in (HERE.parents[1] / "doc/start.md", *sorted((HERE.parents[1] / "doc/tutorials").glob("*.md"))):
+        text = read_text(page)
+        if page.name == "start.md":
+            write_text("first.prm", re.findall(r"^```prm\n(.*?)^```$", text, re.S | re.M)[0])
+        for scene, settings in commands_of(text):
+            if settings:
+                n_commands += 1
+                options = [word for setting in settings for word in ("--set", setting)]
+                ended = run(program, "--check", scene_of(scene), *options)
+                require(ended.code == 0, f"{page.name}: {scene} {settings}: {ended.errors}")
+    require(n_commands > 20, f"only {n_commands} commands")
+
+
 @check("Getting started shows what the program prints")
 def _() -> None:
     page = read_text(HERE.parents[1] / "doc/start.md")
     parts = re.findall(r"^```(\w*)\n(.*?)^```$", page, re.S | re.M)
-    shown = [part for kind, part in parts if not kind and re.search("^(Gap|216 )", part, re.M)]
-    equal("parts of output", len(shown), 2)
+    shown = [part for kind, part in parts if not kind and re.search("^(Completed|Gap|216 )", part, re.M)]
+    equal("parts of output", len(shown), 3)
     write_text("first.prm", next(part for kind, part in parts if kind == "prm"))
     printed = run(program, "--check", "first.prm").output + run(program, "first.prm").output
+    billet = run(
+        program, str(SHIPPED / "billet_upsetting.prm"), "--output", "results/billet_upsetting"
+    ).output
+    says(r"^note\[mesh-error\]", billet)
+    printed += billet
 
     def settled(line: str) -> str:
         """Returns a line without what differs from machine to machine: residual, memory, time."""
@@ -280,6 +323,24 @@ def _() -> None:
     lines = {settled(line) for line in printed.splitlines()}
     for line in "".join(shown).splitlines():
         require(line.split() == ["..."] or settled(line) in lines, f"the program does not print '{line}'")
+    n_files = 0
+    for names in re.findall(r"^\| (`.*?`) \|", page.split("## What is in the folder")[1], re.M):
+        for name in re.findall(r"`([^`]+)`", names):
+            n_files += 1
+            require(list(Path("first").glob(name)), f"the run wrote no '{name}'")
+    require(n_files > 8, f"only {n_files} files")
+
+
+@check("tutorials have the steps and iterations of this program")
+def _() -> None:
+    _, *rows = rows_of(str(HERE.parents[1] / "doc/tutorials/values.csv"))
+    kept = {row[0]: row[2] for row in rows if row[1] == "steps and Newton iterations"}
+    for name, folder in (("springback", "run_bending"), ("forging", "results/billet_upsetting")):
+        head, *rows = rows_of(f"{folder}/history.csv")
+        last = dict(zip(head, map(float, rows[-1])))
+        n_steps, n_iterations = map(float, kept[name].split(" and "))
+        near(f"steps of {name}", last["step"], n_steps, 0.1)  # other machines round otherwise
+        near(f"iterations of {name}", last["total_iterations"], n_iterations, 0.1)
 
 
 sys.exit(check.finish())
