@@ -274,7 +274,7 @@ def scene_of(name: str) -> str:
 
 
 def commands_of(text: str) -> list[tuple[str, list[str]]]:
-    """Returns the scenes that a page runs, and what it sets in them; lone settings belong to its first scene."""
+    """Returns the scenes that a page runs, and what it sets in them; lone settings are of the first one."""
     found: list[tuple[str, list[str]]] = []
     for line in re.findall(r"^billet .*\.prm.*$", text, re.M):
         words = shlex.split(line)
