@@ -236,6 +236,7 @@ SceneFile SceneFile::read(const std::string &file_name, const std::vector<Settin
   for (const Setting &setting : settings)
     file.add_setting(setting);
   file.resolve_overrides();
+  file.note_parts_of_no_file();
   return file;
 }
 
@@ -308,7 +309,7 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
       if (statement.empty())
         fail(where + ": 'subsection' needs a name");
       path.push_back(single_spaced(statement));
-      subsections_.push_back({path, where});
+      subsections_.push_back({path, where, files.size()});
       opened_at.push_back(where);
     } else if (keyword == Keyword::set) {
       Path target = path; // of 'set Bodies/block/Material/Density = 1'
@@ -446,6 +447,44 @@ void SceneFile::resolve_overrides() {
                  : line + "\n";
   entries_ = std::move(kept);
   lines_.clear();
+}
+
+void SceneFile::note_parts_of_no_file() {
+  struct List {
+    std::string name, of_one;
+    std::vector<std::string> needs; ///< subsections and parameters of a new one
+  };
+  const std::vector<List> lists{{"Bodies", "body", {"Mesh", "Material"}},
+                                {"Tools", "tool", {"Surfaces"}},
+                                {"Contact pairs", "pair", {"Body"}}};
+  for (const auto &[list, of_one, needs] : lists) {
+    std::size_t n_files = 1; // of the parts that stand deepest
+    for (const Subsection &one : subsections_)
+      if (one.path.size() == 2 && one.path[0] == list)
+        n_files = std::max(n_files, one.n_files);
+    std::vector<std::string> known;
+    std::string all, needed;
+    for (const Subsection &one : subsections_)
+      if (one.path.size() == 2 && one.path[0] == list && one.n_files == n_files) {
+        known.push_back(one.path[1]);
+        all += known.back() + ", ";
+      }
+    for (const std::string &name : needs)
+      needed += (needed.empty() ? "'" : " and '") + name + "'";
+    for (const std::string &name : names_below({list})) {
+      const bool is_whole = std::all_of(needs.begin(), needs.end(), [&](const std::string &need) {
+        return is_set({list, name}, need) || first_entry({list, name, need}) != nullptr ||
+               !names_below({list, name, need}).empty();
+      });
+      if (is_whole || std::find(known.begin(), known.end(), name) != known.end())
+        continue;
+      const std::string advice = did_you_mean(name, known);
+      errors_.push_back(scene_error(where(Path{list, name}) + ": no included file has the " + of_one + " '" +
+                                        name + "'" + (advice.empty() ? "; allowed" : advice + " Allowed") +
+                                        " are: " + all + "and a new " + of_one + " with " + needed,
+                                    {SceneFault::Kind::unknown_name, nearest_name(name, known)}));
+    }
+  }
 }
 
 namespace {

@@ -200,6 +200,41 @@ def _() -> None:
         says(rf"^error\[bad-input\]: .*{text}", errors)
 
 
+@check("a variant changes no body, tool or pair that the included file does not have")
+def _() -> None:
+    write_text("base.prm", BLOCK)
+    new_tool = "subsection roll\nsubsection Surfaces\nsubsection face\nend\nend\nend\n"
+    for section, lines, said in (
+        (
+            "Bodies",
+            "subsection blok\nsubsection Material\nset Yield stress = 20\nend\nend\n",
+            "no included file has the body 'blok'; did you mean 'block'? Allowed are: block, and a new body",
+        ),
+        (
+            "Bodies",
+            "subsection sheet\nsubsection Mesh\nset Refinements = 1\nend\nend\n",
+            "no included file has the body 'sheet'; allowed are: block, and a new body with 'Mesh' and",
+        ),
+        (
+            "Tools",
+            "subsection dye\nsubsection Motion\nset Translation = 0 ; 0 ; -t\nend\nend\n",
+            "no included file has the tool 'dye'; did you mean 'die'? Allowed are: die, and a new tool",
+        ),
+        (
+            "Contact pairs",
+            "subsection top on dye\nset Friction coefficient = 0.2\nend\n",
+            "no included file has the pair 'top on dye'; did you mean 'top on die'? Allowed are: top on die,",
+        ),
+        ("Tools", new_tool, ""),
+    ):
+        variant = f"include base.prm\nsubsection {section}\n{lines}end\nset Time stepping/End tim = 2\n"
+        write_text("variant.prm", variant)
+        errors = run(PROGRAM, "--check", "variant.prm").errors
+        equal(f"number of errors:\n{errors}", len(messages_of(errors)), 2 if said else 1)
+        says(re.escape("'End tim' in 'Time stepping'; did you mean 'End time'?"), errors)
+        says(rf"^error\[bad-input\]: variant\.prm:3: {re.escape(said)}" if said else "", errors)
+
+
 @check("one wrong number of a material does not hide another")
 def _() -> None:
     for young in ("abc", "-4"):

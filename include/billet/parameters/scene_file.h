@@ -45,6 +45,7 @@ public:
   struct Subsection {
     Path path;
     std::string where;
+    std::size_t n_files = 1; ///< from the scene file to the one that opens it
   };
   /// Place in the file that an error is about.
   struct Place {
@@ -132,6 +133,9 @@ private:
   void add_entry(const std::string &statement, const Path &path, Entry entry);
   void add_setting(const Setting &setting);
   void resolve_overrides();
+  /// Notes bodies, tools and pairs of a variant that the files which it includes do not have, and that are no
+  /// new ones.
+  void note_parts_of_no_file();
   /// Notes an error; `where` and `path`: of a statement that sets nothing, for find_place().
   void note(const std::string &error);
   void note(const std::string &error, const std::string &where, const Path &path);
