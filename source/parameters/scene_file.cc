@@ -4,9 +4,9 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
 #include "billet/nearest_name.h"
-#include "billet/parameters/missing_end.h"
 #include "billet/parameters/number_text.h"
 #include "billet/parameters/renames.h"
+#include "billet/parameters/unmatched_ends.h"
 #include "billet/scene_fault.h"
 #include "billet/shipped.h"
 
@@ -118,6 +118,54 @@ std::string single_spaced(const std::string &text) {
   return result;
 }
 
+enum class Keyword { none, include, subsection, set, end };
+
+/// Statement of a file, which may continue over several lines.
+struct FileLine {
+  std::string line;
+  std::string statement; ///< what follows its keyword
+  Keyword keyword;
+  std::string error; ///< what is wrong with its characters
+  unsigned int number;
+};
+
+std::vector<FileLine> read_lines(std::istream &text, const std::string &name) {
+  std::vector<FileLine> lines;
+  std::string line;
+  for (unsigned int number = 0, first = 1; read_statement(text, name, line, number); first = number + 1) {
+    std::string statement = trim(line.substr(0, line.find('#')));
+    const std::string error = remove_control_characters(statement);
+    Keyword keyword = Keyword::none;
+    if (take_keyword(statement, "include"))
+      keyword = Keyword::include;
+    else if (take_keyword(statement, "subsection"))
+      keyword = Keyword::subsection;
+    else if (take_keyword(statement, "set"))
+      keyword = Keyword::set;
+    else if (statement == "end")
+      keyword = Keyword::end;
+    lines.push_back({line, statement, keyword, error, first});
+  }
+  return lines;
+}
+
+/// Returns the statements that show the structure of a file.
+std::vector<Statement> statements_of(const std::vector<FileLine> &lines) {
+  std::vector<Statement> statements;
+  for (const FileLine &one : lines) {
+    const std::size_t indentation = one.line.find_first_not_of(" \t");
+    const std::string name = single_spaced(trim(one.statement.substr(0, one.statement.find('='))));
+    if (one.keyword == Keyword::subsection)
+      statements.push_back(
+          {Statement::Kind::subsection, single_spaced(one.statement), indentation, one.number});
+    else if (one.keyword == Keyword::set)
+      statements.push_back({Statement::Kind::set, name, indentation, one.number});
+    else if (one.keyword == Keyword::end)
+      statements.push_back({Statement::Kind::end, "", indentation, one.number});
+  }
+  return statements;
+}
+
 /// End of a message about a value, and the message as data.
 struct PatternError {
   std::string text;
@@ -188,6 +236,7 @@ SceneFile SceneFile::read(const std::string &file_name, const std::vector<Settin
   for (const Setting &setting : settings)
     file.add_setting(setting);
   file.resolve_overrides();
+  file.note_parts_of_no_file();
   return file;
 }
 
@@ -213,6 +262,14 @@ void SceneFile::fail(const std::string &error) {
 
 void SceneFile::note(const std::string &error) { errors_.emplace_back(diagnostic::bad_input, error); }
 
+void SceneFile::note_unmatched(const std::string &error) {
+  unmatched_.push_back(error);
+  note(error);
+  constexpr std::size_t max_errors = 20; // a file with more is no scene
+  if (unmatched_.size() == max_errors)
+    require_sound();
+}
+
 void SceneFile::note(const std::string &error, const std::string &where, const Path &path) {
   faulty_.push_back({path, where});
   note(error);
@@ -220,56 +277,62 @@ void SceneFile::note(const std::string &error, const std::string &where, const P
 
 void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path,
                           const std::vector<unsigned int> &outer_files) {
-  const Path outer = path;
+  const std::size_t outer = path.size();
   std::vector<unsigned int> files = outer_files;
   files.push_back(n_files_++);
-  std::vector<Statement> statements;
-  std::string line;
-  for (unsigned int number = 0, first_line = 1; read_statement(text, name, line, number);
-       first_line = number + 1) {
-    const std::string where = name + ":" + std::to_string(first_line);
-    std::string statement = trim(line.substr(0, line.find('#')));
-    const std::string error = remove_control_characters(statement);
+  const std::vector<FileLine> lines = read_lines(text, name);
+  const std::vector<EndRepair> repairs = find_end_repairs(statements_of(lines), path);
+  const auto is_to = [&repairs](const EndRepair::Kind kind, const unsigned int line) {
+    return std::count_if(repairs.begin(), repairs.end(),
+                         [&](const EndRepair &one) { return one.kind == kind && one.line == line; });
+  };
+  std::vector<std::string> opened_at;
+  const auto close_unclosed = [&](const std::string &before) {
+    note_unmatched(opened_at.back() + ": subsection '" + join(path) + "' has no 'end'" +
+                   (files.size() > 1 ? " in this file" : "") + before);
+    opened_at.pop_back();
+    path.pop_back();
+    lines_.emplace_back("end", no_entry);
+  };
+  for (const auto &[line, statement, keyword, error, number] : lines) {
+    const std::string where = name + ":" + std::to_string(number);
+    for (auto n = is_to(EndRepair::Kind::insert, number); n > 0; --n)
+      close_unclosed("; it is probably missing before line " + std::to_string(number));
     if (!error.empty())
       note(where + error, where, path);
-    if (take_keyword(statement, "include")) {
+    if (keyword == Keyword::include) {
       include(statement, where, name, path, files);
       continue;
     }
     lines_.emplace_back(line, no_entry);
-    const std::size_t indentation = line.find_first_not_of(" \t");
-    if (statement.empty())
-      continue;
-    if (take_keyword(statement, "subsection")) {
+    if (keyword == Keyword::subsection) {
       if (statement.empty())
         fail(where + ": 'subsection' needs a name");
       path.push_back(single_spaced(statement));
-      subsections_.push_back({path, where});
-      statements.push_back({Statement::Kind::subsection, path.back(), indentation, first_line});
-    } else if (take_keyword(statement, "set")) {
+      subsections_.push_back({path, where, files.size()});
+      opened_at.push_back(where);
+    } else if (keyword == Keyword::set) {
       Path target = path; // of 'set Bodies/block/Material/Density = 1'
       const std::string setting = take_path(statement, target);
       add_entry(setting, target,
-                {target, "", "", where, "", "", first_line, files.size() > 1, files, folder_of(name)});
-      const std::string key = single_spaced(trim(statement.substr(0, statement.find('='))));
-      statements.push_back({Statement::Kind::set, current_names(path, key, "").key, indentation, first_line});
-    } else if (statement == "end") {
-      if (path.size() == outer.size())
-        fail(where + ": 'end' closes no subsection");
-      path.pop_back();
-      statements.push_back({Statement::Kind::end, "", indentation, first_line});
-    } else
+                {target, "", "", where, "", "", number, files.size() > 1, files, folder_of(name)});
+    } else if (keyword == Keyword::end) {
+      if (opened_at.empty() || is_to(EndRepair::Kind::ignore, number) > 0) {
+        lines_.back().first = "# " + line;
+        note_unmatched(where + (opened_at.empty() ? ": 'end' closes no subsection"
+                                                  : ": 'end' is probably one too many; it would close '" +
+                                                        join(path) + "', which goes on"));
+      } else {
+        opened_at.pop_back();
+        path.pop_back();
+      }
+    } else if (!statement.empty())
       note(where + ": the statement is '" + statement +
                "'; allowed are 'set', 'subsection', 'end', 'include' and comments after '#'",
            where, path);
   }
-  if (path.size() == outer.size())
-    return;
-  const MissingEnd missing = find_missing_end(statements, outer);
-  throw InputError(
-      name + ":" + std::to_string(missing.line) + ": subsection '" + join(missing.path) + "' has no 'end'" +
-      (files.size() > 1 ? " in this file" : "") +
-      (missing.before > 0 ? "; it is probably missing before line " + std::to_string(missing.before) : ""));
+  while (path.size() > outer)
+    close_unclosed("");
 }
 
 namespace {
@@ -386,6 +449,44 @@ void SceneFile::resolve_overrides() {
   lines_.clear();
 }
 
+void SceneFile::note_parts_of_no_file() {
+  struct List {
+    std::string name, of_one;
+    std::vector<std::string> needs; ///< subsections and parameters of a new one
+  };
+  const std::vector<List> lists{{"Bodies", "body", {"Mesh", "Material"}},
+                                {"Tools", "tool", {"Surfaces"}},
+                                {"Contact pairs", "pair", {"Body"}}};
+  for (const auto &[list, of_one, needs] : lists) {
+    std::size_t n_files = 1; // of the parts that stand deepest
+    for (const Subsection &one : subsections_)
+      if (one.path.size() == 2 && one.path[0] == list)
+        n_files = std::max(n_files, one.n_files);
+    std::vector<std::string> known;
+    std::string all, needed;
+    for (const Subsection &one : subsections_)
+      if (one.path.size() == 2 && one.path[0] == list && one.n_files == n_files) {
+        known.push_back(one.path[1]);
+        all += known.back() + ", ";
+      }
+    for (const std::string &name : needs)
+      needed += (needed.empty() ? "'" : " and '") + name + "'";
+    for (const std::string &name : names_below({list})) {
+      const bool is_whole = std::all_of(needs.begin(), needs.end(), [&](const std::string &need) {
+        return is_set({list, name}, need) || first_entry({list, name, need}) != nullptr ||
+               !names_below({list, name, need}).empty();
+      });
+      if (is_whole || std::find(known.begin(), known.end(), name) != known.end())
+        continue;
+      const std::string advice = did_you_mean(name, known);
+      errors_.push_back(scene_error(where(Path{list, name}) + ": no included file has the " + of_one + " '" +
+                                        name + "'" + (advice.empty() ? "; allowed" : advice + " Allowed") +
+                                        " are: " + all + "and a new " + of_one + " with " + needed,
+                                    {SceneFault::Kind::unknown_name, nearest_name(name, known)}));
+    }
+  }
+}
+
 namespace {
 
 /// Returns the text between the first quotes at or after a place; empty if there are none.
@@ -412,6 +513,8 @@ SceneFile::Path split(const std::string &joined) {
 } // namespace
 
 std::optional<SceneFile::Place> SceneFile::find_place(const std::string &message) const {
+  if (std::find(unmatched_.begin(), unmatched_.end(), message) != unmatched_.end())
+    return {}; // the subsection itself is sound
   const std::string of_default = " (default): '";
   if (const std::size_t found = message.find(of_default); found != std::string::npos) {
     // "file:line (default): 'Key' in 'Bodies / block'"

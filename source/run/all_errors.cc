@@ -178,7 +178,7 @@ private:
         return remove_subsection(part_of(path));
       if (path.size() > 2 || !place.key.empty()) // unknown names, and parameters of the body
         return place.is_missing && !place.key.empty() ? remove_part({section, name}) : remove_place(place);
-      return make_dynamic() || remove_part({section, name});
+      return (fault.kind != SceneFault::Kind::unknown_name && make_dynamic()) || remove_part({section, name});
     }
     if (is_named(section) && path.size() > 1) {
       if (section == "Tools" && kind == "Motion" && remove_subsection({section, name, kind}))

@@ -76,7 +76,7 @@ def single_errors(edits: list[str]) -> list[Faulty]:
         for number, (name, edited) in enumerate(files.items()):
             of_file = "".join(re.findall(rf"^error\[bad-input\]: {name}.*\n", errors, re.MULTILINE))
             messages = messages_of(of_file)
-            if len(messages) == 1 and edited.path and "has no 'end'" not in messages[0]:
+            if len(messages) == 1 and edited.path:
                 faulty.append(Faulty(edits[start + number], part_of(edited), messages[0]))
     return faulty
 
@@ -157,6 +157,82 @@ def _() -> None:
     ):
         says(rf"^error\[bad-input\]: scene\.prm:\d+: .*({text})", errors)
     equal("number of errors", len(messages_of(errors)), 7)
+
+
+def with_faulty_ends(text: str) -> dict[str, str]:
+    """Returns the text without one of its `end`s, and with one twice, each of them, by names of files."""
+    lines = text.rstrip("\n").split("\n")
+    ends = [i for i, line in enumerate(lines) if line.strip() == "end"]
+    return {
+        f"{name}_{i + 1:03d}.prm": "\n".join(lines[:i] + [lines[i]] * times + lines[i + 1 :]) + "\n"
+        for name, times in (("missing", 0), ("doubled", 2))
+        for i in ends
+    }
+
+
+@check("an 'end' that is missing or one too many hides no other error, and makes none")
+def _() -> None:
+    flat = "\n".join(line.strip() for line in BLOCK.split("\n"))
+    wrong = edit(BLOCK, INDEPENDENT).text
+    for text, n_others in ((BLOCK, 0), (flat, 0), (wrong, 7)):
+        files = with_faulty_ends(text)
+        for name, faulty_text in files.items():
+            write_text(name, faulty_text)
+        errors = run(PROGRAM, "--check", *files).errors
+        for name in files:
+            of_file = "".join(re.findall(rf"^error\[bad-input\]: {name}.*\n", errors, re.MULTILINE))
+            equal(f"number of errors of {name}:\n{of_file}", len(messages_of(of_file)), n_others + 1)
+            said = "has no 'end'" if name.startswith("missing") else "'end' (closes no|is probably one too)"
+            says(rf"^error.*{said}", of_file)
+
+
+@check("several 'end's that are missing or too many")
+def _() -> None:
+    errors = errors_of(
+        "Material: + end & floor: + subsection lost & Plane: + subsection lost & Solver: Maximum iteration = 2"
+    )
+    for text in (
+        r"scene\.prm:\d+: 'end' is probably one too many; it would close 'Bodies / block / Material'",
+        r"subsection 'Bodies / block / Supports / floor / lost' has no 'end'; .* before line \d+",
+        r"subsection 'Tools / die / Surfaces / Plane / lost' has no 'end'; .* before line \d+",
+        "there is no parameter 'Maximum iteration' in 'Solver'",
+    ):
+        says(rf"^error\[bad-input\]: .*{text}", errors)
+
+
+@check("a variant changes no body, tool or pair that the included file does not have")
+def _() -> None:
+    write_text("base.prm", BLOCK)
+    new_tool = "subsection roll\nsubsection Surfaces\nsubsection face\nend\nend\nend\n"
+    for section, lines, said in (
+        (
+            "Bodies",
+            "subsection blok\nsubsection Material\nset Yield stress = 20\nend\nend\n",
+            "no included file has the body 'blok'; did you mean 'block'? Allowed are: block, and a new body",
+        ),
+        (
+            "Bodies",
+            "subsection sheet\nsubsection Mesh\nset Refinements = 1\nend\nend\n",
+            "no included file has the body 'sheet'; allowed are: block, and a new body with 'Mesh' and",
+        ),
+        (
+            "Tools",
+            "subsection dye\nsubsection Motion\nset Translation = 0 ; 0 ; -t\nend\nend\n",
+            "no included file has the tool 'dye'; did you mean 'die'? Allowed are: die, and a new tool",
+        ),
+        (
+            "Contact pairs",
+            "subsection top on dye\nset Friction coefficient = 0.2\nend\n",
+            "no included file has the pair 'top on dye'; did you mean 'top on die'? Allowed are: top on die,",
+        ),
+        ("Tools", new_tool, ""),
+    ):
+        variant = f"include base.prm\nsubsection {section}\n{lines}end\nset Time stepping/End tim = 2\n"
+        write_text("variant.prm", variant)
+        errors = run(PROGRAM, "--check", "variant.prm").errors
+        equal(f"number of errors:\n{errors}", len(messages_of(errors)), 2 if said else 1)
+        says(re.escape("'End tim' in 'Time stepping'; did you mean 'End time'?"), errors)
+        says(rf"^error\[bad-input\]: variant\.prm:3: {re.escape(said)}" if said else "", errors)
 
 
 @check("one wrong number of a material does not hide another")

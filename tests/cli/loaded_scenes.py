@@ -36,7 +36,7 @@ enter_folder()
 
 def run_scene(name: str, *options: str) -> tuple[Ended, Rows]:
     """Runs a shipped scene and returns how it ended, and its history."""
-    require_short(name)
+    require_short(name, counts_included=True)
     folder = f"{name}.{len(options)}"
     ended = run(program, str(SHIPPED / f"{name}.prm"), "--output", folder, *options)
     return ended, history(folder)

@@ -33,9 +33,7 @@ from edits import edit
 
 TEMPLATES = sorted((SHIPPED / "templates").glob("*.prm"))
 PARTS = {"drawing": 0.1, "rolling": 0.1, "impact": 0.25}  # of the time
-MAX_LINES = 40
-# Longer ones: rolling has a support that moves and a roll that turns, the others have three tools.
-MAX_LINES_OF = {"rolling": 45, "bending": 60, "drawing": 60}
+MAX_LINES = 45
 LISTS = "primitives materials elements loads surfaces friction integrators probes fields history".split()
 
 program = sys.argv[1]
@@ -58,8 +56,7 @@ for template in TEMPLATES:
         equal("exit code", ended.code, 0)
         says(rf"^Wrote {kind}\.prm\.", ended.output)
         equal("scene", read_text(f"{kind}.prm"), read_text(template))
-        max_lines = MAX_LINES_OF.get(kind, MAX_LINES)
-        require(read_text(template).count("\n") <= max_lines, f"more than {max_lines} lines")
+        require(read_text(template).count("\n") <= MAX_LINES, f"more than {MAX_LINES} lines")
         write_text(f"{kind}.prm", "mine")
         ended = run(program, "--new", kind)
         equal("exit code", ended.code, 2)

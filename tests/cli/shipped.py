@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from checks import SHIPPED, read_text, require, rows_of
 
@@ -12,10 +13,17 @@ MAX_LINES = 60
 Rows = list[dict[str, float]]
 
 
-def require_short(name: str) -> None:
-    """Checks the length of a scene."""
-    n_lines = read_text(SHIPPED / f"{name}.prm").count("\n")
-    require(n_lines <= MAX_LINES, f"{name}: more than {MAX_LINES} lines")
+def files_of(scene: Path) -> set[Path]:
+    """Returns a scene and the files that it includes, other than materials."""
+    included = re.findall(r"^\s*include (?!materials/)(\S+)", read_text(scene), re.MULTILINE)
+    return {scene}.union(*(files_of(scene.parent / name) for name in included))
+
+
+def require_short(name: str, counts_included: bool = False) -> None:
+    """Checks the length of a scene, alone or with the files that it includes."""
+    scene = SHIPPED / f"{name}.prm"
+    n_lines = sum(read_text(file).count("\n") for file in (files_of(scene) if counts_included else {scene}))
+    require(n_lines <= MAX_LINES, f"{name}: {n_lines} lines, more than {MAX_LINES}")
 
 
 def history(folder: str) -> Rows:

@@ -45,6 +45,7 @@ public:
   struct Subsection {
     Path path;
     std::string where;
+    std::size_t n_files = 1; ///< from the scene file to the one that opens it
   };
   /// Place in the file that an error is about.
   struct Place {
@@ -62,8 +63,8 @@ public:
   /// Reads `file_name` and the files that it includes, in ParameterHandler's text format. It knows `set`,
   /// `subsection`, `end`, `include` (relative to the including file), `#` comments and `\` at a line's end.
   /// A file overrides what the files that it includes set; `settings` override all. Replaces old names of
-  /// parameters by current ones. Throws InputError for a file whose subsections cannot be told; other errors
-  /// wait for set_all() or require_sound().
+  /// parameters by current ones. Repairs an `end` that is missing or one too many. Throws InputError for a
+  /// file that cannot be read; other errors wait for set_all() or require_sound().
   static SceneFile read(const std::string &file_name, const std::vector<Setting> &settings = {});
 
   /// Reads a scene from a stream; `name` replaces the file's name in messages. Throws InputError.
@@ -132,9 +133,14 @@ private:
   void add_entry(const std::string &statement, const Path &path, Entry entry);
   void add_setting(const Setting &setting);
   void resolve_overrides();
+  /// Notes bodies, tools and pairs of a variant that the files which it includes do not have, and that are no
+  /// new ones.
+  void note_parts_of_no_file();
   /// Notes an error; `where` and `path`: of a statement that sets nothing, for find_place().
   void note(const std::string &error);
   void note(const std::string &error, const std::string &where, const Path &path);
+  /// Notes an `end` that is missing or one too many.
+  void note_unmatched(const std::string &error);
   /// Throws InputError with this and all earlier errors.
   [[noreturn]] void fail(const std::string &error);
   const Entry *find(const Path &path, const std::string &key) const;
@@ -145,6 +151,7 @@ private:
   std::vector<Subsection> subsections_;
   DiagnosticList errors_;
   std::vector<Subsection> faulty_; ///< statements that set nothing, and the subsections that they stand in
+  std::vector<std::string> unmatched_; ///< errors about `end`s
   unsigned int n_files_ = 0;
   std::vector<std::pair<std::string, std::size_t>> lines_; ///< of the text, each with its entry or no_entry
   static constexpr std::size_t no_entry = static_cast<std::size_t>(-1);
