@@ -128,7 +128,7 @@ std::optional<int> launch(const std::vector<std::string> &arguments) {
 void prepare_for_one_process() {
   if (is_launched())
     return;
-  constexpr int keep = 0;                               // what the user has set
+  constexpr int keep = 0; // what the user has set
   setenv("OMPI_MCA_pml", "ob1", keep);
   setenv("OMPI_MCA_btl", "self", keep);
 }

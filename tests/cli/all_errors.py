@@ -189,7 +189,8 @@ def _() -> None:
 @check("several 'end's that are missing or too many")
 def _() -> None:
     errors = errors_of(
-        "Material: + end & floor: + subsection lost & Plane: + subsection lost & Solver: Maximum iteration = 2"
+        "Material: + end & floor: + subsection lost & Plane: + subsection lost"
+        " & Solver: Maximum iteration = 2"
     )
     for text in (
         r"scene\.prm:\d+: 'end' is probably one too many; it would close 'Bodies / block / Material'",

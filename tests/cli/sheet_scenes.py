@@ -3,8 +3,8 @@
 """Usage: sheet_scenes.py BILLET
 
 Runs sheets that are bent and spring back in an empty current folder: pure bending beside its closed form,
-and coarse and short variants of the shipped U-bend, free bend and cups beside what geometry, strip theory, the
-closed form of ears and an experiment say.
+and coarse and short variants of the shipped U-bend, free bend and cups beside what geometry, strip theory,
+the closed form of ears and an experiment say.
 The scenes themselves run in tests/benchmarks.
 """
 
@@ -142,8 +142,8 @@ def _() -> None:
 def _() -> None:
     last = run_variant(str(SHIPPED / "square_cup.prm"), "square_cup", {"Time stepping/End time": 1.5e-3})[-1]
     near("travel of the punch", last["punch.travel_z"], -15.0, 1e-4)
-    # Mean of the laboratories, as in tests/benchmarks/square-cup.py. The scene is off by 0.2 %, without friction
-    # by 7.5 %. The middle of the edge is no measure: -9.3 %, without friction 1.7 %.
+    # Mean of the laboratories, as in tests/benchmarks/square-cup.py. The scene is off by 0.2 %, without
+    # friction by 7.5 %. The middle of the edge is no measure: -9.3 %, without friction 1.7 %.
     draw_in = math.hypot(last["corner.displacement_x"], last["corner.displacement_y"])
     near("draw-in along the diagonal", draw_in, 3.2, 0.04)
 

@@ -118,7 +118,8 @@ void test_sheet(const Sheet &sheet) {
   check(sheet.name + ", plane strain", std::abs(plane.stress[0] / plane_exact - 1.), 1e-10);
   check(sheet.name + ", known plane strain", std::abs(plane_exact / yield_stress - sheet.plane_strain), 2e-5);
   shear.move({false, false, false, true, false, false}, {0., 0., 0., 0.02});
-  check(sheet.name + ", shear", std::abs(shear.stress[3] * std::sqrt(2. * hill.N) / yield_stress - 1.), 1e-10);
+  check(sheet.name + ", shear", std::abs(shear.stress[3] * std::sqrt(2. * hill.N) / yield_stress - 1.),
+        1e-10);
 }
 
 void test_stress_ratios() {
