@@ -353,6 +353,14 @@ def _() -> None:
         says(said, ended.errors)
 
 
+@check("subsections without an end, far deeper than any scene")
+def _() -> None:
+    write_text("deep.prm", "subsection a\n" * 20000)
+    ended = run(PROGRAM, "--check", "deep.prm")
+    equal("exit code", ended.code, 2)
+    says(r"deep\.prm:51: subsections are nested more than 50 deep", ended.errors)
+
+
 @check("a run says the same, and writes nothing")
 def _() -> None:
     write_text("scene.prm", edit(BLOCK, INDEPENDENT).text)
