@@ -277,7 +277,6 @@ void SceneFile::note(const std::string &error, const std::string &where, const P
 
 void SceneFile::scan_file(std::istream &text, const std::string &name, Path &path,
                           const std::vector<unsigned int> &outer_files) {
-  constexpr std::size_t max_depth = 50; // of hostile files, whose paths would take all memory
   const std::size_t outer = path.size();
   std::vector<unsigned int> files = outer_files;
   files.push_back(n_files_++);
@@ -309,8 +308,8 @@ void SceneFile::scan_file(std::istream &text, const std::string &name, Path &pat
     if (keyword == Keyword::subsection) {
       if (statement.empty())
         fail(where + ": 'subsection' needs a name");
-      if (path.size() >= max_depth)
-        fail(where + ": subsections are nested more than " + std::to_string(max_depth) +
+      if (path.size() >= max_nesting)
+        fail(where + ": subsections are nested more than " + std::to_string(max_nesting) +
              " deep; an 'end' is probably missing");
       path.push_back(single_spaced(statement));
       subsections_.push_back({path, where, files.size()});

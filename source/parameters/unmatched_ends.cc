@@ -134,14 +134,13 @@ public:
     return n_open > 0 ? insert_one(known, n_open) : std::nullopt;
   }
 
-  /// Whether subsections are nested deeper than in any scene.
+  /// Whether subsections are nested too deeply, for which the scan refuses the file.
   bool is_too_deep() const {
-    constexpr std::ptrdiff_t max_depth = 50;
     std::ptrdiff_t depth = 0;
     return std::any_of(statements_.begin(), statements_.end(), [&depth](const Statement &statement) {
       depth += statement.kind == Statement::Kind::subsection ? 1 : 0;
       depth -= statement.kind == Statement::Kind::end ? 1 : 0;
-      return depth > max_depth;
+      return depth > static_cast<std::ptrdiff_t>(max_nesting);
     });
   }
 

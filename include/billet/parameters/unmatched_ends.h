@@ -4,10 +4,14 @@
 
 #include "billet/parameters/scene_file.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace billet {
+
+/// Most subsections within each other. Paths of a hostile file with more would take all memory.
+constexpr std::size_t max_nesting = 50;
 
 /// Statement that opens or closes a subsection, or sets a parameter.
 struct Statement {
