@@ -12,6 +12,7 @@
 #include <dmumps_c.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace billet {
@@ -82,8 +83,8 @@ public:
     call(job_initialize);
     for (const int output_stream : {1, 2, 3, 4})
       control(output_stream) = output_stream == 4 ? 0 : -1;
-    control(18) = 3; // distributed matrix
-    control(14) = 60;
+    control(distribution) = 3; // each rank gives its rows
+    control(spare_memory) = 60;
     collect_pattern();
     MPI_Allgather(&n_local_rows_, 1, MPI_INT, make_room(counts_), 1, MPI_INT, communicator);
     offsets_.assign(counts_.size(), 0);
@@ -103,11 +104,11 @@ public:
     for (int attempt = 0; attempt < 4; ++attempt) {
       if (call(job_factorize))
         return true;
-      const bool too_small = mumps_.infog[0] == -8 || mumps_.infog[0] == -9 || mumps_.infog[0] == -11 ||
-                             mumps_.infog[0] == -12 || mumps_.infog[0] == -14 || mumps_.infog[0] == -15;
-      if (!too_small)
+      // Work arrays of integers and reals, the stack, buffers (MUMPS users' guide, "Error diagnostics").
+      constexpr std::array<int, 6> too_small = {-8, -9, -11, -12, -14, -15};
+      if (std::find(too_small.begin(), too_small.end(), mumps_.infog[0]) == too_small.end())
         return false;
-      control(14) *= 2;
+      control(spare_memory) *= 2;
     }
     return false;
   }
@@ -134,6 +135,7 @@ public:
 
 private:
   static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;
+  static constexpr int spare_memory = 14, distribution = 18; ///< of control(); memory in per cent
 
   MUMPS_INT &control(const int number) { return mumps_.icntl[number - 1]; } // numbered as in MUMPS's manual
 

@@ -59,7 +59,7 @@ void load_nodes(const StateReader &reader, const SlaveSurface::Range &range, Rig
   range.read(reader, "gaps", gap_width, [&](const std::size_t i, RowReader &row) {
     ContactPoint &node = parts.slaves.nodes[i];
     node.gap_n = row.number();
-    node.patch = static_cast<unsigned int>(row.number());
+    node.patch = to_count(row.number());
     node.multiplier_offset = node.multiplier_offset_n = row.number();
     node.initial_penetration = row.number();
   });

@@ -3,6 +3,8 @@
 
 #include "billet/geometry/frame.h"
 
+#include <sstream>
+
 namespace billet {
 
 using dealii::Tensor;
@@ -52,6 +54,38 @@ Axes::Axes(const TypeInput &input) {
       point_ = input.vector("Axis point");
     triad_[2] = input.direction("Axis direction");
   }
+}
+
+Axes::Axes(const std::array<Tensor<1, 3>, 3> &triad) : kind_(Kind::local), triad_(triad) {}
+
+Axes Axes::about(const Tensor<1, 3> &point, const Tensor<1, 3> &direction) {
+  Axes axes;
+  axes.kind_ = Kind::cylindrical;
+  axes.point_ = point;
+  axes.triad_[2] = direction;
+  return axes;
+}
+
+std::string Axes::description() const {
+  std::ostringstream text;
+  text.precision(6);
+  const auto write = [&](const Tensor<1, 3> &vector) {
+    text << "(" << vector[0] << ", " << vector[1] << ", " << vector[2] << ")";
+  };
+  if (kind_ == Kind::local) {
+    text << "axes ";
+    write(triad_[0]);
+    text << ", ";
+    write(triad_[1]);
+  } else if (kind_ == Kind::global) {
+    text << "axes x, y, z";
+  } else {
+    text << "cylindrical axes about the line through ";
+    write(point_);
+    text << " along ";
+    write(triad_[2]);
+  }
+  return text.str();
 }
 
 double Axes::radius(const Tensor<1, 3> &position) const {

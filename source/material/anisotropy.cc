@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/material/anisotropy.h"
 
-#include "billet/geometry/axes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -61,6 +59,8 @@ std::string Anisotropy::description() const {
   text.precision(6);
   text << "Hill's anisotropy (F " << coefficients.F << ", G " << coefficients.G << ", H " << coefficients.H
        << ", L " << coefficients.L << ", M " << coefficients.M << ", N " << coefficients.N << ")";
+  if (!axes.are_global())
+    text << " in " << axes.description();
   return text.str();
 }
 
@@ -112,10 +112,7 @@ AnisotropyType hill_type() {
         "R11, R22, R33, R12, R13, R23 > 0, in the place of r-values. Yield stresses in 'Axes' over the flow "
         "stress, those of shear over that of von Mises; 1, 1, 1, 1, 1, 1 is isotropic."}},
       [](const TypeInput &input) -> std::shared_ptr<const Anisotropy> {
-        const Axes axes(input);
-        if (axes.are_cylindrical())
-          input.reject("Axes", "global or local: the material axes of a body are the same at all its points");
-        return std::make_shared<const Anisotropy>(Anisotropy{read_coefficients(input), axes.at({})});
+        return std::make_shared<const Anisotropy>(Anisotropy{read_coefficients(input), Axes(input)});
       }};
   for (const TypeParameter &parameter : Axes::parameters())
     type.parameters.push_back(parameter);

@@ -3,6 +3,7 @@
 
 #include "billet/material/flow_rule_plastic.h"
 #include "billet/material/law_adapter.h"
+#include "billet/material/oriented_law.h"
 
 #include <sstream>
 #include <utility>
@@ -95,6 +96,12 @@ double FlowRule::read_heating(const TypeInput &input, const double density) {
 SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow, const FlowRule &rule) {
   if (rule.is_plain())
     return make_hencky_law(elastic, std::move(flow));
+  if (rule.anisotropy != nullptr && rule.anisotropy->axes.are_cylindrical()) {
+    FlowRule in_space = rule;
+    in_space.anisotropy =
+        std::make_shared<const Anisotropy>(Anisotropy{rule.anisotropy->coefficients, Axes()});
+    return orient(make_hencky_law(elastic, std::move(flow), in_space), rule.anisotropy->axes);
+  }
   const std::string name = make_hencky_law(elastic)->name();
   const bool has_directions = !rule.backstress.empty() || rule.anisotropy != nullptr;
   if (!has_directions)

@@ -436,7 +436,7 @@ private:
     return true;
   }
 
-  /// Finds the temperature at Δα, (H16) of doc/theory.md, and the slope of the flow stress with it.
+  /// Finds the temperature at Δα, (H17) of doc/theory.md, and the slope of the flow stress with it.
   void set_temperature() {
     heat_.factor = 1.;
     heat_.slope = increment_.slope;
@@ -519,8 +519,9 @@ FlowRulePlasticity<has_directions, is_thermal>::FlowRulePlasticity(const Elastic
                                                                    SharedFlow flow, FlowRule rule)
     : elastic_(elastic), flow_(std::move(flow)),
       described_flow_(std::make_shared<const TensionFlow>(flow_, rule)), rule_(std::move(rule)),
-      yield_(rule_.anisotropy != nullptr ? rule_.anisotropy->coefficients.matrix(rule_.anisotropy->axes)
-                                         : mises_matrix()) {
+      yield_(rule_.anisotropy != nullptr
+                 ? rule_.anisotropy->coefficients.matrix(rule_.anisotropy->axes.at({}))
+                 : mises_matrix()) {
   if (rule_.backstress.size() > FlowRule::max_terms)
     throw std::invalid_argument("too many terms of backstress");
   if (is_thermal != (rule_.thermal != nullptr))

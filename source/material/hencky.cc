@@ -44,12 +44,7 @@ SymmetricTensor<2, 3> compute_kirchhoff_stress(const PrincipalElasticState &tria
   return tau;
 }
 
-namespace {
-
-using Vector6 = std::array<double, 6>;
-
-/// Returns sym(a ⊗ b) in the order 11, 22, 33, 12, 13, 23.
-Vector6 symmetric_dyad(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
+std::array<double, 6> symmetric_dyad(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
   return {a[0] * b[0],
           a[1] * b[1],
           a[2] * b[2],
@@ -57,6 +52,10 @@ Vector6 symmetric_dyad(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
           0.5 * (a[0] * b[2] + a[2] * b[0]),
           0.5 * (a[1] * b[2] + a[2] * b[1])};
 }
+
+namespace {
+
+using Vector6 = std::array<double, 6>;
 
 void add_dyad(SpatialModuli &moduli, const double factor, const Vector6 &v, const Vector6 &w) {
   for (unsigned int i = 0; i < 6; ++i)

@@ -16,15 +16,6 @@ namespace billet {
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 
-std::array<double, 6> symmetric_dyad(const Tensor<1, 3> &a, const Tensor<1, 3> &b) {
-  return {a[0] * b[0],
-          a[1] * b[1],
-          a[2] * b[2],
-          0.5 * (a[0] * b[1] + a[1] * b[0]),
-          0.5 * (a[0] * b[2] + a[2] * b[0]),
-          0.5 * (a[1] * b[2] + a[2] * b[1])};
-}
-
 bool HyperelasticLaw::respond(const Tensor<2, 3> &F, HyperelasticState &state) const {
   state.J = dealii::determinant(F);
   if (!(state.J > 0.) || !std::isfinite(state.J) ||

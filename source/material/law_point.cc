@@ -69,9 +69,9 @@ double norm(const StressRates &rates) {
 
 } // namespace
 
-LawPoint::LawPoint(const PointLaw &law, const double temperature)
+LawPoint::LawPoint(const PointLaw &law, const double temperature, const Tensor<1, 3> &centre)
     : law_(law), temperature_(temperature), state_n_(law.n_state()), state_(law.n_state()) {
-  law.initialize(state_n_.data());
+  law.initialize_at(centre, state_n_.data());
   state_ = state_n_;
 }
 

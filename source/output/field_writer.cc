@@ -61,10 +61,10 @@ std::vector<std::string> FieldWriter::groups() const {
   return names;
 }
 
-std::string FieldWriter::file_to_open() const {
-  return index().empty() ? ""
-                         : folder_ + "/" + index() + " (or paraview --script=" + folder_ + "/" +
-                               paraview_script_name + ")";
+std::string FieldWriter::file_to_open(const std::string &folder) const {
+  return index().empty()
+             ? ""
+             : folder + "/" + index() + " (or paraview --script=" + folder + "/" + paraview_script_name + ")";
 }
 
 void FieldWriter::write(const Solution &solution) {

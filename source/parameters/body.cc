@@ -68,9 +68,10 @@ void Mesh::declare(ParameterHandler &prm) {
                     "Arguments of that function, separated by ':' (points and lists inside by ','), in its "
                     "order or as 'name = value'. Arguments that are missing at the end or empty have their "
                     "defaults.");
-  prm.declare_entry("Refinements", "0", Patterns::Integer(0),
-                    "Number of uniform refinements of the primitive (of the section if it is extruded) or of "
-                    "the mesh file.");
+  prm.declare_entry(
+      "Refinements", "0", Patterns::Integer(0),
+      "0 to 10. Number of uniform refinements of the primitive (of the section if it is extruded) or of "
+      "the mesh file.");
   prm.declare_entry("Section area", "0", Patterns::Double(),
                     "Extruded primitives: area of the section after scaling about its origin, so that a "
                     "polygon has the volume of a circle. 0: no scaling. [length^2]");
@@ -253,11 +254,12 @@ void Mesh::parse(Reader &reader) {
     arguments = read_arguments(reader, is_extruded ? 2 : 3);
   }
   merged_distance = reader.located("Merge nodes within", std::optional<double>());
-  if (!reader.text("Merge nodes within").empty())
-    merged_distance.value = reader.numbers("Merge nodes within").front();
-  if (merged_distance.value &&
-      !(*merged_distance.value >= 0. && reader.numbers("Merge nodes within").size() == 1))
-    reader.reject("Merge nodes within", "a length >= 0, or nothing");
+  if (!reader.text("Merge nodes within").empty()) {
+    const std::vector<double> distances = reader.numbers("Merge nodes within");
+    if (distances.size() != 1 || !(distances[0] >= 0.))
+      reader.reject("Merge nodes within", "a length >= 0, or nothing");
+    merged_distance.value = distances[0];
+  }
 }
 
 namespace {

@@ -287,13 +287,15 @@ private:
   /// Makes a static scene a dynamic one, in which a body needs no support. Returns false if it is one.
   bool make_dynamic() {
     const Path section{"Time stepping"};
-    const std::string now = file_.value(section, scheme, "static");
-    if (now != "static" && now != "quasi-static")
+    using Scheme = parameters::TimeStepping::Scheme;
+    const std::string given = file_.value(section, scheme, parameters::name_of(Scheme::quasi_static));
+    const auto now = parameters::find_value(parameters::schemes(), given);
+    if (!now || parameters::type_of(*now).has_inertia)
       return false;
     const std::string where = where_of(section);
     file_.remove(section, scheme);
     file_.add_subsection(section, where);
-    file_.add_entry(section, scheme, "implicit dynamics", where);
+    file_.add_entry(section, scheme, parameters::name_of(Scheme::implicit_dynamics), where);
     keys_.insert({{}, scheme});
     is_dynamic_ = true;
     return true;

@@ -13,6 +13,7 @@ namespace {
 constexpr double small_part = 0.25;
 /// Orders of convergence that count. Lower ones are none; higher ones are chance.
 constexpr double lowest_order = 0.5, highest_order = 2.;
+constexpr double in_three_directions = 8.; // growth of elements
 
 /// Returns the order that estimates (W5) of a mesh and of the next finer one show, at least 1, that of
 /// contact.
@@ -49,10 +50,13 @@ MeshLevelError extrapolate(const std::vector<double> &differences, const double 
 
 BodyLevels::BodyLevels(const std::size_t n_bodies, const int first, const double target)
     : target_(target), level_(first), levels_(n_bodies, first), has_risen_(n_bodies, true),
-      errors_(n_bodies, 0.) {}
+      errors_(n_bodies, 0.), growths_(n_bodies, in_three_directions) {}
 
 void BodyLevels::add(const double difference, const std::vector<BodyMesh> &bodies) {
   const double estimate_before = sum_of(bodies_);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (has_risen_[b])
+      growths_[b] = static_cast<double>(bodies[b].n_elements) / static_cast<double>(bodies_[b].n_elements);
   bodies_ = bodies;
   ++n_runs_;
   if (n_runs_ == 1)
@@ -91,7 +95,7 @@ double BodyLevels::growth(const unsigned int n) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const auto n_elements = static_cast<double>(bodies_[b].n_elements);
     before += n_elements;
-    after += n_elements * (rises[b] ? std::pow(8., n) : 1.);
+    after += n_elements * (rises[b] ? std::pow(growths_[b], n) : 1.);
   }
   return after / before;
 }

@@ -65,7 +65,7 @@ void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretizat
 DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &review,
                                     const parameters::Scene &parameters) {
   constexpr double rounding = 1e-6;
-  if (!(mesh.error() > rounding))
+  if (!(mesh.error() > rounding) && mesh.sees_variation())
     return {};
   std::ostringstream text;
   text.precision(2);
@@ -79,7 +79,10 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &rev
   if (geometry > rounding)
     text << ". Flat facets in place of curved surfaces may make another " << 100. * geometry << " %";
   text << ". Contact between nodes and folds are not in it";
-  if (!review.resolves_contact())
+  if (!mesh.sees_variation())
+    text << ". The whole error is unknown, since parts with a single element across bend: it may be far "
+            "larger";
+  else if (!review.resolves_contact())
     text << ". The whole error is unknown, since the mesh does not resolve the contact that warnings name";
   Diagnostic message(diagnostic::mesh_error, text.str());
   message.value("error", mesh.error()).value("geometry", geometry);

@@ -94,8 +94,13 @@ void RunOutput::write_estimate(const ErrorReport &report) {
 }
 
 ExitCode RunOutput::finish(const std::vector<BodyMesh> &bodies) {
-  if (options_.judge)
-    report(options_.judge(bodies));
+  std::string folder = scene_.parameters().output.folder.value;
+  if (options_.judge) {
+    const Verdict verdict = options_.judge(bodies);
+    report(verdict.messages);
+    if (!verdict.folder.empty())
+      folder = verdict.folder;
+  }
   ExitCode code = ExitCode::success;
   // Scenes with old names run as they did before the names changed.
   const std::size_t n_warnings =
@@ -105,7 +110,7 @@ ExitCode RunOutput::finish(const std::vector<BodyMesh> &bodies) {
   else if (diagnostics_.has(diagnostic::target_error_missed) ||
            diagnostics_.has(diagnostic::mesh_target_missed))
     code = ExitCode::target_missed;
-  progress_.finish(diagnostics_.repetitions(), diagnostics_.count_in_words(), writer_.file_to_open());
+  progress_.finish(diagnostics_.repetitions(), diagnostics_.count_in_words(), writer_.file_to_open(folder));
   return code;
 }
 
@@ -146,8 +151,10 @@ ExitCode RunOutput::stop(const unsigned int n_steps, const double time, const bo
   diagnostics_.set_print(
       [this](Severity, const std::string &text) { progress_.show_diagnostic(Severity::warning, text); });
   report(Diagnostic(diagnostic::run_stopped, what)
-             .advice("Resume by: billet --restart " + checkpoints_.last() + " " + options_.changes +
-                     scene_.parameters().file_name));
+             .advice(options_.judge
+                         ? "Begin again: a run with 'Target error of = everything' cannot be resumed"
+                         : "Resume by: billet --restart " + checkpoints_.last() + " " + options_.changes +
+                               scene_.parameters().file_name));
   return ExitCode::stopped;
 }
 

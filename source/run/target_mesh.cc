@@ -38,14 +38,19 @@ struct Level {
   MeshLevelError error{};  ///< of this level, if there is one before it
 };
 
-/// Returns the largest memory that this process has held over that of the machine for each process.
-double part_of_memory(const MPI_Comm communicator) {
+struct Memory {
+  double held; ///< the largest that all processes have held [bytes]
+  double part; ///< over that of their machine
+};
+
+Memory measure_memory(const MPI_Comm communicator) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double held = 1024. * static_cast<double>(usage.ru_maxrss);
   const double all =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return dealii::Utilities::MPI::sum(held, communicator) / all;
+  const double of_all_ranks = dealii::Utilities::MPI::sum(held, communicator);
+  return {of_all_ranks, of_all_ranks / all};
 }
 
 std::string percent(const double part) {
@@ -182,7 +187,7 @@ private:
 
   /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it is the
   /// last one. Then it returns the messages for the user.
-  DiagnosticList judge(const std::vector<BodyMesh> &bodies, const double seconds) {
+  Verdict judge(const std::vector<BodyMesh> &bodies, const double seconds) {
     Level level{bodies_.level(), bodies_.levels()};
     level.seconds = dealii::Utilities::MPI::sum(seconds, communicator_);
     if (!levels_.empty())
@@ -192,19 +197,19 @@ private:
     levels_.push_back(level);
     const int finest = static_cast<int>(given_.mesh_target.finest_level);
     constexpr double fill = 9. / 8.; // factors of matrices grow by more than elements
-    const std::string limit =
-        bodies_.is_met()        ? ""
-        : level.level >= finest ? "'Finest mesh level' is " + std::to_string(finest)
-        : level.level >= 0 && fill * bodies_.growth() * part_of_memory(communicator_) > 1.
-            ? "the next level does not fit in memory"
-            : "";
+    const Memory memory = measure_memory(communicator_);
+    const std::string limit = bodies_.is_met()        ? ""
+                              : level.level >= finest ? "'Finest mesh level' is " + std::to_string(finest)
+                              : level.level >= 0 && fill * bodies_.growth() * memory.part > 1.
+                                  ? "the next level does not fit in memory"
+                                  : "";
     is_last_ = bodies_.is_met() || !limit.empty();
     if (!is_last_)
       return {};
     messages_.push_back(describe());
     if (!limit.empty())
-      messages_.push_back(describe_miss(limit));
-    return messages_;
+      messages_.push_back(describe_miss(limit, memory.held));
+    return {messages_, folder_};
   }
 
   /// Computes the difference from the level before. All ranks read the files: they are the same.
@@ -290,7 +295,8 @@ private:
     return message;
   }
 
-  Diagnostic describe_miss(const std::string &limit) const {
+  /// `memory`: that of the last level [bytes].
+  Diagnostic describe_miss(const std::string &limit, const double memory) const {
     std::ostringstream text;
     text.precision(2);
     text << "The mesh's part of the target, " << percent(given_.mesh_target.error)
@@ -298,11 +304,18 @@ private:
     if (levels_.size() > 1 && levels_.back().error.is_known) {
       const Level &last = levels_.back();
       const unsigned int more = bodies_.rises_to_target();
-      const double of_seconds =
-          std::clamp(last.seconds / std::max(1e-3, levels_[levels_.size() - 2].seconds), 4., 20.);
+      // Seconds grow at least as elements do; short runs are mostly start-up, and factors of matrices fill
+      // in.
+      constexpr double most_growth = 20., shortest = 1e-3; // s
+      const double of_elements = bodies_.growth(),
+                   of_seconds =
+                       std::clamp(last.seconds / std::max(shortest, levels_[levels_.size() - 2].seconds),
+                                  of_elements, std::max(of_elements, most_growth));
+      constexpr double gigabyte = 1e9, idle = 0.15e9; // bytes; the program without a mesh
       text << ". At this order it would take level " << last.level + static_cast<int>(more) << ": "
-           << bodies_.growth(more) << " times the elements of level " << last.level << ", and about "
-           << last.seconds * std::pow(of_seconds, more) << " s of processor";
+           << bodies_.growth(more) << " times the elements of level " << last.level << ", about "
+           << last.seconds * std::pow(of_seconds, more) << " s of processor and "
+           << (idle + std::max(0., memory - idle) * bodies_.growth(more)) / gigabyte << " GB of memory";
     }
     return Diagnostic(diagnostic::mesh_target_missed, text.str());
   }

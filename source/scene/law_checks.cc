@@ -3,9 +3,11 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/geometry/frame.h"
 #include "billet/material/law_point.h"
 #include "billet/material/user_subroutine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -63,10 +65,17 @@ const DiagnosticKind material_not_mirrored(
     "image of the body, and forces are wrong.",
     "Choose 'Axes' of the anisotropy along the normal of the plane, or compute the whole body");
 
+/// Returns a point of the plane, which is not on an axis of cylindrical material axes.
+dealii::Tensor<1, 3> find_point(const parameters::SymmetryPlane &plane) {
+  const Frame frame = Frame::from_normal(plane.normal);
+  return plane.offset * plane.normal + std::max(1., std::abs(plane.offset)) * (frame.q + 0.7 * frame.r);
+}
+
 /// Returns the norm of the difference of the stresses at a yielding point and at its mirror image about a
-/// plane, over that of the stress; nothing if the law refuses the strains.
+/// plane through it, over that of the stress; nothing if the law refuses the strains.
 std::optional<double> find_asymmetry(const PointLaw &law, const double temperature, const double dt,
-                                     const dealii::Tensor<1, 3> &normal) {
+                                     const parameters::SymmetryPlane &plane) {
+  const dealii::Tensor<1, 3> &normal = plane.normal;
   const double strain = 10. * law.flow_stress()->stress(0.) / (3. * law.elastic().shear);
   const dealii::SymmetricTensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
   // All of its components differ, so that no anisotropy is hidden.
@@ -74,7 +83,7 @@ std::optional<double> find_asymmetry(const PointLaw &law, const double temperatu
       dealii::Tensor<2, 3>({{1., 0.5, 0.4}, {0.5, -0.3, 0.7}, {0.4, 0.7, -0.6}}));
   const dealii::Tensor<2, 3> F = identity + strain * E,
                              R = identity - 2. * dealii::outer_product(normal, normal);
-  LawPoint point(law, temperature), image(law, temperature);
+  LawPoint point(law, temperature, find_point(plane)), image = point;
   const auto stress = point.evaluate(F, dt), mirrored = image.evaluate(R * F * R, dt);
   if (!stress || !mirrored || !(law.equivalent_plastic_strain(point.state().data()) > 0.))
     return {};
@@ -214,7 +223,7 @@ DiagnosticList check_mirrored_laws(const Scene &scene) {
     for (const auto &plane : scene.parameters().bodies[b].symmetry_planes.value) {
       const auto asymmetry =
           find_asymmetry(*body.law, body.temperature != nullptr ? body.temperature->value(0.) : 0.,
-                         part * scene.parameters().time_stepping.end_time, plane.normal);
+                         part * scene.parameters().time_stepping.end_time, plane);
       if (!asymmetry || *asymmetry <= allowed)
         continue;
       std::ostringstream text;

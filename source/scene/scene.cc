@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -740,8 +741,8 @@ void Scene::describe(std::ostream &stream) const {
   std::string unused;
   for (const CapabilityUse &use : capability_uses())
     if (use.is_used)
-      stream << use.name << std::string(15 - use.name.size(), ' ') << "yes" << (use.how.empty() ? "" : ": ")
-             << use.how << "\n";
+      stream << std::left << std::setw(15) << use.name << "yes" << (use.how.empty() ? "" : ": ") << use.how
+             << "\n";
     else
       unused += (unused.empty() ? "" : ", ") + use.name;
   if (!unused.empty())

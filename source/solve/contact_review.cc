@@ -120,7 +120,7 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
   additive.compress(dealii::VectorOperation::add);
   Vector sums = discretization_.make_owned_vector();
   sums = additive;
-  constexpr double coarse = 3.14159265358979 / 10.; // facet size / radius: five facets on a quarter turn
+  constexpr double coarse = dealii::numbers::PI / 10.; // facet size / radius: five facets on a quarter turn
   std::vector<double> own(7);
   double coarsest = 0.;
   for (const auto &node : reports) {

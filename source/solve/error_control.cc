@@ -3,13 +3,6 @@
 
 namespace billet {
 
-namespace {
-
-constexpr std::size_t n_numbers = 26; // in checkpoints, each at its place; the last may be missing
-constexpr std::size_t place_of_iterations = 9;
-
-} // namespace
-
 void ErrorControl::accept(const double h, const Forces &forces, const double residual,
                           const double penetration) {
   const double force = course_.size_of(forces);
@@ -27,22 +20,17 @@ ErrorControl::Estimate ErrorControl::estimate() const {
 }
 
 void ErrorControl::save(StateWriter &writer) const {
-  std::vector<double> numbers(n_numbers);
-  numbers[place_of_iterations] = iterations_;
-  course_.save(numbers);
-  steps_.save(numbers);
-  penetrations_.save(numbers);
-  writer.write("errors", numbers);
-  steps_.save_forces(writer);
+  writer.write("errors", {iterations_});
+  course_.save(writer);
+  steps_.save(writer);
+  penetrations_.save(writer);
 }
 
 void ErrorControl::load(const StateReader &reader) {
-  const std::vector<double> numbers = reader.read("errors", n_numbers);
-  iterations_ = numbers[place_of_iterations];
-  course_.load(numbers);
-  steps_.load(numbers);
-  penetrations_.load(numbers);
-  steps_.load_forces(reader);
+  iterations_ = reader.read("errors", 1)[0];
+  course_.load(reader);
+  steps_.load(reader);
+  penetrations_.load(reader);
 }
 
 } // namespace billet

@@ -26,20 +26,15 @@ double ForceCourse::scale() const {
                    force_ + std::min(0.5 * force_rate_ * left(), Limits::max_growth * force_)});
 }
 
-void ForceCourse::save(std::vector<double> &numbers) const {
-  numbers[0] = start_;
-  numbers[1] = time_;
-  numbers[2] = force_;
-  numbers[3] = force_rate_;
-  numbers[6] = work_;
+void ForceCourse::save(StateWriter &writer) const {
+  writer.write("course of forces", {start_, time_, force_, force_rate_, work_});
 }
 
-void ForceCourse::load(const std::vector<double> &numbers) {
-  start_ = numbers[0];
-  time_ = numbers[1];
-  force_ = numbers[2];
-  force_rate_ = numbers[3];
-  work_ = numbers[6];
+void ForceCourse::load(const StateReader &reader) {
+  const std::vector<double> numbers = reader.read("course of forces", 5);
+  RowReader row(numbers);
+  for (double *number : {&start_, &time_, &force_, &force_rate_, &work_})
+    *number = row.number();
 }
 
 } // namespace billet

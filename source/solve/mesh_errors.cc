@@ -33,20 +33,25 @@ struct Factors {
   static constexpr double normal = 0.5;
   /// Part of a face's jump with which an element is charged; its neighbour is charged with the other half.
   static constexpr double own = 0.5;
+  /// Part of the squared strain that may vary unseen, (W9).
+  static constexpr double unseen = 0.1;
 };
 
 Tensor<1, 3> node_of(const ElementVectors &vectors, const unsigned int a) {
   return Tensor<1, 3>({vectors[3 * a], vectors[3 * a + 1], vectors[3 * a + 2]});
 }
 
-/// Returns the gradient at the centre of an element of its nodal vectors, and its volume as 8 times the
-/// Jacobian there.
-std::pair<Tensor<2, 3>, double> centre_gradient(const ElementVectors &positions,
-                                                const ElementVectors &values) {
+/// Returns the gradient at a point of an element, in its coordinates from −1 to 1, of its nodal vectors, and
+/// 8 times the Jacobian there; at the centre, that is its volume.
+std::pair<Tensor<2, 3>, double> gradient_at(const Tensor<1, 3> &place, const ElementVectors &positions,
+                                            const ElementVectors &values) {
   Tensor<2, 3> jacobian, derivatives; // ∂x_i/∂ξ_j, ∂v_i/∂ξ_j
   for (unsigned int a = 0; a < n_element_nodes; ++a)
     for (unsigned int j = 0; j < 3; ++j) {
-      const double derivative = ((a >> j) & 1U) == 1U ? 0.125 : -0.125;
+      double derivative = ((a >> j) & 1U) == 1U ? 0.125 : -0.125;
+      for (unsigned int k = 0; k < 3; ++k)
+        if (k != j)
+          derivative *= 1. + (((a >> k) & 1U) == 1U ? place[k] : -place[k]);
       for (unsigned int i = 0; i < 3; ++i) {
         jacobian[i][j] += derivative * positions[3 * a + i];
         derivatives[i][j] += derivative * values[3 * a + i];
@@ -73,8 +78,13 @@ MeshErrors::MeshErrors(const Discretization &discretization)
     : discretization_(discretization), errors_(discretization.n_bodies()) {
   for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
     elements_.emplace_back(discretization.elements(body).size());
-    for (const Element &element : discretization.elements(body))
-      volume_ += element.cell->measure();
+    for (std::size_t e = 0; e < elements_[body].size(); ++e) {
+      const CellIterator &cell = discretization.elements(body)[e].cell;
+      volume_ += cell->measure();
+      for (unsigned int d = 0; d < 3; ++d)
+        elements_[body][e].is_alone[d] =
+            cell->face(2 * d)->at_boundary() && cell->face(2 * d + 1)->at_boundary();
+    }
   }
   volume_ = dealii::Utilities::MPI::sum(volume_, discretization.communicator());
   measure_facets();
@@ -100,14 +110,23 @@ MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const 
   ElementVectors increment = displacements;
   for (unsigned int i = 0; i < n_element_dofs; ++i)
     increment[i] -= element.displacements[i];
-  const auto [gradient, volume] =
-      centre_gradient(middle_of(positions, element.displacements, displacements), increment);
+  const ElementVectors middle = middle_of(positions, element.displacements, displacements);
+  const auto [gradient, volume] = gradient_at({}, middle, increment);
   const Stress strain = dealii::symmetrize(gradient);
   Interval interval;
   interval.stress = element.stress_sum / static_cast<double>(n_states_);
   interval.volume = volume;
   interval.strain = std::sqrt(2. / 3.) * equivalent_of(strain);
   interval.work = volume * (interval.stress * strain);
+  for (unsigned int d = 0; d < 3; ++d)
+    if (element.is_alone[d]) {
+      Tensor<1, 3> face;
+      face[d] = 1.;
+      const Stress change = dealii::symmetrize(gradient_at(face, middle, increment).first -
+                                               gradient_at(-face, middle, increment).first);
+      interval.unseen += volume * 0.25 * (change * change) / 3.; // of ± half of it, linearly
+    }
+  interval.squared_strain = volume * (strain * strain) + interval.unseen;
   return interval;
 }
 
@@ -192,7 +211,8 @@ void MeshErrors::add(const Solution &solution, const bool ends_interval) {
 
 void MeshErrors::add_interval(const Solution &solution) {
   const std::vector<Interval> intervals = compare_all(solution);
-  std::vector<double> sums(elements_.size() + 2); // by body, and the work, of elements and outside
+  // By body, the work of elements and outside, and squared strains.
+  std::vector<double> sums(elements_.size() + 4);
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
       const Element &element = discretization_.elements(body)[e];
@@ -203,9 +223,12 @@ void MeshErrors::add_interval(const Solution &solution) {
                      intervals);
       own.error += saved;
       sums[body] += saved;
-      const double work = std::abs(intervals[element.cell->active_cell_index()].work);
-      sums[elements_.size()] += work;
-      sums.back() += own.outside * work;
+      const Interval &interval = intervals[element.cell->active_cell_index()];
+      double *const of_all = &sums[elements_.size()];
+      of_all[0] += std::abs(interval.work);
+      of_all[1] += own.outside * std::abs(interval.work);
+      of_all[2] += interval.squared_strain;
+      of_all[3] += interval.unseen;
       own.stress_sum = 0.;
       own.displacements = displacements;
     }
@@ -214,7 +237,9 @@ void MeshErrors::add_interval(const Solution &solution) {
   for (std::size_t body = 0; body < elements_.size(); ++body)
     errors_[body] += sums[body];
   work_ += sums[elements_.size()];
-  work_outside_ += sums.back();
+  work_outside_ += sums[elements_.size() + 1];
+  squared_strain_ += sums[elements_.size() + 2];
+  unseen_ += sums[elements_.size() + 3];
 }
 
 double MeshErrors::error() const {
@@ -230,6 +255,8 @@ std::vector<double> MeshErrors::of_bodies() const {
     parts[body] = errors_[body] / work_;
   return parts;
 }
+
+bool MeshErrors::sees_variation() const { return unseen_ <= Factors::unseen * squared_strain_; }
 
 double MeshErrors::geometry_error() const { return is_known() ? work_outside_ / work_ : 0.; }
 
@@ -258,6 +285,8 @@ void MeshErrors::save(StateWriter &writer) const {
   std::vector<double> sums = errors_;
   sums.push_back(work_);
   sums.push_back(work_outside_);
+  sums.push_back(squared_strain_);
+  sums.push_back(unseen_);
   sums.push_back(n_states_);
   sums.push_back(has_begun_ ? 1. : 0.);
   writer.write("mesh errors of intervals", sums);
@@ -267,12 +296,14 @@ void MeshErrors::save(StateWriter &writer) const {
 void MeshErrors::load(const StateReader &reader) {
   if (!reader.has("mesh errors of intervals"))
     return; // of an earlier version: the estimate begins here
-  const std::vector<double> sums = reader.read("mesh errors of intervals", errors_.size() + 4);
-  std::copy_n(sums.begin(), errors_.size(), errors_.begin());
-  work_ = sums[errors_.size()];
-  work_outside_ = sums[errors_.size() + 1];
-  n_states_ = static_cast<unsigned int>(sums[errors_.size() + 2]);
-  has_begun_ = sums.back() > 0.;
+  const std::vector<double> sums = reader.read("mesh errors of intervals", errors_.size() + 6);
+  RowReader of_all(sums);
+  for (double &error : errors_)
+    error = of_all.number();
+  for (double *number : {&work_, &work_outside_, &squared_strain_, &unseen_})
+    *number = of_all.number();
+  n_states_ = to_count(of_all.number());
+  has_begun_ = of_all.flag();
   std::vector<std::uint64_t> keys;
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (const Element &element : discretization_.elements(body))

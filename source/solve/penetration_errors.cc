@@ -41,23 +41,28 @@ void PenetrationErrors::measure(const ForceCourse &course, const double penetrat
   allowed_ = std::max(1., penetration * allowed / error);
 }
 
-void PenetrationErrors::save(std::vector<double> &numbers) const {
-  numbers[8] = integral_;
-  numbers[10] = slope_;
-  numbers[13] = unmeasured_;
-  numbers[15] = is_measured_ ? 1. : 0.;
-  numbers[20] = allowed_;
-  numbers[21] = interval_.until();
-  numbers[22] = interval_.length();
+void PenetrationErrors::save(StateWriter &writer) const {
+  std::vector<double> numbers;
+  RowWriter(numbers)
+      .number(integral_)
+      .number(slope_)
+      .number(unmeasured_)
+      .number(is_measured_ ? 1. : 0.)
+      .number(allowed_)
+      .number(interval_.until())
+      .number(interval_.length());
+  writer.write("errors of penetrations", numbers);
 }
 
-void PenetrationErrors::load(const std::vector<double> &numbers) {
-  integral_ = numbers[8];
-  slope_ = numbers[10];
-  unmeasured_ = numbers[13];
-  is_measured_ = numbers[15] > 0.;
-  allowed_ = numbers[20];
-  interval_.load(numbers[21], numbers[22]);
+void PenetrationErrors::load(const StateReader &reader) {
+  const std::vector<double> numbers = reader.read("errors of penetrations", 7);
+  RowReader row(numbers);
+  for (double *number : {&integral_, &slope_, &unmeasured_})
+    *number = row.number();
+  is_measured_ = row.flag();
+  allowed_ = row.number();
+  const unsigned int until = to_count(row.number());
+  interval_.load(until, to_count(row.number()));
 }
 
 } // namespace billet

@@ -225,43 +225,40 @@ void StepErrors::miss(const double h, const bool failed) {
     longest_step_ = std::min(longest_step_, Factors::cut * h);
 }
 
-void StepErrors::save(std::vector<double> &numbers) const {
-  numbers[4] = last_slope_;
-  numbers[5] = last_error_;
-  numbers[7] = integral_;
-  numbers[11] = unmeasured_;
-  numbers[12] = unmeasured_span_;
-  numbers[14] = measured_step_;
-  numbers[16] = interval_.until();
-  numbers[17] = interval_.length();
-  numbers[18] = n_measurements_;
-  numbers[19] = longest_step_;
-  numbers[23] = is_little_ ? 1. : 0.;
-  numbers[24] = part_;
-  numbers[25] = n_failed_;
-}
-
-void StepErrors::load(const std::vector<double> &numbers) {
-  last_slope_ = numbers[4];
-  last_error_ = numbers[5];
-  integral_ = numbers[7];
-  unmeasured_ = numbers[11];
-  unmeasured_span_ = numbers[12];
-  measured_step_ = numbers[14];
-  interval_.load(numbers[16], numbers[17]);
-  n_measurements_ = static_cast<unsigned int>(numbers[18]);
-  longest_step_ = numbers[19];
-  is_little_ = numbers[23] > 0.;
-  part_ = numbers[24];
-  n_failed_ = static_cast<unsigned int>(numbers[25]);
-}
-
-void StepErrors::save_forces(StateWriter &writer) const {
+void StepErrors::save(StateWriter &writer) const {
+  std::vector<double> numbers;
+  RowWriter(numbers)
+      .number(last_slope_)
+      .number(last_error_)
+      .number(integral_)
+      .number(unmeasured_)
+      .number(unmeasured_span_)
+      .number(measured_step_)
+      .number(interval_.until())
+      .number(interval_.length())
+      .number(n_measurements_)
+      .number(longest_step_)
+      .number(is_little_ ? 1. : 0.)
+      .number(part_)
+      .number(n_failed_);
+  writer.write("errors of steps", numbers);
   billet::save(writer, "errors by steps", slopes_);
   billet::save(writer, "errors of forces", errors_);
 }
 
-void StepErrors::load_forces(const StateReader &reader) {
+void StepErrors::load(const StateReader &reader) {
+  const std::vector<double> numbers = reader.read("errors of steps", 13);
+  RowReader row(numbers);
+  for (double *number :
+       {&last_slope_, &last_error_, &integral_, &unmeasured_, &unmeasured_span_, &measured_step_})
+    *number = row.number();
+  const unsigned int until = to_count(row.number());
+  interval_.load(until, to_count(row.number()));
+  n_measurements_ = to_count(row.number());
+  longest_step_ = row.number();
+  is_little_ = row.flag();
+  part_ = row.number();
+  n_failed_ = to_count(row.number());
   slopes_ = load_result_group(reader, "errors by steps");
   errors_ = load_result_group(reader, "errors of forces");
 }

@@ -99,6 +99,33 @@ def _() -> None:
         says("Target error of = everything", read_text("kept/scene_as_run.prm"))
 
 
+@check("a beam of one element across has levels from the given mesh on, and misses 2 percent")
+def _() -> None:
+    free = "beam: - Symmetry planes & Mesh: Arguments = {} : 0, 0, 0 : 100, 5, 5 & "
+    finest = billet(free.format("48, 4, 4") + "+ set Profile = balanced")
+    ran = runner.run(BEAM, free.format("4, 1, 1") + everything("2 percent", "Finest mesh level = 1"))
+    equal("the first level", levels(ran)[0][0], "0")
+    true = abs(ran.last(FORCE) / finest.last(FORCE) - 1)
+    require(true <= 0.02 or ran.ended.code == 7, f"{true} off, and the exit code is {ran.ended.code}")
+
+
+@check("the error of a wall of one element is unknown if it bends, and known if it is pulled")
+def _() -> None:
+    wall = "beam: - Symmetry planes & Mesh: Arguments = 4, 1, 1 : 0, 0, 0 : 100, 5, 5"
+    unknown = r"^note\[mesh-error\]: .*unknown, since parts with a single element across bend"
+    says(unknown, billet(wall).said)
+    for edits in ("end: Displacement = 0.5*t ; 0 ; 0 & " + wall, ""):
+        said = billet(edits).said
+        require("single element across" not in said, said)
+
+
+@check("the last line names files that exist")
+def _() -> None:
+    ran = billet("Output: Format = vtu & " + everything("20 percent"))
+    file = says(r"Open in ParaView: (\S+)", ran.said)[1]
+    require(Path(file).exists(), f"there is no {file}")
+
+
 @check("a body whose part of the error is small stays behind, and the error shown is the true one")
 def _() -> None:
     base = read_text(HERE / "stiff_base.prm")

@@ -7,6 +7,7 @@
 #include "point_driver.h"
 
 #include "billet/material/flow_rule_plastic.h"
+#include "billet/material/law_point.h"
 
 using namespace billet;
 using namespace billet::testing;
@@ -31,7 +32,7 @@ template <class Hardening>
 Law make_law(const Hardening &hardening, const HillCoefficients &coefficients, const Axes3 &axes,
              std::vector<BackstressTerm> terms = {}, const ElasticModuli &elastic = steel) {
   FlowRule rule;
-  rule.anisotropy = std::make_shared<const Anisotropy>(Anisotropy{coefficients, axes});
+  rule.anisotropy = std::make_shared<const Anisotropy>(Anisotropy{coefficients, Axes(axes)});
   rule.backstress = std::move(terms);
   return Law(elastic, make_hardening(hardening), rule);
 }
@@ -180,6 +181,50 @@ void test_objectivity() {
   check("axes that turn with the undeformed sample", moved.value(), 1e-9);
 }
 
+/// Cylindrical axes: each element has the law of a body whose axes are those at its centre.
+void test_cylindrical_axes() {
+  const Tensor<1, 3> on_line({1., 2., 0.}), along({0.6, 0., 0.8});
+  const auto hill = HillCoefficients::from_stress_ratios({1., 1.4, 0.8, 1.1, 0.9, 1.2});
+  const auto make = [&](const Axes &axes) {
+    FlowRule rule;
+    rule.anisotropy = std::make_shared<const Anisotropy>(Anisotropy{hill, axes});
+    rule.backstress = {{20000., 100.}};
+    return make_hencky_law(steel, make_hardening(voce), rule);
+  };
+  const SharedLaw law = make(Axes::about(on_line, along));
+  Random random;
+  WorstError same, axes;
+  double elsewhere = 0.;
+  for (unsigned int i = 0; i < 10; ++i) {
+    const Tensor<1, 3> place = random.tensor(5.)[0];
+    Tensor<1, 3> radius = place - on_line;
+    radius -= (radius * along) * along;
+    radius /= radius.norm();
+    const SharedLaw fixed = make(Axes({radius, dealii::cross_product_3d(along, radius), along}));
+    LawPoint point(*law, 0., place), expected(*fixed),
+        other(*law, 0., on_line + dealii::cross_product_3d(along, radius) + 0.3 * radius);
+    follow_path(0.05, 10, [&](const Tensor<2, 3> &F) {
+      StressRates rates{}, expected_rates{};
+      const auto tau = point.evaluate(F, 0.1, &rates),
+                 tau_expected = expected.evaluate(F, 0.1, &expected_rates),
+                 tau_other = other.evaluate(F, 0.1);
+      if (!tau || !tau_expected || !tau_other)
+        return check("cylindrical axes fail", false);
+      same.add((*tau - *tau_expected).norm() / tau->norm());
+      same.add(relative_difference(rates, expected_rates, false));
+      elsewhere = std::max(elsewhere, (*tau_other - *tau).norm() / tau->norm());
+      for (LawPoint *each : {&point, &expected, &other})
+        each->commit();
+    });
+    const double *const numbers = point.state_n().data() + law->n_state() - 9;
+    for (unsigned int k = 0; k < 3; ++k)
+      axes.add(std::abs(numbers[k] - radius[k]));
+  }
+  check("cylindrical axes, stresses and moduli", same.value(), 1e-9);
+  check("cylindrical axes, in the state", axes.value(), 1e-14);
+  check("cylindrical axes, other stresses elsewhere", elsewhere > 0.05);
+}
+
 } // namespace
 
 int main() {
@@ -196,5 +241,6 @@ int main() {
   test_moduli("strong anisotropy", make_law(power_law, strong, axes), step, 30, 40);
   test_moduli("with backstress", make_law(perfect, mild, axes, {{60000., 600.}, {1500., 0.}}), step, 30, 40);
   test_objectivity();
+  test_cylindrical_axes();
   return exit_code();
 }

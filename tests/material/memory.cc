@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What laws remember beside stress and plastic strain: a point that is made anew from stress, plastic strain
-// and memory goes on as the point that it came from, with backstress, heat, rates, viscosity and anisotropy.
-// Without memory it does not. A point at another deformation keeps its backstress in space. The heat of a law
-// with backstress is the fraction of all its plastic work.
+// and memory goes on as the point that it came from, with backstress, heat, rates, viscosity and anisotropy,
+// also in cylindrical axes. Without memory it does not. A point at another deformation keeps its backstress
+// in space. The heat of a law with backstress is the fraction of all its plastic work.
 
 #include "rubber_laws.h"
 
@@ -18,6 +18,7 @@ using namespace billet::testing;
 namespace {
 
 constexpr double dt = 0.01, temperature = 293., heating = 0.2;
+const Tensor<1, 3> place({3., 1., 2.}); // of the element
 
 SharedFlow flow_at_rates() {
   const auto rate = rate_factor_types()
@@ -46,7 +47,13 @@ FlowRule anisotropic(FlowRule rule) {
   const double c = std::cos(0.4), s = std::sin(0.4);
   rule.anisotropy = std::make_shared<const Anisotropy>(
       Anisotropy{HillCoefficients::from_r_values(1.8, 1.3, 2.2),
-                 {Tensor<1, 3>({c, s, 0.}), Tensor<1, 3>({-s, c, 0.}), Tensor<1, 3>({0., 0., 1.})}});
+                 Axes({Tensor<1, 3>({c, s, 0.}), Tensor<1, 3>({-s, c, 0.}), Tensor<1, 3>({0., 0., 1.})})});
+  return rule;
+}
+
+FlowRule cylindrical(FlowRule rule) {
+  rule.anisotropy = std::make_shared<const Anisotropy>(
+      Anisotropy{rule.anisotropy->coefficients, Axes::about({}, Tensor<1, 3>({0., 0.6, 0.8}))});
   return rule;
 }
 
@@ -72,7 +79,7 @@ void follow(LawPoint &point, const std::vector<Tensor<2, 3>> &deformations) {
 
 /// Makes a point anew from the stress of another, with or without memory.
 LawPoint renewed(const PointLaw &law, LawPoint &point, const Tensor<2, 3> &F, const bool remembers) {
-  LawPoint result(law, temperature);
+  LawPoint result(law, temperature, place);
   const double *const state = point.state_n().data();
   law.set_stress(F, dealii::deviator(*point.evaluate(F, 0.)), law.equivalent_plastic_strain(state),
                  result.state_n().data());
@@ -85,7 +92,7 @@ void test_continuation(const std::string &name, const PointLaw &law) {
   constexpr unsigned int n = 20;
   const auto all = path(2 * n);
   const std::vector<Tensor<2, 3>> before(all.begin(), all.begin() + n), after(all.begin() + n, all.end());
-  LawPoint point(law, temperature);
+  LawPoint point(law, temperature, place);
   follow(point, before);
   LawPoint same = renewed(law, point, before.back(), true), other = renewed(law, point, before.back(), false);
   const double dissipated = law.dissipated_energy(point.state_n().data());
@@ -174,6 +181,8 @@ int main() {
   test_continuation("backstress", *make_hencky_law(steel, linear, kinematic()));
   test_continuation("heat", *make_hencky_law(steel, linear, thermal({})));
   test_continuation("all", *make_hencky_law(steel, flow_at_rates(), anisotropic(thermal(kinematic()))));
+  test_continuation("cylindrical axes",
+                    *make_hencky_law(steel, flow_at_rates(), cylindrical(anisotropic(thermal(kinematic())))));
   test_continuation("viscosity",
                     ViscoelasticLaw(HyperelasticLaw("test", mooney_energy(), volume(logarithmic)),
                                     {{0.3, 0.25, 0.1}, {0.02, 1., 30.}}));

@@ -308,9 +308,9 @@ int main() {
   test_slope("slope, backstress", make_law<Directed>(make_hardening(linear), "1", 10. * heating, kinematic));
   FlowRule rule;
   rule.backstress = {{20000., 100.}, {1500., 0.}};
-  rule.anisotropy = std::make_shared<const Anisotropy>(
-      Anisotropy{HillCoefficients::from_r_values(1.79, 1.51, 2.27),
-                 {Tensor<1, 3>({0.6, 0.8, 0.}), Tensor<1, 3>({-0.8, 0.6, 0.}), Tensor<1, 3>({0., 0., 1.})}});
+  rule.anisotropy = std::make_shared<const Anisotropy>(Anisotropy{
+      HillCoefficients::from_r_values(1.79, 1.51, 2.27),
+      Axes({Tensor<1, 3>({0.6, 0.8, 0.}), Tensor<1, 3>({-0.8, 0.6, 0.}), Tensor<1, 3>({0., 0., 1.})})});
   test_moduli("with directions at a rate",
               make_law<Directed>(at_rate(voce, cowper_symonds(40., 5.)), "1.03", heating, rule), false);
   return exit_code();

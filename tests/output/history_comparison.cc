@@ -14,14 +14,17 @@ using billet::testing::check;
 
 namespace {
 
-/// A box of these numbers of elements, with these refinements.
-parameters::Scene read_box(const std::string &counts, const unsigned int refinements) {
+/// A box of these numbers of elements, with these refinements. Nothing varies along y, unless a side is free.
+parameters::Scene read_box(const std::string &counts, const unsigned int refinements,
+                           const std::string &planes = "x = 0 ; y = 0 ; y = 1 ; z = 0") {
   const std::string file = "levels.prm";
   std::ofstream(file) << "subsection Bodies\n  subsection box\n    subsection Mesh\n"
                          "      set Primitive = subdivided_hyper_rectangle\n      set Arguments = "
                       << counts << " : 0, 0, 0 : 1, 1, 1\n      set Refinements = " << refinements
                       << "\n    end\n    subsection Material\n      set Young modulus = 1\n    end\n"
-                         "    set Symmetry planes = x = 0 ; y = 0 ; z = 0\n  end\nend\n"
+                         "    set Symmetry planes = "
+                      << planes
+                      << "\n  end\nend\n"
                          "subsection Time stepping\n  set End time = 1\nend\n";
   return parameters::Scene::read(file);
 }
@@ -77,6 +80,11 @@ int main() {
   check("odd ones do not", levels_of("9, 1, 8", 0) == 0);
   const parameters::Scene box = read_box("8, 1, 4", 0);
   check("coarser", at_mesh_levels(box, {-1}).bodies[0].mesh.arguments.rfind("4, 1, 2 :", 0) == 0);
-  check("finer", at_mesh_levels(box, {2}).bodies[0].mesh.refinements == 2);
+  const parameters::Scene finer = at_mesh_levels(box, {2});
+  check("finer, but where nothing varies",
+        finer.bodies[0].mesh.refinements == 0 && finer.bodies[0].mesh.arguments.rfind("32, 1, 16 :", 0) == 0);
+  const parameters::Scene wall = read_box("8, 1, 8", 0, "x = 0 ; y = 0");
+  check("a wall of one element has no coarser mesh", count_coarser_levels(wall, 2) == 0);
+  check("and finer ones divide it", at_mesh_levels(wall, {1}).bodies[0].mesh.refinements == 1);
   return testing::exit_code();
 }

@@ -7,6 +7,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace billet {
@@ -21,9 +22,15 @@ public:
   Axes() = default;
   /// Refuses wrong values.
   explicit Axes(const TypeInput &input);
+  /// A fixed triad of orthogonal unit vectors.
+  explicit Axes(const std::array<dealii::Tensor<1, 3>, 3> &triad);
+  /// Returns cylindrical axes about the line through this point along this unit vector.
+  static Axes about(const dealii::Tensor<1, 3> &point, const dealii::Tensor<1, 3> &direction);
 
   bool are_global() const { return kind_ == Kind::global; }
   bool are_cylindrical() const { return kind_ == Kind::cylindrical; }
+  /// Returns a description for messages and checkpoints, such as "axes (0, 1, 0), (1, 0, 0)".
+  std::string description() const;
   /// Returns the distance to the line of cylindrical axes [length].
   double radius(const dealii::Tensor<1, 3> &position) const;
   /// Returns the unit vectors. On the line itself, that of the radius is arbitrary.

@@ -2,6 +2,7 @@
 #ifndef BILLET_MATERIAL_ANISOTROPY_H
 #define BILLET_MATERIAL_ANISOTROPY_H
 
+#include "billet/geometry/axes.h"
 #include "billet/material/log_map.h"
 #include "billet/registered_type.h"
 
@@ -32,7 +33,7 @@ struct HillCoefficients {
 /// Anisotropic yield function of a material.
 struct Anisotropy {
   HillCoefficients coefficients;
-  std::array<dealii::Tensor<1, 3>, 3> axes; ///< of the undeformed body
+  Axes axes; ///< of the undeformed body
 
   /// Returns a description such as "Hill's anisotropy (F 0.28, ...)".
   std::string description() const;

@@ -60,6 +60,10 @@ public:
   void remember(const dealii::Tensor<2, 3> &F, const std::vector<double> &memory, History &history) const;
 
   std::vector<StateField> fields() const;
+  std::string directions() const {
+    return rule_.anisotropy != nullptr ? ", Hill's anisotropy in " + rule_.anisotropy->axes.description()
+                                       : "";
+  }
   void store(const History &history, double *numbers) const;
   History restore(const double *numbers) const;
 

@@ -18,6 +18,9 @@ struct PrincipalElasticState {
 /// inadmissible and the step must be cut.
 bool compute_principal_state(const dealii::SymmetricTensor<2, 3> &b, PrincipalElasticState &state);
 
+/// Returns sym(a ⊗ b) in the order 11, 22, 33, 12, 13, 23.
+std::array<double, 6> symmetric_dyad(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b);
+
 /// Returns exp(A), from the eigenvectors of A.
 dealii::SymmetricTensor<2, 3> exponential(const dealii::SymmetricTensor<2, 3> &A);
 

@@ -74,9 +74,6 @@ void compute_hyperelastic_moduli(const HyperelasticState &state, double share, S
 /// Returns an elasticity that is this law, without plasticity, and Young's modulus of it [stress].
 std::shared_ptr<const Elasticity> make_elasticity(SharedLaw law, double young);
 
-/// Returns sym(a ⊗ b) in the order 11, 22, 33, 12, 13, 23.
-std::array<double, 6> symmetric_dyad(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b);
-
 } // namespace billet
 
 #endif

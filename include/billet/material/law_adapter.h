@@ -30,6 +30,11 @@ constexpr auto has_own_bound(int) -> decltype(static_cast<void>(&L::bound_stiffn
 }
 template <class L> constexpr bool has_own_bound(long) { return false; }
 
+template <class L> constexpr auto has_directions(int) -> decltype(static_cast<void>(&L::directions), bool()) {
+  return true;
+}
+template <class L> constexpr bool has_directions(long) { return false; }
+
 template <class L> constexpr auto finds_temperature(int) -> decltype(L::depends_on_temperature) {
   return L::depends_on_temperature;
 }
@@ -50,6 +55,7 @@ template <class L> constexpr bool finds_temperature(long) { return false; }
 ///   flow_slope()                   if the law may soften
 ///   bound_stiffness(tau)           if PointLaw's is not the law's; without it, moduli bound elastic laws
 ///   flow_stress()                  with plasticity
+///   directions()                   what summary() adds about directions of the material, if it has any
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:
   using History = typename Law::History;
@@ -61,6 +67,12 @@ public:
   }
 
   std::string name() const override { return name_; }
+  std::string summary() const override {
+    if constexpr (adapter::has_directions<Law>(0))
+      return PointLaw::summary() + law_.directions();
+    else
+      return PointLaw::summary();
+  }
   const ElasticModuli &elastic() const override { return law_.elastic(); }
   double bound_stiffness(const dealii::SymmetricTensor<2, 3> &tau) const override {
     if constexpr (adapter::has_own_bound<Law>(0))

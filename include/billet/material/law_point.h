@@ -17,7 +17,8 @@ using StressRates = std::array<std::array<double, 9>, 6>;
 /// Point of any law that is driven through deformation gradients, for checks of laws.
 class LawPoint {
 public:
-  explicit LawPoint(const PointLaw &law, double temperature = 0.);
+  /// `centre`: for laws whose material axes depend on it.
+  explicit LawPoint(const PointLaw &law, double temperature = 0., const dealii::Tensor<1, 3> &centre = {});
 
   /// Returns the Kirchhoff stress at F, at the end of a step of length dt from the committed state; nothing
   /// if the law refuses. Overwrites `rates`, unless it is null, with what the law's moduli promise.

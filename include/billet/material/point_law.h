@@ -98,6 +98,10 @@ public:
   virtual std::size_t n_state() const = 0;
   /// Overwrites `state` with the state of the undeformed point.
   virtual void initialize(double *state) const = 0;
+  /// The same for a point of an element with this undeformed centre, on which material axes may depend.
+  virtual void initialize_at(const dealii::Tensor<1, 3> & /*centre*/, double *state) const {
+    initialize(state);
+  }
 
   /// Returns the stored energy per reference volume [stress] at a state that belongs to F.
   virtual double stored_energy(const dealii::Tensor<2, 3> &F, double J, const double *state) const = 0;
@@ -105,8 +109,8 @@ public:
   virtual double dissipated_energy(const double *state) const = 0;
   virtual double equivalent_plastic_strain(const double *state) const = 0;
 
-  /// Overwrites `state` with the state for which `F` has a Kirchhoff stress with this deviator, which is
-  /// below the yield stress.
+  /// Overwrites a `state` from initialize_at() with that for which `F` has a Kirchhoff stress with this
+  /// deviator, which is below the yield stress.
   virtual void set_stress(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                           double equivalent_plastic_strain, double *state) const = 0;
   /// Returns what a state at F has beside its stress and its equivalent plastic strain, such as backstress.
@@ -123,7 +127,7 @@ public:
   /// results depend on the mesh.
   virtual std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const = 0;
   /// Returns the slope of the flow stress with plastic strain, with the heat of the plastic work, for a point
-  /// in this state that yields, (H20) of doc/theory [stress]. Returns nothing if the law cannot soften. If
+  /// in this state that yields, (H21) of doc/theory [stress]. Returns nothing if the law cannot soften. If
   /// the slope is negative, strains localise in one layer of elements. `temperature`: of the body.
   virtual std::optional<double> flow_slope(const double * /*state*/, double /*temperature*/) const {
     return {};

@@ -40,6 +40,9 @@ struct PointStates {
 /// Averages of the numbers of PointLaw::fields(): of an element and, if it has layers, of `layer_names`.
 using StateAverages = std::vector<std::vector<double>>;
 
+/// Returns the mean of the corners [length].
+dealii::Tensor<1, 3> find_centre(const ElementVectors &positions);
+
 /// Selects a history: that at the start of the step, or that of the last evaluate().
 enum class Beat { committed, evaluated };
 

@@ -62,9 +62,13 @@ public:
     }
     if constexpr (is_layered)
       axes_ = axes;
+    centres_.resize(elements_.size());
     state_n_.resize(elements_.size() * n_points * n_state_);
-    for (std::size_t point = 0; point < elements_.size() * n_points; ++point)
-      law_.initialize(state_n_.data() + point * n_state_);
+    for (std::size_t element = 0; element < elements_.size(); ++element) {
+      centres_[element] = find_centre(positions[element]);
+      for (unsigned int q = 0; q < n_points; ++q)
+        law_.initialize_at(centres_[element], state_of(state_n_, element, q));
+    }
     state_ = state_n_;
     if constexpr (keeps_element_history)
       history_n_.assign(elements_.size(), {});
@@ -284,7 +288,7 @@ public:
           mean.add(1. / n_shared, stress[p]);
         double *state = state_of(state_n_, element, q);
         const auto &F = Element::template deformation<Form::is_rate_form>(reference, kinematics, q);
-        law_.initialize(state);
+        law_.initialize_at(centres_[element], state);
         law_.set_stress(F, mean.deviator, mean.equivalent_plastic_strain, state);
         if (!mean.memory.empty())
           law_.remember(F, mean.memory, state);
@@ -448,6 +452,7 @@ private:
   void (*compute_tangent_)(const Element &, const Reference &, const Kinematics &, const Stresses &,
                            const Moduli &, ElementMatrix &) = nullptr;
   std::vector<Reference> elements_;
+  std::vector<dealii::Tensor<1, 3>> centres_;       ///< of the undeformed elements
   std::vector<ThicknessAxis> axes_;                 ///< with more than two points through the thickness
   std::vector<double> state_n_, state_;             ///< states of the points
   std::vector<ElementHistory> history_n_, history_; ///< histories of the elements

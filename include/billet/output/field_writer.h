@@ -27,8 +27,9 @@ public:
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns what to open in words, once a snapshot was written; empty if the scene requests no fields.
-  std::string file_to_open() const;
+  /// Returns what to open in words, once a snapshot was written and if the results are then in this folder;
+  /// empty if the scene requests no fields.
+  std::string file_to_open(const std::string &folder) const;
 
 private:
   void write(const Solution &solution, const std::vector<Grid> &grids);

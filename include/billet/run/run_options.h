@@ -20,6 +20,12 @@ struct BodyMesh {
   double error;           ///< its part of the relative error of the forces, by (W5) of the theory
 };
 
+/// What is said of a run that has reached its end.
+struct Verdict {
+  DiagnosticList messages;
+  std::string folder; ///< to which its results are moved afterwards; empty: they stay
+};
+
 /// Options of a run that its parameters do not have, such as those of the command line.
 struct RunOptions {
   bool replaces_results = false; ///< rather than to move those of an earlier run aside
@@ -27,9 +33,9 @@ struct RunOptions {
   bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
   std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
   std::ostream *steps = nullptr; ///< gets lines of steps if the console is quiet and the log is open already
-  /// Returns messages about a run that has reached its end, with these meshes of bodies; its history is
-  /// complete. Collective. Empty: none.
-  std::function<DiagnosticList(const std::vector<BodyMesh> &)> judge = {};
+  /// Judges a run that has reached its end, with these meshes of bodies; its history is complete. Collective.
+  /// Empty: none. A run that is judged is one of several, and cannot be resumed.
+  std::function<Verdict(const std::vector<BodyMesh> &)> judge = {};
 };
 
 } // namespace billet

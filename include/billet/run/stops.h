@@ -26,9 +26,10 @@ private:
 /// reaches the next multiple of the interval, and at the end.
 class RegularTimes {
 public:
-  /// `interval`: 0 for a two hundredth of the time to the end [time].
+  static constexpr double n_by_default = 200.;
+  /// `interval`: 0 for the time to the end over `n_by_default` [time].
   RegularTimes(const double end, const double interval)
-      : end_(end), interval_(interval > 0. ? interval : end / 200.) {}
+      : end_(end), interval_(interval > 0. ? interval : end / n_by_default) {}
 
   /// Whether something is due at this time. Call it once for each time.
   bool is_due(double time);

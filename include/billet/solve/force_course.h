@@ -3,6 +3,7 @@
 #define BILLET_SOLVE_FORCE_COURSE_H
 
 #include "billet/solve/result_group.h"
+#include "billet/state.h"
 
 #include <algorithm>
 #include <vector>
@@ -40,8 +41,8 @@ public:
   double scale() const;
 
   // For checkpoints: this class's numbers among those of ErrorControl.
-  void save(std::vector<double> &numbers) const;
-  void load(const std::vector<double> &numbers);
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
 private:
   double end_time_;

@@ -38,9 +38,9 @@ public:
 
   unsigned int until() const { return until_; }
   unsigned int length() const { return length_; }
-  void load(const double until, const double length) {
-    until_ = static_cast<unsigned int>(until);
-    length_ = static_cast<unsigned int>(length);
+  void load(const unsigned int until, const unsigned int length) {
+    until_ = until;
+    length_ = length;
   }
 
 private:

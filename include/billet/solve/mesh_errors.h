@@ -5,6 +5,7 @@
 #include "billet/solve/solution.h"
 #include "billet/state.h"
 
+#include <array>
 #include <vector>
 
 namespace billet {
@@ -31,6 +32,9 @@ public:
   double error() const;
   /// Returns the part of it that each body makes.
   std::vector<double> of_bodies() const;
+  /// Whether the jumps can tell the error. They cannot if much of the strain varies within elements that have
+  /// no neighbour on either side, such as those of a wall of one element that bends, (W9).
+  bool sees_variation() const;
   /// Returns the part of the work of deformation that the space between the facets and the smooth surfaces
   /// would do if it deformed as the elements at the facets do, (W8): the relative error of the geometry.
   double geometry_error() const;
@@ -50,6 +54,7 @@ private:
     ElementVectors displacements{}; ///< at the start of the interval [length]
     double error = 0.;              ///< work that finer elements would save so far [energy]
     double outside = 0.;            ///< volume between its facets and the smooth surface, over its own
+    std::array<bool, 3> is_alone{}; ///< whether it has no neighbour on either side, by its own direction
   };
   /// Element in an interval.
   struct Interval {
@@ -57,6 +62,8 @@ private:
     double volume = 0.; ///< in the middle of the interval [length³]
     double strain = 0.; ///< equivalent strain of the interval
     double work = 0.;   ///< of deformation [energy]
+    /// Integral of the squared strain, and its part by what varies where the element is alone [length³].
+    double squared_strain = 0., unseen = 0.;
   };
 
   /// Returns one of the eight parts of an element.
@@ -80,6 +87,7 @@ private:
   std::vector<double> errors_;                      ///< by body, of all ranks [energy]
   double work_ = 0.;                                ///< ∫|dW| of all elements of all ranks [energy]
   double work_outside_ = 0.;                        ///< the same of the space beyond the facets [energy]
+  double squared_strain_ = 0., unseen_ = 0.;        ///< see Interval, of all elements of all ranks
   double volume_ = 0.;                              ///< of all undeformed bodies [length³]
 };
 

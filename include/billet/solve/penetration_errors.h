@@ -42,8 +42,8 @@ public:
   bool is_known() const { return is_measured_ || !(unmeasured_ > 0.); }
 
   // For checkpoints: this class's numbers among those of ErrorControl.
-  void save(std::vector<double> &numbers) const;
-  void load(const std::vector<double> &numbers);
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
 private:
   /// Augmentation leaves less than allowed, about half of it on average.

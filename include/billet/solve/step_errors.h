@@ -47,10 +47,8 @@ public:
   unsigned int n_measurements() const { return n_measurements_; }
 
   // For checkpoints: this class's numbers among those of ErrorControl.
-  void save(std::vector<double> &numbers) const;
-  void load(const std::vector<double> &numbers);
-  void save_forces(StateWriter &writer) const;
-  void load_forces(const StateReader &reader);
+  void save(StateWriter &writer) const;
+  void load(const StateReader &reader);
 
 private:
   static constexpr unsigned int max_failed = 5; ///< comparisons in a row

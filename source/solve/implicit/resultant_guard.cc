@@ -79,8 +79,8 @@ void ResultantGuard::load(StateReader &reader) {
   const std::vector<double> numbers = reader.read("resultants");
   if (numbers.size() != 2 + 4 * largest_.size())
     return; // saved for other bodies
-  n_failed_ = static_cast<unsigned int>(numbers[0]);
-  n_left_out_ = static_cast<unsigned int>(numbers[1]);
+  n_failed_ = to_count(numbers[0]);
+  n_left_out_ = to_count(numbers[1]);
   for (std::size_t b = 0; b < largest_.size(); ++b)
     std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(2 + 4 * b), 4, largest_[b].begin());
   trial_ = largest_;

@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: cylindrical_axes.py BILLET
+
+Runs in an empty current folder.
+
+A thin ring of Hill's material with cylindrical axes is widened. All around it the stress is that of
+tension along the circumference, R22 times the flow stress, in each element, statically and explicitly,
+and after a restart with another element. With axes of space it would not be the same all around.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from glob import glob
+
+from checks import Checks, Program, Run, enter_folder, equal, near, require, run, says, write_text
+
+program = Program(sys.argv[1:])
+check = Checks()
+enter_folder()
+
+RADIUS, THICKNESS, GROWTH, END = 10.0, 0.05, 0.3, 1e-3
+YIELD, SLOPE, YOUNG, RATIO = 200.0, 2000.0, 200e3, 1.3  # RATIO: along the circumference
+CYLINDRICAL = "      set Axes = cylindrical\n      set Axis direction = 0, 0, 1\n"
+
+
+def scene(choices: str = "", is_explicit: bool = False, axes: str = CYLINDRICAL, end: float = END) -> str:
+    steps = "" if is_explicit else f"  set Step control = fixed\n  set Initial step = {END / 20!r}\n"
+    return f"""subsection Bodies
+  subsection ring
+    set Symmetry planes = x = 0 ; y = 0 ; z = 0
+{choices}    subsection Mesh
+      set Primitive = subdivided_hyper_rectangle
+      set Arguments = 1, 6, 1 : {RADIUS}, 0, 0 : {RADIUS + THICKNESS}, 90, 1 : true
+      set Positions = x*cos(pi/180*y) ; x*sin(pi/180*y) ; z
+    end
+    subsection Material
+      set Young modulus     = {YOUNG}
+      set Poisson ratio     = 0.3
+      set Density           = 7.8e-9
+      set Yield stress      = {YIELD}
+      set Hardening modulus = {SLOPE}
+      set Anisotropy        = Hill
+      set Stress ratios     = 1, {RATIO}, 0.9, 1, 1, 1
+{axes}    end
+    subsection Supports
+      subsection bore
+        set Boundary ids   = 0
+        set Components     = x
+        set Axes           = cylindrical
+        set Axis direction = 0, 0, 1
+        set Displacement   = {GROWTH}*0.5*(1 - cos(pi*t/{END!r}))
+      end
+    end
+  end
+end
+subsection Probes
+  subsection outside
+    set Type           = set
+    set Boundary ids   = 1
+    set Quantities     = stress
+    set Axes           = cylindrical
+    set Axis direction = 0, 0, 1
+  end
+end
+subsection Time stepping
+  set Scheme   = {"explicit" if is_explicit else "quasi-static"}
+  set End time = {end!r}
+{steps}end
+subsection Output
+  set Format = none
+  subsection Checkpoint
+    set Interval = {END / 2!r}
+  end
+end
+"""
+
+
+def result(folder: str, text: str, *resumed: str) -> Run:
+    write_text(f"{folder}.prm", text)
+    ended = run(*program.on(1, f"{folder}.prm", "--output", folder, *resumed))
+    equal("exit code", ended.code, 0)
+    return Run(folder, ended)
+
+
+def closed_form() -> float:
+    """Returns Cauchy's stress of a bar in tension with this logarithmic strain: tau = R (sigma_y + h alpha),
+    alpha = R times plastic strain."""
+    strain = math.log1p(GROWTH / (RADIUS + 0.5 * THICKNESS))
+    alpha = (RATIO * strain - RATIO**2 * YIELD / YOUNG) / (1 + RATIO**2 * SLOPE / YOUNG)
+    tau = RATIO * (YIELD + SLOPE * alpha)
+    return tau / math.exp((1 - 2 * 0.3) * tau / YOUNG)
+
+
+def uniform(ended: Run, tolerance: float) -> None:
+    least, largest = ended.last("outside.least_stress_yy"), ended.last("outside.largest_stress_yy")
+    near("least stress", least, closed_form(), tolerance)
+    near("largest stress", largest, closed_form(), tolerance)
+
+
+ELEMENTS = "assumed strain", "mean dilatation", "one point"
+
+
+def element(name: str) -> str:
+    return f"    set Element = {name}\n"
+
+
+for name in ELEMENTS:
+
+    @check(f"{name}, static")
+    def _() -> None:
+        uniform(result(f"static {name}", scene(element(name))), 5e-3)
+
+    @check(f"{name}, explicit")
+    def _() -> None:
+        uniform(result(f"explicit {name}", scene(element(name), is_explicit=True)), 0.02)
+
+
+@check("half-way on with another element")
+def _() -> None:
+    result("half", scene(end=END / 2))
+    last = sorted(glob("half/checkpoint_*.h5"))[-1]
+    uniform(result("resumed", scene(element("mean dilatation")), "--restart", last), 5e-3)
+
+
+@check("axes of space are not the same all around")
+def _() -> None:
+    turned = result("space", scene(axes=""))
+    least, largest = turned.last("outside.least_stress_yy"), turned.last("outside.largest_stress_yy")
+    require(largest > 1.1 * least, f"the stress is {least} to {largest}")
+
+
+@check("--check names the axes")
+def _() -> None:
+    write_text("named.prm", scene())
+    says(
+        "Hencky plasticity, in cylindrical axes about the line",
+        run(*program.on(1, "named.prm", "--check")).output,
+    )
+
+
+@check("a checkpoint with other axes is refused")
+def _() -> None:
+    result("half_again", scene(end=END / 2))
+    last = sorted(glob("half_again/checkpoint_*.h5"))[-1]
+    write_text("other.prm", scene(axes=""))
+    ended = run(*program.on(1, "other.prm", "--output", "other", "--restart", last))
+    says("cylindrical axes about the line", ended.errors)
+    require(ended.code != 0, "it runs")
+
+
+@check("an axis that is not along a symmetry plane is named")
+def _() -> None:
+    write_text("askew.prm", scene(axes=CYLINDRICAL.replace("0, 0, 1", "0, 1, 1")))
+    says("material-not-mirrored", run(*program.on(1, "askew.prm", "--check")).errors)
+
+
+sys.exit(check.finish())
