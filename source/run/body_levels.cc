@@ -59,11 +59,16 @@ void BodyLevels::add(const double difference, const std::vector<BodyMesh> &bodie
       growths_[b] = static_cast<double>(bodies[b].n_elements) / static_cast<double>(bodies_[b].n_elements);
   bodies_ = bodies;
   ++n_runs_;
+  const bool is_resolved =
+      std::all_of(bodies.begin(), bodies.end(), [](const BodyMesh &body) { return body.is_resolved; });
+  n_resolved_ = is_resolved ? n_resolved_ + 1 : 0;
   if (n_runs_ == 1)
     return;
-  const MeshLevelError of_risen =
-      n_runs_ == 2 ? extrapolate({difference}, expected_order(estimate_before, sum_of(bodies)))
-                   : extrapolate({difference_, difference});
+  MeshLevelError of_risen = n_resolved_ < 3
+                                ? extrapolate({difference}, expected_order(estimate_before, sum_of(bodies)))
+                                : extrapolate({difference_, difference});
+  // A single element across is no coarser mesh of several.
+  of_risen.is_known = of_risen.is_known && n_resolved_ > 1;
   difference_ = difference;
   double sum = 0., n_risen = 0.;
   for (std::size_t b = 0; b < bodies.size(); ++b)

@@ -46,7 +46,7 @@ std::vector<BodyMesh> Run::body_meshes() const {
   const std::vector<double> errors = mesh_errors_.of_bodies();
   std::vector<BodyMesh> bodies;
   for (std::size_t b = 0; b < counts.size(); ++b)
-    bodies.push_back({counts[b], errors[b]});
+    bodies.push_back({counts[b], errors[b], mesh_errors_.sees_variation()});
   return bodies;
 }
 

@@ -285,7 +285,7 @@ private:
       text << ". The error of the mesh of level " << levels_.back().level << " is about "
            << percent(error.error);
       if (!error.is_known)
-        text << " or more: the differences do not fall";
+        text << " or more: the differences do not fall, or a level has a single element across what bends";
       else if (levels_.size() > 2)
         text << ", of order " << error.order;
     }

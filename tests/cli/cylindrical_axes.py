@@ -21,7 +21,7 @@ program = Program(sys.argv[1:])
 check = Checks()
 enter_folder()
 
-RADIUS, THICKNESS, GROWTH, END = 10.0, 0.05, 0.3, 1e-3
+RADIUS, THICKNESS, GROWTH, END = 10.0, 0.5, 0.3, 2e-4
 YIELD, SLOPE, YOUNG, RATIO = 200.0, 2000.0, 200e3, 1.3  # RATIO: along the circumference
 CYLINDRICAL = "      set Axes = cylindrical\n      set Axis direction = 0, 0, 1\n"
 
@@ -94,42 +94,44 @@ def closed_form() -> float:
     return tau / math.exp((1 - 2 * 0.3) * tau / YOUNG)
 
 
-def uniform(ended: Run, tolerance: float) -> None:
+def uniform(ended: Run) -> None:
+    """The stress is that of the bar, but for the ring's thickness and waves of the explicit scheme, and the
+    same all around."""
     least, largest = ended.last("outside.least_stress_yy"), ended.last("outside.largest_stress_yy")
-    near("least stress", least, closed_form(), tolerance)
-    near("largest stress", largest, closed_form(), tolerance)
-
-
-ELEMENTS = "assumed strain", "mean dilatation", "one point"
+    near("the stress", least, closed_form(), 0.03)
+    near("the largest stress", largest, least, 1e-5)
 
 
 def element(name: str) -> str:
     return f"    set Element = {name}\n"
 
 
-for name in ELEMENTS:
+for name in ("assumed strain", "mean dilatation", "one point"):
 
     @check(f"{name}, static")
     def _() -> None:
-        uniform(result(f"static {name}", scene(element(name))), 5e-3)
+        uniform(result(f"static {name}", scene(element(name))))
+
+
+for name in ("mean dilatation", "one point"):
 
     @check(f"{name}, explicit")
     def _() -> None:
-        uniform(result(f"explicit {name}", scene(element(name), is_explicit=True)), 0.02)
+        uniform(result(f"explicit {name}", scene(element(name), is_explicit=True)))
 
 
 @check("half-way on with another element")
 def _() -> None:
     result("half", scene(end=END / 2))
     last = sorted(glob("half/checkpoint_*.h5"))[-1]
-    uniform(result("resumed", scene(element("mean dilatation")), "--restart", last), 5e-3)
+    uniform(result("resumed", scene(element("mean dilatation")), "--restart", last))
 
 
 @check("axes of space are not the same all around")
 def _() -> None:
     turned = result("space", scene(axes=""))
     least, largest = turned.last("outside.least_stress_yy"), turned.last("outside.largest_stress_yy")
-    require(largest > 1.1 * least, f"the stress is {least} to {largest}")
+    require(largest > 1.05 * least, f"the stress is {least} to {largest}")
 
 
 @check("--check names the axes")
@@ -154,7 +156,7 @@ def _() -> None:
 @check("an axis that is not along a symmetry plane is named")
 def _() -> None:
     write_text("askew.prm", scene(axes=CYLINDRICAL.replace("0, 0, 1", "0, 1, 1")))
-    says("material-not-mirrored", run(*program.on(1, "askew.prm", "--check")).errors)
+    says("material-not-mirrored.*'y = 0'", run(*program.on(1, "askew.prm", "--check")).output)
 
 
 sys.exit(check.finish())

@@ -79,6 +79,16 @@ int main() {
   check("a level that fails is left out",
         again.level() == -1 && !again.has_error() && again.levels() == std::vector<int>({-1, -1}));
 
+  // Differences from a mesh of single elements tell nothing: the next two do.
+  BodyLevels walls(1, 0, 0.1);
+  walls.add(0., {{1, 0., false}});
+  walls.rise();
+  walls.add(1e-3, {{8, 0.04}});
+  check("a level of single elements shows no error", !walls.error().is_known && !walls.is_met());
+  walls.rise();
+  walls.add(0.02, {{64, 0.02}});
+  check("the levels after it do", walls.is_met() && std::abs(walls.error().error - 0.02) < 1e-12);
+
   BodyLevels rising(2, 0, 0.1);
   for (const double difference : {0., 0.1, 0.2}) {
     if (rising.has_error() || difference > 0.)

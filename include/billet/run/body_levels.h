@@ -60,9 +60,9 @@ private:
   std::vector<int> levels_;
   std::vector<bool> has_risen_; ///< in the last run
   std::vector<BodyMesh> bodies_;
-  std::vector<double> errors_;  ///< by body
-  std::vector<double> growths_; ///< of the elements of each body, at its last rise
-  unsigned int n_runs_ = 0;
+  std::vector<double> errors_;               ///< by body
+  std::vector<double> growths_;              ///< of the elements of each body, at its last rise
+  unsigned int n_runs_ = 0, n_resolved_ = 0; ///< the second: the last ones, all of whose meshes are resolved
   double difference_ = 0.; ///< of the last run, by the bodies that rise next once these are chosen
   MeshLevelError error_;
 };

@@ -16,8 +16,9 @@ class ConsoleLog;
 
 /// Mesh of a body in a run that has reached its end.
 struct BodyMesh {
-  std::size_t n_elements; ///< of all ranks
-  double error;           ///< its part of the relative error of the forces, by (W5) of the theory
+  std::size_t n_elements;  ///< of all ranks
+  double error;            ///< its part of the relative error of the forces, by (W5) of the theory
+  bool is_resolved = true; ///< whether that sees all, MeshErrors::sees_variation()
 };
 
 /// What is said of a run that has reached its end.
