@@ -47,18 +47,16 @@ int main(int argc, char *argv[]) {
   thermal_factor_types().add({"exponential", "exp(-T/100)", {}, [](const TypeInput &) {
                                 return std::make_shared<const ExponentialFactor>();
                               }});
-  anisotropy_types().add(
-      {"weak",
-       "von Mises' function, times 1/k",
-       {{"Weakness", "1", TypeParameter::Kind::number, "k > 0."}},
-       [](const TypeInput &input) {
-         const double square = 1. / std::pow(input.positive("Weakness"), 2);
-         Anisotropy weak{{0.5 * square, 0.5 * square, 0.5 * square, 1.5 * square, 1.5 * square, 1.5 * square},
-                         {}};
-         for (unsigned int i = 0; i < 3; ++i)
-           weak.axes[i][i] = 1.;
-         return std::make_shared<const Anisotropy>(weak);
-       }});
+  anisotropy_types().add({"weak",
+                          "von Mises' function, times 1/k",
+                          {{"Weakness", "1", TypeParameter::Kind::number, "k > 0."}},
+                          [](const TypeInput &input) {
+                            const double square = 1. / std::pow(input.positive("Weakness"), 2);
+                            const Anisotropy weak{{0.5 * square, 0.5 * square, 0.5 * square, 1.5 * square,
+                                                   1.5 * square, 1.5 * square},
+                                                  Axes()};
+                            return std::make_shared<const Anisotropy>(weak);
+                          }});
   compare("thermal factor", "set Thermal factor = exponential\nset Temperature = 40\n", std::exp(-0.4),
           std::exp(-0.4));
   compare("anisotropy", "set Anisotropy = weak\nset Weakness = 0.5\n", 0.5, 0.25);
