@@ -216,6 +216,10 @@ class Run:
         self.force, self.core_seconds, self.estimates = force, seconds, estimates
 
 
+class Shape(Number):
+    name = "shape"
+
+
 def explained(found: list[Source], base: Run, **runs: Run) -> Explanation:
     results = {name.replace("_", " "): cast(Result, run) for name, run in runs.items()}
     missing = {"missing": "beyond the budget"}
@@ -288,6 +292,13 @@ class TestBars(unittest.TestCase):
         self.assertIn("A difference of 60 % is too large to extrapolate", words)
         self.assertNotIn("for want of a run", words)  # the geometry is in the mesh's bar
         self.assertNotIn("too large", " ".join(explained(found, Run(1.0), fine=Run(1.2)).words()))
+        # What may be known better is another one than that in use.
+        self.assertIn("Other --outputs, such as shape, may be known better", words)
+        runs = {"fine": cast(Result, Run(1.3))}
+        shape = Explanation(
+            Scene(BAR, DEFAULTS), cast(Result, Run(1.0)), [Shape()], {"shape": 1.0}, found, runs, {}
+        )
+        self.assertIn("A finer scene (--mesh 2), explained again, may be known", " ".join(shape.words()))
 
     def test_no_convergence(self) -> None:
         bar = explained(
@@ -373,6 +384,27 @@ class TestCheapest(unittest.TestCase):
         self.assertEqual(choose(0.01).lines(), "set A = 2\n")
         self.assertEqual(choose(0.2).lines(), "")  # the scene as it is
         self.assertEqual(choose(0.2).rows()[-1][2], "beyond the budget")
+
+    def test_predicted_run_that_is_off(self) -> None:
+        """It is neither left out where another one is within the target, nor where none is."""
+        predicted = cheapest.Candidate("by the bars: fine", {"A": 1}, predicted=0.01)
+        good = cheapest.Candidate("good", {"A": 2})
+        runs = {"by the bars: fine": cast(Result, Run(1.09, 4.0)), "good": cast(Result, Run(1.119, 5.0))}
+
+        def words(*candidates: cheapest.Candidate) -> str:
+            return cheapest.Cheapest(self.whole(), candidates, runs, {}, 0.02).words()
+
+        surprise = (
+            "The bars predict 1 % for 'by the bars: fine'. It is 3 % off: their limit may be wrong by 2 %."
+        )
+        self.assertIn(surprise, words(predicted, good))
+        self.assertNotIn("The best", words(predicted, good))
+        alone = words(predicted)
+        self.assertIn("Nothing tried is within 2 %", alone)
+        best = "The best that was tried is by the bars: fine. It is 3 % off, at 4 times the scene's cost."
+        self.assertIn(f"{best} {surprise}", alone)
+        self.assertNotIn("wrong by", words(good))
+        self.assertIn("The best that was tried is the scene as it is. It is 12 % off", words())
 
 
 class TestBudget(unittest.TestCase):
