@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
 from hand_set import beside_hand_set
+from level_errors import by_levels
 from precision_picture import Point as PrecisionPoint
 from precision_picture import front_of, without_luck
 from precision_references import Ring, beam_deflection, press_fit_force, pressurised_bore
@@ -76,6 +77,22 @@ class Counting(unittest.TestCase):
         self.assertIn("1 of 3 take at most 1.5 times the CPU seconds", said)
         self.assertIn("For 1 no run by hand is within the target", said)
         self.assertNotIn("not counted", beside_hand_set([1.0], [2.0]))
+
+
+class Levels(unittest.TestCase):
+    def test_rules_of_the_program(self) -> None:
+        """As tests/output/body_levels.cc has them."""
+        self.assertTrue(math.isnan(by_levels([], [0.1])))
+        self.assertAlmostEqual(by_levels([0.03], [0.04, 0.01]), 0.01)  # of order 2
+        self.assertAlmostEqual(by_levels([0.03], [0.4, 0.01]), 0.01)  # no higher one
+        self.assertAlmostEqual(by_levels([0.03], [0.01, 0.02]), 0.03)  # of order 1
+        self.assertAlmostEqual(by_levels([0.03], [0.0, 0.0]), 0.03)
+        self.assertAlmostEqual(by_levels([0.12, 0.03], [1.0, 1.0, 1.0]), 0.01)
+        self.assertAlmostEqual(by_levels([0.6, 0.03], [1.0, 1.0, 1.0]), 0.01)
+        self.assertEqual(by_levels([0.04, 0.03], [1.0, 1.0, 1.0]), 0.04)  # below order 1/2
+        self.assertEqual(by_levels([0.02, 0.03], [1.0, 1.0, 1.0]), 0.03)
+        self.assertEqual(by_levels([0.02, 0.0], [1.0, 1.0, 1.0]), 0.0)
+        self.assertEqual(by_levels([0.0, 0.0], [1.0, 1.0, 1.0]), 0.0)
 
 
 class Profiles(unittest.TestCase):
