@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -16,6 +17,7 @@ from precision_picture import Point as PrecisionPoint
 from precision_picture import front_of, without_luck
 from precision_references import Ring, beam_deflection, press_fit_force, pressurised_bore
 from precision_scenes import difference, on_arc
+from profile_runs import LEFT_OUT
 from profile_words import (
     Point,
     above,
@@ -101,6 +103,15 @@ class Profiles(unittest.TestCase):
         "b": {"fast": Point(10, 0.01), "balanced": Point(20, 0.01), "accurate": Point(80, 0.001)},
         "c": {"fast": Point(10, math.nan), "balanced": Point(20, 0.03), "accurate": Point(80, 0.001)},
     }
+
+    def test_each_shipped_scene_is_named(self) -> None:
+        """It is measured, or the page says why it is not."""
+        page = (ROOT / "doc/results/profiles.md").read_text(encoding="utf-8")
+        measured = set(re.findall(r"^\| (\w+)(?: \(cut\))? \| fast \|", page, re.MULTILINE))
+        shipped = {path.stem for path in (ROOT / "prm").glob("*.prm")}
+        self.assertEqual(sorted(shipped - measured), sorted(LEFT_OUT))
+        for name, why in LEFT_OUT.items():
+            self.assertIn(f"| {name} | {why} |", page)
 
     def test_limits(self) -> None:
         said = within_limits(self.POINTS)
