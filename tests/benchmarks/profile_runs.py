@@ -90,16 +90,20 @@ CUT: dict[str, Changes] = {
     "wagoner_punch_mu_015": WAGONER,
 }
 # Scenes that are not measured, and why.
+PENALTY = "Its general contact sets a penalty, which the study does not take away"
 LEFT_OUT = {
     "bracket": "its mesh of 1,128 bricks comes from a file and cannot be coarser; it is elastic without"
     " contact, so that profiles change little but tolerances",
     "cartridge": "its reference was stopped after 27 CPU seconds. The profiles of dynamics are unchanged",
+    "cylindrical_cup": f"not yet measured: it takes 97 CPU seconds as shipped. {PENALTY}",
     "drop_hammer": "its reference was stopped after 22 CPU seconds. The profiles of dynamics are unchanged",
+    "free_bend": f"not yet measured: it takes 5 CPU seconds as shipped. {PENALTY}",
     "hollow_block": "its references find no end at the tightest augmentations. Its runs with fast and"
     " balanced reach the end",
     "slab_rolling_explicit": "not yet measured. The profiles of dynamics are unchanged",
     "square_cup": "steps of its reference are 3.2e-9, so that a tenth of the travel takes 125,000. The"
     " profiles of dynamics are unchanged",
+    "u_bend": f"not yet measured: it takes 73 CPU seconds as shipped. {PENALTY}",
 }
 
 

@@ -5,16 +5,19 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 import sys
 import unittest
 from pathlib import Path
 from typing import Iterable, Iterator, Sequence
 
 from hand_set import beside_hand_set
+from level_errors import by_levels
 from precision_picture import Point as PrecisionPoint
 from precision_picture import front_of, without_luck
 from precision_references import Ring, beam_deflection, press_fit_force, pressurised_bore
 from precision_scenes import difference, on_arc
+from profile_runs import LEFT_OUT
 from profile_words import (
     Point,
     above,
@@ -78,12 +81,37 @@ class Counting(unittest.TestCase):
         self.assertNotIn("not counted", beside_hand_set([1.0], [2.0]))
 
 
+class Levels(unittest.TestCase):
+    def test_rules_of_the_program(self) -> None:
+        """As tests/output/body_levels.cc has them."""
+        self.assertTrue(math.isnan(by_levels([], [0.1])))
+        self.assertAlmostEqual(by_levels([0.03], [0.04, 0.01]), 0.01)  # of order 2
+        self.assertAlmostEqual(by_levels([0.03], [0.4, 0.01]), 0.01)  # no higher one
+        self.assertAlmostEqual(by_levels([0.03], [0.01, 0.02]), 0.03)  # of order 1
+        self.assertAlmostEqual(by_levels([0.03], [0.0, 0.0]), 0.03)
+        self.assertAlmostEqual(by_levels([0.12, 0.03], [1.0, 1.0, 1.0]), 0.01)
+        self.assertAlmostEqual(by_levels([0.6, 0.03], [1.0, 1.0, 1.0]), 0.01)
+        self.assertEqual(by_levels([0.04, 0.03], [1.0, 1.0, 1.0]), 0.04)  # below order 1/2
+        self.assertEqual(by_levels([0.02, 0.03], [1.0, 1.0, 1.0]), 0.03)
+        self.assertEqual(by_levels([0.02, 0.0], [1.0, 1.0, 1.0]), 0.0)
+        self.assertEqual(by_levels([0.0, 0.0], [1.0, 1.0, 1.0]), 0.0)
+
+
 class Profiles(unittest.TestCase):
     POINTS = {
         "a": {"fast": Point(10, 0.06), "balanced": Point(20, 0.01), "accurate": Point(90, 0.003)},
         "b": {"fast": Point(10, 0.01), "balanced": Point(20, 0.01), "accurate": Point(80, 0.001)},
         "c": {"fast": Point(10, math.nan), "balanced": Point(20, 0.03), "accurate": Point(80, 0.001)},
     }
+
+    def test_each_shipped_scene_is_named(self) -> None:
+        """It is measured, or the page says why it is not."""
+        page = (ROOT / "doc/results/profiles.md").read_text(encoding="utf-8")
+        measured = set(re.findall(r"^\| (\w+)(?: \(cut\))? \| fast \|", page, re.MULTILINE))
+        shipped = {path.stem for path in (ROOT / "prm").glob("*.prm")}
+        self.assertEqual(sorted(shipped - measured), sorted(LEFT_OUT))
+        for name, why in LEFT_OUT.items():
+            self.assertIn(f"| {name} | {why} |", page)
 
     def test_limits(self) -> None:
         said = within_limits(self.POINTS)

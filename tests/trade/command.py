@@ -564,6 +564,10 @@ class TestCommand(unittest.TestCase):
             (["--target", "200%"], "--target is '200%'; allowed is an error below 100 %"),
             (["--budget", "soon"], "--budget is 'soon'; allowed are times and runs"),
             (["--explain", "--combine", "--target", "1%"], "--explain changes one source of error at a time"),
+            (
+                ["--explain", "--force", "die.force_z", "--outputs", "shape"],
+                "--explain: forces by --force want 'force' among the --outputs",
+            ),
             (["--combine"], "--combine wants a --target"),
             (
                 ["--reference-mesh", "1,2,3"],

@@ -5,14 +5,17 @@ from __future__ import annotations
 
 import math
 import unittest
-from typing import Mapping, cast
+from pathlib import Path
+from typing import Mapping, Sequence, cast
+
+import numpy
 
 import modules  # noqa: F401  finds the next ones
 from billet_tools import UserError
 from billet_tools.scene import Scene, entries
 from billet_tools.trade import bars, cheapest, sources
 from billet_tools.trade.budget import Budget
-from billet_tools.trade.explain import in_order
+from billet_tools.trade.explain import in_order, is_shallower
 from billet_tools.trade.explanation import Explanation
 from billet_tools.trade.outputs import Output
 from billet_tools.trade.paste import lines_to_paste
@@ -78,6 +81,14 @@ def finer(source: Source) -> Mapping[str, object]:
     return source.finer.changes
 
 
+def deep(**depths: Sequence[float]) -> Result:
+    """A run whose facets are two long, with depths at three times."""
+    history = {f"{name}.deepest_penetration": numpy.array(values) for name, values in depths.items()}
+    run = Result(Path(), {"facet": 2.0})
+    run.history = {"time": numpy.array([0.25, 0.5, 1.0]), **history}
+    return run
+
+
 class TestSources(unittest.TestCase):
     def test_implicit(self) -> None:
         found = by_name(Scene(BAR, DEFAULTS), checked(3.0, 3.2))
@@ -100,6 +111,40 @@ class TestSources(unittest.TestCase):
         changes = finer(by_name(scene, checked(3.0, 3.0))["penetration"])
         self.assertEqual(changes["Contact pairs/top/Penetration tolerance"], "0.005")  # of 0.02 that is left
         self.assertNotIn("Contact pairs/top/Normal penalty", changes)
+
+    def test_tolerance_is_never_looser(self) -> None:
+        """A deep penetration that is no contact's leaves the scene's tolerance. A small one leaves nothing to
+        try."""
+        path = "Contact pairs/top/Penetration tolerance"
+        scene = Scene(BAR, DEFAULTS)
+        for tolerance, tried in (("1e-5", "2.5e-06"), ("automatic", "0.005"), ("0.1", "0.005")):
+            found = by_name(scene.changed({path: tolerance}), checked(3.0, 3.0))["penetration"]
+            self.assertEqual(finer(found)[path], tried)
+            unknown = by_name(scene.changed({path: tolerance}), Given())["penetration"]
+            self.assertEqual(finer(unknown)[path], "2.5e-06" if tolerance == "1e-5" else "0.001")
+        for tolerance, left in (("2e-6", 0.02), ("automatic", 1e-6), ("automatic", 0.0)):
+            given = Given(penetration=left)
+            found = by_name(scene.changed({path: tolerance}), given)["penetration"]
+            self.assertEqual(found.variants, [])
+            self.assertIn("too small to reduce", explained([found], Run(1.0)).bars[0].method)
+
+    def test_penetration_after_a_ramp(self) -> None:
+        """What is left of an initial penetration in a ramp is not that of the contact."""
+        ramp = {"Contact pairs/top/Initial penetration": "ramp", "Contact pairs/top/Ramp time": 0.5}
+        self.assertEqual(sources.end_of_ramps(Scene(BAR, DEFAULTS)), 0.0)
+        begin = sources.end_of_ramps(Scene(BAR, DEFAULTS).changed(ramp))
+        self.assertEqual(begin, 0.5)
+        base = deep(top=[0.4, 0.002, 0.004], side=[0.0, 0.0, 0.0])
+        self.assertEqual(
+            base.depths(begin), {"top.deepest_penetration": 0.002, "side.deepest_penetration": 0.0}
+        )
+        self.assertEqual(base.depths(2.0), {})
+        for later, is_less in ((0.001, True), (0.004, False), (0.01, False)):
+            self.assertEqual(is_shallower(deep(top=[0.4, later, 0.0]), base, begin), is_less)
+        # One contact has less at the cost of another.
+        two = deep(top=[0.0, 0.002, 0.004], side=[0.0, 0.1, 0.2])
+        self.assertFalse(is_shallower(deep(top=[0.0, 0.001, 0.001], side=[0.0, 0.3, 0.3]), two, 0.0))
+        self.assertTrue(is_shallower(deep(top=[0.0, 0.001, 0.001], side=[0.0, 0.1, 0.2]), two, 0.0))
 
     def test_steps_that_estimates_choose(self) -> None:
         scene = Scene(BAR, DEFAULTS).changed({"Target error": 0.01})
@@ -169,6 +214,10 @@ class Number(Output):
 class Run:
     def __init__(self, force: float, seconds: float = 1.0, **estimates: float) -> None:
         self.force, self.core_seconds, self.estimates = force, seconds, estimates
+
+
+class Shape(Number):
+    name = "shape"
 
 
 def explained(found: list[Source], base: Run, **runs: Run) -> Explanation:
@@ -243,6 +292,13 @@ class TestBars(unittest.TestCase):
         self.assertIn("A difference of 60 % is too large to extrapolate", words)
         self.assertNotIn("for want of a run", words)  # the geometry is in the mesh's bar
         self.assertNotIn("too large", " ".join(explained(found, Run(1.0), fine=Run(1.2)).words()))
+        # What may be known better is another one than that in use.
+        self.assertIn("Other --outputs, such as shape, may be known better", words)
+        runs = {"fine": cast(Result, Run(1.3))}
+        shape = Explanation(
+            Scene(BAR, DEFAULTS), cast(Result, Run(1.0)), [Shape()], {"shape": 1.0}, found, runs, {}
+        )
+        self.assertIn("A finer scene (--mesh 2), explained again, may be known", " ".join(shape.words()))
 
     def test_no_convergence(self) -> None:
         bar = explained(
@@ -328,6 +384,27 @@ class TestCheapest(unittest.TestCase):
         self.assertEqual(choose(0.01).lines(), "set A = 2\n")
         self.assertEqual(choose(0.2).lines(), "")  # the scene as it is
         self.assertEqual(choose(0.2).rows()[-1][2], "beyond the budget")
+
+    def test_predicted_run_that_is_off(self) -> None:
+        """It is neither left out where another one is within the target, nor where none is."""
+        predicted = cheapest.Candidate("by the bars: fine", {"A": 1}, predicted=0.01)
+        good = cheapest.Candidate("good", {"A": 2})
+        runs = {"by the bars: fine": cast(Result, Run(1.09, 4.0)), "good": cast(Result, Run(1.119, 5.0))}
+
+        def words(*candidates: cheapest.Candidate) -> str:
+            return cheapest.Cheapest(self.whole(), candidates, runs, {}, 0.02).words()
+
+        surprise = (
+            "The bars predict 1 % for 'by the bars: fine'. It is 3 % off: their limit may be wrong by 2 %."
+        )
+        self.assertIn(surprise, words(predicted, good))
+        self.assertNotIn("The best", words(predicted, good))
+        alone = words(predicted)
+        self.assertIn("Nothing tried is within 2 %", alone)
+        best = "The best that was tried is by the bars: fine. It is 3 % off, at 4 times the scene's cost."
+        self.assertIn(f"{best} {surprise}", alone)
+        self.assertNotIn("wrong by", words(good))
+        self.assertIn("The best that was tried is the scene as it is. It is 12 % off", words())
 
 
 class TestBudget(unittest.TestCase):

@@ -18,6 +18,8 @@ from billet_tools import UserError, output
 from billet_tools.trade import outputs, results
 from billet_tools.output import Array, Fields
 from billet_tools.scene import Scene
+from billet_tools.trade.options import parse
+from billet_tools.trade.sweep import make_force, make_outputs, refuse_outputs
 
 Make = Callable[[Array], Array]  # a field of places
 
@@ -228,6 +230,54 @@ class TestForce(unittest.TestCase):
     def test_columns(self) -> None:
         with self.assertRaisesRegex(UserError, "no column 'die.force_y'; it has die.force_x, die.force_z"):
             outputs.Force(self.run_with(5), self.scene, ["die.force_y"], 0.05)
+
+    def test_forces_of_supports(self) -> None:
+        """They count without tools and pairs: by themselves in statics if a support moves, else if asked
+        for."""
+        at_rest = """subsection Bodies
+  subsection beam
+    subsection Supports
+      subsection wall
+        set Boundary ids = 0
+      end
+      subsection end
+        set Displacement = 0 ; 0 ; 0.0
+      end
+    end
+  end
+end
+"""
+        columns = ["beam.support wall.force_z", "beam.support end.force_z"]
+        history: dict[str, list[float]] = {"time": [0.5, 1], "beam.symmetry plane y = 0.force_y": [7, 7]}
+        for column in columns:
+            history[column] = [1, 2]
+
+        def columns_of(scene: Scene, *arguments: str, tool: str = "") -> list[str]:
+            of_tool: dict[str, list[float]] = {f"{tool}.force_z": [1, 2]} if tool else {}
+            run = run_of(history={**history, **of_tool})
+            force = make_force(parse(["scene.prm", *arguments]), scene, run)
+            return list(force.columns) if force else []
+
+        rest = Scene(at_rest)
+        moving = rest.changed({"Bodies/beam/Supports/end/Displacement": "0 ; 0 ; -0.5*t"})
+        self.assertEqual(columns_of(moving), columns)
+        self.assertEqual(columns_of(moving, tool="die"), ["die.force_z"])
+        self.assertEqual(columns_of(moving, "--force", columns[1]), [columns[1]])
+        explicit = moving.changed({"Time stepping/Scheme": "explicit", "Time stepping/End time": 1})
+        for scene in (rest, explicit):
+            self.assertEqual(columns_of(scene), [])
+            self.assertEqual(columns_of(scene, "--outputs", "force"), columns)
+            self.assertEqual(columns_of(scene, "--explain", "--force", columns[0]), [columns[0]])
+        self.assertEqual(columns_of(Scene("")), [])
+        refuse_outputs({"force": 1.0}, rest)
+        with self.assertRaisesRegex(UserError, "no pair of bodies and no support, hence no force"):
+            refuse_outputs({"force": 1.0}, Scene(""))
+        # Columns that are named count in dynamics, too, where energies do otherwise.
+        for more, name in ((f"--force={columns[0]}", "force"), ("--ranks=1", "energy")):
+            options = parse(["scene.prm", "--explain", more])
+            run = run_of(history=history)
+            found = make_outputs(options, explicit, run, make_force(options, explicit, run), True)[0]
+            self.assertEqual([output.name for output in found], [name])
 
     def test_explicit_force_is_smoothed(self) -> None:
         scene = self.scene.changed({"Time stepping/Scheme": "explicit"})

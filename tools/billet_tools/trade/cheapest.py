@@ -145,17 +145,35 @@ class Cheapest:
             else f"is uncertain by up to {percent(self.uncertainty)}"
         )
         if self.chosen is None:
-            return f"**Nothing tried is within {percent(self.target)}.** {limit}."
+            return " ".join([f"**Nothing tried is within {percent(self.target)}.** {limit}.", *self._best()])
         cost = f"{percent(self.chosen.error)} off, {number(self.chosen.price, 2)} times the scene's cost"
         if self.is_shown:
             return (
                 f"**Within {percent(self.target)}, the cheapest that was tried is {self.chosen.label}**:"
-                f" {cost}. {limit}."
+                f" {cost}. {limit}." + self._surprises()
             )
         return (
             f"**Nothing is shown to be within {percent(self.target)}.** {limit}. Beside this limit the"
             f" cheapest within the target is {self.chosen.label}: {cost}."
-            " A finer scene (--mesh 2), explained again, narrows the ranges."
+            " A finer scene (--mesh 2), explained again, narrows the ranges." + self._surprises()
+        )
+
+    def _best(self) -> list[str]:
+        """Sentences on the run that is least far off where none is within the target."""
+        tried = [c for c in self.candidates if not math.isnan(c.error)]
+        if not tried:
+            return []
+        best = min(tried, key=lambda c: c.error)
+        off = f"It is {percent(best.error)} off, at {number(best.price, 2)} times the scene's cost."
+        return [f"The best that was tried is {best.label}.", off + self._surprises()]
+
+    def _surprises(self) -> str:
+        """Sentences on runs that the bars predict within the target and that are not."""
+        missed = [c for c in self.candidates if c.predicted <= self.target < c.error]
+        return "".join(
+            f" The bars predict {percent(c.predicted)} for '{c.label}'. It is {percent(c.error)} off: their"
+            f" limit may be wrong by {percent(c.error - c.predicted)}."
+            for c in missed
         )
 
     def lines(self) -> str:

@@ -221,7 +221,7 @@ class Explanation:
         if largest.error > USELESS:
             said.append(
                 f"A difference of {percent(largest.error)} is too large to extrapolate: it gives the order of"
-                " the sources at most. Other --outputs, such as shape, may be known better."
+                f" the sources at most. {self._better_known()} may be known better."
             )
         missing = [
             bar
@@ -234,6 +234,11 @@ class Explanation:
             )
         said.append(self._estimate())
         return said
+
+    def _better_known(self) -> str:
+        if any(output.name == "shape" for output in self.outputs):
+            return "A finer scene (--mesh 2), explained again,"
+        return "Other --outputs, such as shape,"
 
     def _estimate(self) -> str:
         """What the run itself says."""

@@ -98,7 +98,10 @@ def make_parser() -> argparse.ArgumentParser:
     add(
         "--force",
         metavar="COLUMN,...",
-        help="columns of history.csv, such as die.force_z (forces of all tools, else of all pairs of bodies)",
+        help=(
+            "columns of history.csv, such as die.force_z (forces of all tools, else of all pairs of bodies,"
+            " else of supports)"
+        ),
     )
     add(
         "--window",
@@ -215,12 +218,15 @@ def parse(arguments: Sequence[str]) -> Options:
         raise UserError("--combine wants a --target to stay within")
     if options.explain and (options.parameters or options.parameter or options.product or options.combine):
         raise UserError("--explain changes one source of error at a time: it takes no parameters of a study")
+    weights = read_outputs(options.outputs)
+    if options.explain and options.force and weights and "force" not in weights:
+        raise UserError("--explain: forces by --force want 'force' among the --outputs")
     if options.reference_mesh == GIVEN and any(
         k.partition("=")[0] == "mesh" for k in (options.parameters or []) + sum(options.product, [])
     ):
         raise UserError("--reference-mesh given: the mesh cannot be a parameter then")
     options.target = read_error(options.target)
-    if "strain" in read_outputs(options.outputs) and not options.line:
+    if "strain" in weights and not options.line:
         raise UserError("--outputs: the strain profile wants a --line 'x, y, z to x, y, z'")
     if options.line:
         Profile(options.line, options.profile)  # says what is wrong with it

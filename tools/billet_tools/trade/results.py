@@ -191,6 +191,12 @@ class Result:
     def history(self) -> History:
         return read_history(self.folder / "history.csv")
 
+    def depths(self, begin: float) -> dict[str, float]:
+        """The deepest penetration from a time on in facet sizes, by its column."""
+        rows = self.history["time"] >= begin * (1.0 - 1e-9)
+        columns = [name for name in self.history if name.endswith(".deepest_penetration")]
+        return {n: float(numpy.max(self.history[n][rows])) / self.facet for n in columns if rows.any()}
+
     @cached_property
     def estimates(self) -> dict[str, float]:
         """{source: error} as the run itself estimates them, among 'mesh', 'steps', 'penetrations' and

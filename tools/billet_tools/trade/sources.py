@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 from ..scene import Changes, Scene
+from ..text import number
 from . import parameters
 
 MESH, GEOMETRY, ELEMENTS = "mesh", "geometry", "elements"
@@ -81,8 +82,9 @@ def same_steps(scene: Scene, times: Sequence[float]) -> Changes:
 
 
 class Given(NamedTuple):
-    """What is known of the scene before its sources are: the ends of its steps, its deepest penetration in
-    facet sizes, and what --check says of it. Without them the sources are only counted."""
+    """What is known of the scene before its sources are: the ends of its steps, the deepest penetration that
+    its contact leaves in facet sizes, and what --check says of it. Without them the sources are only counted.
+    """
 
     times: Sequence[float] = (0.5, 1.0)
     penetration: float = math.nan
@@ -125,31 +127,51 @@ def step_source(scene: Scene, given: Given) -> Source:
     return Source("steps", Variant("steps of half the length", halves, paste), weight=4.0)
 
 
-def is_augmented(scene: Scene, pair: str) -> bool:
+LEAST_PENETRATION = 1e-6  # [facet sizes] below which no run reduces it
+QUARTER = "a quarter of the penetration"
+
+
+def tolerance_of(scene: Scene, pair: str) -> float:
+    """Penetration tolerance of a pair in facet sizes; 0 of penalties alone, infinite of an automatic one,
+    which is none of a depth."""
     tolerance = scene.get(pair + "Penetration tolerance")
     if tolerance == "":
-        return not scene.get(pair + "Normal penalty")
-    return tolerance == "automatic" or float(tolerance) > 0
+        return 0.0 if scene.get(pair + "Normal penalty") else math.inf
+    return math.inf if tolerance == "automatic" else float(tolerance)
+
+
+def end_of_ramps(scene: Scene) -> float:
+    """The time from which no initial penetration is left that vanishes in a ramp; until then depths are not
+    those of the contact alone."""
+    ramps = [pair for pair in scene.pairs if scene.get(pair + "Initial penetration") == "ramp"]
+    return max((scene.number(pair + "Ramp time") for pair in ramps), default=0.0)
 
 
 def penetration_source(scene: Scene, given: Given) -> Source | None:
     """By a quarter of the penetration: four times the penalty, or where contact is augmented a tolerance of a
-    quarter of what is left."""
-    augmented = [] if scene.is_explicit else [pair for pair in scene.pairs if is_augmented(scene, pair)]
+    quarter of what is left. It is never looser than the scene's own."""
+    tolerances = {} if scene.is_explicit else {pair: tolerance_of(scene, pair) for pair in scene.pairs}
+    augmented = [pair for pair, tolerance in tolerances.items() if tolerance > 0.0]
     changes: dict[str, object] = {}
     for pair in scene.pairs:
         if pair not in augmented:
             keys = [k for k in ("Normal penalty", "Tangential penalty") if scene.get(pair + k)]
             changes.update({pair + k: parameters.shown(4.0 * scene.number(pair + k)) for k in keys})
-    if augmented:
-        left = given.penetration if given.penetration > 0 else 4e-3
-        for pair in augmented:
-            changes[pair + "Penetration tolerance"] = parameters.shown(max(1e-6, 0.25 * left))
-        changes["Solver/Maximum augmentations"] = 100
-    if not changes:
+    left = given.penetration if given.penetration >= 0.0 else 4e-3
+    for pair in augmented:
+        tried = 0.25 * min(left, tolerances[pair])
+        if tried >= LEAST_PENETRATION:
+            changes[pair + "Penetration tolerance"] = parameters.shown(tried)
+            changes["Solver/Maximum augmentations"] = 100
+    if changes:
+        label = QUARTER if augmented else "four times the penalty"
+        return Source("penetration", Variant(label, changes, changes), ratio=4.0, weight=3.0)
+    if not augmented:
         return None
-    label = "a quarter of the penetration" if augmented else "four times the penalty"
-    return Source("penetration", Variant(label, changes, changes), ratio=4.0, weight=3.0)
+    left = min(left, max(tolerances[pair] for pair in augmented))
+    return Source(
+        "penetration", None, remarks=[f"a depth of {number(left, 2)} facet sizes is too small to reduce"]
+    )
 
 
 def iteration_source(scene: Scene) -> Source:

@@ -16,7 +16,17 @@ from ..scene import Scene
 from ..text import items, number, percent, table, wrapped, written_by
 from . import parameters, picture, report
 from .options import Options, read_outputs, read_settings
-from .outputs import Energy, Force, Output, Profile, Rebound, Shape, contact_forces
+from .outputs import (
+    Energy,
+    Force,
+    Output,
+    Profile,
+    Rebound,
+    Shape,
+    contact_forces,
+    has_supports,
+    moves_support,
+)
 from .paste import HOW
 from .plan import Candidates
 from .reference import GIVEN, Plan, Reference
@@ -25,20 +35,28 @@ from .results import Result
 from .run import Progress, Runner, Work, clock
 
 
+NO_FORCE = "--outputs: the scene has no tool, no pair of bodies and no support, hence no force"
+
+
 def refuse_outputs(weights: Mapping[str, float], scene: Scene) -> None:
     """What the scene cannot have, before anything runs."""
     if "rebound" in weights and not scene.is_dynamic:
         raise UserError("--outputs: nothing rebounds in a static scene")
-    if "force" in weights and not scene.names("Tools") and not scene.pairs:
-        raise UserError("--outputs: the scene has no tool and no pair of bodies, hence no force")
+    if "force" in weights and not (scene.names("Tools") or scene.pairs or has_supports(scene)):
+        raise UserError(NO_FORCE)
 
 
 def make_force(options: Options, scene: Scene, centre: Result, finest: Result | None = None) -> Force | None:
-    """The force, whether it counts or only judges; None where there is none. `finest`: the run with the
-    shortest steps."""
-    if not contact_forces(centre):
-        return None
+    """The force, whether it counts or only judges; None where there is none. Those of supports alone count
+    if they are asked for, or in statics if a support moves. `finest`: the run with the shortest steps."""
     columns = [c.strip() for c in options.force.split(",")] if options.force else None
+    is_wanted = columns or "force" in read_outputs(options.outputs)
+    has_force = (
+        contact_forces(centre) or has_supports(scene) and not scene.is_dynamic and moves_support(scene)
+    )
+    columns = columns or (Force.all_forces(centre, scene) if is_wanted or has_force else [])
+    if not columns:
+        return None
     return Force(centre, scene, columns, options.window, finest)
 
 
@@ -46,10 +64,11 @@ def make_outputs(
     options: Options, scene: Scene, centre: Result, force: Force | None, as_estimated: bool = False
 ) -> tuple[list[Output], dict[str, float]]:
     """The outputs that count, and their weights. If none are named, that is the force and the shape, or
-    `as_estimated` what runs estimate their errors of: the force, in dynamics the energy."""
+    `as_estimated` what runs estimate their errors of: the force, in dynamics the energy. Columns that are
+    named are forces that count."""
     weights = read_outputs(options.outputs)
     if not weights and as_estimated and not options.line and (scene.is_dynamic or force):
-        weights = {"energy" if scene.is_dynamic else "force": 1.0}
+        weights = {"energy" if scene.is_dynamic and not options.force else "force": 1.0}
     if not weights:
         weights = {
             **({"force": 1.0} if force else {}),
@@ -60,7 +79,7 @@ def make_outputs(
     for name in weights:
         if name == "force":
             if not force:
-                raise UserError("--outputs: the scene has no tool and no pair of bodies, hence no force")
+                raise UserError(NO_FORCE)
             found.append(force)
         elif name == "strain":
             found.append(Profile(options.line, options.profile))
