@@ -60,6 +60,7 @@ html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_copy_source = False
 html_show_sphinx = False
+smartquotes_action = "qe"  # quotes, but two dashes begin an option
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#7a3b10", "color-brand-content": "#8a4413"},
     "dark_css_variables": {"color-brand-primary": "#f0a875", "color-brand-content": "#f0a875"},
@@ -94,7 +95,7 @@ class SceneLexer(RegexLexer):
             (r"(\s*)(end)\b", bygroups(Text, Keyword)),
             (r"(\s*)(include)(\s+)(.*)", bygroups(Text, Keyword, Text, String)),
             (
-                r"(\s*)(set)(\s+)([^=\n]*?)(\s*)(=)(.*)",
+                r"(\s*)(set)(\s+)([^=\n]*?)(\s*)(=)([^#\n]*)",
                 bygroups(Text, Keyword, Text, Name.Attribute, Text, Operator, String),
             ),
             (r"\S+", Punctuation),
@@ -140,9 +141,41 @@ def add_formulas(app: Sphinx, page: str, template: str, context: dict[str, Any],
         app.add_js_file("formulas.js", defer="defer")
 
 
+def keep_percentages(app: Sphinx, tree: nodes.document) -> None:
+    """Keeps numbers and their % in one line."""
+    for text in list(tree.findall(nodes.Text)):
+        kept = re.sub(r"(?<=\d) %", "\u00a0%", text.astext())
+        if kept != text.astext() and not isinstance(text.parent, (nodes.literal, nodes.FixedTextElement)):
+            text.parent.replace(text, nodes.Text(kept))
+
+
+def finish_body(app: Sphinx, page: str, template: str, context: dict[str, Any], tree: Any) -> None:
+    """Chooses where code breaks, and links pictures to their files."""
+
+    def with_breaks(word: re.Match[str]) -> str:
+        return word[1] + re.sub(r"([/_=|])(?=\w)", r"\1<wbr>", word[2]) + word[3]
+
+    def with_link(picture: re.Match[str]) -> str:
+        if picture[1]:
+            return picture[0]
+        return f'<a class="image-reference" href="{picture[3]}">{picture[2]}</a>'
+
+    def with_whole_options(block: re.Match[str]) -> str:
+        shown = re.sub(r"(?<![\w-])(--[a-z][\w-]*)", r'<span class="unbroken">\1</span>', block[2])
+        return block[1] + shown
+
+    body = re.sub(r'(<span class="pre">)([^<]{17,})(</span>)', with_breaks, context.get("body") or "")
+    body = re.sub(
+        r'(<div class="highlight-(?:none|sh) .*?<pre>)(.*?</pre>)', with_whole_options, body, flags=re.DOTALL
+    )
+    context["body"] = re.sub(r'(<a [^>]*>\s*)?(<img [^>]*src="([^"]*)"[^>]*>)', with_link, body)
+
+
 def setup(app: Sphinx) -> None:
     """Adds what the site needs beyond its extensions."""
     app.add_lexer("prm", SceneLexer)
     app.add_domain(TaggedMathDomain, override=True)
     app.connect("doctree-read", remove_shown_tags)
+    app.connect("doctree-read", keep_percentages)
     app.connect("html-page-context", add_formulas)
+    app.connect("html-page-context", finish_body)
