@@ -9,12 +9,30 @@ from pathlib import Path
 from typing import Iterator, Mapping, Optional
 
 import verification
-from pages import table
+from pages import code, prose, table
 from reference import Reference
 from results import selected, tables_of, values_of
 
 INSERTION = re.compile(r"^<!-- insert: (.+?) -->$", re.MULTILINE)
+HELP_ENTRY = re.compile(r"^(?:Usage:)? +((?:billet |--).*?)(?: {2,}(.+))?$")
 TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+
+
+def help_tables(text: str) -> str:
+    """Returns what --help prints, as tables of commands and options with their meanings."""
+    shown = ""
+    for block in text.strip().split("\n\n"):
+        rows: list[tuple[str, str]] = []
+        for line in block.splitlines():
+            entry = HELP_ENTRY.match(line)
+            if entry:
+                rows.append((entry[1], entry[2] or ""))
+            elif rows:
+                rows[-1] = (rows[-1][0], f"{rows[-1][1]} {line.strip()}".strip())
+        if rows:
+            title = "command" if rows[0][0].startswith("billet") else "option of runs, checks and previews"
+            shown += table([title, "meaning"], [(code(name), prose(meaning)) for name, meaning in rows])
+    return shown
 
 
 class Insertions:
@@ -51,7 +69,7 @@ class Insertions:
         """Shows what --help prints."""
         if not self._reference:
             return "This site was built without the program: `billet --help` prints its options."
-        return f"```\n{self._reference.help()}```\n"
+        return help_tables(self._reference.help())
 
     def _insert_scene(self, page: str, path: str) -> str:
         """Shows a scene file."""
@@ -80,9 +98,9 @@ class Insertions:
         return table(head, [[row[name] for name in head] for row in rows])
 
     def _insert_printed(self, page: str, name: str) -> str:
-        """Shows messages of a run, which doc/site/tutorials.py keeps."""
-        text = (self._root / f"doc/tutorials/{name}.txt").read_text(encoding="utf-8")
-        return f"```text\n{text}```\n"
+        """Shows messages of a run, which doc/site/tutorials.py keeps; the page wraps their lines."""
+        text = (self._root / f"doc/tutorials/{name}.txt").read_text(encoding="utf-8").strip()
+        return "```\n" + re.sub(r"\n(?!(?:note|warning|error)\[)", " ", text) + "\n```\n"
 
     def _insert_values(self, page: str, tutorial: str) -> str:
         """Shows the figures of a tutorial's run."""
