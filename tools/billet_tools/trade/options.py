@@ -41,7 +41,7 @@ def make_parser() -> argparse.ArgumentParser:
             " also the cheapest way there by these runs"
         ),
     )
-    group = parser.add_argument_group("what is changed")
+    group = parser.add_argument_group("parameters to change")
     add = group.add_argument
     add(
         "--parameters",
@@ -74,7 +74,7 @@ def make_parser() -> argparse.ArgumentParser:
         action="store_true",
         help="with --target: join to the chosen point, parameter by parameter, what is cheaper still",
     )
-    group = parser.add_argument_group("the scene in pilot form")
+    group = parser.add_argument_group("a shorter form of the scene")
     add = group.add_argument
     add("--until", type=float, metavar="PART", help="this part of the end time only")
     add(
@@ -83,7 +83,7 @@ def make_parser() -> argparse.ArgumentParser:
         help="elements along each edge, factor of the scene's: 0.5 for a coarser mesh",
     )
     add("--set", action="append", default=[], metavar="PATH=VALUE", help="any parameter")
-    group = parser.add_argument_group("what counts")
+    group = parser.add_argument_group("outputs and target")
     add = group.add_argument
     add(
         "--outputs",
@@ -124,7 +124,7 @@ def make_parser() -> argparse.ArgumentParser:
         default="seconds",
         help="what 'cheap' means: core-seconds, or work without regard to the machine",
     )
-    group = parser.add_argument_group("the reference")
+    group = parser.add_argument_group("reference")
     add = group.add_argument
     add(
         "--reference-mesh",
@@ -147,7 +147,7 @@ def make_parser() -> argparse.ArgumentParser:
         metavar="PATH=VALUE",
         help="a parameter that the reference has otherwise than the scene",
     )
-    group = parser.add_argument_group("running")
+    group = parser.add_argument_group("runs")
     add = group.add_argument
     add("--ranks", type=int, default=1, help="processes of each run (1)")
     add("-j", "--jobs", type=int, default=1, help="runs at a time; more than one blurs the core-seconds (1)")
@@ -168,7 +168,7 @@ def make_parser() -> argparse.ArgumentParser:
         "--time-limit", type=float, default=600.0, metavar="S", help="seconds on the clock for each run (600)"
     )
     add("--program", help="billet itself (the one beside this program, or in BILLET, or on the path)")
-    group = parser.add_argument_group("what fails beside what does not come to its end")
+    group = parser.add_argument_group("limits beyond which a run counts as failed")
     add = group.add_argument
     add("--largest-drift", type=float, default=0.05, help="of the energy balance of dynamic scenes (0.05)")
     add("--largest-penetration", type=float, default=0.5, help="in facet sizes (0.5)")
@@ -190,7 +190,7 @@ def make_parser() -> argparse.ArgumentParser:
         default=0.5,
         help="beyond which a run is of no use; of the reference, too (0.5)",
     )
-    group = parser.add_argument_group("where to")
+    group = parser.add_argument_group("output files")
     add = group.add_argument
     add("--folder", help="where runs are kept (results/trade/SCENE)")
     add("--output", metavar="NAME", help="NAME.csv, NAME.md and NAME.png are written (FOLDER/trade)")
