@@ -28,7 +28,9 @@ for group in "$@"; do
       [[ -n ${DEAL_II_DIR:-} ]] || packages+=(libdeal.ii-dev)
       ;;
     trade) packages+=(python3 python3-matplotlib python3-paraview python3-scipy) ;;
-    benchmarks) packages+=(calculix-ccx valgrind python3 python3-matplotlib python3-paraview) ;;
+    benchmarks)
+      packages+=(calculix-ccx calculix-ccx-test gmsh valgrind python3 python3-matplotlib python3-meshio python3-paraview)
+      ;;
     python) packages+=(black flake8 mypy python3-numpy python3-yaml) ;;
     pictures) packages+=(paraview python3-paraview python3-pil xvfb xauth) ;; # pvpython wants a display: xvfb-run, which wants xauth
     documentation)
