@@ -51,7 +51,10 @@ def lines_of(folder: str) -> list[dict[str, float]]:
     """Returns the whole lines of a history that grows."""
     if not os.path.exists(f"{folder}/history.csv"):
         return []
-    head, *rows = rows_of(f"{folder}/history.csv")
+    whole = rows_of(f"{folder}/history.csv")
+    if not whole:  # its head is on the way
+        return []
+    head, *rows = whole
     return [dict(zip(head, map(float, row))) for row in rows if len(row) == len(head) and row[-1] != ""]
 
 
