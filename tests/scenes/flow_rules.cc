@@ -207,10 +207,8 @@ void test_refusals() {
        "one of them"},
       {"an open yield surface", yield + "set Anisotropy = Hill\nset Stress ratios = 0.4, 1, 1, 1, 1, 1\n",
        "closed"},
-      {"cylindrical axes",
-       yield + "set Anisotropy = Hill\nset r-values = 1, 1, 1\nset Axes = cylindrical\nset Axis point = 0, "
-               "0, 0\nset Axis direction = 0, 0, 1\n",
-       "global or local"},
+      {"cylindrical axes without a line",
+       yield + "set Anisotropy = Hill\nset r-values = 1, 1, 1\nset Axes = cylindrical\n", "along the line"},
       {"r-values of no anisotropy", yield + "set r-values = 1, 1, 1\n", "does not use it"},
       {"no melting temperature", yield + "set Thermal factor = Johnson-Cook\nset Temperature = 20\n",
        "above 'Reference temperature'"},
