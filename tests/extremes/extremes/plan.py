@@ -223,17 +223,10 @@ def of_rubber() -> Iterator[Case]:
             "constant",
             {"kinematics": law, "nu": 0.49},
         )
-        for bases, more in (
-            (("stretch.explicit", "stack"), AS_IT_IS),
-            (("upset",), {"penalty": 1e4}),  # some stiffen so much that softer contact takes the strain
-        ):
-            yield from far(
-                f"constant, {law}",
-                bases,
-                [values[0], values[-1]],
-                "constant",
-                {"kinematics": law, "nu": 0.49, **more},
-            )
+        stiffened: Changes = {"kinematics": law, "nu": 0.49}
+        firmly: Changes = {**stiffened, "penalty": 1e4}  # softer contact would take the strain of some
+        for bases, along in ((("stretch.explicit", "stack"), stiffened), (("upset",), firmly)):
+            yield from far(f"constant, {law}", bases, [values[0], values[-1]], "constant", along)
     for law in RUBBER:
         for volumetric in VOLUMETRIC:
             for nu in (0.1, 0.499):
