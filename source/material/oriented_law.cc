@@ -48,7 +48,7 @@ public:
     const auto axes = axes_.at(position);
     for (unsigned int a = 0; a < 3; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-        state[n_inner_ + 3 * a + i] = axes[a][i];
+        state[n_inner_ + std::size_t{3} * a + i] = axes[a][i];
   }
 
   bool update(const Tensor<2, 3> &F, const double J, const PointStep &step, const double *state_n,
