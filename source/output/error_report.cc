@@ -23,10 +23,11 @@ namespace {
 
 double percent(const double part) { return 100. * part; }
 
-std::string mesh_is_not_part(const double mesh) {
+std::string mesh_is_not_part(const double mesh, const bool is_known) {
   std::ostringstream text;
   text.precision(2);
-  text << "The estimate excludes the error of the mesh, about " << percent(mesh) << " % of the forces";
+  text << "The estimate excludes the error of the mesh, about " << percent(mesh) << " % of the forces"
+       << (is_known ? "" : " or far more, since parts with a single element across bend");
   return text.str();
 }
 
@@ -63,7 +64,7 @@ Diagnostic ErrorReport::estimate() const {
   text.precision(7);
   for (const auto &[name, value] : costs)
     text << (&name == &costs.front().first ? "; cost: " : ", ") << value << " " << name;
-  text << ". " << mesh_is_not_part(mesh);
+  text << ". " << mesh_is_not_part(mesh, is_mesh_known);
   Diagnostic result(diagnostic::error_estimate, text.str());
   result.value("error", total()).value("target", target).value("mesh", mesh);
   for (const auto &source : sources)
@@ -101,10 +102,10 @@ DiagnosticList ErrorReport::diagnostics() const {
                            .value("target", target)
                            .advice(unknown->remedy));
   } else if (mesh > target && !has_mesh_target) {
-    messages.push_back(
-        Diagnostic(diagnostic::mesh_may_exceed_target, mesh_is_not_part(mesh) + ", more than the target")
-            .value("mesh", mesh)
-            .value("target", target));
+    messages.push_back(Diagnostic(diagnostic::mesh_may_exceed_target,
+                                  mesh_is_not_part(mesh, is_mesh_known) + ", more than the target")
+                           .value("mesh", mesh)
+                           .value("target", target));
   }
   return messages;
 }

@@ -113,7 +113,9 @@ def _() -> None:
 def _() -> None:
     wall = "beam: - Symmetry planes & Mesh: Arguments = 4, 1, 1 : 0, 0, 0 : 100, 5, 5"
     unknown = r"^note\[mesh-error\]: .*unknown, since parts with a single element across bend"
-    says(unknown, billet(wall).said)
+    said = billet(wall + " & + set Target error = 2 percent").said
+    says(unknown, said)
+    says("error of the mesh, about .* or far more", said)
     for edits in ("end: Displacement = 0.5*t ; 0 ; 0 & " + wall, ""):
         said = billet(edits).said
         require("single element across" not in said, said)

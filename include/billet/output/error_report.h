@@ -26,6 +26,7 @@ struct ErrorReport {
   bool is_known = true;         ///< whether there was a reference quantity to normalise by
   std::vector<Source> sources;  ///< estimated sources
   double mesh = 0.;             ///< from MeshErrors::error(); not one of the sources
+  bool is_mesh_known = true;    ///< MeshErrors::sees_variation()
   bool has_mesh_target = false; ///< whether levels of the mesh are compared after the run
   std::vector<std::pair<std::string, double>> costs;
 
