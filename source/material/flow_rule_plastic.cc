@@ -436,7 +436,7 @@ private:
     return true;
   }
 
-  /// Finds the temperature at Δα, (H17) of doc/theory.md, and the slope of the flow stress with it.
+  /// Finds the temperature at Δα, (H16) of doc/theory.md, and the slope of the flow stress with it.
   void set_temperature() {
     heat_.factor = 1.;
     heat_.slope = increment_.slope;

@@ -127,7 +127,7 @@ public:
   /// results depend on the mesh.
   virtual std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const = 0;
   /// Returns the slope of the flow stress with plastic strain, with the heat of the plastic work, for a point
-  /// in this state that yields, (H21) of doc/theory [stress]. Returns nothing if the law cannot soften. If
+  /// in this state that yields, (H20) of doc/theory [stress]. Returns nothing if the law cannot soften. If
   /// the slope is negative, strains localise in one layer of elements. `temperature`: of the body.
   virtual std::optional<double> flow_slope(const double * /*state*/, double /*temperature*/) const {
     return {};

@@ -40,7 +40,7 @@ public:
   /// mean.
   double scale() const;
 
-  // For checkpoints: this class's numbers among those of ErrorControl.
+  // For checkpoints.
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 

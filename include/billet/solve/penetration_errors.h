@@ -41,7 +41,7 @@ public:
   /// Whether the error by penetration has been measured, or there was no penetration.
   bool is_known() const { return is_measured_ || !(unmeasured_ > 0.); }
 
-  // For checkpoints: this class's numbers among those of ErrorControl.
+  // For checkpoints.
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 

@@ -46,7 +46,7 @@ public:
   double integral() const { return integral_; }
   unsigned int n_measurements() const { return n_measurements_; }
 
-  // For checkpoints: this class's numbers among those of ErrorControl.
+  // For checkpoints.
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
