@@ -249,6 +249,9 @@ class Run:
         """Returns the size of the last force on a tool."""
         return math.sqrt(sum(self.last(f"{tool}.force_{axis}") ** 2 for axis in "xyz"))
 
+    def last_checkpoint(self) -> str:
+        return str(sorted(Path(self.folder).glob("checkpoint_*.h5"))[-1])
+
     def require_history(self) -> None:
         """Raises a fault unless there is one."""
         file = Path(self.folder, "history.csv")
@@ -304,4 +307,10 @@ class Runner:
         ran = Run(folder, run(*self.program.on(ranks, *options, "scene.prm")))
         if "--check" not in options:
             ran.require_record()
+        return ran
+
+    def finish(self, base: str, *options: str) -> Run:
+        """Runs scene.prm, which must succeed."""
+        ran = self.run(base, options=options)
+        equal("exit code", ran.ended.code, 0)
         return ran

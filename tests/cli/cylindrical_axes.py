@@ -13,11 +13,10 @@ from __future__ import annotations
 
 import math
 import sys
-from glob import glob
 
-from checks import Checks, Program, Run, enter_folder, equal, near, require, run, says, write_text
+from checks import Checks, Program, Run, Runner, enter_folder, near, require, says
 
-program = Program(sys.argv[1:])
+runner = Runner(Program(sys.argv[1:]))
 check = Checks()
 enter_folder()
 
@@ -78,13 +77,6 @@ end
 """
 
 
-def result(folder: str, text: str, *resumed: str) -> Run:
-    write_text(f"{folder}.prm", text)
-    ended = run(*program.on(1, f"{folder}.prm", "--output", folder, *resumed))
-    equal("exit code", ended.code, 0)
-    return Run(folder, ended)
-
-
 def closed_form() -> float:
     """Returns Cauchy's stress of a bar in tension with this logarithmic strain: tau = R (sigma_y + h alpha),
     alpha = R times plastic strain."""
@@ -110,53 +102,48 @@ for name in ("assumed strain", "mean dilatation", "one point"):
 
     @check(f"{name}, static")
     def _() -> None:
-        uniform(result(f"static {name}", scene(element(name))))
+        uniform(runner.finish(scene(element(name))))
 
 
 for name in ("mean dilatation", "one point"):
 
     @check(f"{name}, explicit")
     def _() -> None:
-        uniform(result(f"explicit {name}", scene(element(name), is_explicit=True)))
+        uniform(runner.finish(scene(element(name), is_explicit=True)))
+
+
+half_way = runner.finish(scene(end=END / 2)).last_checkpoint()
 
 
 @check("half-way on with another element")
 def _() -> None:
-    result("half", scene(end=END / 2))
-    last = sorted(glob("half/checkpoint_*.h5"))[-1]
-    uniform(result("resumed", scene(element("mean dilatation")), "--restart", last))
+    uniform(runner.finish(scene(element("mean dilatation")), "--restart", half_way))
 
 
 @check("axes of space are not the same all around")
 def _() -> None:
-    turned = result("space", scene(axes=""))
+    turned = runner.finish(scene(axes=""))
     least, largest = turned.last("outside.least_stress_yy"), turned.last("outside.largest_stress_yy")
     require(largest > 1.05 * least, f"the stress is {least} to {largest}")
 
 
 @check("--check names the axes")
 def _() -> None:
-    write_text("named.prm", scene())
-    says(
-        "Hencky plasticity, in cylindrical axes about the line",
-        run(*program.on(1, "named.prm", "--check")).output,
-    )
+    said = runner.finish(scene(), "--check").said
+    says("Hencky plasticity, in cylindrical axes about the line", said)
 
 
 @check("a checkpoint with other axes is refused")
 def _() -> None:
-    result("half_again", scene(end=END / 2))
-    last = sorted(glob("half_again/checkpoint_*.h5"))[-1]
-    write_text("other.prm", scene(axes=""))
-    ended = run(*program.on(1, "other.prm", "--output", "other", "--restart", last))
-    says("cylindrical axes about the line", ended.errors)
-    require(ended.code != 0, "it runs")
+    other = runner.run(scene(axes=""), options=("--restart", half_way))
+    says("cylindrical axes about the line", other.complained)
+    require(other.ended.code != 0, "it runs")
 
 
 @check("an axis that is not along a symmetry plane is named")
 def _() -> None:
-    write_text("askew.prm", scene(axes=CYLINDRICAL.replace("0, 0, 1", "0, 1, 1")))
-    says("material-not-mirrored.*'y = 0'", run(*program.on(1, "askew.prm", "--check")).output)
+    askew = scene(axes=CYLINDRICAL.replace("0, 0, 1", "0, 1, 1"))
+    says("material-not-mirrored.*'y = 0'", runner.run(askew, options=["--check"]).said)
 
 
 sys.exit(check.finish())

@@ -13,11 +13,10 @@ of the law, forces would be off by 70 %.
 from __future__ import annotations
 
 import sys
-from glob import glob
 
-from checks import Checks, Program, Run, enter_folder, equal, near, run, write_text
+from checks import Checks, Program, Runner, enter_folder, near
 
-program = Program(sys.argv[1:])
+runner = Runner(Program(sys.argv[1:]))
 check = Checks()
 enter_folder()
 
@@ -71,24 +70,14 @@ end
 """
 
 
-def result(folder: str, text: str, *resumed: str) -> Run:
-    """Runs a scene, from a checkpoint if one is named."""
-    write_text(f"{folder}.prm", text)
-    ended = run(*program.on(1, f"{folder}.prm", "--output", folder, *resumed))
-    equal("exit code", ended.code, 0)
-    return Run(folder, ended)
-
-
-def last_checkpoint(folder: str) -> str:
-    return sorted(glob(f"{folder}/checkpoint_*.h5"))[-1]
-
-
 LAYERS = "    set Points through thickness = 5\n    set Thickness direction = 0 ; 0 ; 1\n"
 for material in MATERIALS:
-    whole = result(f"{material}_whole", scene(material, 2 * TURN))
+    whole = runner.finish(scene(material, 2 * TURN))
     force = whole.last(FORCE)
-    for scheme, is_explicit in (("static", False), ("explicit", True)):
-        result(f"{material}_{scheme}", scene(material, TURN, is_explicit=is_explicit))
+    until = {
+        scheme: runner.finish(scene(material, TURN, is_explicit=scheme == "explicit")).last_checkpoint()
+        for scheme in ("static", "explicit")
+    }
 
     for name, choices in (
         ("mean dilatation", "    set Element = mean dilatation\n"),
@@ -98,12 +87,7 @@ for material in MATERIALS:
 
         @check(f"{material}, resumed with {name}")
         def _() -> None:
-            resumed = result(
-                f"{material}_{name.replace(' ', '_')}",
-                scene(material, 2 * TURN, choices),
-                "--restart",
-                last_checkpoint(f"{material}_static"),
-            )
+            resumed = runner.finish(scene(material, 2 * TURN, choices), "--restart", until["static"])
             near("force", resumed.last(FORCE), force, 1e-5)
             near("plastic work", resumed.last("plastic_work"), whole.last("plastic_work"), 1e-5)
 
@@ -111,11 +95,8 @@ for material in MATERIALS:
 
         @check(f"{material}, {before}, then {after}")
         def _() -> None:
-            resumed = result(
-                f"{material}_then_{after}",
-                scene(material, 2 * TURN, is_explicit=after == "explicit"),
-                "--restart",
-                last_checkpoint(f"{material}_{before}"),
+            resumed = runner.finish(
+                scene(material, 2 * TURN, is_explicit=after == "explicit"), "--restart", until[before]
             )
             near("force", resumed.last(FORCE), force, 0.03)
 
