@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/nearest_name.h"
 #include "billet/output/console_log.h"
 #include "billet/parameters/scene_update.h"

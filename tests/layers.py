@@ -28,8 +28,8 @@ WITHOUT_MPI = WITHOUT_MESH - {"algebra"}
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every layer
 FOR_ALL = set(
-    "compatibility diagnostic_kinds diagnostics disjoint_sets error_notes errors nearest_name plugin"
-    " printable registered_type scene_fault shipped spent_time state trial usage vector_text version"
+    "compatibility diagnostic_kinds diagnostics disjoint_sets error_notes errors fail_together nearest_name plugin"
+    " printable registered_type scene_fault shipped spent_time state times trial usage vector_text version"
     " without_traps".split()
 )
 ABOVE_ALL = {"main"}  # files that may include everything
@@ -53,7 +53,7 @@ HEADERS = re.compile(rf"(?:.*/)?(?:{'|'.join(TRILINOS)}|az_|ml_|klu|[sdcz]?mumps
 ALLOWED = {("geometry/derivative.h", "Sacado")}  # automatic differentiation, which is no linear algebra
 METHODS = re.compile(r"(?:Direct|Iterative)Method::\w+")  # tests may choose one
 MESH = re.compile(r"deal\.II/(?:grid|dofs|distributed|fe)/.*")
-MPI = re.compile(r"(?:.*/)?mpi\.(?:h|templates\.h)")
+MPI = re.compile(r"(?:.*/)?mpi\.(?:h|templates\.h)|billet/fail_together\.h")
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
 COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
@@ -141,6 +141,7 @@ def self_check() -> list[str]:
         "include/billet/algebra/dofs.h": ("#include <deal.II/dofs/dof_handler.h>", "algebra/ is pure"),
         "include/billet/loads/forest.h": ("#include <deal.II/distributed/tria.h>", "loads/ is pure"),
         "source/friction/ranks.cc": ("#include <mpi.h>", "friction/ is pure"),
+        "source/loads/ranks.cc": ('#include "billet/fail_together.h"', "loads/ is pure"),
         "source/mechanics/explicit/ranks.cc": ("#include <deal.II/base/mpi.h>", "mechanics/ is pure"),
         "source/integration/parsed.cc": ("class ParameterHandler;", "only parameters/ knows"),
         "source/material/mesh.cc": ('#include "billet/forces/inertia.h"', "material/ comes before"),

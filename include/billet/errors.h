@@ -4,8 +4,6 @@
 
 #include "billet/diagnostics.h"
 
-#include <mpi.h>
-
 #include <exception>
 #include <functional>
 #include <stdexcept>
@@ -61,11 +59,6 @@ private:
 
 /// Returns the failure of a run that cannot write a file of its results.
 SolutionFailure file_lost(const std::string &name);
-
-/// Calls `action` on every rank. If it throws on any of them, every rank throws: InputError or
-/// SolutionFailure with the same diagnostic if that was thrown, otherwise std::runtime_error. `action` itself
-/// must not communicate.
-void fail_together(MPI_Comm communicator, const std::function<void()> &action);
 
 /// Calls `action` before the run starts: rethrows a SolutionFailure as InputError with the same diagnostic.
 /// Its kind becomes 'bad-input' if it was the general 'solution-failed'.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/contact/contact_blocks.h"
 
+#include "billet/fail_together.h"
+
 #include <algorithm>
 
 namespace billet {

@@ -3,6 +3,7 @@
 
 #include "billet/discretization/contact_neighbours.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/dofs/dof_tools.h>

@@ -2,6 +2,7 @@
 #include "billet/discretization/supports.h"
 
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/usage.h"
 
 #include <deal.II/lac/vector.h>

@@ -3,6 +3,7 @@
 
 #include "billet/discretization/point_location.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/forces/selected_nodes.h"
 #include "billet/forces/surface_coupling.h"
 #include "billet/geometry/facet_point.h"

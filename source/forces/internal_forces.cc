@@ -2,6 +2,7 @@
 #include "billet/forces/internal_forces.h"
 
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/mechanics/one_point.h"
 
 #include <deal.II/base/array_view.h>

@@ -3,6 +3,8 @@
 
 #include "billet/algebra/gather.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
+#include "billet/times.h"
 #include "billet/usage.h"
 #include "billet/version.h"
 
@@ -475,8 +477,11 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
 
 namespace {
 
-/// Tolerance for round-off at the end of an interval, relative to the interval.
-constexpr double slack = 1e-9;
+/// Returns the number of whole intervals between checkpoints up to this time, which is not early by
+/// round-off.
+unsigned int count_intervals(const double time, const double interval) {
+  return static_cast<unsigned int>(times::count_intervals(time, interval));
+}
 
 } // namespace
 
@@ -486,7 +491,7 @@ Checkpoints::Checkpoints(const parameters::Output &parameters, MPI_Comm communic
 bool Checkpoints::is_due(const unsigned int step, const double time) const {
   const auto &[every_steps, interval, keep] = parameters_.checkpoint;
   return (every_steps > 0 && step % every_steps == 0) ||
-         (interval > 0. && time >= (n_intervals_ + 1) * interval * (1. - slack));
+         (interval > 0. && count_intervals(time, interval) > n_intervals_);
 }
 
 std::string Checkpoints::write(const double time, const std::function<void(StateWriter &)> &save) {
@@ -498,7 +503,7 @@ std::string Checkpoints::write(const double time, const std::function<void(State
   // The saved state describes the schedule after this checkpoint.
   ++n_written_;
   if (parameters_.checkpoint.interval > 0.)
-    n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
+    n_intervals_ = count_intervals(time, parameters_.checkpoint.interval);
   files_.push_back(name.str());
   std::vector<std::string> too_many;
   while (files_.size() > parameters_.checkpoint.keep) {
@@ -529,7 +534,7 @@ void Checkpoints::save(StateWriter &writer) const {
 
 void Checkpoints::load(const StateReader &reader, const double time, const bool is_same_folder) {
   if (parameters_.checkpoint.interval > 0.)
-    n_intervals_ = static_cast<unsigned int>(std::floor(time / parameters_.checkpoint.interval + slack));
+    n_intervals_ = count_intervals(time, parameters_.checkpoint.interval);
   if (!is_same_folder)
     return;
   n_written_ = reader.count("checkpoints written");

@@ -3,6 +3,7 @@
 
 #include "billet/discretization/supports.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/forces/external_loads.h"
 #include "billet/forces/inertia.h"
 #include "billet/geometry/frame.h"

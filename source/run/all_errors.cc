@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/loads/load.h"
 #include "billet/parameters/scene.h"
 #include "billet/run/check.h"

@@ -4,7 +4,7 @@
 #include "billet/algebra/gather.h"
 #include "billet/discretization/boundary_facets.h"
 #include "billet/disjoint_sets.h"
-#include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/scene/smooth_volume.h"
 
 #include <algorithm>

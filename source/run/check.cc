@@ -4,7 +4,7 @@
 #include "billet/contact/faceted_curvature.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/discretization/inverted_corners.h"
-#include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/output/checkpoint.h"
 #include "billet/output/probe_reader.h"
 #include "billet/run/body_report.h"

@@ -8,6 +8,7 @@
 #include "billet/run/forming_limits.h"
 #include "billet/run/unneeded_costs.h"
 #include "billet/scene/plausibility.h"
+#include "billet/times.h"
 
 #include <cmath>
 #include <iomanip>
@@ -30,8 +31,6 @@ struct Limits {
   static constexpr double n_checks = 100.;
   /// Added mass over the mass, and kinetic over internal energy, above which mass scaling changes the motion.
   static constexpr double much_mass = 0.1, fast = 0.05;
-  /// Part of an interval of (W4) by which its end may seem early: sums of steps are rounded.
-  static constexpr double rounding = 1e-9;
 };
 
 Diagnostic describe_mass_scaling(const ExplicitDynamics &problem) {
@@ -215,7 +214,7 @@ void ExplicitRun::estimate_mesh_error() {
   problem_.update_state();
   const double interval = stops_.end() / n_intervals;
   const bool ends_interval =
-      is_finished_ || problem_.time() >= last_.interval_start + (1. - Limits::rounding) * interval;
+      is_finished_ || !times::is_before(problem_.time(), last_.interval_start + interval);
   mesh_errors_.add(problem_, ends_interval);
   last_.estimated_step = problem_.n_steps();
   if (ends_interval)

@@ -2,6 +2,7 @@
 #include "billet/run/preview.h"
 
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/output/field_writer.h"
 #include "billet/output/paraview_script.h"
 #include "billet/output/preview_grids.h"

@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/times.h"
 
 #include <cmath>
 #include <filesystem>
@@ -61,9 +62,7 @@ void Resumption::check_end(const parameters::Scene &parameters) const {
   if (report_.time < parameters.time_stepping.end_time)
     return;
   std::ostringstream message;
-  constexpr double rounding = 1e-9;
-  if (report_.is_exact &&
-      std::abs(report_.time - parameters.time_stepping.end_time) <= rounding * std::abs(report_.time)) {
+  if (report_.is_exact && !times::is_after(report_.time, parameters.time_stepping.end_time)) {
     message << file_.file_name() << " is from the end of the scene, time " << report_.time
             << ", so that nothing remains to be computed";
     throw AlreadyComplete{Diagnostic(diagnostic::already_complete, message.str())};

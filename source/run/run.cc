@@ -2,6 +2,7 @@
 #include "billet/run/run.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/fail_together.h"
 #include "billet/run/check.h"
 #include "billet/run/explicit_run.h"
 #include "billet/run/implicit_run.h"

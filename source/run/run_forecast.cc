@@ -3,8 +3,10 @@
 
 #include "billet/algebra/gather.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/run/body_course.h"
 #include "billet/run/body_report.h"
+#include "billet/times.h"
 
 #include <algorithm>
 #include <array>
@@ -50,11 +52,6 @@ double growth_of_steps(const Scene &scene, const std::size_t body) {
     step *= 0.5;
   }
   return factor;
-}
-
-double count_steps(const double end, const double length) {
-  constexpr double rounding = 1e-9;
-  return std::max(1., std::ceil(end / length * (1. - rounding)));
 }
 
 /// Finds the element of all ranks that sets the stable step of the elements.
@@ -106,7 +103,7 @@ double count_steps(const Scene &scene, ExplicitDynamics &problem, const SceneRep
     stable.shortest = step;
     stable.shortest_from = t;
   }
-  return count_steps(end, end / (n + (end - before) / stable.shortest));
+  return times::count_steps(end, end / (n + (end - before) / stable.shortest));
 }
 
 /// Whether loads, such as springs, make explicit steps shorter.
@@ -133,7 +130,7 @@ RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const Scen
     problem.prepare_step(end);
     stable.step = problem.usual_step();
     const double growth = growth_of_steps(scene, body);
-    report.n_steps = std::ceil(growth * count_steps(end, stable.step));
+    report.n_steps = std::ceil(growth * times::count_steps(end, stable.step));
     const double in_contact = std::ceil(growth * count_steps(scene, problem, of_scene, stable));
     if (in_contact > report.n_steps)
       report.max_steps = in_contact;
@@ -162,7 +159,8 @@ RunReport forecast_run(const Scene &scene, const ImplicitSolution &problem) {
       (problem.solves_iteratively() ? Memory::multigrid_dof * n_dofs
                                     : direct_memory(n_dofs, !scene.capabilities().unsymmetric_matrix));
   report.is_minimum = steps.control == Control::automatic;
-  report.n_steps = count_steps(steps.end_time, report.is_minimum ? steps.max_step : steps.initial_step);
+  report.n_steps =
+      times::count_steps(steps.end_time, report.is_minimum ? steps.max_step : steps.initial_step);
   return report;
 }
 

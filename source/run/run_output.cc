@@ -2,6 +2,7 @@
 #include "billet/run/run_output.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/fail_together.h"
 #include "billet/output/console_log.h"
 #include "billet/run/output_folder.h"
 

@@ -2,19 +2,12 @@
 #include "billet/run/snapshots.h"
 
 #include "billet/spent_time.h"
+#include "billet/times.h"
 
 namespace billet {
 
-namespace {
-constexpr double rounding = 1e-8; // relative tolerance of times
-}
-
-unsigned int Snapshots::count_intervals(const double time) const {
-  return static_cast<unsigned int>(time / output_.interval * (1. + rounding));
-}
-
 bool Snapshots::is_due(const unsigned int step, const double time) const {
-  if (output_.interval > 0. && time >= (n_intervals_ + 1) * output_.interval * (1. - rounding))
+  if (output_.interval > 0. && times::count_intervals(time, output_.interval) > n_intervals_)
     return true;
   return (output_.interval == 0. && output_.every_steps > 0 && step % output_.every_steps == 0) ||
          time >= end_;
@@ -25,7 +18,7 @@ void Snapshots::after_step(const unsigned int step, const Solution &solution) {
   if (!is_due(step, time))
     return;
   if (output_.interval > 0.)
-    n_intervals_ = count_intervals(time);
+    n_intervals_ = static_cast<unsigned int>(times::count_intervals(time, output_.interval));
   write(solution);
 }
 
@@ -45,7 +38,7 @@ void Snapshots::load(const StateReader &reader) {
   const std::vector<double> state = reader.read("snapshots", 2);
   last_ = state.at(1);
   if (output_.interval > 0.)
-    n_intervals_ = count_intervals(last_);
+    n_intervals_ = static_cast<unsigned int>(times::count_intervals(last_, output_.interval));
 }
 
 } // namespace billet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/run/stops.h"
 
+#include "billet/times.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +12,8 @@ Stops::Stops(const Scene &scene) : end_(scene.parameters().time_stepping.end_tim
   const auto &more = scene.parameters().time_stepping.stops;
   stops_.insert(stops_.end(), more.begin(), more.end());
   // A stop that differs from the end only by round-off is the end.
-  constexpr double rounding = 1e-9;
   stops_.erase(std::remove_if(stops_.begin(), stops_.end(),
-                              [this](const double stop) { return stop > end_ * (1. - rounding); }),
+                              [this](const double stop) { return !times::is_before(stop, end_); }),
                stops_.end());
   stops_.push_back(end_);
   std::sort(stops_.begin(), stops_.end());
@@ -23,8 +24,7 @@ double Stops::next(const double time) const {
 }
 
 bool RegularTimes::is_due(const double time) {
-  constexpr double rounding = 1e-9; // relative to the interval
-  const double n = std::floor(time / interval_ + rounding);
+  const double n = times::count_intervals(time, interval_);
   const bool is_due = n > last_ || time >= end_;
   last_ = std::max(n, last_);
   return is_due;

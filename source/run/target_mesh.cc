@@ -2,6 +2,7 @@
 #include "billet/run/target_mesh.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/fail_together.h"
 #include "billet/output/console_log.h"
 #include "billet/output/history_comparison.h"
 #include "billet/run/body_levels.h"

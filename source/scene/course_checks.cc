@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/times.h"
 
 #include <cmath>
 #include <sstream>
@@ -17,8 +18,6 @@ const DiagnosticKind unfinished_course(
     "initial penetration that ramps up, and a load with a late 'From'.",
     "Set a later 'End time', or shorter times");
 
-constexpr double rounding = 1e-9;
-
 /// Collects what is not complete at the end time.
 class Course {
 public:
@@ -29,7 +28,7 @@ public:
 
   explicit Course(const double end) : end_(end) {}
 
-  bool is_after_end(const double time) const { return time > end_ * (1. + rounding); }
+  bool is_after_end(const double time) const { return times::is_after(time, end_); }
   /// Something that begins at a time.
   void begin(const Part &where, const std::string &what, const double from) {
     if (is_after_end(from))

@@ -2,6 +2,7 @@
 #include "billet/scene/mesh_refinements.h"
 
 #include "billet/errors.h"
+#include "billet/times.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +15,12 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double rounding = 1e-9; // relative tolerance of times
-
-bool is_reached(const double time, const double t) { return time <= t + rounding * std::abs(t); }
-
 /// Span of time in which forces of something that is switched off fade.
 struct Fade {
   std::string what;
   double begin, end;
 
-  bool contains(const double t) const { return is_reached(begin, t) && t < end * (1. - rounding); }
+  bool contains(const double t) const { return !times::is_after(begin, t) && times::is_before(t, end); }
 };
 
 std::vector<Fade> find_fades(const parameters::Scene &scene, const parameters::Body &body) {
@@ -46,7 +43,7 @@ void check_body(const parameters::Scene &scene, const parameters::Body &body) {
   if (times.empty())
     return;
   const double end = scene.time_stepping.end_time;
-  if (!(times.back() < end * (1. - rounding))) {
+  if (!times::is_before(times.back(), end)) {
     std::ostringstream message;
     message << origin << " has the time " << times.back() << "; allowed are times before the end of the run, "
             << end;
@@ -111,7 +108,7 @@ MeshLevels find_mesh_levels(const parameters::Scene &scene, const double t) {
   for (const auto &body : scene.bodies)
     levels.push_back(static_cast<unsigned int>(
         std::count_if(body.refinement_times.value.begin(), body.refinement_times.value.end(),
-                      [t](const double time) { return is_reached(time, t); })));
+                      [t](const double time) { return !times::is_after(time, t); })));
   return levels;
 }
 

@@ -3,6 +3,7 @@
 
 #include "billet/diagnostic_kinds.h"
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/parameters/number_text.h"
 
 #include <deal.II/base/mpi.h>

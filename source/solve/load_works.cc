@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/load_works.h"
 
+#include "billet/times.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +13,7 @@ using dealii::Tensor;
 namespace {
 
 /// Returns a time after the end of a step at t, by which LoadTimes tells what acts then.
-double just_after(const double t) { return t * (1. + 2. * LoadTimes::rounding); }
+double just_after(const double t) { return t * (1. + 2. * times::rounding); }
 
 } // namespace
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/step_control.h"
 
+#include "billet/times.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,8 +18,6 @@ struct Rules {
   /// Number of remaining steps below which two equal steps are taken, rather than a full step and a short
   /// rest.
   static constexpr double halves = 1.5;
-  /// Difference of two stops, over their time, that is round-off.
-  static constexpr double round_off = 1e-12;
   /// Part of the step that an error of its time integration allows; the error falls with its third power.
   static constexpr double safety = 0.8;
 };
@@ -33,7 +33,7 @@ StepControl::StepControl(const parameters::TimeStepping &parameters, const doubl
   std::size_t n = 0;
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const double next = i + 1 < stops_.size() ? stops_[i + 1] : parameters.end_time;
-    if (!(std::abs(next - stops_[i]) <= Rules::round_off * std::abs(next)))
+    if (times::is_before(stops_[i], next))
       stops_[n++] = stops_[i];
   }
   stops_.resize(n);
@@ -48,7 +48,7 @@ double StepControl::target() const {
   const double target = std::min(parameters_.end_time, next_stop());
   if (interval_ == 0.)
     return target;
-  const double output = (std::floor(time_ / interval_ * (1. + Rules::slack) + Rules::slack) + 1.) * interval_;
+  const double output = (times::count_intervals(time_, interval_) + 1.) * interval_;
   // Round-off, as of 100 times 0.29 < 29, must not cause a tiny step.
   return output < target - Rules::slack * interval_ ? output : target;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/step_errors.h"
 
+#include "billet/times.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -48,8 +50,8 @@ struct Factors {
   /// Steps that are `longer` than the measured ones are measured anew.
   static constexpr double longer = 1.5;
   /// Remaining steps below which the first comparison cannot wait: it takes two, and one more would be taken
-  /// before it. A part `rounding` of the end time does not count.
-  static constexpr double last_chance = 3., rounding = 1e-9;
+  /// before it.
+  static constexpr double last_chance = 3.;
 };
 
 /// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h² and
@@ -79,8 +81,7 @@ void StepErrors::accept(const double h, const std::size_t n_forces) {
 }
 
 bool StepErrors::wants_measurement(const ForceCourse &course, const double h) const {
-  if (n_measurements_ == 0 &&
-      course.time() + Factors::last_chance * h > course.end_time() * (1. + Factors::rounding))
+  if (n_measurements_ == 0 && times::is_after(course.time() + Factors::last_chance * h, course.end_time()))
     return true;
   return wants_measurement(course) ||
          (n_measurements_ > 0 && course.force() > 0. && h > Factors::longer * measured_step_);

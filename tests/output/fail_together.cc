@@ -2,7 +2,7 @@
 // An exception on one rank reaches all ranks with its whole diagnostic.
 #include "../testing.h"
 #include "billet/diagnostic_kinds.h"
-#include "billet/errors.h"
+#include "billet/fail_together.h"
 
 #include <deal.II/base/mpi.h>
 

@@ -24,8 +24,6 @@ public:
   void load(const StateReader &reader);
 
 private:
-  unsigned int count_intervals(double time) const;
-
   const parameters::Output &output_;
   double end_;
   FieldWriter &writer_;

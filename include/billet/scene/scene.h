@@ -13,6 +13,7 @@
 #include "billet/scene/node_finder.h"
 #include "billet/scene/tool.h"
 #include "billet/scene/whole_section.h"
+#include "billet/times.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -31,8 +32,6 @@ struct ResolvedScene;
 
 /// Times between which a support holds its nodes.
 struct SupportTimes {
-  static constexpr double rounding = 1e-9;
-
   double from = 0.;
   double until = std::numeric_limits<double>::infinity();
   double fade_time = 0.; ///< over which its forces fade after `until`; 0: at once
@@ -41,9 +40,9 @@ struct SupportTimes {
   bool is_late() const { return from > 0.; }
   bool always() const { return !is_late() && !std::isfinite(until); }
   /// Whether it holds at time t, both ends included.
-  bool acts_at(const double t) const { return t >= from * (1. - rounding) && t <= until * (1. + rounding); }
+  bool acts_at(const double t) const { return !times::is_before(t, from) && !times::is_after(t, until); }
   /// Whether it holds in a step that starts at t.
-  bool acts_after(const double t) const { return t >= from * (1. - rounding) && t < until * (1. - rounding); }
+  bool acts_after(const double t) const { return !times::is_before(t, from) && times::is_before(t, until); }
 };
 
 /// Constraint n · u = value on boundary nodes, from a symmetry plane or a support.
@@ -83,21 +82,19 @@ struct LoadTimes {
   double until = std::numeric_limits<double>::infinity();
   double fade_time = 0.; ///< over which it fades after `until`; 0: at once
 
-  static constexpr double rounding = 1e-9;
-
   /// Whether it acts during the whole run.
   bool always() const { return !(from > 0.) && !std::isfinite(until); }
   /// Whether it acts in a step that starts at t, before it fades.
-  bool acts_after(const double t) const { return t >= from * (1. - rounding) && t < until * (1. - rounding); }
+  bool acts_after(const double t) const { return !times::is_before(t, from) && times::is_before(t, until); }
   /// Whether it begins or ends at t, the end of a step.
   bool changes_at(const double t) const {
-    return acts_after(t) != acts_after(t * (1. - 4. * rounding)) && t > 0.;
+    return acts_after(t) != acts_after(t * (1. - 4. * times::rounding)) && t > 0.;
   }
   /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none yet.
   double factor(const double t) const {
-    if (from > 0. && t <= from * (1. + rounding))
+    if (from > 0. && !times::is_after(t, from))
       return 0.;
-    if (t <= until * (1. + rounding))
+    if (!times::is_after(t, until))
       return 1.;
     return fade_time > 0. ? std::max(0., 1. - (t - until) / fade_time) : 0.;
   }

@@ -2,6 +2,7 @@
 #include "billet/solve/explicit/explicit_clock.h"
 
 #include "billet/diagnostic_kinds.h"
+#include "billet/times.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,6 @@ struct Limits {
   static constexpr double growth = 0.02, max_growth = 2.;
   /// Parts of the allowed step: below the first, steps begin to grow, and they grow up to the second.
   static constexpr double short_step = 0.9, long_step = 0.99;
-  /// Part of all steps by which the time to the event may exceed them without one more.
-  static constexpr double rounding = 1e-9;
   /// Maximum number of steps that are planned at once, for the counter's range.
   static constexpr double max_planned = 1e9;
   /// Number of steps to the event from which on they are below the resolution of time.
@@ -36,7 +35,7 @@ void ExplicitClock::plan(const double event, const double allowed) {
           ? std::min(allowed, std::min(Limits::max_growth, 1. + Limits::growth / (length * length)) * step_)
           : allowed;
   const double remaining = event - time_;
-  const double n = std::max(1., std::ceil(remaining / longest * (1. - Limits::rounding)));
+  const double n = times::count_steps(remaining, longest);
   const double fresh = remaining / n;
   is_growing_ = step_ < (is_growing_ ? Limits::long_step : Limits::short_step) * allowed;
   const bool is_planned = n_planned_ > 0 && event_ == event && step_ <= allowed;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_dynamics.h"
 
+#include "billet/fail_together.h"
+
 namespace billet {
 
 namespace {

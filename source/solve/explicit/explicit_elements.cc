@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/explicit/explicit_elements.h"
 
+#include "billet/fail_together.h"
 #include "billet/forces/law_refusals.h"
 #include "billet/solve/refined_reader.h"
 

@@ -2,6 +2,7 @@
 #include "billet/solve/explicit/explicit_motion.h"
 
 #include "billet/discretization/support_parts.h"
+#include "billet/fail_together.h"
 #include "billet/solve/fading_names.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "billet/solve/implicit/implicit_motion.h"
 
 #include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/usage.h"
 
 #include <algorithm>

@@ -274,4 +274,14 @@ void ImplicitProblem::evaluate_start() {
   compute_residual(x, ignored);
 }
 
+Contacts::Loads ImplicitProblem::start_from_trial() {
+  step_.start.supports = step_.trial.supports;
+  step_.start.contact = step_.trial.contact;
+  step_.start.internal = step_.trial.internal;
+  Contacts::Loads loads = parts_.contacts().compute_loads();
+  state_.tool_loads = loads.of_tools;
+  state_.body_pair_loads = loads.of_body_pairs;
+  return loads;
+}
+
 } // namespace billet

@@ -21,13 +21,11 @@ struct Limits {
 
 ImplicitSolution::ImplicitSolution(const Scene &scene, const Discretization &discretization)
     : problem_(scene, discretization), solver_(problem_), measurement_(problem_),
-      augmentation_(problem_, solver_, measurement_), continuation_(problem_, solver_), paths_(problem_),
-      round_off_(problem_), books_(problem_), diagnosis_(problem_),
-      rules_(make_step_rules(problem_, paths_, books_)), resultants_(problem_),
-      attempt_({problem_, solver_, measurement_, augmentation_, continuation_, paths_, round_off_, *rules_,
-                resultants_}),
+      augmentation_(problem_, solver_, measurement_), continuation_(problem_, solver_), guards_(problem_),
+      books_(problem_), diagnosis_(problem_), rules_(make_step_rules(problem_, guards_.paths, books_)),
+      attempt_({problem_, solver_, measurement_, augmentation_, continuation_, guards_, *rules_}),
       checkpoint_(problem_), reactions_(problem_),
-      accepted_({problem_, *rules_, books_, diagnosis_, reactions_}), start_gaps_(scene) {
+      accepted_({problem_, *rules_, books_, diagnosis_, reactions_}) {
   if (scene.parameters().restart.is_wanted()) // load() does the rest
     return;
   ContactSet &contacts = parts_.contacts();
@@ -71,9 +69,8 @@ DiagnosticList ImplicitSolution::initial_diagnostics() const {
 DiagnosticList ImplicitSolution::finish() const {
   DiagnosticList messages = rules_->check_stabilisation();
   append(messages, rules_->balance().finish());
-  append(messages, round_off_.finish());
   append(messages, augmentation_.finish());
-  append(messages, start_gaps_.judge());
+  append(messages, guards_.finish());
   return messages;
 }
 
@@ -148,9 +145,9 @@ NewtonReport ImplicitSolution::step(const double t, const double previous_step) 
 
 void ImplicitSolution::explain_failure(NewtonReport &report) {
   report.is_lost_in_round_off =
-      report.is_lost_in_round_off || (!report.is_explained() && round_off_.may_explain(report));
+      report.is_lost_in_round_off || (!report.is_explained() && guards_.round_off.may_explain(report));
   if (report.is_lost_in_round_off) {
-    const Explanation why = round_off_.describe(report.force);
+    const Explanation why = guards_.round_off.describe(report.force);
     report.failure = why.what;
     report.advice = why.advice;
     return;
@@ -172,7 +169,7 @@ void ImplicitSolution::review(NewtonReport &report) {
   if (report.is_stalled)
     report.diagnostics.push_back(diagnosis_.describe_stall(report));
   else
-    append(report.diagnostics, round_off_.check(report.force, solver_.accuracy()));
+    append(report.diagnostics, guards_.round_off.check(report.force, solver_.accuracy()));
   append(report.diagnostics, rules_->balance().check());
   append(report.diagnostics, rules_->after_step(*this));
 }
@@ -201,12 +198,9 @@ void ImplicitSolution::commit(const double t, NewtonReport &report) {
   const double t_n = problem_.state().time, drift_n = problem_.state().energies.drift();
   // Of the trial state and the last residual:
   reactions_.start();
-  round_off_.commit(t, report);
+  append(report.diagnostics, guards_.commit(t, report));
   penetration_ = parts_.contacts().find_penetration();
-  append(report.diagnostics, paths_.check_motion(t));
   augmentation_.commit();
-  resultants_.commit();
-  start_gaps_.add(parts_.contacts(), t, parts_.communicator());
   continuation_.forbid_low();
   rules_->predictor().commit();
   ForceScales &scales = problem_.scales();

@@ -50,9 +50,7 @@ void ImplicitSolution::save(StateWriter &writer) const {
   writer.write("scales", {problem_.scales().lasting, rules.predictor().has_lost_pace() ? 1. : 0.});
   books_.save(writer);
   augmentation_.save(writer);
-  round_off_.save(writer);
-  resultants_.save(writer);
-  start_gaps_.save(writer);
+  guards_.save(writer);
   if (!parts_.tangent().is_kind_of_scene())
     writer.write("exact tangent", {1.});
   rules.predictor().save(writer, nodes);
@@ -114,9 +112,7 @@ void ImplicitSolution::load_own(StateReader &reader, const OwnedNodes &nodes, co
   load_nodal(reader, "support forces", nodes, step.start.supports);
   load_nodal(reader, "contact forces", nodes, step.start.contact);
   load_nodal(reader, "internal forces", nodes, step.start.internal);
-  round_off_.load(reader);
-  resultants_.load(reader);
-  start_gaps_.load(reader);
+  guards_.load(reader);
   books_.load(reader);
   rules_->load(reader, is_exact);
   if (is_exact)
@@ -141,12 +137,7 @@ void ImplicitSolution::compute_forces(RestartReport &report) {
   report.force_scale = problem_.force_scale();
   problem_.scales().lasting =
       std::max(problem_.scales().lasting, ForceScales::Limits::lasting * problem_.force_scale());
-  step.start.supports = step.trial.supports;
-  step.start.contact = step.trial.contact;
-  step.start.internal = step.trial.internal;
-  const Contacts::Loads loads = parts_.contacts().compute_loads();
-  state.tool_loads = loads.of_tools;
-  state.body_pair_loads = loads.of_body_pairs;
+  const Contacts::Loads loads = problem_.start_from_trial();
   // Energy that the interruption changes is not drift.
   EnergyLedger &energies = state.energies;
   const double drift = energies.drift();

@@ -19,12 +19,7 @@ void InitialMotion::start() {
   });
   StepState &step = problem_.step();
   SolutionState &state = problem_.state();
-  step.start.supports = step.trial.supports;
-  step.start.contact = step.trial.contact;
-  step.start.internal = step.trial.internal;
-  const Contacts::Loads loads = parts_.contacts().compute_loads();
-  state.tool_loads = loads.of_tools;
-  state.body_pair_loads = loads.of_body_pairs;
+  const Contacts::Loads loads = problem_.start_from_trial();
   motion_.follow_loads(state.time, true, step.start.supports);
   check_before_start([&] { accelerate(); });
 

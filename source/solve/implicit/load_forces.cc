@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/load_forces.h"
 
-#include "billet/errors.h"
+#include "billet/fail_together.h"
 #include "billet/forces/surface_coupling.h"
 
 #include <algorithm>

@@ -47,12 +47,12 @@ bool StepAttempt::find_guess(const double t, const double previous_step, NewtonI
   if (takes_solution)
     has_guess = predictor.follow_tangent(t, linear_step);
   problem.start_step(t);
-  if (has_guess && !takes_solution && predictor.has_alternative() && p_.paths.judge_path(false)) {
+  if (has_guess && !takes_solution && predictor.has_alternative() && p_.guards.paths.judge_path(false)) {
     has_guess = predictor.follow_tangent(t, linear_step);
     problem.start_step(t);
   }
   if (has_guess)
-    if (const auto failure = p_.paths.judge_path(false)) {
+    if (const auto failure = p_.guards.paths.judge_path(false)) {
       report.reject(*failure);
       return false;
     }
@@ -79,8 +79,8 @@ NewtonReport StepAttempt::make(const double t, const double previous_step, const
 NewtonReport StepAttempt::solve(const double t, const double previous_step, const Way way) {
   NewtonReport report;
   begin(t);
-  if (const auto failure = find_first_failure([&] { return p_.paths.judge_turns(t); },
-                                              [&] { return p_.paths.judge_prescribed_motion(t); })) {
+  if (const auto failure = find_first_failure([&] { return p_.guards.paths.judge_turns(t); },
+                                              [&] { return p_.guards.paths.judge_prescribed_motion(t); })) {
     report.reject(*failure);
     return report;
   }
@@ -153,8 +153,8 @@ void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
 }
 
 void StepAttempt::balance(Unknowns &x, NewtonReport &report) {
-  double part = p_.resultants.find_part();
-  if (!p_.resultants.is_hopeful() || report.is_stalled || report.is_lost_in_round_off)
+  double part = p_.guards.resultants.find_part();
+  if (!p_.guards.resultants.is_hopeful() || report.is_stalled || report.is_lost_in_round_off)
     return;
   for (unsigned int n = 0; n < Limits::max_refinements && part > ResultantGuard::allowed; ++n) {
     const Unknowns before = x;
@@ -169,18 +169,19 @@ void StepAttempt::balance(Unknowns &x, NewtonReport &report) {
     }
     Vector state = p_.problem.parts().tools().pack(x.displacements, x.offsets), residual(state);
     p_.problem.compute_residual(state, residual);
-    part = p_.resultants.find_part();
+    part = p_.guards.resultants.find_part();
     if (!refined.converged)
       break;
   }
-  p_.resultants.note(part <= ResultantGuard::allowed);
+  p_.guards.resultants.note(part <= ResultantGuard::allowed);
 }
 
 std::optional<StepFailure> StepAttempt::judge(const double t, NewtonReport &report) {
   return find_first_failure(
-      [&] { return p_.round_off.judge(t, report); }, [&] { return p_.rules.balance().judge_accuracy(t); },
-      [&] { return p_.paths.judge_thin_tools(); }, [&] { return p_.paths.judge_path(true); },
-      [&] { return p_.paths.judge_turns(t); }, [&] { return p_.rules.judge(t, report.diagnostics); });
+      [&] { return p_.guards.round_off.judge(t, report); },
+      [&] { return p_.rules.balance().judge_accuracy(t); },
+      [&] { return p_.guards.paths.judge_thin_tools(); }, [&] { return p_.guards.paths.judge_path(true); },
+      [&] { return p_.guards.paths.judge_turns(t); }, [&] { return p_.rules.judge(t, report.diagnostics); });
 }
 
 } // namespace billet

@@ -91,6 +91,9 @@ public:
   void start_at_rest();
   /// Computes all forces at the start of the step. Collective.
   void evaluate_start();
+  /// Makes the forces of the trial state those at the start of the step, and sets the loads of contacts in
+  /// state(). Returns these loads. Collective.
+  Contacts::Loads start_from_trial();
   /// Return the unknowns, displacements and offsets of driven tools, at the start of the step and in the
   /// trial state.
   Vector unknowns() const {

@@ -9,7 +9,6 @@
 #include "billet/solve/implicit/step_attempt.h"
 #include "billet/solve/implicit/step_diagnosis.h"
 #include "billet/solve/solution.h"
-#include "billet/solve/start_gap_watch.h"
 
 #include <memory>
 #include <string>
@@ -128,17 +127,14 @@ private:
   PenetrationMeasurement measurement_;
   Augmentation augmentation_;
   PenaltyContinuation continuation_;
-  PathGuard paths_;
-  RoundOffGuard round_off_;
+  StepGuards guards_;
   SpringBooks books_;
   StepDiagnosis diagnosis_;
   std::unique_ptr<StepRules> rules_;
-  ResultantGuard resultants_;
   StepAttempt attempt_;
   ProblemCheckpoint checkpoint_;
   ImplicitReactions reactions_;
   AcceptedSteps accepted_;
-  StartGapWatch start_gaps_;
   double penetration_ = 0.;
 };
 

@@ -4,8 +4,7 @@
 
 #include "billet/solve/implicit/augmentation.h"
 #include "billet/solve/implicit/penalty_continuation.h"
-#include "billet/solve/implicit/resultant_guard.h"
-#include "billet/solve/implicit/round_off_guard.h"
+#include "billet/solve/implicit/step_guards.h"
 #include "billet/solve/implicit/step_rules.h"
 
 #include <vector>
@@ -23,10 +22,8 @@ public:
     PenetrationMeasurement &measurement;
     Augmentation &augmentation;
     PenaltyContinuation &continuation;
-    PathGuard &paths;
-    const RoundOffGuard &round_off;
+    StepGuards &guards;
     StepRules &rules;
-    ResultantGuard &resultants;
   };
   explicit StepAttempt(const Parts &parts) : p_(parts) {}
 
