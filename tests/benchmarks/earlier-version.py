@@ -281,6 +281,19 @@ shared = [name for name in extremes[0] if name in extremes[1]] if extremes else 
 other = [name for name in shared if extremes[0][name][0] != extremes[1][name][0]]
 as_many = sum(extremes[0][name][1] == extremes[1][name][1] for name in shared)
 
+others = table(
+    ["scene", "outcome before", "now", "steps, iterations before", "now"],
+    [
+        [
+            f"`{name}`",
+            extremes[0][name][0],
+            extremes[1][name][0],
+            extremes[0][name][1],
+            extremes[1][name][1],
+        ]
+        for name in other
+    ],
+)
 publish(
     "earlier-version",
     "Beside an earlier version",
@@ -313,20 +326,8 @@ publish(
         f"{'All' if PART == '1/1' else f'Part {PART}'} of the {COMMIT} plan, {len(shared)} scenes, ran with"
         " both programs. Each was judged by"
         f" the checks of its version. {len(shared) - len(other)} have the same outcome,"
-        f" {as_many} as many steps"
-        " and iterations. The others are:"
+        f" {as_many} as many steps and iterations."
+        f"{' The others are:' if other else ''}"
     ),
-    table(
-        ["scene", "outcome before", "now", "steps, iterations before", "now"],
-        [
-            [
-                f"`{name}`",
-                extremes[0][name][0],
-                extremes[1][name][0],
-                extremes[0][name][1],
-                extremes[1][name][1],
-            ]
-            for name in other
-        ],
-    ),
+    *([others] if other else []),
 )
