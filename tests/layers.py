@@ -28,9 +28,9 @@ WITHOUT_MPI = WITHOUT_MESH - {"algebra"}
 APART = ({"forces", "contact"},)  # neighbours that must not know each other
 # billet/NAME.h, for every layer
 FOR_ALL = set(
-    "compatibility diagnostic_kinds diagnostics disjoint_sets error_notes errors fail_together nearest_name plugin"
-    " printable registered_type scene_fault shipped spent_time state times trial usage vector_text version"
-    " without_traps".split()
+    "compatibility diagnostic_kinds diagnostics disjoint_sets error_notes errors fail_together nearest_name"
+    " plugin printable registered_type scene_fault shipped spent_time state times trial usage vector_text"
+    " version without_traps".split()
 )
 ABOVE_ALL = {"main"}  # files that may include everything
 LEVELS = {layer: level for level, layer in enumerate(LAYERS)}

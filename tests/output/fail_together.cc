@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // An exception on one rank reaches all ranks with its whole diagnostic.
+#include "billet/fail_together.h"
 #include "../testing.h"
 #include "billet/diagnostic_kinds.h"
-#include "billet/fail_together.h"
 
 #include <deal.II/base/mpi.h>
 
