@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: assemble.py TARGET [--program BILLET] [--katex FOLDER]
+"""Usage: assemble.py TARGET [--program BILLET] [--katex FOLDER | --without-katex]
 
 Writes the sources of the site to TARGET/doc: the pages of doc/, those that the program makes, and insertions.
 doc/site/insertions.py replaces lines '<!-- insert: NAME ARGUMENT... -->' of pages. Without a program
@@ -89,6 +89,7 @@ def main() -> None:
     parser.add_argument("target", type=Path)
     parser.add_argument("--program", type=Path)
     parser.add_argument("--katex", type=Path, default=Path("/usr/share/javascript/katex"))
+    parser.add_argument("--without-katex", action="store_true", help="for pages that no browser shows")
     options = parser.parse_args()
     target = options.target.resolve()
     site = target / "doc"
@@ -99,9 +100,9 @@ def main() -> None:
 
     kept: set[Path] = set()
     pages = copy_files(site, kept)
-    if (options.katex / "katex.min.js").exists():
+    if (options.katex / "katex.min.js").exists() and not options.without_katex:
         copy_katex(options.katex, site, kept)
-    else:
+    elif not options.without_katex:
         raise SystemExit(f"no KaTeX in {options.katex}: scripts/packages.sh documentation")
 
     reference = Reference(options.program, ROOT, pages) if options.program else None
