@@ -477,8 +477,7 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
 
 namespace {
 
-/// Returns the number of whole intervals between checkpoints up to this time, which is not early by
-/// round-off.
+/// Returns the number of whole intervals between checkpoints up to this time.
 unsigned int count_intervals(const double time, const double interval) {
   return static_cast<unsigned int>(times::count_intervals(time, interval));
 }
