@@ -12,6 +12,11 @@
 
 namespace billet {
 
+bool ErrorReport::knows_all() const {
+  return is_known &&
+         std::all_of(sources.begin(), sources.end(), [](const Source &source) { return source.is_known; });
+}
+
 double ErrorReport::total() const {
   double sum = 0.;
   for (const auto &source : sources)
@@ -80,15 +85,9 @@ DiagnosticList ErrorReport::diagnostics() const {
       std::find_if(sources.begin(), sources.end(), [](const Source &source) { return !source.is_known; });
   std::ostringstream text;
   text.precision(2);
-  if (is_known && total() > target) {
-    const auto worst = std::max_element(sources.begin(), sources.end(),
-                                        [](const Source &a, const Source &b) { return a.error < b.error; });
-    text << "The estimated error, " << percent(total()) << " %, exceeds the target, " << percent(target)
-         << " %; most of it is due to " << worst->name;
-    messages.push_back(Diagnostic(diagnostic::target_error_missed, text.str())
-                           .value("error", total())
-                           .value("target", target)
-                           .advice(worst->remedy));
+  const DiagnosticList excess = mesh_target > 0. ? DiagnosticList() : missed();
+  if (!excess.empty()) {
+    append(messages, excess);
   } else if (!is_known) {
     messages.push_back(
         Diagnostic(diagnostic::target_error_unknown,
@@ -101,13 +100,32 @@ DiagnosticList ErrorReport::diagnostics() const {
     messages.push_back(Diagnostic(diagnostic::target_error_unknown, text.str())
                            .value("target", target)
                            .advice(unknown->remedy));
-  } else if (mesh > target && !has_mesh_target) {
+  } else if (mesh > target && !(mesh_target > 0.)) {
     messages.push_back(Diagnostic(diagnostic::mesh_may_exceed_target,
                                   mesh_is_not_part(mesh, is_mesh_known) + ", more than the target")
                            .value("mesh", mesh)
                            .value("target", target));
   }
   return messages;
+}
+
+DiagnosticList ErrorReport::missed(const double of_levels) const {
+  const double error = total() + of_levels, allowed = target + mesh_target;
+  if (!(target > 0.) || !is_known || !(error > allowed))
+    return {};
+  const auto worst = std::max_element(sources.begin(), sources.end(),
+                                      [](const Source &a, const Source &b) { return a.error < b.error; });
+  std::ostringstream text;
+  text.precision(2);
+  text << "The estimated error, " << percent(error) << " %";
+  if (of_levels > 0.)
+    text << " with the " << percent(of_levels) << " % of the mesh";
+  text << ", exceeds the target, " << percent(allowed) << " %; most of "
+       << (of_levels > 0. ? "what is not of the mesh" : "it") << " is due to " << worst->name;
+  return {Diagnostic(diagnostic::target_error_missed, text.str())
+              .value("error", error)
+              .value("target", allowed)
+              .advice(worst->remedy)};
 }
 
 void ErrorReport::write(const std::string &folder) const {
@@ -119,11 +137,9 @@ void ErrorReport::write(const std::string &folder) const {
   const auto estimated = [this](const double error, const bool source_is_known) {
     return is_known && source_is_known ? error : std::nan("");
   };
-  const bool all_known =
-      std::all_of(sources.begin(), sources.end(), [](const Source &source) { return source.is_known; });
   if (since > 0.)
     file << "since," << since << "\n";
-  file << "error," << estimated(total(), all_known) << "\n";
+  file << "error," << estimated(total(), knows_all()) << "\n";
   for (const auto &source : sources)
     file << source.name << "," << estimated(source.error, source.is_known) << "\n";
   file << "mesh," << mesh << "\n";

@@ -56,7 +56,7 @@ void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretizat
         {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});
   report.mesh = mesh.error();
   report.is_mesh_known = mesh.sees_variation();
-  report.has_mesh_target = parameters.mesh_target.is_wanted();
+  report.mesh_target = parameters.mesh_target.error;
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));
   output.report(report.diagnostics());
@@ -79,7 +79,7 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &rev
   const double geometry = mesh.geometry_error();
   if (geometry > rounding)
     text << ". Flat facets in place of curved surfaces may make another " << 100. * geometry << " %";
-  text << ". Contact between nodes and folds are not in it";
+  text << ". Contact between nodes, folds and plastic hinges are not in it";
   if (!mesh.sees_variation())
     text << ". The whole error is unknown, since parts with a single element across bend: it may be far "
             "larger";

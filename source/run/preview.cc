@@ -66,8 +66,8 @@ std::vector<char *> pointers_to(std::vector<std::string> &words) {
   return pointers;
 }
 
-/// Runs a program whose output goes into a file. Returns whether it succeeded.
-bool run_with_log(std::vector<std::string> words, const std::string &log) {
+/// Runs a program whose output goes into a file. Returns its exit code; -1 if it has none.
+int run_with_log(std::vector<std::string> words, const std::string &log) {
   std::vector<std::string> variables = foreign_environment();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -81,7 +81,7 @@ bool run_with_log(std::vector<std::string> words, const std::string &log) {
                                         pointers_to(words).data(), pointers_to(variables).data()) == 0;
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
-  return has_started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return has_started && waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// Returns the last line of a file that is not empty.
@@ -116,7 +116,9 @@ Picture draw_picture(const std::string &script, const std::string &file) {
   if (!is_installed("pvbatch"))
     return {"", "ParaView's 'pvbatch' is not installed"};
   const char *display = std::getenv("DISPLAY");
-  std::vector<std::string> words = {"timeout", "300"}; // a display may not answer
+  const std::string seconds = "300"; // a display may not answer
+  constexpr int out_of_time = 124;   // the exit code of 'timeout'
+  std::vector<std::string> words = {"timeout", seconds};
   if (display == nullptr || *display == '\0') {
     if (!is_installed("xvfb-run"))
       return {"", "without a display, 'pvbatch' needs 'xvfb-run', which is not installed"};
@@ -128,13 +130,17 @@ Picture draw_picture(const std::string &script, const std::string &file) {
   fs::remove(file, error);
   const std::string log = file + ".log";
   constexpr unsigned int n_attempts = 2; // under load a display may start too late
-  for (unsigned int i = 0; i < n_attempts; ++i)
-    if (run_with_log(words, log) && fs::exists(file, error)) {
+  int code = 0;
+  for (unsigned int i = 0; i < n_attempts; ++i) {
+    code = run_with_log(words, log);
+    if (code == 0 && fs::exists(file, error)) {
       fs::remove(log, error);
       return {file, ""};
     }
+  }
   const std::string last = last_line(log);
   return {"", "'pvbatch " + script + " " + file + "' fails twice" +
+                  (code == out_of_time ? ", at last after " + seconds + " s without an end" : "") +
                   (last.empty() ? "" : ", and says at last '" + last + "' (all of it in '" + log + "')")};
 }
 

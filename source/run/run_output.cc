@@ -88,6 +88,7 @@ void RunOutput::write_row(const std::function<void(HistoryFile &)> &write) {
 }
 
 void RunOutput::write_estimate(const ErrorReport &report) {
+  errors_ = report;
   fail_together(communicator_, [&] {
     if (is_first_)
       report.write(scene_.parameters().output.folder.value);
@@ -97,7 +98,7 @@ void RunOutput::write_estimate(const ErrorReport &report) {
 ExitCode RunOutput::finish(const std::vector<BodyMesh> &bodies) {
   std::string folder = scene_.parameters().output.folder.value;
   if (options_.judge) {
-    const Verdict verdict = options_.judge(bodies);
+    const Verdict verdict = options_.judge(bodies, errors_);
     report(verdict.messages);
     if (!verdict.folder.empty())
       folder = verdict.folder;

@@ -4,6 +4,7 @@
 #include "billet/diagnostic_kinds.h"
 #include "billet/fail_together.h"
 #include "billet/output/console_log.h"
+#include "billet/output/error_report.h"
 #include "billet/output/history_comparison.h"
 #include "billet/run/body_levels.h"
 #include "billet/run/mesh_levels.h"
@@ -160,8 +161,8 @@ private:
                                 : ", finer than given")
                 << bodies_behind(level, bodies_.levels()) << std::endl;
     const double start = processor_time();
-    options.judge = [&](const std::vector<BodyMesh> &bodies) {
-      return judge(bodies, processor_time() - start);
+    options.judge = [&](const std::vector<BodyMesh> &bodies, const ErrorReport &others) {
+      return judge(bodies, others, processor_time() - start);
     };
     try {
       return run_simulation(scene, communicator_, options);
@@ -187,8 +188,11 @@ private:
   }
 
   /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it is the
-  /// last one. Then it returns the messages for the user.
-  Verdict judge(const std::vector<BodyMesh> &bodies, const double seconds) {
+  /// last one. Then it returns the messages for the user. What its `others` errors leave of their target is
+  /// for the mesh.
+  Verdict judge(const std::vector<BodyMesh> &bodies, const ErrorReport &others, const double seconds) {
+    const double spare = others.knows_all() ? std::max(0., others.target - others.total()) : 0.;
+    bodies_.allow(given_.mesh_target.error + spare);
     Level level{bodies_.level(), bodies_.levels()};
     level.seconds = dealii::Utilities::MPI::sum(seconds, communicator_);
     if (!levels_.empty())
@@ -210,6 +214,7 @@ private:
     messages_.push_back(describe());
     if (!limit.empty())
       messages_.push_back(describe_miss(limit, memory.held));
+    append(messages_, others.missed(bodies_.is_met() ? bodies_.error().error : 0.));
     return {messages_, folder_};
   }
 
@@ -300,8 +305,8 @@ private:
   Diagnostic describe_miss(const std::string &limit, const double memory) const {
     std::ostringstream text;
     text.precision(2);
-    text << "The mesh's part of the target, " << percent(given_.mesh_target.error)
-         << ", is not shown to be met, and " << limit;
+    text << "The error of the mesh is not shown to be within what others leave of the target, "
+         << percent(bodies_.allowed()) << ", and " << limit;
     if (levels_.size() > 1 && levels_.back().error.is_known) {
       const Level &last = levels_.back();
       const unsigned int more = bodies_.rises_to_target();

@@ -31,6 +31,7 @@ from checks import (
 from edits import edit
 
 BEAM = read_text(HERE / "cantilever.prm")
+FIT = read_text(HERE.parents[1] / "prm/press_fit.prm")
 runner = Runner(Program(sys.argv[1:]))
 check = Checks()
 enter_folder()
@@ -162,7 +163,7 @@ def _() -> None:
     ran = billet(everything("1e-4", "Finest mesh level = 0"), code=7)
     equal("the last level", levels(ran)[-1][0], "0")
     says(
-        r"^warning\[mesh-target-missed\]: .*0\.0067 %.*'Finest mesh level' is 0\. "
+        r"^warning\[mesh-target-missed\]: .*0\.0097 %.*'Finest mesh level' is 0\. "
         r"At this order it would take level \d",
         ran.said,
     )
@@ -171,6 +172,25 @@ def _() -> None:
     for key in ("mesh-levels", "mesh-target-missed"):
         says(f'"key":"{key}"', ran.text("diagnostics.jsonl"))
     says(r"^Completed in .* with \d warnings?\.", ran.said)
+
+
+@check("errors of penetration may take what the mesh leaves of the target, and miss it beyond")
+def _() -> None:
+    free = (
+        "Time stepping: - Step control & Time stepping: - Initial step & fit: - Penetration tolerance"
+        " & + set Target error = {} percent\\nset Target error of = everything"
+    )
+    for target, code in ((2, 0), (0.5, 7)):
+        ran = runner.run(FIT, free.format(target))
+        equal(f"the exit code for {target} %", ran.ended.code, code)
+        estimated = dict(line.split(",") for line in ran.text("error_estimate.csv").splitlines()[1:])
+        others, of_mesh = float(estimated["error"]), float(levels(ran)[-1][4])
+        require(others > 0.01 * target / 3, f"the other errors are {others}, no more than a third")
+        equal(f"the sum is within {target} %", others + of_mesh <= 0.01 * target, code == 0)
+        equal("the warning", "warning[target-error-missed]" in ran.said, code == 7)
+    says(
+        r"missed\]: .* with the [0-9.]+ % of the mesh, exceeds the target, 0\.5 %; .* penetrations", ran.said
+    )
 
 
 @check("what makes no sense is refused")

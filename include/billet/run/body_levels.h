@@ -26,7 +26,7 @@ MeshLevelError extrapolate(const std::vector<double> &differences, double expect
 /// stays, too.
 class BodyLevels {
 public:
-  /// `target`: the error allowed.
+  /// `target`: the error allowed, until allow() gives another.
   BodyLevels(std::size_t n_bodies, int first, double target);
 
   /// Level of each body.
@@ -35,6 +35,8 @@ public:
   int level() const { return level_; }
   /// Adds the run on levels(), with its difference from the run before; the first run's does not count.
   void add(double difference, const std::vector<BodyMesh> &bodies);
+  void allow(double error) { target_ = error; }
+  double allowed() const { return target_; }
   /// Whether error() has a value: there are two runs.
   bool has_error() const { return n_runs_ > 1; }
   /// Error of the last run, and the order of the bodies that have risen last.

@@ -13,6 +13,7 @@
 namespace billet {
 
 class ConsoleLog;
+struct ErrorReport;
 
 /// Mesh of a body in a run that has reached its end.
 struct BodyMesh {
@@ -34,9 +35,9 @@ struct RunOptions {
   bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
   std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
   std::ostream *steps = nullptr; ///< gets lines of steps if the console is quiet and the log is open already
-  /// Judges a run that has reached its end, with these meshes of bodies; its history is complete. Collective.
-  /// Empty: none. A run that is judged is one of several, and cannot be resumed.
-  std::function<Verdict(const std::vector<BodyMesh> &)> judge = {};
+  /// Judges a run that has reached its end, with these meshes of bodies and its estimated errors; its history
+  /// is complete. Collective. Empty: none. A run that is judged is one of several, and cannot be resumed.
+  std::function<Verdict(const std::vector<BodyMesh> &, const ErrorReport &)> judge = {};
 };
 
 } // namespace billet

@@ -37,7 +37,7 @@ public:
   bool has(const DiagnosticKind &kind) const { return diagnostics_.has(kind); }
   /// Adds a row to the history: `write` gets the file on the first rank. Collective.
   void write_row(const std::function<void(HistoryFile &)> &write);
-  /// Writes error_estimate.csv. Collective.
+  /// Writes error_estimate.csv, and keeps the report for the judge of the run. Collective.
   void write_estimate(const ErrorReport &report);
 
   const Checkpoints &checkpoints() const { return checkpoints_; }
@@ -69,6 +69,7 @@ private:
   Checkpoints checkpoints_;
   Signals signals_;
   std::unique_ptr<HistoryFile> history_; ///< on the first rank
+  ErrorReport errors_;                   ///< of the run, at its end
 };
 
 } // namespace billet
