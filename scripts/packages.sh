@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Usage: packages.sh GROUP...     Installs the packages of these groups that are not there yet (Debian, Ubuntu).
+# Usage: packages.sh GROUP...     Installs packages of these groups that are missing (Debian, Ubuntu)
 #
 #   build       compile, run and test billet
 #   trade       run billet-trade and billet-fit, and their tests
@@ -9,13 +9,20 @@
 #   documentation  build the site of the documentation, and check its spelling
 #   package     make and try a package for Debian
 #
-# BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an own deal.II, which
-# libdeal.ii-dev would only shadow.
+# BILLET_SKIP_PACKAGES=1 leaves the system alone, as on a cluster with modules. DEAL_II_DIR names an
+# own deal.II, which libdeal.ii-dev would only shadow.
 set -euo pipefail
 
 if [[ ${BILLET_SKIP_PACKAGES:-0} != 0 ]]; then
   exit 0
 fi
+
+case ${1:-} in
+  -h | --help)
+    sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    exit 0
+    ;;
+esac
 
 packages=()
 for group in "$@"; do

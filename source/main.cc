@@ -37,14 +37,18 @@ using billet::ExitCode;
 
 const char help[] =
     R"(Usage: billet SCENE.prm                  run a scene on one process
-       billet --ranks N SCENE.prm       run it on N processes; on several machines: mpirun -n N billet SCENE.prm
+       billet --ranks N SCENE.prm       run it on N processes; on several machines:
+                                        mpirun -n N billet SCENE.prm
        billet --restart FILE SCENE.prm  resume from a checkpoint
        billet --check SCENE.prm...      read and check scenes, say what will be modelled, run nothing
-       billet --preview SCENE.prm...    check scenes, write them undeformed for ParaView and as a picture, to
-                                        the folder 'preview' in the output folder
-       billet --certify FILE.prm...     try out the laws of a scene's bodies, or a file of material parameters
-       billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or print it
-       billet --new KIND [FILE]         write a scene to begin with to KIND.prm or FILE: forging, drawing, ...
+       billet --preview SCENE.prm...    check scenes, write them undeformed for ParaView and as a
+                                        picture, to the folder 'preview' in the output folder
+       billet --certify FILE.prm...     try out the laws of a scene's bodies, or a file of material
+                                        parameters
+       billet --update-scene OLD [NEW]  write a scene with today's names of parameters to NEW, or
+                                        print it
+       billet --new KIND [FILE]         write a scene to begin with to KIND.prm or FILE: forging,
+                                        drawing, ...
        billet --list [LIST [NAME...]]   what scenes can name: primitives, materials, surfaces, loads, ...
        billet --print-parameters        every parameter with default, range, unit and meaning
        billet --print-diagnostics       every message by its key, with meaning and remedy
@@ -52,20 +56,26 @@ const char help[] =
        billet --version | --help
 
 Options of runs, checks and previews:
-       --set PATH=VALUE   override a parameter of the scene, such as --set "Time stepping/End time=2"; an
-                          empty VALUE takes the parameter's line away
-       --output FOLDER    write results to FOLDER; without it, and without 'Folder' in the scene, they go to
-                          a folder with the name of the scene
-       --force            replace results of an earlier run; without it they are moved to FOLDER.1, FOLDER.2...
+       --set PATH=VALUE   override a parameter of the scene, such as --set "Time stepping/End time=2";
+                          an empty VALUE takes the parameter's line away
+       --output FOLDER    write results to FOLDER; without it, and without 'Folder' in the scene, they
+                          go to a folder with the name of the scene
+       --force            replace results of an earlier run; without it they are moved to FOLDER.1,
+                          FOLDER.2...
        --quiet            print warnings and errors only
        --markdown         --certify prints its page in Markdown
-       --json             --check prints one JSON object per scene and line, --print-parameters a JSON Schema
-                          of scenes, --list and --print-diagnostics a JSON array
+       --json             --check prints one JSON object per scene and line, --print-parameters a JSON
+                          Schema of scenes, --list and --print-diagnostics a JSON array
 
-Exit codes: 0 success; 2 bad input (nothing was written); 3 the solution failed (what was computed is
-in the output folder), or a law fails its certification; 4 internal error; 5 stopped by SIGTERM,
-SIGINT or SIGUSR1 after a checkpoint; 6 completed with warnings, and the scene says 'Warnings =
-errors'; 7 completed, and the estimated error exceeds the 'Target error'.
+Exit codes:
+       0   success
+       2   bad input; nothing was written
+       3   the solution failed, and what was computed is in the output folder; or a law fails its
+           certification
+       4   internal error
+       5   stopped by SIGTERM, SIGINT or SIGUSR1 after a checkpoint
+       6   completed with warnings, and the scene says 'Warnings = errors'
+       7   completed, and the estimated error exceeds the 'Target error'
 
 )";
 

@@ -66,9 +66,11 @@ Diagnostic ErrorReport::estimate() const {
     else
       text << "unknown";
   }
-  text.precision(7);
-  for (const auto &[name, value] : costs)
+  for (const auto &[name, value] : costs) {
+    const bool is_count = value == std::floor(value);
+    text.precision(is_count ? 15 : 3);
     text << (&name == &costs.front().first ? "; cost: " : ", ") << value << " " << name;
+  }
   text << ". " << mesh_is_not_part(mesh, is_mesh_known);
   Diagnostic result(diagnostic::error_estimate, text.str());
   result.value("error", total()).value("target", target).value("mesh", mesh);

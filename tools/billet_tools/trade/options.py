@@ -14,11 +14,11 @@ from .reference import GIVEN
 
 Options = argparse.Namespace
 
-HELP = """Shows what accuracy costs in a scene of billet, in a table, a CSV file and a picture of error over
-cost. It changes one parameter after the other, and measures each run against a converged reference that it
-makes itself. With --explain: a bar for each source of error, as text and picture. With --target: the
-cheapest setting within an error, as lines to paste into the scene. Runs are kept: after Ctrl-C there is the
-page of what was run, and the same command continues."""
+HELP = """Shows what accuracy costs in a scene of billet, in a table, a CSV file and a picture of error
+over cost. It changes one parameter after the other, and measures each run against a converged
+reference that it makes itself. With --explain: a bar for each source of error, as text and picture.
+With --target: the cheapest setting within an error, as lines to paste into the scene. Runs are kept:
+after Ctrl-C there is the page of what was run, and the same command continues."""
 
 
 def make_parser() -> argparse.ArgumentParser:
