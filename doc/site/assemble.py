@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import shutil
+import sys
 from pathlib import Path
 
 from insertions import Insertions
@@ -18,12 +19,14 @@ from reference import Reference
 from results import tables_of
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+from billet_tools.scene import read_scene  # noqa: E402
+
 IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links lead to
 LEFT_OUT = {"site", "news"}  # folders of doc/ that are no pages
 BESIDE = (
     "cmake",
     "include",
-    "prm",
     "scripts",
     "source",
     "tests",
@@ -57,6 +60,17 @@ def copy_files(site: Path, kept: set[Path]) -> dict[str, str]:
         if not copy.exists() or copy.stat().st_mtime != file.stat().st_mtime:
             shutil.copy2(file, copy)
     return pages
+
+
+def copy_scenes(folder: Path) -> None:
+    """Writes the shipped scenes with what they include in place, since a reader loads a single file."""
+    if folder.is_symlink():
+        folder.unlink()
+    for file in sorted((ROOT / "prm").iterdir()):
+        if file.suffix == ".prm":
+            write(folder / file.name, read_scene(file))
+        elif not (folder / file.name).exists():
+            (folder / file.name).symlink_to(file)
 
 
 def copy_katex(folder: Path, site: Path, kept: set[Path]) -> None:
@@ -97,6 +111,8 @@ def main() -> None:
     for name in BESIDE:  # pages link to these
         if not (target / name).exists():
             (target / name).symlink_to(ROOT / name)
+
+    copy_scenes(target / "prm")
 
     kept: set[Path] = set()
     pages = copy_files(site, kept)
