@@ -32,7 +32,7 @@ std::string mesh_is_not_part(const double mesh, const bool is_known) {
   std::ostringstream text;
   text.precision(2);
   text << "The estimate excludes the error of the mesh, about " << percent(mesh) << " % of the forces"
-       << (is_known ? "" : " or far more, since parts with a single element across bend");
+       << (is_known ? "" : " or far more, as the note 'mesh-error' says");
   return text.str();
 }
 

@@ -84,9 +84,24 @@ const std::vector<double> &HistoryTable::column(const std::string &name) const {
   return found == names_.end() ? none : columns_[static_cast<std::size_t>(found - names_.begin())];
 }
 
-HistoryDifference compare_histories(const HistoryTable &a, const HistoryTable &b, const bool has_inertia) {
+HistoryTable HistoryTable::from_zero() const {
+  if (times_.empty() || !(times_.front() > 0.))
+    return *this;
+  std::vector<std::vector<double>> columns = columns_;
+  for (std::vector<double> &column : columns)
+    column.insert(column.begin(), 0.);
+  return {names_, columns};
+}
+
+HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second,
+                                    const bool has_inertia) {
+  const HistoryTable a = has_inertia ? first : first.from_zero(),
+                     b = has_inertia ? second : second.from_zero();
+  const std::string reactions = R"(.*\.(support|symmetry plane) .*\.force_[xyz])",
+                    given = R"(.*\.load .*\.force_[xyz])";
   const std::vector<std::pair<std::string, std::regex>> groups = {
-      {"forces", std::regex(R"(.*\.force_[xyz])")},
+      {"forces", std::regex("(?!" + reactions + "|" + given + R"().*\.force_[xyz])")},
+      {"reactions", std::regex(reactions)},
       {"energies", std::regex("elastic_energy|plastic_work|friction_dissipation|kinetic_energy")},
       {"travel of tools", std::regex(R"(.*\.travel_[xyz])")}};
   HistoryDifference largest;

@@ -90,7 +90,7 @@ std::vector<bool> BodyLevels::find_rising() const {
   const double enough = small_part * target_ / static_cast<double>(levels_.size());
   std::vector<bool> rises(levels_.size());
   for (std::size_t b = 0; b < rises.size(); ++b)
-    rises[b] = has_risen_[b] && errors_[b] > enough;
+    rises[b] = has_risen_[b] && (errors_[b] > enough || levels_[b] < 0);
   return std::find(rises.begin(), rises.end(), true) == rises.end() ? has_risen_ : rises;
 }
 

@@ -55,7 +55,7 @@ void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretizat
     report.sources.push_back(
         {"soft contact", review.penalty_error(), "Increase the penalties that the warnings name"});
   report.mesh = mesh.error();
-  report.is_mesh_known = mesh.sees_variation();
+  report.is_mesh_known = mesh.sees_variation() && review.resolves_contact();
   report.mesh_target = parameters.mesh_target.error;
   report.costs.emplace_back("CPU seconds",
                             dealii::Utilities::MPI::sum(processor_time(), discretization.communicator()));

@@ -95,7 +95,7 @@ public:
   }
 
 private:
-  static constexpr unsigned int coarsest = 2; ///< levels below the given one: coarser ones tell little of it
+  static constexpr unsigned int coarsest = 3; ///< levels below the given one: three of them show an order
 
   std::string folder_of(const int level) const { return folder_ + "/mesh_level_" + std::to_string(level); }
 
@@ -211,7 +211,7 @@ private:
     is_last_ = bodies_.is_met() || !limit.empty();
     if (!is_last_)
       return {};
-    messages_.push_back(describe());
+    messages_.push_back(describe(others));
     if (!limit.empty())
       messages_.push_back(describe_miss(limit, memory.held));
     append(messages_, others.missed(bodies_.is_met() ? bodies_.error().error : 0.));
@@ -274,7 +274,7 @@ private:
     return text;
   }
 
-  Diagnostic describe() const {
+  Diagnostic describe(const ErrorReport &others) const {
     std::ostringstream text;
     text.precision(3);
     text << "Levels of the meshes, 0 as given:";
@@ -294,6 +294,10 @@ private:
         text << " or more: the differences do not fall, or a level has a single element across what bends";
       else if (levels_.size() > 2)
         text << ", of order " << error.order;
+      if (others.knows_all())
+        text << ". With " << percent(others.total()) << " of steps, penetrations and iterations it is "
+             << percent(error.error + others.total()) << ", of a target of "
+             << percent(others.target + others.mesh_target);
     }
     Diagnostic message(diagnostic::mesh_levels, text.str());
     if (levels_.size() > 1)

@@ -75,7 +75,8 @@ double equivalent_of(const dealii::SymmetricTensor<2, 3> &tensor) { return deali
 } // namespace
 
 MeshErrors::MeshErrors(const Discretization &discretization)
-    : discretization_(discretization), errors_(discretization.n_bodies()) {
+    : discretization_(discretization), errors_(discretization.n_bodies()),
+      work_outside_(discretization.n_bodies()) {
   for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
     elements_.emplace_back(discretization.elements(body).size());
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
@@ -211,8 +212,8 @@ void MeshErrors::add(const Solution &solution, const bool ends_interval) {
 
 void MeshErrors::add_interval(const Solution &solution) {
   const std::vector<Interval> intervals = compare_all(solution);
-  // By body, the work of elements and outside, and squared strains.
-  std::vector<double> sums(elements_.size() + 4);
+  // By body, the work that finer elements save and that outside; the work of elements, and squared strains.
+  std::vector<double> sums(2 * elements_.size() + 3);
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
       const Element &element = discretization_.elements(body)[e];
@@ -224,22 +225,24 @@ void MeshErrors::add_interval(const Solution &solution) {
       own.error += saved;
       sums[body] += saved;
       const Interval &interval = intervals[element.cell->active_cell_index()];
-      double *const of_all = &sums[elements_.size()];
+      sums[elements_.size() + body] += own.outside * std::abs(interval.work);
+      double *const of_all = &sums[2 * elements_.size()];
       of_all[0] += std::abs(interval.work);
-      of_all[1] += own.outside * std::abs(interval.work);
-      of_all[2] += interval.squared_strain;
-      of_all[3] += interval.unseen;
+      of_all[1] += interval.squared_strain;
+      of_all[2] += interval.unseen;
       own.stress_sum = 0.;
       own.displacements = displacements;
     }
   n_states_ = 0;
   dealii::Utilities::MPI::sum(sums, discretization_.communicator(), sums);
-  for (std::size_t body = 0; body < elements_.size(); ++body)
+  for (std::size_t body = 0; body < elements_.size(); ++body) {
     errors_[body] += sums[body];
-  work_ += sums[elements_.size()];
-  work_outside_ += sums[elements_.size() + 1];
-  squared_strain_ += sums[elements_.size() + 2];
-  unseen_ += sums[elements_.size() + 3];
+    work_outside_[body] += sums[elements_.size() + body];
+  }
+  const double *const of_all = &sums[2 * elements_.size()];
+  work_ += of_all[0];
+  squared_strain_ += of_all[1];
+  unseen_ += of_all[2];
 }
 
 double MeshErrors::error() const {
@@ -258,7 +261,19 @@ std::vector<double> MeshErrors::of_bodies() const {
 
 bool MeshErrors::sees_variation() const { return unseen_ <= Factors::unseen * squared_strain_; }
 
-double MeshErrors::geometry_error() const { return is_known() ? work_outside_ / work_ : 0.; }
+double MeshErrors::geometry_error() const {
+  double sum = 0.;
+  for (const double error : geometry_of_bodies())
+    sum += error;
+  return sum;
+}
+
+std::vector<double> MeshErrors::geometry_of_bodies() const {
+  std::vector<double> parts(work_outside_.size());
+  for (std::size_t body = 0; is_known() && body < parts.size(); ++body)
+    parts[body] = work_outside_[body] / work_;
+  return parts;
+}
 
 double MeshErrors::of_element(const std::size_t body, const std::size_t element) const {
   if (!is_known())
@@ -283,8 +298,8 @@ void MeshErrors::save(StateWriter &writer) const {
       row.number(own.error);
     }
   std::vector<double> sums = errors_;
+  sums.insert(sums.end(), work_outside_.begin(), work_outside_.end());
   sums.push_back(work_);
-  sums.push_back(work_outside_);
   sums.push_back(squared_strain_);
   sums.push_back(unseen_);
   sums.push_back(n_states_);
@@ -296,11 +311,13 @@ void MeshErrors::save(StateWriter &writer) const {
 void MeshErrors::load(const StateReader &reader) {
   if (!reader.has("mesh errors of intervals"))
     return; // of an earlier version: the estimate begins here
-  const std::vector<double> sums = reader.read("mesh errors of intervals", errors_.size() + 6);
+  const std::vector<double> sums = reader.read("mesh errors of intervals", 2 * errors_.size() + 5);
   RowReader of_all(sums);
   for (double &error : errors_)
     error = of_all.number();
-  for (double *number : {&work_, &work_outside_, &squared_strain_, &unseen_})
+  for (double &work : work_outside_)
+    work = of_all.number();
+  for (double *number : {&work_, &squared_strain_, &unseen_})
     *number = of_all.number();
   n_states_ = to_count(of_all.number());
   has_begun_ = of_all.flag();

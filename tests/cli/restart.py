@@ -399,9 +399,9 @@ REFUSED = [
     Refused("a flipped bit", spoiled("flipped.h5", FLIPPED), "", "is damaged: its checksum does not match;"),
     Refused(
         "another format",
-        spoiled("format.h5", WHOLE.replace(b"format 14", b"format 8", 1)),
+        spoiled("format.h5", WHOLE.replace(b"format 15", b"format 8", 1)),
         "",
-        "has format 8, but this program reads format 14;",
+        "has format 8, but this program reads format 15;",
     ),
     Refused(
         "another version",

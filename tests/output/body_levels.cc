@@ -79,6 +79,24 @@ int main() {
   check("a level that fails is left out",
         again.level() == -1 && !again.has_error() && again.levels() == std::vector<int>({-1, -1}));
 
+  // Two coarse meshes may miss the same detail; on the way to the given mesh no body stays behind.
+  BodyLevels below(2, -2, 0.1);
+  below.add(0., {{1, 0.5}, {1, 0.}});
+  below.rise();
+  below.add(0., {{8, 0.5}, {8, 0.}});
+  check("two meshes coarser than given do not do", !below.is_met());
+  below.rise();
+  check("all rise to the given mesh", below.levels() == std::vector<int>({0, 0}));
+  below.add(0., {{64, 0.5}, {64, 0.}});
+  check("the given mesh does", below.is_met());
+  BodyLevels ordered(1, -3, 0.1);
+  for (const double difference : {0., 0.04, 0.01}) {
+    if (difference > 0.)
+      ordered.rise();
+    ordered.add(difference, {{1, 0.5}});
+  }
+  check("three coarser ones do", ordered.level() == -1 && ordered.is_met());
+
   // Differences from a mesh of single elements tell nothing: the next two do.
   BodyLevels walls(1, 0, 0.1);
   walls.add(0., {{1, 0., false}});

@@ -50,6 +50,26 @@ int main() {
                                                    HistoryTable({"time", "die.force_z"}, fine), false);
   check("forces of half the size", std::abs(half.part - 0.5), 1e-14);
   check("they are forces", half.of_what == "forces");
+  const auto compare_rows = [](const std::vector<std::string> &names, const std::vector<double> &a,
+                               const std::vector<double> &b) {
+    std::vector<std::vector<double>> of_a, of_b;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      of_a.push_back({a[i]});
+      of_b.push_back({b[i]});
+    }
+    return compare_histories(HistoryTable(names, of_a), HistoryTable(names, of_b), false);
+  };
+  check("a single step counts from zero on",
+        std::abs(compare_rows({"time", "die.force_z"}, {1., 3.}, {1., 4.}).part - 0.25), 1e-14);
+  const HistoryDifference beside =
+      compare_rows({"time", "die.force_z", "bar.support foot.force_z"}, {1., 3., 1000.}, {1., 4., 1000.});
+  check("large reactions do not dilute the force of a tool",
+        std::abs(beside.part - 0.25) < 1e-14 && beside.of_what == "forces");
+  const HistoryDifference loaded = compare_rows(
+      {"time", "bar.load gas.force_z", "bar.symmetry plane x = 0.force_x", "bar.support a.force_y"},
+      {1., 1000., 2., 0.}, {1., 1000., 1., 1.});
+  check("reactions do count, and given forces do not",
+        std::abs(loaded.part - 1.) < 1e-14 && loaded.of_what == "reactions");
   coarse[1] = {0., 1., 0.};
   fine[1] = {0., 1., 2., 1., 0.}; // twice the hat, of areas 0.5 and 1
   const HistoryDifference hat = compare_histories(HistoryTable({"time", "kinetic_energy"}, coarse),

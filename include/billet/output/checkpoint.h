@@ -21,7 +21,7 @@ namespace billet {
 // so that a full disk would go unnoticed.
 
 /// Version of the checkpoint's format. Any change of contents or layout increments it.
-constexpr unsigned int checkpoint_format = 14;
+constexpr unsigned int checkpoint_format = 15;
 
 /// Writes a checkpoint from all ranks through the first one.
 class CheckpointWriter final : public StateWriter {

@@ -27,7 +27,7 @@ struct ErrorReport {
   std::vector<Source> sources; ///< estimated sources
   double mesh_target = 0.;     ///< of levels of the mesh, compared after the run; 0: none are
   double mesh = 0.;            ///< from MeshErrors::error(); not one of the sources
-  bool is_mesh_known = true;   ///< MeshErrors::sees_variation()
+  bool is_mesh_known = true;   ///< whether that sees all; the note 'mesh-error' says why not
   std::vector<std::pair<std::string, double>> costs;
 
   /// Whether errors of all sources are known.

@@ -18,6 +18,8 @@ public:
   const std::vector<double> &times() const { return times_; }
   /// Returns a column; empty if there is none of this name.
   const std::vector<double> &column(const std::string &name) const;
+  /// Returns the table with a row of zeros at time 0, unless it begins there.
+  HistoryTable from_zero() const;
 
 private:
   std::vector<std::string> names_;
@@ -27,14 +29,16 @@ private:
 
 /// Difference of two histories of a scene.
 struct HistoryDifference {
-  double part = 0.;    ///< of the results of the second history
-  std::string of_what; ///< "forces", "energies" or "travel of tools"; empty if no result differs from 0
+  double part = 0.; ///< of the results of the second history
+  /// "forces", "reactions", "energies" or "travel of tools"; empty if no result differs from 0.
+  std::string of_what;
 };
 
 /// Returns the largest of the differences of these groups of columns, ∫Σ|a − b| dt/∫Σ|b| dt, both linear
-/// between their rows: forces of tools, pairs and supports; energies; travel of tools. With inertia, energies
-/// alone: forces of impacts are no functions of time that two meshes share.
-HistoryDifference compare_histories(const HistoryTable &a, const HistoryTable &b, bool has_inertia);
+/// between their rows and from zero at time 0: forces of tools and pairs; reactions of supports and symmetry
+/// planes, which would dilute them; energies; travel of tools. With inertia, energies alone, from the first
+/// row on: forces of impacts are no functions of time that two meshes share.
+HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second, bool has_inertia);
 
 } // namespace billet
 

@@ -22,8 +22,8 @@ struct MeshLevelError {
 MeshLevelError extrapolate(const std::vector<double> &differences, double expected_order = 1.);
 
 /// Chooses levels of the bodies' meshes from run to run until the error is small enough. All bodies begin at
-/// one level and rise together. A body whose part of the error is small, (W7), stays behind; its part then
-/// stays, too.
+/// one level and rise together, to the given one at least. A body whose part of the error is small, (W7),
+/// stays behind then; its part stays, too.
 class BodyLevels {
 public:
   /// `target`: the error allowed, until allow() gives another.
@@ -41,7 +41,11 @@ public:
   bool has_error() const { return n_runs_ > 1; }
   /// Error of the last run, and the order of the bodies that have risen last.
   const MeshLevelError &error() const { return error_; }
-  bool is_met() const { return has_error() && error_.is_known && error_.error <= target_; }
+  /// Whether the error is within the target. On meshes coarser than given it takes three of them, which show
+  /// an order: two may miss the same detail.
+  bool is_met() const {
+    return has_error() && error_.is_known && error_.error <= target_ && (n_resolved_ > 2 || level_ >= 0);
+  }
   /// Returns the elements of the next run but n − 1, over those of the last one.
   double growth(unsigned int n = 1) const;
   /// Returns how many times meshes have to rise until the target is met at this order, once error() is known.

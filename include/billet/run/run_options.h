@@ -18,8 +18,8 @@ struct ErrorReport;
 /// Mesh of a body in a run that has reached its end.
 struct BodyMesh {
   std::size_t n_elements;  ///< of all ranks
-  double error;            ///< its part of the relative error of the forces, by (W5) of the theory
-  bool is_resolved = true; ///< whether that sees all, MeshErrors::sees_variation()
+  double error;            ///< its part of the relative error of the forces, by (W5) and (W8) of the theory
+  bool is_resolved = true; ///< whether that sees all: what varies in single elements, and contact
 };
 
 /// What is said of a run that has reached its end.

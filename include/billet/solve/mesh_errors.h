@@ -38,6 +38,8 @@ public:
   /// Returns the part of the work of deformation that the space between the facets and the smooth surfaces
   /// would do if it deformed as the elements at the facets do, (W8): the relative error of the geometry.
   double geometry_error() const;
+  /// Returns the part of it that each body makes.
+  std::vector<double> geometry_of_bodies() const;
   /// Returns an owned element's error so far, per volume, over the work per volume of all bodies: its mean
   /// over the undeformed volume is the relative error.
   double of_element(std::size_t body, std::size_t element) const;
@@ -86,7 +88,7 @@ private:
   std::vector<std::vector<OwnedElement>> elements_; ///< by body
   std::vector<double> errors_;                      ///< by body, of all ranks [energy]
   double work_ = 0.;                                ///< ∫|dW| of all elements of all ranks [energy]
-  double work_outside_ = 0.;                        ///< the same of the space beyond the facets [energy]
+  std::vector<double> work_outside_;                ///< the same of the space beyond the facets, by body
   double squared_strain_ = 0., unseen_ = 0.;        ///< see Interval, of all elements of all ranks
   double volume_ = 0.;                              ///< of all undeformed bodies [length³]
 };

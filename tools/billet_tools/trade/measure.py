@@ -15,7 +15,9 @@ Array = NDArray[numpy.float64]
 
 
 def trapezoids(times: Array) -> Array:
-    """Weights of the trapezoidal rule at these times."""
+    """Weights of the trapezoidal rule at these times; one time has all the weight."""
+    if len(times) == 1:
+        return numpy.ones(1)
     gaps = numpy.diff(times)
     weights = numpy.zeros(len(times))
     weights[:-1] += 0.5 * gaps

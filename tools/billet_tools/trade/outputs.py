@@ -43,15 +43,20 @@ class Output(ABC):
         return self.norm(reference_values)
 
 
-def contact_forces(result: Result) -> list[str]:
-    """Columns with forces of tools and of pairs of bodies: not reactions, nor parts of a tool's force."""
+def contact_forces(result: Result, scene: Scene) -> list[str]:
+    """Columns with forces of tools and of pairs of bodies: not reactions, nor parts of a tool's force, nor
+    what loads and tools under a force are given."""
+    given = tuple(
+        f"{tool}.force_" for tool in scene.names("Tools") if scene.get(f"Tools/{tool}/Motion/Force").strip()
+    )
     return [
         column
         for column in result.history
         if ".force_" in column
-        and not column.startswith("pair ")
+        and not column.startswith(("pair ", *given))
         and ".support " not in column
         and ".symmetry plane " not in column
+        and ".load " not in column
     ]
 
 
@@ -112,9 +117,10 @@ class Force(Output):
 
     @staticmethod
     def all_forces(result: Result, scene: Scene) -> list[str]:
-        found = [c for name in scene.names("Tools") for c in result.history if c.startswith(f"{name}.force_")]
-        found = found or contact_forces(result)
-        return found or [c for c in result.history if ".force_" in c and ".support " in c]
+        found = contact_forces(result, scene)
+        tools = tuple(f"{name}.force_" for name in scene.names("Tools"))
+        of_tools = [column for column in found if column.startswith(tools)]
+        return of_tools or found or [c for c in result.history if ".force_" in c and ".support " in c]
 
     def _curve(self, result: Result) -> tuple[Array, Array]:
         """As the history has it, from a force of zero at time zero on."""
@@ -146,7 +152,7 @@ class Force(Output):
         exact = measure.interpolate(finest_times, finest, times) + measure.interpolate(
             self.times, differences, times
         )
-        weights = measure.trapezoids(times) if len(times) > 1 else numpy.ones(1)
+        weights = measure.trapezoids(times)
         return measure.mean_length(forces - exact, weights) / measure.mean_length(exact, weights)
 
     def excess(self, result: Result, reference_values: Array) -> float:

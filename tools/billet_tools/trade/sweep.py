@@ -52,7 +52,7 @@ def make_force(options: Options, scene: Scene, centre: Result, finest: Result | 
     columns = [c.strip() for c in options.force.split(",")] if options.force else None
     is_wanted = columns or "force" in read_outputs(options.outputs)
     has_force = (
-        contact_forces(centre) or has_supports(scene) and not scene.is_dynamic and moves_support(scene)
+        contact_forces(centre, scene) or has_supports(scene) and not scene.is_dynamic and moves_support(scene)
     )
     columns = columns or (Force.all_forces(centre, scene) if is_wanted or has_force else [])
     if not columns:
