@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: prose.py [--program BILLET] [FILE.md...]
+"""Usage: prose.py [--program BILLET] [FILE.md|FILE.prm...]
        prose.py --self-check
 
 Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
 sentence more than 25 words, no paragraph more than five sentences. Tables, code and formulas may be wider.
+
+The same holds for the comments of scenes and of their parts in prm/, materials/ and examples/. An empty
+comment ends a paragraph there; a comment at the end of a line is one. Lines without a comment may be wider.
 
 Words are what stands between blanks, per cent and words of code within a line among them, but no operators. A
 formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
 one. Tables have a head. Their cells, also of those in lists, have no more than 25 words between semicolons,
 but for tables of results, which have messages of the program.
 
-FILE.md checks some pages only. --program checks what a program says of its parameters and messages, too.
+FILE checks some pages or scenes only. --program checks what a program says of its parameters and messages,
+too.
 """
 
 from __future__ import annotations
@@ -28,6 +32,7 @@ MAX_COLUMNS = 100
 MAX_WORDS = 25
 MAX_SENTENCES = 5
 LEFT_OUT = ("doc/site/",)
+SCENES = ("examples", "materials", "prm")
 WITH_MESSAGES = ("doc/results/", "doc/messages.md")  # --program checks those
 
 FENCE = re.compile(r"\s*(`{3,}|~{3,}|\$\$)")
@@ -174,6 +179,18 @@ def faults_of_tables(text: str) -> list[Fault]:
     return faults
 
 
+def faults_of_sentences(line: int, sentences: list[str]) -> list[Fault]:
+    """Returns what breaks the rules in the sentences of a paragraph."""
+    faults = [
+        Fault(line, f"{n_words(sentence)} words: {sentence[:60]}...")
+        for sentence in sentences
+        if n_words(sentence) > MAX_WORDS
+    ]
+    if len(sentences) > MAX_SENTENCES:
+        faults.append(Fault(line, f"{len(sentences)} sentences in a paragraph"))
+    return faults
+
+
 def faults_of(text: str) -> list[Fault]:
     """Returns what breaks the rules in a page."""
     faults = [
@@ -192,13 +209,40 @@ def faults_of(text: str) -> list[Fault]:
         end = r"[^;,]$" if paragraph.is_item else r"[.!?]\W*$"
         if sentences and not re.search(end, sentences[-1]):
             before = sentences[-1]
-        faults += [
-            Fault(paragraph.line, f"{n_words(sentence)} words: {sentence[:60]}...")
-            for sentence in sentences
-            if n_words(sentence) > MAX_WORDS
-        ]
-        if len(sentences) > MAX_SENTENCES:
-            faults.append(Fault(paragraph.line, f"{len(sentences)} sentences in a paragraph"))
+        faults += faults_of_sentences(paragraph.line, sentences)
+    return sorted(faults)
+
+
+def comments_of(scene: str) -> list[Paragraph]:
+    """Returns the paragraphs of the comments of a scene."""
+    found: list[Paragraph] = []
+    lines: list[str] = []
+    begin = 0
+    for number, line in enumerate([*scene.splitlines(), ""], 1):
+        statement, _, comment = line.partition("#")
+        comment = comment.replace("<", "=").strip()  # which begins no tag here
+        comment = re.sub(r"(?<=[,.] )([A-Z])\.(?= )", r"\1", comment)  # initials of authors end no sentence
+        is_whole_line = not statement.strip()
+        if lines and not (is_whole_line and comment):
+            found.append(Paragraph(begin, " ".join(lines), False))
+            lines.clear()
+        if comment and is_whole_line:
+            begin = begin if lines else number
+            lines.append(comment)
+        elif comment:
+            found.append(Paragraph(number, comment, False))
+    return found
+
+
+def faults_of_scene(scene: str) -> list[Fault]:
+    """Returns what breaks the rules in the comments of a scene."""
+    faults = [
+        Fault(number, f"{len(line)} columns")
+        for number, line in enumerate(scene.splitlines(), 1)
+        if len(line) > MAX_COLUMNS and "#" in line
+    ]
+    for paragraph in comments_of(scene):
+        faults += faults_of_sentences(paragraph.line, sentences_of(paragraph.text))
     return sorted(faults)
 
 
@@ -247,13 +291,21 @@ def pages() -> list[str]:
     return [name for name in names if not name.startswith(LEFT_OUT)]
 
 
-def check_pages(names: list[str]) -> int:
+def scenes() -> list[str]:
+    """Returns the scenes whose comments users read, and their parts."""
+    files = [file for folder in SCENES for file in sorted((ROOT / folder).rglob("*.prm"))]
+    return [file.relative_to(ROOT).as_posix() for file in files]
+
+
+def check_files(names: list[str]) -> int:
     """Prints what is wrong; returns the number of errors."""
     n_errors = 0
     for name in names:
         text = (ROOT / name).read_text(encoding="utf-8")
-        tables = [] if name.startswith(WITH_MESSAGES) else faults_of_tables(text)
-        for fault in sorted(faults_of(text) + tables):
+        faults = faults_of_scene(text) if name.endswith(".prm") else faults_of(text)
+        if not name.endswith(".prm") and not name.startswith(WITH_MESSAGES):
+            faults += faults_of_tables(text)
+        for fault in sorted(faults):
             print(f"{name}:{fault.line}: {fault.what}")
             n_errors += 1
     return n_errors
@@ -290,13 +342,31 @@ TABLES: tuple[tuple[str, int], ...] = (
     ("| a |\n|---|\n| b |\n\n| c |\n", 1),
     ("| a |\n| b |\n", 1),
 )
+SCENE_SAMPLES: tuple[tuple[str, list[str]], ...] = (
+    ("# A short sentence.\nset A = 1   # and another\n", []),
+    ("set A = " + "x " * 60 + "\n", []),
+    ("set A = " + "x " * 40 + "# a comment at the end\n", ["110 columns"]),
+    ("#" + " word" * 20 + "\n", ["101 columns"]),
+    ("# One" + " word" * 12 + "\n  # and" + " word" * 12 + "\n", ["26 words"]),
+    ("# One" + " word" * 12 + "\n#\n# And" + " word" * 12 + "\n", []),
+    ("# One" + " word" * 12 + "\n\n# And" + " word" * 12 + "\n", []),
+    ("# One" + " word" * 12 + "\nset A = 1   #" + " word" * 13 + "\n# And" + " word" * 12 + "\n", []),
+    ("set A = 1 #" + " a" * 26 + "\n", ["26 words"]),
+    ("# -1 < x < 1" + " a" * 22 + " > b\n", ["26 words"]),
+    ("# By One, A. B. & Two, C. D., 2001. Three. Four. Five. Six.\n", []),
+    ("# One. Two. Three.\n# Four. Five. Six.\n", ["6 sentences"]),
+    ("# One. Two. Three.\n#\n# Four. Five. Six.\n", []),
+    ("  # One. Two. Three.\n  # Four. Five. Six.", ["6 sentences"]),
+)
 
 
 def self_check() -> int:
     """Tests the test; returns the number of errors."""
     n_errors = 0
-    for text, expected in SAMPLES:
-        faults = [fault.what for fault in faults_of(text)]
+    samples = [(text, faults_of(text), expected) for text, expected in SAMPLES]
+    samples += [(text, faults_of_scene(text), expected) for text, expected in SCENE_SAMPLES]
+    for text, found, expected in samples:
+        faults = [fault.what for fault in found]
         if len(faults) != len(expected) or not all(f.startswith(e) for f, e in zip(faults, sorted(expected))):
             print(f"{text[:40]!r}: found {faults}, expected {expected}")
             n_errors += 1
@@ -304,7 +374,7 @@ def self_check() -> int:
         if len(faults_of_tables(text)) != n_expected:
             print(f"{text[:40]!r}: found {faults_of_tables(text)}, expected {n_expected}")
             n_errors += 1
-    print(f"{len(SAMPLES) + len(TABLES)} samples, {n_errors} errors")
+    print(f"{len(samples) + len(TABLES)} samples, {n_errors} errors")
     return n_errors
 
 
@@ -319,9 +389,9 @@ def main() -> int:
         n_errors += check_program(arguments[at + 1])
         del arguments[at : at + 2]
     files = [argument for argument in arguments if not argument.startswith("--")]
-    n_errors += check_pages(files or pages())
+    n_errors += check_files(files or pages() + scenes())
     if not files:
-        print(f"{len(pages())} pages, {n_errors} errors")
+        print(f"{len(pages())} pages, {len(scenes())} scenes and parts, {n_errors} errors")
     return 1 if n_errors else 0
 
 
