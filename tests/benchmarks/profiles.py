@@ -156,9 +156,9 @@ publish(
     (
         "This page shows what `Profile` = fast, balanced and accurate cost, and what errors they make. Each"
         " shipped scene runs without what a profile sets: steps, tolerances, penalties, elements and laws of"
-        " rates. In implicit dynamics the steps of the scene stay. In sheets the penalty of general"
-        " contact stays, too. Scenes marked cut have less time or a"
-        " coarser mesh, as in tests/benchmarks/profile_runs.py. Each run is done once.\n\n"
+        " rates. In implicit dynamics the steps of the scene stay, and so does the penalty of sheets."
+        " Scenes marked cut have less time or a coarser mesh, as in tests/benchmarks/profile_runs.py."
+        " Each run is done once.\n\n"
         "- Work: Newton iterations with those of failed steps and of estimates; of explicit scenes element"
         " updates.\n"
         "- Error: ∫Σ|F − F*| dt over ∫Σ|F*| dt of the forces of all tools and pairs. For explicit scenes,"
