@@ -189,8 +189,8 @@ publish(
     + " These scenes are not measured:\n\n"
     + table(["scene", "why"], LEFT_OUT.items()),
     "## Errors\n\n" + within_limits(points),
-    f"- Before, fast was above 5 % in these static scenes: {above(earlier['fast'], 0.05)}.\n"
-    f"- Before, balanced was above 2 % in these static scenes: {above(earlier['balanced'], 0.02)}.\n"
+    f"- Before, static scenes with fast above 5 %: {above(earlier['fast'], 0.05)}.\n"
+    f"- Before, static scenes with balanced above 2 %: {above(earlier['balanced'], 0.02)}.\n"
     "- As shipped, the error is above 2 % or unknown in these scenes:"
     f" {above({name: of.error for name, of in shipped.items()}, 0.02)}.",
     "## Beside settings by hand\n\n" + beside_hand(points, hand),
