@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace billet {
 
@@ -71,6 +72,15 @@ ElementVectors middle_of(ElementVectors positions, const ElementVectors &before,
 }
 
 double equivalent_of(const dealii::SymmetricTensor<2, 3> &tensor) { return dealii::deviator(tensor).norm(); }
+
+/// Returns works of bodies over that of all; zeros if there is none.
+std::vector<double> over(std::vector<double> works, const double all) {
+  for (double &work : works)
+    work = all > 0. ? work / all : 0.;
+  return works;
+}
+
+double sum_of(const std::vector<double> &parts) { return std::accumulate(parts.begin(), parts.end(), 0.); }
 
 } // namespace
 
@@ -245,35 +255,15 @@ void MeshErrors::add_interval(const Solution &solution) {
   unseen_ += of_all[2];
 }
 
-double MeshErrors::error() const {
-  double sum = 0.;
-  for (const double error : of_bodies())
-    sum += error;
-  return sum;
-}
+double MeshErrors::error() const { return sum_of(of_bodies()); }
 
-std::vector<double> MeshErrors::of_bodies() const {
-  std::vector<double> parts(errors_.size());
-  for (std::size_t body = 0; is_known() && body < parts.size(); ++body)
-    parts[body] = errors_[body] / work_;
-  return parts;
-}
+std::vector<double> MeshErrors::of_bodies() const { return over(errors_, work_); }
 
 bool MeshErrors::sees_variation() const { return unseen_ <= Factors::unseen * squared_strain_; }
 
-double MeshErrors::geometry_error() const {
-  double sum = 0.;
-  for (const double error : geometry_of_bodies())
-    sum += error;
-  return sum;
-}
+double MeshErrors::geometry_error() const { return sum_of(geometry_of_bodies()); }
 
-std::vector<double> MeshErrors::geometry_of_bodies() const {
-  std::vector<double> parts(work_outside_.size());
-  for (std::size_t body = 0; is_known() && body < parts.size(); ++body)
-    parts[body] = work_outside_[body] / work_;
-  return parts;
-}
+std::vector<double> MeshErrors::geometry_of_bodies() const { return over(work_outside_, work_); }
 
 double MeshErrors::of_element(const std::size_t body, const std::size_t element) const {
   if (!is_known())
