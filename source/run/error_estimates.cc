@@ -81,8 +81,8 @@ DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &rev
     text << ". Flat facets in place of curved surfaces may make another " << 100. * geometry << " %";
   text << ". Contact between nodes, folds and plastic hinges are not in it";
   if (!mesh.sees_variation())
-    text << ". The whole error is unknown, since parts with a single element across bend: it may be far "
-            "larger";
+    text << ". The whole error is unknown, since parts with a single element across bend, or have all nodes "
+            "held by supports: it may be far larger";
   else if (!review.resolves_contact())
     text << ". The whole error is unknown, since the mesh does not resolve the contact that warnings name";
   Diagnostic message(diagnostic::mesh_error, text.str());

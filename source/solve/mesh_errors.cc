@@ -84,17 +84,22 @@ double sum_of(const std::vector<double> &parts) { return std::accumulate(parts.b
 
 } // namespace
 
-MeshErrors::MeshErrors(const Discretization &discretization)
+MeshErrors::MeshErrors(const Discretization &discretization, const std::set<DofIndex> &fixed_nodes)
     : discretization_(discretization), errors_(discretization.n_bodies()),
       work_outside_(discretization.n_bodies()) {
   for (std::size_t body = 0; body < discretization.n_bodies(); ++body) {
     elements_.emplace_back(discretization.elements(body).size());
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {
-      const CellIterator &cell = discretization.elements(body)[e].cell;
+      const Element &element = discretization.elements(body)[e];
+      const CellIterator &cell = element.cell;
       volume_ += cell->measure();
       for (unsigned int d = 0; d < 3; ++d)
         elements_[body][e].is_alone[d] =
             cell->face(2 * d)->at_boundary() && cell->face(2 * d + 1)->at_boundary();
+      elements_[body][e].is_fixed = true;
+      for (unsigned int a = 0; a < n_element_nodes; ++a)
+        if (fixed_nodes.count(element.dofs[3 * a]) == 0)
+          elements_[body][e].is_fixed = false;
     }
   }
   volume_ = dealii::Utilities::MPI::sum(volume_, discretization.communicator());
@@ -138,6 +143,8 @@ MeshErrors::Interval MeshErrors::compare(const ElementVectors &positions, const 
       interval.unseen += volume * 0.25 * (change * change) / 3.; // of ± half of it, linearly
     }
   interval.squared_strain = volume * (strain * strain) + interval.unseen;
+  if (element.is_fixed) // its strain is given, and does not depend on balance
+    interval.unseen = interval.squared_strain;
   return interval;
 }
 

@@ -5,7 +5,7 @@
 // 1 − 1/(4n²) of the exact one. So it is in one step or many, in intervals of one or more, on one rank or
 // several. Each brick has its share. A bar that is pulled has no error. A wave within an interval leaves
 // none. A round bar of 16 or 32 facets that is pulled lacks the segments of its section, to second order in
-// their angle: the error of its geometry.
+// their angle: the error of its geometry. A layer of one brick whose nodes are all held hides its error.
 #include "scene_run.h"
 
 #include "billet/solve/mesh_errors.h"
@@ -36,7 +36,7 @@ parameters::Scene read(const unsigned int n, const unsigned int n_steps, const s
 }
 
 MeshErrors watch(SceneRun &run, const unsigned int steps_in_interval = 1) {
-  MeshErrors errors(run.discretization);
+  MeshErrors errors(run.discretization, collect_fixed_nodes(run.scene, run.discretization));
   errors.add(run.problem);
   unsigned int step = 0;
   run.finish([&](const NewtonReport &) { errors.add(run.problem, ++step % steps_in_interval == 0); });
@@ -107,6 +107,14 @@ int main(int argc, char *argv[]) {
   check("the mean over elements", std::abs(mean / errors.error() - 1.), 1e-12);
   check("pulled", error_of(6, 3, pull), 1e-12);
   check("flat facets", errors.geometry_error(), 1e-12);
+  const std::string bonded = "    subsection Supports\n      subsection root\n        set Boundary ids = 0\n"
+                             "      end\n      subsection end\n        set Boundary ids = 1\n"
+                             "        set Displacement = t ; 0 ; 0\n      end\n    end\n";
+  for (const unsigned int n : {1U, 2U}) {
+    SceneRun layer(read(n, 1, bonded));
+    check(std::to_string(n) + " bricks between bonded faces",
+          watch(layer).sees_variation() == (n > 1) ? 0. : 1., 0.5);
+  }
   for (const unsigned int n_refinements : {2U, 3U}) {
     const double angle = 2. * dealii::numbers::PI / std::pow(2., n_refinements + 2),
                  lacking = angle / std::sin(angle) - 1.; // circle over polygon

@@ -2,6 +2,7 @@
 #ifndef BILLET_RUN_RUN_H
 #define BILLET_RUN_RUN_H
 
+#include "billet/discretization/supports.h"
 #include "billet/output/probe_reader.h"
 #include "billet/run/resumption.h"
 #include "billet/run/run_output.h"
@@ -26,7 +27,8 @@ public:
         discretization_(scene, communicator,
                         resumption == nullptr ? MeshLevels() : resumption->find_levels(scene)),
         review_(scene, discretization_), stability_(scene, discretization_), softening_(scene),
-        mesh_errors_(discretization_), probes_(scene, discretization_) {}
+        mesh_errors_(discretization_, collect_fixed_nodes(scene, discretization_)),
+        probes_(scene, discretization_) {}
   virtual ~Run() = default;
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;

@@ -6,6 +6,7 @@
 #include "billet/state.h"
 
 #include <array>
+#include <set>
 #include <vector>
 
 namespace billet {
@@ -18,7 +19,8 @@ namespace billet {
 /// (W8).
 class MeshErrors {
 public:
-  explicit MeshErrors(const Discretization &discretization);
+  /// `fixed_nodes`: first dofs of nodes that supports hold in all directions, by collect_fixed_nodes().
+  MeshErrors(const Discretization &discretization, const std::set<DofIndex> &fixed_nodes);
 
   /// Adds a state; the first one begins. An interval of (W4) reaches over the states until one that ends it,
   /// with their mean stresses, so that waves to and fro in it cancel. Collective.
@@ -32,8 +34,9 @@ public:
   double error() const;
   /// Returns the part of it that each body makes.
   std::vector<double> of_bodies() const;
-  /// Whether the jumps can tell the error. They cannot if much of the strain varies within elements that have
-  /// no neighbour on either side, such as those of a wall of one element that bends, (W9).
+  /// Whether the jumps can tell the error, (W9). They cannot if much of the strain varies within elements
+  /// that have no neighbour on either side, such as those of a wall of one element that bends. Nor can they
+  /// where supports hold all nodes of an element, as in a bonded layer of one element.
   bool sees_variation() const;
   /// Returns the part of the work of deformation that the space between the facets and the smooth surfaces
   /// would do if it deformed as the elements at the facets do, (W8): the relative error of the geometry.
@@ -57,6 +60,7 @@ private:
     double error = 0.;              ///< work that finer elements would save so far [energy]
     double outside = 0.;            ///< volume between its facets and the smooth surface, over its own
     std::array<bool, 3> is_alone{}; ///< whether it has no neighbour on either side, by its own direction
+    bool is_fixed = false;          ///< whether supports hold all of its nodes
   };
   /// Element in an interval.
   struct Interval {
@@ -64,7 +68,7 @@ private:
     double volume = 0.; ///< in the middle of the interval [length³]
     double strain = 0.; ///< equivalent strain of the interval
     double work = 0.;   ///< of deformation [energy]
-    /// Integral of the squared strain, and its part by what varies where the element is alone [length³].
+    /// Integral of the squared strain, and its part that no jump can tell, (W9) [length³].
     double squared_strain = 0., unseen = 0.;
   };
 
