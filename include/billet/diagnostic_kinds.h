@@ -260,11 +260,11 @@ inline const DiagnosticKind penalty_too_high("penalty-too-high", Severity::warni
 
 inline const DiagnosticKind penalty_reduced(
     "penalty-reduced", Severity::note,
-    "Newton's method failed, so a penalty is reduced towards 10 E/h; augmentation enforces the "
-    "constraint. The result is that of the higher penalty.",
+    "Newton's method failed, so a penalty is reduced towards 10 E/h; or nodes of a thin sheet open and "
+    "close in turn, and its penalty falls to 0.04 E/h. Augmentation enforces the constraint. The result "
+    "is that of the higher penalty.",
     "If the lower penalty helped, set 'Normal penalty' to it and 'Penetration tolerance' to 1e-3, which "
-    "saves "
-    "the failed attempts");
+    "saves the failed attempts");
 
 inline const DiagnosticKind
     penalty_raised("penalty-raised", Severity::note,

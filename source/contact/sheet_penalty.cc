@@ -36,8 +36,8 @@ bool is_thin(const Discretization &discretization, const std::size_t body,
 
 } // namespace
 
-bool has_sheet_penalty(const ContactPair &pair, const Discretization &discretization,
-                       const std::vector<BoundaryFacet> &facets) {
+bool may_have_sheet_penalty(const ContactPair &pair, const Discretization &discretization,
+                            const std::vector<BoundaryFacet> &facets) {
   return pair.limits_softness() && !pair.input->penalty.is_given &&
          is_thin(discretization, pair.body, facets);
 }

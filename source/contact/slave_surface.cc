@@ -71,14 +71,7 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
   const auto sizes = compute_facet_sizes(discretization, boundary_facets);
   // Penalties of a refined body remain, so that its pressures continue.
   const double coarse = std::exp2(discretization.levels()[pair.body]);
-  double normal_penalty = pair.normal_penalty, tangential_penalty = pair.tangential_penalty;
-  is_sheet = has_sheet_penalty(pair, discretization, boundary_facets);
-  if (is_sheet) {
-    const double factor = std::min(1., sheet_penalty / normal_penalty);
-    normal_penalty *= factor;
-    if (!pair.input->penalty.is_tangential_given)
-      tangential_penalty *= factor;
-  }
+  is_sheet = may_have_sheet_penalty(pair, discretization, boundary_facets);
   for (const auto &boundary : boundary_facets) {
     ContactFacet facet{};
     facet.key = boundary.key;
@@ -93,8 +86,8 @@ void SlaveSurface::collect_facets(const ContactPair &pair, const Discretization 
         node.size = node.spacing = size.size;
         node.reach = reach_of_facet * node.size;
         const double length = penalty_length(pair.penalty_counts_thickness, size.size, size.thickness);
-        node.stiffness = {pair.scaled_penalty(normal_penalty, young_modulus, coarse * length),
-                          pair.scaled_penalty(tangential_penalty, young_modulus, coarse * length)};
+        node.stiffness = {pair.scaled_penalty(pair.normal_penalty, young_modulus, coarse * length),
+                          pair.scaled_penalty(pair.tangential_penalty, young_modulus, coarse * length)};
         const double room = enough_penalty * young_modulus / (length * node.stiffness.normal);
         max_stiffening = std::min(max_stiffening, room);
         max_tangential_stiffening = std::min(

@@ -256,8 +256,8 @@ void ContactPair::declare_values(ParameterHandler &prm) {
   prm.declare_entry(
       "Normal penalty", "10", Patterns::Double(),
       "k_n > 0: pressure = k_n times penetration. By default, in dynamics, h is the thickness of the "
-      "elements if that is less; in statics, of a thin sheet on a tool, 0.03. See also Penetration "
-      "tolerance. "
+      "elements if that is less. In statics that of a thin sheet on a tool falls where nodes chatter. See "
+      "also Penetration tolerance. "
       "[1 or stress/length, see Penalty unit]");
   prm.declare_entry("Tangential penalty", "", Patterns::Anything(),
                     "k_t > 0: stiffness while sticking. Empty: the normal penalty. [1 or stress/length]");

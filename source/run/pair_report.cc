@@ -194,7 +194,7 @@ public:
                       projection.patch};
     };
     PairReport report = measure(pair.name, {side}, std::min(tool.removal_time(), end()), surface.size);
-    report.is_sheet = has_sheet_penalty(
+    report.is_sheet = may_have_sheet_penalty(
         pair, discretization_, collect_boundary_facets(discretization_, pair.body, pair.boundary_ids));
     report.depends_on_forces =
         tool.is_driven() || tool.control() == Tool::Control::stop || depends_on_forces(pair.body);

@@ -99,6 +99,7 @@ public:
           "the solver stops after " + std::to_string(n) + " iterations, since the residual no longer falls";
       verdict = NewtonVerdict::failed;
     } else if (is_hopeless(n) && !may_still_settle(n)) {
+      report_.is_slow = true;
       report_.failure = "the solver stops after " + std::to_string(n) + " iterations, since at their rate " +
                         std::to_string(settings_.max_iterations) + " iterations are too few";
       verdict = NewtonVerdict::failed;

@@ -61,9 +61,13 @@ void SoftnessLimit::Direction::learn(const ContactSprings::Direction &before, co
 }
 
 SoftnessLimit::SoftnessLimit(const std::vector<Rule> &rules) : pairs_(rules.size()) {
+  set_rules(rules);
+  begin();
+}
+
+void SoftnessLimit::set_rules(const std::vector<Rule> &rules) {
   for (std::size_t i = 0; i < rules.size(); ++i)
     pairs_[i].rule = rules[i];
-  begin();
 }
 
 void SoftnessLimit::begin() {

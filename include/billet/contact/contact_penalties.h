@@ -44,8 +44,10 @@ public:
   double stiffening_left() const { return limits_.normal / stiffening(); }
   /// Returns the same factor for tangential penalties; infinite without friction.
   double tangential_stiffening_left() const { return limits_.tangential / tangential_stiffening(); }
-  /// Whether the pair is that of a sheet, whose default penalty is low.
+  /// Whether the pair is that of a sheet, whose penalty falls if nodes chatter, (T13).
   bool is_of_sheet() const { return is_of_sheet_; }
+  /// Whether its penalty has fallen, and has not risen again as far.
+  bool is_of_soft_sheet() const { return is_of_sheet_ && stiffening() < 1.; }
   /// Returns the maximum of penalty times facet size squared [force/length].
   virtual double max_spring() const = 0;
 

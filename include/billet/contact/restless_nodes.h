@@ -2,6 +2,7 @@
 #ifndef BILLET_CONTACT_RESTLESS_NODES_H
 #define BILLET_CONTACT_RESTLESS_NODES_H
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,10 @@ public:
   void count(std::vector<std::uint64_t> states);
   bool is_restless(const std::size_t i) const {
     return i < n_changes_.size() && n_changes_[i] > max_changes_;
+  }
+  bool has_any() const {
+    return std::any_of(n_changes_.begin(), n_changes_.end(),
+                       [this](const unsigned int n) { return n > max_changes_; });
   }
   /// Calls visit(node, number of changes) for each restless node.
   template <class Visit> void visit(const Visit &visit) const {

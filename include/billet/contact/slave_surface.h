@@ -86,7 +86,7 @@ struct SlaveSurface {
   bool has_divided_facets = false;  ///< on any rank
   std::vector<ContactFacet> facets; ///< those that are not divided, then parts
   std::size_t n_whole_facets = 0;
-  bool is_sheet = false;         ///< with the low default penalty of sheets
+  bool is_sheet = false;         ///< see may_have_sheet_penalty()
   double unresolved_length = 0.; ///< of the longest facet with too few parts, on any rank [length]
   /// Maximum factors by which the program may raise penalties.
   double max_stiffening = std::numeric_limits<double>::infinity(),

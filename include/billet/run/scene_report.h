@@ -66,7 +66,7 @@ struct MeetingReport {
 struct PairReport {
   std::string name;
   bool is_self_contact = false;         ///< then there are no gaps
-  bool is_sheet = false;                ///< whether it begins with the penalty of sheets on tools
+  bool is_sheet = false;                ///< whether its penalty may fall to that of sheets on tools
   GapReport gap;                        ///< at time 0
   std::optional<MeetingReport> meeting; ///< by the prescribed motions; none: never
   /// Whether loads, forces on tools or the deformation by supports may change that.

@@ -65,6 +65,7 @@ struct NewtonReport {
   /// tolerance.
   bool is_lost_in_round_off = false;
   bool is_cycling = false; ///< it did not converge: is_cycling()
+  bool is_slow = false;    ///< it did not converge: at their rate, too many iterations would be needed
   /// Reason to reject the step; none: it is accepted, or the iterations are the cause of `failure`.
   std::optional<StepFailure::Kind> rejection;
   unsigned int linear_iterations = 0;
@@ -89,6 +90,7 @@ struct NewtonReport {
     advice = next.advice;
     is_lost_in_round_off = next.is_lost_in_round_off;
     is_cycling = next.is_cycling;
+    is_slow = next.is_slow;
     rejection = next.rejection;
     is_stalled = next.is_stalled;
     criteria = next.criteria;

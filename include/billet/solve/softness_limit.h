@@ -21,6 +21,8 @@ public:
   /// Whether any pair limits its softness.
   bool is_used() const;
 
+  /// Changes what limits each pair, as a penalty that has changed demands.
+  void set_rules(const std::vector<Rule> &rules);
   /// Begins after Newton's method has converged in a step, before any augmentation.
   void begin();
   /// Returns, for each pair, the missing part of its forces over the allowed part; 0 for pairs without a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "billet/solve/implicit/augmentation.h"
 
+#include "billet/contact/sheet_penalty.h"
 #include "billet/diagnostic_kinds.h"
 #include "billet/solve/penalty_control.h"
 
@@ -70,6 +71,9 @@ struct Augmentation::Limits {
   static constexpr double settled = 5e-3;
   /// Room that a penalty needs to rise, which it does by whole octaves.
   static constexpr double octave = 2.;
+  /// Number of steps with restless nodes after which the penalty of a sheet falls. Nodes may be restless in
+  /// the step in which they first touch.
+  static constexpr double restless_steps = 2.;
   /// Penalty above which a note about a raise is printed [E/h].
   static constexpr double notable_penalty = 1000.;
 };
@@ -115,14 +119,15 @@ double max_force(const std::vector<ContactSprings> &springs) {
 Augmentation::Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver,
                            PenetrationMeasurement &measurement)
     : problem_(problem), solver_(solver), measurement_(measurement),
-      softness_(parts_.contacts().collect([](const auto &contact) {
-        using Rule = SoftnessLimit::Rule;
-        return !contact.settings().limits_softness() ? Rule::none
-               : contact.penalties().is_of_sheet()   ? Rule::sheet
-                                                     : Rule::general;
-      })) {
-  for (const auto &contact : parts_.contacts())
-    has_sheets_ = has_sheets_ || contact.penalties().is_of_sheet();
+      softness_(softness_rules(parts_.contacts())) {}
+
+std::vector<SoftnessLimit::Rule> Augmentation::softness_rules(const ContactSet &contacts) {
+  return contacts.collect([](const auto &contact) {
+    using Rule = SoftnessLimit::Rule;
+    return !contact.settings().limits_softness()    ? Rule::none
+           : contact.penalties().is_of_soft_sheet() ? Rule::sheet
+                                                    : Rule::general;
+  });
 }
 
 std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double> &errors,
@@ -148,27 +153,69 @@ std::vector<double> Augmentation::stiffen_slow_contacts(const std::vector<double
   return factors;
 }
 
-bool Augmentation::soften_contacts(DiagnosticList &messages) {
+std::vector<bool> Augmentation::restless_sheets() const {
+  const std::vector<double> restless = parts_.contacts().collect_max([](const auto &contact) {
+    return contact.penalties().is_of_sheet() && contact.checks().has_restless() ? 1. : 0.;
+  });
+  return {restless.begin(), restless.end()};
+}
+
+bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std::string &reason,
+                                   DiagnosticList &messages) {
+  constexpr double round_off = 1e-9;
   ContactSet &contacts = parts_.contacts();
   const std::vector<double> room = contacts.stiffening_left();
-  bool has_softened = false;
+  bool has_lowered = false;
   for (std::size_t i = 0; i < room.size(); ++i) {
-    if (!(room[i] < 1.) || !contacts[i].settings().is_augmented())
+    const double before = enough_penalty / room[i],
+                 factor = whole_octaves((1. + round_off) * wanted[i] / before), penalty = before * factor;
+    if (!(factor < 1.) || !contacts[i].settings().is_augmented())
       continue;
-    const double factor = whole_octaves(room[i]), before = enough_penalty / room[i],
-                 penalty = before * factor;
-    contacts[i].penalties().scale(factor, factor);
-    has_softened = true;
+    const bool keeps_tangential =
+        wanted[i] < enough_penalty && contacts[i].settings().input->penalty.is_tangential_given;
+    contacts[i].penalties().scale(factor, keeps_tangential ? 1. : factor);
+    has_lowered = true;
     std::ostringstream text;
-    text << "The penalty is reduced from " << before << " to " << penalty
-         << " E/h, since Newton's method failed; augmentation enforces the constraint";
+    text << "The penalty is reduced from " << before << " to " << penalty << " E/h, since " << reason
+         << "; augmentation enforces the constraint";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(contacts[i].name())
                            .time(problem_.step().time)
                            .value("penalty [E/h]", penalty));
   }
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
-  return has_softened;
+  return has_lowered;
+}
+
+bool Augmentation::soften_contacts(const NewtonReport &failed, DiagnosticList &messages) {
+  const std::vector<bool> restless = restless_sheets();
+  std::vector<double> wanted(restless.size(), enough_penalty);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (restless[i] || (!failed.is_slow && parts_.contacts()[i].penalties().is_of_sheet()))
+      wanted[i] = sheet_penalty;
+  return lower_penalties(wanted, "Newton's method failed", messages);
+}
+
+void Augmentation::soften_sheets(DiagnosticList &messages) {
+  std::vector<double> wanted(restless_steps_.size(), std::numeric_limits<double>::max());
+  bool is_wanted = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (restless_steps_[i] >= Limits::restless_steps) {
+      wanted[i] = sheet_penalty;
+      restless_steps_[i] = 0.;
+      is_wanted = true;
+    }
+  if (is_wanted)
+    lower_penalties(wanted, "nodes of a thin sheet open and close in turn", messages);
+}
+
+void Augmentation::commit() {
+  softness_.commit(contact_springs(), parts_.parameters().solver.force_tolerance);
+  const std::vector<bool> restless = restless_sheets();
+  restless_steps_.resize(restless.size(), 0.);
+  for (std::size_t i = 0; i < restless.size(); ++i)
+    if (restless[i] && !parts_.contacts()[i].penalties().is_of_soft_sheet())
+      restless_steps_[i] += 1.;
 }
 
 Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSprings> &springs,
@@ -274,6 +321,9 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
   double last_error = std::numeric_limits<double>::infinity();
   Series series(parts_.contacts().size());
   series.hardest = report.hardest;
+  const std::vector<SoftnessLimit::Rule> rules = softness_rules(parts_.contacts());
+  const bool has_soft_sheets = std::count(rules.begin(), rules.end(), SoftnessLimit::Rule::sheet) > 0;
+  softness_.set_rules(rules);
   softness_.begin();
   series.springs = contact_springs();
   for (unsigned int n = 0; report.converged; ++n) {
@@ -283,7 +333,7 @@ void Augmentation::augment(NewtonReport &report, std::vector<double> &offsets, V
     if (error <= 1.)
       break;
     const bool is_resolved =
-        has_sheets_ && is_of_softness &&
+        has_soft_sheets && is_of_softness &&
         report.force * problem_.scales().force <= Limits::noise * max_force(series.springs);
     if (error > Limits::slow_error * last_error && !is_resolved)
       solver_.set_accuracy(std::max(Limits::accuracy * solver_.accuracy(), Limits::min_accuracy * accuracy));
@@ -384,7 +434,7 @@ void Augmentation::learn(Series &series) {
     series.added[i] = then.held > Limits::min_held * then.force && now.held > Limits::kept * then.held
                           ? changes[i][0].in_all / then.held
                           : 0.;
-    if (contacts[i].penalties().is_of_sheet())
+    if (contacts[i].penalties().is_of_soft_sheet())
       series.granted[i] = then.held > Limits::min_held_of_sheet * then.force
                               ? std::min(1., changes[i][0].in_all / then.held)
                               : 0.;
@@ -425,11 +475,16 @@ DiagnosticList Augmentation::finish() const {
 void Augmentation::save(StateWriter &writer) const {
   if (softness_.is_used())
     writer.write("softness", softness_.save());
+  writer.write("steps with restless sheets", restless_steps_);
 }
 
 void Augmentation::load(StateReader &reader) {
   if (softness_.is_used() && reader.has("softness"))
     softness_.load(reader.read("softness"));
+  if (reader.has("steps with restless sheets")) {
+    restless_steps_ = reader.read("steps with restless sheets");
+    restless_steps_.resize(parts_.contacts().size(), 0.); // saved for other pairs
+  }
 }
 
 } // namespace billet
