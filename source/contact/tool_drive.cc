@@ -40,7 +40,8 @@ double ToolDrive::add_derivatives(const ToolTangents &tangents, const ToolRate &
                            power[i] -= v[b][j] * K(3 * b + j, 3 * a + i);
                          }
                      power_slope += v[a] * along;
-                     // The arm rotates with the tool about a fixed centre: ω × v adds no further term.
+                     // The arm rotates with the tool about a fixed centre: ω × v adds no further
+                     // term.
                      parts_.slaves.add_to_dofs(facet.nodes[a], -along, column);
                      parts_.slaves.add_to_dofs(facet.nodes[a], power, row);
                    }

@@ -44,7 +44,8 @@ Jet linear(const CurvedTriangle::Seam &seam, const Jet &i, const Jet &j) {
   return {a + b * (j.f - i.f), b * (j.u - i.u), b * (j.v - i.v)};
 }
 
-/// Returns F. At the corners its second derivatives depend on the direction; there they are set to zero.
+/// Returns F. At the corners its second derivatives depend on the direction; there they are set to
+/// zero.
 Jet turning_part(const std::array<CurvedTriangle::Seam, 3> &seams, const double u, const double v) {
   const Jet l_0{1. - u - v, -1., -1.}, l_1{u, 1., 0.}, l_2{v, 0., 1.};
   const Jet l_01 = l_0 * l_1, l_12 = l_1 * l_2, l_20 = l_2 * l_0;

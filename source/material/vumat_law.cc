@@ -47,7 +47,8 @@ struct Polar {
   }
 };
 
-/// F and, if they are wanted, its changes by small symmetric velocity gradients, forwards and backwards.
+/// F and, if they are wanted, its changes by small symmetric velocity gradients, forwards and
+/// backwards.
 std::array<Tensor<2, 3>, 13> change(const Tensor<2, 3> &F, const bool has_changes) {
   std::array<Tensor<2, 3>, 13> result;
   result[0] = F;

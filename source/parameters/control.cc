@@ -87,7 +87,8 @@ const NamedValues<TimeStepping::Scheme> &schemes() {
     NamedValues<TimeStepping::Scheme> values;
     for (const SchemeType &type : scheme_types())
       values.emplace_back(type.name, type.scheme);
-    values.emplace_back("static", TimeStepping::Scheme::quasi_static); // as most users and the manual say
+    // As most users and the manual say.
+    values.emplace_back("static", TimeStepping::Scheme::quasi_static);
     return values;
   }();
   return names;

@@ -21,8 +21,8 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// Returns this rank's separate sets of elements as a message: their number, then pairs of a node that other
-/// ranks may have, by its first dof, and the set it is in.
+/// Returns this rank's separate sets of elements as a message: their number, then pairs of a node
+/// that other ranks may have, by its first dof, and the set it is in.
 std::vector<std::uint64_t> find_own_parts(const Discretization &discretization, const std::size_t body) {
   std::unordered_map<DofIndex, std::size_t> nodes;
   DisjointSets sets;

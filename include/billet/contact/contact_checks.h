@@ -8,7 +8,8 @@
 
 namespace billet {
 
-/// Checks of a contact pair, and the messages about what they find. Collective unless documented otherwise.
+/// Checks of a contact pair, and the messages about what they find. Collective unless documented
+/// otherwise.
 class ContactChecks {
 public:
   virtual ~ContactChecks() = default;
@@ -27,7 +28,8 @@ public:
   /// Explains the failure of a step in which nodes have gone through.
   virtual Explanation describe_passage() const { return {}; }
 
-  /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there are none.
+  /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there
+  /// are none.
   virtual Explanation describe_restless() const { return {}; }
   /// Returns a clause about the obstacle that MatrixContact::find_free_part() found.
   virtual std::string describe_obstacle() const = 0;

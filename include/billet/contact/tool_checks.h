@@ -24,7 +24,8 @@ public:
   Explanation describe_passage() const override;
   std::string describe_obstacle() const override;
   Explanation describe_restless() const override;
-  /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at `position`.
+  /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at
+  /// `position`.
   bool has_node_on_edge(const dealii::Tensor<1, 3> &position) const;
 
 private:

@@ -48,14 +48,14 @@ template <class L> constexpr bool finds_temperature(long) { return false; }
 ///   fields(), store(), restore()   names of that state, and the state as numbers; none if History is empty
 ///   update(), elastic_energy(), plastic_work(), equivalent_plastic_strain(), elastic()
 ///   find_history()                 unless History is empty
-///   memory(), remember()           if the history has more than stress and equivalent plastic strain
+///   memory(), remember()         if the history has more than stress and equivalent plastic strain
 ///   min_wave_stiffness()         of laws without plasticity
 ///   lane_law                       if the explicit kernels have the law
 ///   depends_on_temperature         true, if it reads PointStep::temperature
 ///   flow_slope()                   if the law may soften
-///   bound_stiffness(tau)           if PointLaw's is not the law's; without it, moduli bound elastic laws
+///   bound_stiffness(tau)     if PointLaw's is not the law's; without it, moduli bound elastic laws
 ///   flow_stress()                  with plasticity
-///   directions()                   what summary() adds about directions of the material, if it has any
+///   directions()               what summary() adds about directions of the material, if it has any
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:
   using History = typename Law::History;

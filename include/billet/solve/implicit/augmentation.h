@@ -11,8 +11,8 @@
 
 namespace billet {
 
-/// Augmented Lagrangian method for contacts: tractions are augmented and iterated anew until all pairs meet
-/// their 'Penetration tolerance' or their limit of softness.
+/// Augmented Lagrangian method for contacts: tractions are augmented and iterated anew until all
+/// pairs meet their 'Penetration tolerance' or their limit of softness.
 class Augmentation {
 public:
   Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver, PenetrationMeasurement &measurement);
@@ -22,10 +22,11 @@ public:
 
   /// Sets the factor of the pairs' tolerances above which tractions are augmented.
   void allow_penetration(const double factor) { penetration_allowed_ = factor; }
-  /// Accepts steps whose remaining penetration exceeds the tolerance: it counts as an error to be reported.
+  /// Accepts steps whose remaining penetration exceeds the tolerance: it counts as an error to be
+  /// reported.
   void may_leave_penetration() { may_leave_penetration_ = true; }
-  /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value, with a message on each.
-  /// Returns false if there is none. Collective.
+  /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value, with a message
+  /// on each. Returns false if there is none. Collective.
   bool soften_contacts(DiagnosticList &messages);
 
   /// Returns the state of the softness estimate, which a probe restores.
@@ -33,7 +34,8 @@ public:
   void set_softness(const SoftnessLimit &softness) { softness_ = softness; }
   /// Accepts the step. Collective.
   void commit() { softness_.commit(contact_springs(), parts_.parameters().solver.force_tolerance); }
-  /// Returns messages at the end about pairs whose augmentation ended while it still changed forces.
+  /// Returns messages at the end about pairs whose augmentation ended while it still changed
+  /// forces.
   DiagnosticList finish() const;
 
   void save(StateWriter &writer) const;
@@ -45,8 +47,8 @@ private:
   struct Series;
   /// Errors that demand an augmentation where they are above 1.
   struct Demands {
-    /// Error of the augmentation of each contact over its tolerance, or its softness over the limit of
-    /// SoftnessLimit if that is larger.
+    /// Error of the augmentation of each contact over its tolerance, or its softness over the limit
+    /// of SoftnessLimit if that is larger.
     std::vector<double> of_contacts;
     double by_tolerances = 0., maximum = 0.; ///< over all contacts
   };
@@ -57,14 +59,14 @@ private:
   /// Returns the changes of the forces of each contact by an augmentation. Collective.
   std::vector<std::array<SoftnessLimit::Change, 2>>
   changes_of(const std::vector<ContactSprings> &before, const std::vector<ContactSprings> &after) const;
-  /// Raises the penalties of contacts whose errors are above 1 and fell little in the last augmentation.
-  /// Returns the factors, all 1 if none is raised. Collective.
+  /// Raises the penalties of contacts whose errors are above 1 and fell little in the last
+  /// augmentation. Returns the factors, all 1 if none is raised. Collective.
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &errors, const Series &series);
-  /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair that is
-  /// farthest from its own.
+  /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair
+  /// that is farthest from its own.
   void give_up(const Series &series, unsigned int n, const Demands &demands, NewtonReport &report) const;
-  /// Augments once and iterates. If that fails and only softness required it, restores the former state.
-  /// Returns whether to continue.
+  /// Augments once and iterates. If that fails and only softness required it, restores the former
+  /// state. Returns whether to continue.
   bool augment_once(Series &series, const Demands &demands, bool is_of_softness, NewtonReport &report,
                     std::vector<double> &offsets, Vector &displacements);
   /// Restores the state before augmentations for softness, and its penalties.
@@ -80,7 +82,8 @@ private:
   PenetrationMeasurement &measurement_;
   SoftnessLimit softness_;
   double penetration_allowed_ = 1.;
-  bool may_leave_penetration_ = false, has_failed_ = false; ///< has_failed_: for softness, in some step
+  /// has_failed_: for softness, in some step.
+  bool may_leave_penetration_ = false, has_failed_ = false;
   bool has_sheets_ = false;
   std::vector<bool> is_noted_; ///< contacts of note_stiff_contacts()
 };
