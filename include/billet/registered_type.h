@@ -12,10 +12,10 @@
 namespace billet {
 
 // A RegisteredType describes one type that a scene file can name, such as a surface or a hardening
-// law: its name, its parameters and its factory function. The parameters are declared, documented
-// and printed from it. A new type is one file with a function that returns its RegisteredType, and
-// one line in the table of its kind. Outside the library, it is one call of TypeTable::add() before
-// the scene is read.
+// law. It has its name, its parameters and its factory function. The parameters are declared,
+// documented and printed from it. A new type is one file with a function that returns its
+// RegisteredType, and one line in the table of its kind. Outside the library, it is one call of
+// TypeTable::add() before the scene is read.
 
 /// Returns a finite number. Throws std::invalid_argument.
 double parse_number(const std::string &text);
@@ -55,7 +55,7 @@ struct TypeParameter {
   std::string key;
   std::string default_value;
   Kind kind;
-  /// With the unit at its end; a choice begins with its values, "a|b: meaning".
+  /// Text with the unit at its end; a choice begins with its values, "a|b: meaning".
   std::string meaning;
 };
 

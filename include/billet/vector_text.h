@@ -9,7 +9,7 @@
 
 namespace billet {
 
-/// Returns the trimmed components of a vector: what stands between semicolons or, without these,
+/// Returns the trimmed components of a vector. They stand between semicolons or, without these,
 /// between commas outside parentheses, so that 'atan2(y, x), 0, t' has three. "0,5" stays one: it
 /// may be a number with a decimal comma. An empty text has none, and a separator at the end begins
 /// none.

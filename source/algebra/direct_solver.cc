@@ -139,7 +139,7 @@ private:
   static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;
   static constexpr int spare_memory = 14, distribution = 18; ///< of control(); memory in per cent
 
-  // Numbered as in MUMPS's manual.
+  // The numbers are those of MUMPS's manual.
   MUMPS_INT &control(const int number) { return mumps_.icntl[number - 1]; }
 
   bool call(const int job) {

@@ -35,9 +35,9 @@ struct Limits {
   /// each.
   static constexpr unsigned int max_cuts = 5;
   static constexpr double cut = 0.5;
-  /// Maximum number of trials of regula falsi, and the work of the residual at the end of a
-  /// correction over that at its start from which on a trial is good enough: in general, and if the
-  /// residual stagnates.
+  /// Maximum number of trials of regula falsi, and the limits from which on a trial is good enough,
+  /// in general and if the residual stagnates. A limit is the work of the residual at the end of a
+  /// correction over that at its start.
   static constexpr unsigned int max_trials = 4;
   static constexpr double enough = 0.8, enough_of_cycles = 0.3;
   /// Trial without a bracket, as part of the step so far.

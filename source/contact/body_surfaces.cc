@@ -17,7 +17,7 @@ struct Limits {
   /// Reach of the search over the largest gap that counts as closed, so that gaps at this limit are
   /// found.
   static constexpr double beyond_gap = 1.1;
-  /// Penetration over the size or the wall of a facet up to which nodes are found: all methods find
+  /// Penetration over the size or the wall of a facet up to which nodes are found. All methods find
   /// nodes there, and all elements are thicker.
   static constexpr double part_of_facet = 0.4;
 };

@@ -34,7 +34,7 @@ std::vector<ContactBlocks::NodeDofs> collect_parts(const ContactBlocks::NodeDofs
   for (std::size_t first = 0; first < all.size(); first += 3) {
     parts.emplace_back();
     for (unsigned int i = 0; i < 3; ++i)
-      parts.back()[i] = first + i < all.size() ? all[first + i] : all[first]; // again, with weight 0
+      parts.back()[i] = first + i < all.size() ? all[first + i] : all[first]; // again, weight 0
   }
   return parts;
 }

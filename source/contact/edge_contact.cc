@@ -127,7 +127,7 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
 
 bool EdgeContact::is_between_normals(const Edge &edge, const Tensor<1, 3> &normal,
                                      const Positions &positions) const {
-  // Radians: tolerance of the normal outside the angle between theirs.
+  // Tolerance of the normal outside the angle between theirs [radians].
   constexpr double beside = 0.35;
   Tensor<1, 3> middle = unit_normal(corners_of(facets_[edge.facets[0]], positions));
   if (edge.facets[1] != none)

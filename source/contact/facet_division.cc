@@ -68,7 +68,7 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
 bool FacetDivision::is_seen(const double spacing, const double length) const {
   constexpr double round_off = 1e-9;
   constexpr double min_unseen = 0.1 * unseen; // the smallest depth tried, for thin tools
-  // Cosine: contact on a steeper flank lets the tool pass.
+  // Cosine of the angle above which contact on a flank lets the tool pass.
   constexpr double opposing = 0.5;
   const auto is_met_at = [&](const Tensor<1, 3> &x, const Tensor<1, 3> &normal) {
     const auto projection = surface_.project(x);

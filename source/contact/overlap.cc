@@ -27,7 +27,7 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Overlap over the chords of both faces, up to which faces that fit each other start: heights of
+  /// Overlap over the chords of both faces, up to which faces that fit each other start. Heights of
   /// chords neglect higher powers of the facet size over the radius.
   static constexpr double beyond_chords = 1.01;
   /// Depth of the middle of a facet over that of its edges: on a sphere, chords of both directions
@@ -59,7 +59,7 @@ public:
                 mapping_.transform_real_to_unit_cell(elements_[e].cell, x), tolerance))
           ++n;
       } catch (const dealii::Mapping<3>::ExcTransformationFailed &) {
-        // Far outside a distorted element.
+        // The point is far outside a distorted element.
       }
     });
     return n;

@@ -151,7 +151,7 @@ SurfaceExchange::Parcel SurfaceExchange::pack(const Positions &positions_n, cons
   BoundingBox all = BoundingBox::empty();
   for (const auto &box : boxes)
     all.add(box);
-  // In the parcel.
+  // Index in the parcel.
   std::vector<unsigned int> index(node_keys_.size(), static_cast<unsigned int>(-1));
   for (std::size_t f = 0; f < n_own_facets_; ++f) {
     SurfaceFacet facet = facets_[f];

@@ -14,8 +14,8 @@ struct Limits {
   /// Thickness over size up to which a tool is one flat surface: boxes of CAD faces reach a
   /// tolerance beyond them.
   static constexpr double flat = 1e-6;
-  /// Parts of the thickness. Paths that enter less than `deep` only graze the tool; the path is
-  /// looked at in increments of `fine` where the tool is near; above `middle` the other side is
+  /// Parts of the thickness. Paths that enter less than `deep` only graze the tool. The path is
+  /// looked at in increments of `fine` where the tool is near. Above `middle` the other side is
   /// about as near.
   static constexpr double deep = 0.1, fine = 0.125, middle = 0.45;
   /// Cosine: a node in one side of a square edge may enter through the other.

@@ -133,7 +133,7 @@ StartGaps ToolMeasures::start_gaps() const {
              node.size, InitialOverlap::counted(node.initial_penetration, parts_.step.allowed_part));
   }
   for (std::size_t i = reports.size(); i < parts_.slaves.nodes.size(); ++i) {
-    // Points inside facets.
+    // These are points inside facets.
     const ContactPoint &point = parts_.slaves.nodes[i];
     gaps.add(0., 0., 0., point.size,
              InitialOverlap::counted(point.initial_penetration, parts_.step.allowed_part));

@@ -17,7 +17,7 @@ namespace billet {
 namespace {
 
 constexpr double little_weight = 1e-14; ///< of a constraint in a combination: round-off
-/// Allowed of prescribed displacements, over the scene's radius.
+/// Allowed disagreement of prescribed displacements, over the scene's radius.
 constexpr double disagreement = 1e-8;
 
 /// Returns what is wrong with prescribed displacements.

@@ -58,7 +58,7 @@ template <class Position> Point<3> place_of(const FacetPoint &point, const Posit
 }
 
 /// Returns the values of the expressions at the facet_points() of faces, one set after the other
-/// for each face; only those of one face for uniform expressions.
+/// for each face. Returns only those of one face for uniform expressions.
 LoadValues evaluate_at_points(const AppliedLoad &load, const double time,
                               const std::vector<LoadedFace> &faces, const double *positions) {
   const double t = time_of_values(load, time);
@@ -151,7 +151,7 @@ std::unique_ptr<LoadedSurface> whole_of(const OwnSelection &selection) {
   return whole;
 }
 
-/// Refuses a moment on nodes on one line, or on one node: their forces have no moment about the
+/// Refuses a moment on nodes on one line, or on one node. Their forces have no moment about the
 /// line, and how they turn about it is unknown.
 void check_spread(const AppliedLoad &load) {
   constexpr double least = 1e-3; // distance from the line, in parts of the length along it

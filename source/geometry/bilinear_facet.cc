@@ -104,7 +104,7 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
     return 0.5 * std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
   };
   const Tensor<1, 3> arm = surface_.e_0 - x;
-  // Keeps the end of the range outside the tolerance.
+  // This keeps the end of the range outside the tolerance.
   const double range = 1.1 + 2. * limits.tolerance;
   std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
   const std::array<bool, 2> is_undefined = surface_.undefined_at(at);

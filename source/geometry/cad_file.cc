@@ -48,8 +48,9 @@ public:
 private:
   void take() {
     const char c = text_[at_];
+    // A quote in a text is written twice, as if a text ended and another began.
     if (c == '\'')
-      at_ = after("'", at_ + 1); // a quote in a text is written twice, as if a text ended and another began
+      at_ = after("'", at_ + 1);
     else if (text_.compare(at_, 2, "/*") == 0)
       at_ = after("*/", at_ + 2);
     else if (c == '#')

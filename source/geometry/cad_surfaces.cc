@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Faces from CAD files, by the OpenCASCADE with which deal.II may have been built. Projections onto
-// planes, cylinders, cones, spheres and tori are in closed form; those onto other surfaces use
+// planes, cylinders, cones, spheres and tori are in closed form. Those onto other surfaces use
 // Newton's method from the nearest facet of a triangulation.
 #include "billet/errors.h"
 #include "billet/geometry/cad_file.h"
@@ -171,7 +171,7 @@ SampledSurface sample(const TopoDS_Face &face, const GeomAdaptor_Surface &surfac
 }
 
 /// Returns the parameters of the nearest point on that sheet of a cone which contains the middle of
-/// the face; ElSLib may choose the other one.
+/// the face. ElSLib may choose the other one.
 TrimmedSurface::Parameters project(const gp_Cone &cone, const double sheet, const Tensor<1, 3> &x) {
   const gp_Ax3 &axes = cone.Position();
   const Tensor<1, 3> arm = x - tensor(axes.Location());

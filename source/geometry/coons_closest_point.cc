@@ -93,8 +93,8 @@ struct CoonsPatch::Block {
 };
 
 /// Whether the cell may contain a point nearer to x than `distance`. It uses the hull of the cell's
-/// corners plus the slack, projected on `arm`, the vector from the cell's middle to x, whose square
-/// is given.
+/// corners plus the slack, projected on `arm`. This is the vector from the cell's middle to x,
+/// whose square is given.
 bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const double square,
                                const double distance) const {
   double towards = -infinity;
@@ -105,10 +105,10 @@ bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const d
   return square == 0. || square - towards < distance * std::sqrt(square);
 }
 
-/// Whether no point of the block is nearer to x than `foot`, a minimum in it. For X = foot + X_α
-/// δ^α + B, if d = x − foot makes no acute angle with X_α δ^α,
-///   |X − x|² − d² >= (|X_α δ^α| − |B|)² − 2 d·B,
-/// with 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`. d·X_αβ is its value at the
+/// Whether no point of the block is nearer to x than `foot`, a minimum in it. Let X = foot + X_α
+/// δ^α + B. If d = x − foot makes no acute angle with X_α δ^α,
+///   |X − x|² − d² >= (|X_α δ^α| − |B|)² − 2 d·B.
+/// Here 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`. d·X_αβ is its value at the
 /// foot plus a change bounded by third derivatives. All quantities use lengths a, b instead of u,
 /// v.
 bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block) const {

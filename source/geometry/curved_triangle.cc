@@ -108,8 +108,8 @@ double CurvedTriangle::max_turning_part() const {
 
 bool CurvedTriangle::is_farther(const Point &x, const double square) const {
   constexpr double third = 1. / 3.;
-  const Point arm = x - origin_,
-              view = arm - third * (u_ + v_) - third * third * (uu_ + uv_ + vv_); // from near the centroid
+  // `view` is from near the centroid.
+  const Point arm = x - origin_, view = arm - third * (u_ + v_) - third * third * (uu_ + uv_ + vv_);
   // Control points relative to the first corner.
   const double u = u_ * view, v = v_ * view, uu = uu_ * view, uv = uv_ * view, vv = vv_ * view;
   double farthest = std::max({0., 0.5 * u, 0.5 * v, u + uu, v + vv, 0.5 * (u + v + uv)});

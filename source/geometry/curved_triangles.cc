@@ -12,8 +12,8 @@ namespace {
 
 constexpr double mesh_angle = M_PI / 18.;
 
-/// Returns the bend of an edge with chord d. m_0 and m_1 are the tangents' slopes towards `up` at
-/// its start and end [times a length].
+/// Returns the bend of an edge with chord d. The tangents' slopes towards `up` at its start and end
+/// are m_0 and m_1 [times a length].
 Tensor<1, 3> bend(const Tensor<1, 3> &d, const Tensor<1, 3> &up, const double m_0, const double m_1) {
   const double sum = m_0 + m_1;
   if (m_0 * m_1 <= 0. || std::abs(m_0 * m_1 / sum) < 1e-10 * d.norm())
@@ -135,7 +135,7 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
 }
 
 /// Straightens the edges of facets whose triangles would fold over, since the normals are too far
-/// from that of the facet; then those of neighbours that fold as a consequence.
+/// from that of the facet. Then straightens those of neighbours that fold as a consequence.
 void CurvedTriangles::straighten_where_folded() {
   for (bool continues = true; continues;) {
     continues = false;

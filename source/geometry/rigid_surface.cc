@@ -131,7 +131,7 @@ RigidSurface::Projection RigidSurface::project_beyond_edge(const Tensor<1, 3> &x
   Projection projection{true, around.mean, arm * around.mean, around.turning, patch};
   if (around.sharpness < smooth || around.sharpness * distance <= tolerance_) {
     const double aside = (arm - projection.gap * around.mean).norm();
-    // None if past the seam's end.
+    // There is none past the seam's end.
     return aside > 2. * smooth * distance + tolerance_ ? none : projection;
   }
   projection.gap = projection.gap < 0. ? -distance : distance;

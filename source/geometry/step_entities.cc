@@ -80,9 +80,9 @@ const char *name_of(const Kind kind) {
   return "another entity";
 }
 
-/// Entity of shapes: how many parameters it has, which of them, counted from 0, are lengths > 0,
-/// and what those are that refer to entities, by themselves or in a list. Source: ISO 10303-42,
-/// sections 4 and 5.
+/// Entity of shapes. It has the number of its parameters and which of them, counted from 0, are
+/// lengths > 0. It has the kinds of those that refer to entities, alone or in a list. Source: ISO
+/// 10303-42, sections 4 and 5.
 struct EntityRule {
   Kind kind;
   std::size_t n_parameters;

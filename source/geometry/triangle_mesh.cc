@@ -94,7 +94,7 @@ bool TriangleMesh::has_area() const {
 
 double TriangleMesh::six_volumes() const {
   double sum = 0.;
-  // Reduces cancellation.
+  // This reduces cancellation.
   const Tensor<1, 3> origin = points.empty() ? Tensor<1, 3>() : points.front();
   for (const auto &facet : facets)
     sum += (points[facet[0]] - origin) * dealii::cross_product_3d(Tensor<1, 3>(points[facet[1]] - origin),

@@ -122,8 +122,8 @@ template <bool has_directions, bool is_thermal> struct FlowRulePlasticity<has_di
   PrincipalElasticState principal; ///< of M
   SymmetricTensor<2, 3> strain;    ///< dev ½ ln M
 
-  /// Returns the gradient of the rate that symmetric d of space has in that frame, d − Ω with the
-  /// spin Ω of the rotation, (H14) of doc/theory.md.
+  /// Returns the gradient of the rate that symmetric d of space has in that frame, (H14) of
+  /// doc/theory.md. It is d − Ω with the spin Ω of the rotation.
   Tensor<2, 3> gradient_of(const SymmetricTensor<2, 3> &d, const bool is_turned) const {
     Tensor<2, 3> L = d;
     if (!is_turned)

@@ -152,7 +152,7 @@ public:
 
 private:
 #ifdef __SSE2__
-  // Of MXCSR: subnormal results and operands become zero.
+  // Bits of MXCSR: subnormal results and operands become zero.
   static constexpr unsigned int bits = 0x8040;
   unsigned int before_;
 #endif
@@ -302,8 +302,8 @@ public:
       const PointState &state = states[q % states.size()];
       compute_distortion(state.tensor, stress[q].deviator);
       stress[q].equivalent_plastic_strain = state.equivalent_plastic_strain;
-      if (flow_ != nullptr)
-        stress[q].memory = flow_->numbers_of(state.flow); // as the memory of all laws that kernels have
+      if (flow_ != nullptr) // as the memory of all laws that kernels have
+        stress[q].memory = flow_->numbers_of(state.flow);
     }
     return stress;
   }

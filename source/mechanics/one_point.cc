@@ -240,8 +240,9 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
   add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, modal);
 
   const SharedYield &yield = stabilisation.yield;
-  const auto flow = multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share),
-                                       kinematics.gradients); // change of δτ by the trial's δ(energy)
+  // Change of δτ by the trial's δ(energy).
+  const auto flow =
+      multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share), kinematics.gradients);
 
   const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
   const HourglassVector &c = kinematics.strain, &s = stabilisation.stress;

@@ -684,9 +684,9 @@ private:
   AbaqusSets node_sets_, element_sets_;
   std::unordered_map<long long, Element> elements_;
   std::vector<Surface> surfaces_;
-  /// Set of nodes, set of elements.
+  /// Pairs of a set of nodes and a set of elements.
   std::vector<std::pair<std::string, std::string>> nodes_of_elements_;
-  /// By kind, and name in lower case.
+  /// Index by kind and by name in lower case.
   std::map<std::pair<std::string, std::string>, std::size_t> groups_;
   std::set<std::string> sections_; ///< sets of elements with a section, in lower case
   GroupNumbers numbers_;

@@ -482,7 +482,7 @@ private:
   int version_ = 0; ///< 1, 2, 40 or 41; 0: unknown
   bool is_binary_ = false, has_entities_ = false;
   std::int32_t last_ = 0; ///< the last number of four bytes
-  /// Of physical groups, by their dimension.
+  /// Names of physical groups, by their dimension.
   std::array<std::map<long long, std::string>, 4> names_;
   /// Physical groups of the geometry's points, curves, surfaces and volumes.
   std::array<std::map<long long, std::vector<long long>>, 4> physical_;

@@ -85,8 +85,8 @@ void drop_unused_nodes(MeshFile &mesh) {
   renumber(mesh, new_index);
 }
 
-/// Returns for each node the first node within a distance of it, which is the smaller one of the
-/// radii of both: itself if there is none.
+/// Returns for each node the first node within a distance of it, or itself if there is none. The
+/// distance is the smaller one of the radii of both.
 std::vector<unsigned int> nearest_first(const MeshFile &mesh, const std::vector<double> &radii) {
   const auto &x = mesh.positions;
   std::vector<unsigned int> first(x.size());

@@ -251,9 +251,9 @@ public:
         coordinates);
   }
 
-  /// Returns the coordinates of a point of an element moved onto the exterior face on which it is,
-  /// or that is less than a hundredth of the element away; none inside the body. A node keeps its
-  /// place.
+  /// Returns the coordinates of a point of an element moved onto the exterior face on which it is.
+  /// The face may be less than a hundredth of the element away. Returns none inside the body. A
+  /// node keeps its place.
   static std::optional<dealii::Point<3>> on_surface(const Element &element,
                                                     const dealii::Point<3> &coordinates) {
     constexpr double near = 0.01, at_node = 1e-9;

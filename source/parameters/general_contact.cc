@@ -136,7 +136,7 @@ std::vector<std::string> group_of(const std::string &key) {
   for (const auto &type : friction_law_types())
     for (const auto &parameter : type.parameters)
       friction.push_back(parameter.key);
-  // It needs friction, and has the unit of the normal penalty.
+  // The tangential penalty needs friction, and has the unit of the normal penalty.
   std::vector<std::string> tangential = friction;
   const std::vector<std::string> penalties = {"Penalty unit", "Normal penalty", "Tangential penalty"};
   tangential.insert(tangential.end(), penalties.begin(), penalties.end());

@@ -50,9 +50,11 @@ constexpr std::array<Row, 34> rows = {{
     // Steps. Iterations alone control the steps of `fast`; their maximum is such that a step does
     // not need more iterations than two of half the length. Steps of `balanced` are half as long
     // where the forces may depend on them. That halves the error of plastic scenes, and takes 0.8
-    // to 1.7 times the iterations. Error estimates control the steps of `accurate`. In elastic
-    // bodies without friction they alone suffice. They do not see what lies between the ends of
-    // steps, which matters where friction makes curved paths.
+    // to 1.7 times the iterations.
+    //
+    // Error estimates control the steps of `accurate`. In elastic bodies without friction they
+    // alone suffice. They do not see what lies between the ends of steps, which matters where
+    // friction makes curved paths.
     {statics_with_path, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.04 T"},
     {statics_with_slip, "Time stepping", "Initial step", "0.05 T", "", "0.02 T", "0.1 T"},
     {statics_with_folds, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.02 T"},

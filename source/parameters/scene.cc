@@ -200,7 +200,7 @@ private:
 /// Notes names of bodies and tools that the scene does not have.
 void check_names(const Scene &scene, Reader &reader) {
   const auto check_name = [&reader](const auto &list, const Located<std::string> &name) {
-    // Otherwise what has it has other errors, or none.
+    // Otherwise the entry has other errors, or none.
     if (!name.origin.empty() && !name.value.empty())
       reader.note_errors([&] { index_of(list, name); });
   };

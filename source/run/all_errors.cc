@@ -202,10 +202,10 @@ private:
     return std::nullopt;
   }
 
-  /// Gives a parameter a value that stands for the wrong one, or for the missing one of a load, so
-  /// that other errors of its part are found: the one that the user probably meant, a number of a
-  /// material, or the default of a support or a load. Returns false if it cannot, or has done so
-  /// before.
+  /// Gives a parameter a value that stands for the wrong one, or for the missing one of a load.
+  /// Thus other errors of its part are found. The value is the one that the user probably meant, a
+  /// number of a material, or the default of a support or a load. Returns false if it cannot, or
+  /// has done so before.
   bool mend(const SceneFile::Place &place, const SceneFault &fault) {
     const std::string kind = at(place.path, 2);
     const std::optional<std::string> size = default_of_load(place);
@@ -240,7 +240,7 @@ private:
         keys_.insert({{}, other});
     if (place.key.empty())
       return;
-    // Of an unknown one.
+    // Key of an unknown entry.
     const std::string key = fault.suggestion.empty() ? place.key : fault.suggestion;
     for (const std::string &one : {place.key, key}) {
       keys_.insert({place.path, one});
@@ -387,7 +387,7 @@ DiagnosticList find_all_errors(const SceneSource &source, const DiagnosticList &
     } catch (const InputError &error) { // on all ranks
       errors = error.diagnostics();
     } catch (const std::exception &) {
-      // On all ranks: the rest is no scene that anybody would write.
+      // This occurs on all ranks: the rest is no scene that anybody would write.
       break;
     }
   return rest->report(is_sound);

@@ -215,7 +215,7 @@ Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, con
                                const double to, const bool is_unstable) {
   const parameters::Scene &parameters = scene.parameters();
   const NewtonReport &newton = report.newton;
-  // Which is not the iterations.
+  // Whether there is a cause other than the iterations.
   const bool has_cause = newton.is_lost_in_round_off || newton.is_explained();
   std::ostringstream what, results;
   what << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "

@@ -30,7 +30,7 @@ namespace {
 /// One surface of a pair, undeformed, from all ranks.
 struct PairSurface {
   std::vector<Tensor<1, 3>> nodes; ///< by ascending keys
-  /// Of the nodes: unit vectors along the areas around.
+  /// Unit vectors at the nodes along the areas around.
   std::vector<Tensor<1, 3>> normals;
   std::vector<std::array<Tensor<1, 3>, 4>> facets; ///< by ascending keys
   /// Square root of the facets' mean area [length].

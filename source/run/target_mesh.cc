@@ -172,7 +172,7 @@ private:
         throw;
       leave_out(failure.diagnostic());
     } catch (const InputError &error) {
-      // On all ranks: coarse faces may miss what boundary ids select.
+      // This occurs on all ranks: coarse faces may miss what boundary ids select.
       if (level >= 0)
         throw;
       leave_out(error.diagnostic());

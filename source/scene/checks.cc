@@ -340,7 +340,7 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
         return;
       const double h = std::sqrt(face->measure());
       for (const unsigned int v : face->vertex_indices()) {
-        // None: positive.
+        // It is positive if there is none.
         const double gap = tool.surface().project(start.to_tool(face->vertex(v))).gap;
         if (gap / h < deepest / size_there) {
           deepest = gap;

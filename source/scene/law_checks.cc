@@ -73,7 +73,8 @@ dealii::Tensor<1, 3> find_point(const parameters::SymmetryPlane &plane) {
 }
 
 /// Returns the norm of the difference of the stresses at a yielding point and at its mirror image
-/// about a plane through it, over that of the stress; nothing if the law refuses the strains.
+/// about a plane through it. It is relative to the norm of the stress. Returns nothing if the law
+/// refuses the strains.
 std::optional<double> find_asymmetry(const PointLaw &law, const double temperature, const double dt,
                                      const parameters::SymmetryPlane &plane) {
   const dealii::Tensor<1, 3> &normal = plane.normal;

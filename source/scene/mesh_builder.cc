@@ -347,7 +347,7 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
 namespace {
 
 /// Refuses 'Positions' that leave no volume. An outline may have none where the full mesh has one,
-/// such as a bar that is rolled to a ring: then the full mesh tells.
+/// such as a bar that is rolled to a ring. Then the full mesh decides.
 void check_positions(const parameters::Body &body, const MeshDetail detail, const Triangulation<3> &mesh) {
   const std::string axis = missing_extent(mesh);
   if (body.mesh.positions.value.empty() || axis.empty())

@@ -66,7 +66,7 @@ private:
 struct Start {
   std::vector<Box> boxes;                               ///< by body
   std::vector<double> sizes, speeds, sections, volumes; ///< by body
-  /// By body: minimum time in which a wave crosses an element, up to a factor.
+  /// Minimum time in which a wave crosses an element, by body and up to a factor.
   std::vector<double> steps;
   double size = 0.;                 ///< of all bodies together
   std::vector<double> penetrations; ///< penetration by pair with a tool [facet sizes]

@@ -199,7 +199,7 @@ void check_wedges(const std::vector<parameters::Body> &bodies) {
   }
 }
 
-/// Refuses layers in plane strain that do not have the same sides: a load on one would bear on a
+/// Refuses layers in plane strain that do not have the same sides. A load on one would bear on a
 /// part of the width of the other.
 void check_layers(const std::vector<parameters::Body> &bodies) {
   constexpr double rounding = 1e-9;

@@ -302,8 +302,8 @@ private:
                       {zero.data(), zero.data(), zero.data()}, force.data());
     return get_vector(force.data(), 0);
   }
-  /// Returns the moment of a load on a surface at rest: with J = I its force on the share p is m ×
-  /// p, and Σ e × (m × e) = 2 m over the unit vectors e.
+  /// Returns the moment of a load on a surface at rest. With J = I its force on the share p is
+  /// m × p, and Σ e × (m × e) = 2 m over the unit vectors e.
   static Tensor<1, 3> moment_of(const SurfaceLoad &action, const std::vector<double> &values) {
     LoadedSurface surface;
     surface.area = 1.;

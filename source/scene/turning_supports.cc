@@ -29,8 +29,8 @@ const DiagnosticKind support_moves_straight(
     "Hold radius and circumference in one support, which then turns its nodes about the axis, or turn by "
     "less");
 
-/// Returns an expression of x, y and z for the distance from the line of cylindrical axes: |a × (x
-/// − p)|.
+/// Returns an expression of x, y and z for the distance from the line of cylindrical axes:
+/// |a × (x − p)|.
 std::string radius_text(const Axes &axes) {
   const Tensor<1, 3> origin, a = axes.at(origin)[2], p = -axes.radius(origin) * axes.at(origin)[0];
   std::ostringstream text;

@@ -29,9 +29,9 @@ struct SpreadLimits {
   static constexpr double enough = 5.;
   /// Indentation, as part of the deformation, below which the number of nodes does not matter.
   static constexpr double counts = 0.05;
-  /// Force over its maximum so far, below which that maximum is past, and the part of all energy
-  /// that the deformation at the maximum has at least. Lesser maxima are those of waves before the
-  /// impact's own.
+  /// Force over its maximum so far, below which that maximum is past. The second number is the part
+  /// of all energy that the deformation at the maximum has at least. Lesser maxima are those of
+  /// waves before the impact's own.
   static constexpr double past = 0.5, of_all_energy = 0.1;
   /// Part of the force on curves with coarse facets above which they are reported.
   static constexpr double much = 0.5;

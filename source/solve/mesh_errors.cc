@@ -43,8 +43,8 @@ Tensor<1, 3> node_of(const ElementVectors &vectors, const unsigned int a) {
   return Tensor<1, 3>({vectors[3 * a], vectors[3 * a + 1], vectors[3 * a + 2]});
 }
 
-/// Returns the gradient at a point of an element, in its coordinates from −1 to 1, of its nodal
-/// vectors, and 8 times the Jacobian there; at the centre, that is its volume.
+/// Returns the gradient of an element's nodal vectors at a point in its coordinates from −1 to 1.
+/// Also returns 8 times the Jacobian there, which at the centre is its volume.
 std::pair<Tensor<2, 3>, double> gradient_at(const Tensor<1, 3> &place, const ElementVectors &positions,
                                             const ElementVectors &values) {
   Tensor<2, 3> jacobian, derivatives; // ∂x_i/∂ξ_j, ∂v_i/∂ξ_j

@@ -123,7 +123,7 @@ public:
 
 private:
   /// Returns a residual over the forces, or over those that round-off of displacements causes, if
-  /// the forces are smaller: then there are none to relate it to.
+  /// the forces are smaller. Then there are none to relate it to.
   double relative(const double norm, const double scale) const {
     const double reference = std::max(scale, problem_.round_off_force());
     return reference > 0. ? norm / reference : 0.;

@@ -67,7 +67,7 @@ std::vector<StateField> read_fields(const StateReader &reader) {
 }
 
 /// Returns, for each number of a law's state, its place among the numbers of the same fields in
-/// another order; nothing if they are not the same fields.
+/// another order. Returns nothing if they are not the same fields.
 std::optional<std::vector<std::size_t>> find_places(const std::vector<StateField> &then,
                                                     const std::vector<StateField> &now) {
   std::vector<std::size_t> places;

@@ -114,9 +114,9 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   return combine(factors);
 }
 
-/// Returns the point of the cone r z >= 0 for all rows that is nearest to `aim`, whose length is at
-/// most 1; none if that is 0. By Moreau's decomposition it is the aim plus non-negative multiples
-/// of the rows. The method is coordinate descent.
+/// Returns the point nearest to `aim` of the cone of z with r z >= 0 for all rows. The length of
+/// `aim` is at most 1. Returns none if that point is 0. By Moreau's decomposition it is the aim
+/// plus non-negative multiples of the rows. The method is coordinate descent.
 std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector<double> aim) {
   std::vector<double> weights(rows.size(), 0.);
   double before = std::sqrt(dot(aim, aim));

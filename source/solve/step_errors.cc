@@ -27,9 +27,9 @@ struct Factors {
   static constexpr double growth_of_errors = 1.4;
   /// Sum of 1, 1/2, 1/4, ...: of errors that fade by half in each pair of steps.
   static constexpr double sum_of_halves = 2.;
-  /// Limits of the error rate, as factors of an even rate; the minimum also grows with (span /
-  /// left)², since errors late in the run add little to the integral. Forces may change until the
-  /// end, so the allowance is neither saved at any cost nor spent at once.
+  /// Limits of the error rate, as factors of an even rate. The minimum also grows with
+  /// (span / left)², since errors late in the run add little to the integral. Forces may change
+  /// until the end, so the allowance is neither saved at any cost nor spent at once.
   static constexpr double min_rate = 0.2, max_rate = 6.;
   /// Minimum and maximum factor of a change of the step.
   static constexpr double min_stretch = 0.5, max_stretch = 4.;
@@ -93,7 +93,7 @@ double StepErrors::allowed_rate(const ForceCourse &course) const {
   //   ∫ e dt = I + e t' + ½ r t'²,   ∫ Σ|F| dt = W + S t',   t' what is left of the time.
   const double span = course.span(), left = course.end_time() - course.time(), scale = course.scale();
   const double even = 2. * rules_.tolerance * scale / span;
-  // The minimum is the maximum.
+  // Then the minimum is the maximum.
   if (!(Factors::min_rate * span * span < Factors::max_rate * left * left))
     return Factors::max_rate * even;
   const double rate = 2. *

@@ -30,10 +30,10 @@ struct NodalGeometry {
 /// (1) is symmetric on them. The convergence then depends on the Schur complements of both matrices
 /// on the other dofs: their relative condition number is bounded for any penalty.
 ///
-/// A hierarchy is kept for later matrices while it converges well: per iteration the logarithm of
-/// the residual falls by at least `min_pace` of the initial rate. A_ΓΓ and the residuals on the
-/// finest level always belong to the present matrix. A solve that fails with an old hierarchy is
-/// repeated with a new one.
+/// A hierarchy is kept for later matrices while it converges well. It does so while the logarithm
+/// of the residual falls per iteration by at least `min_pace` of the initial rate. A_ΓΓ and the
+/// residuals on the finest level always belong to the present matrix. A solve that fails with an
+/// old hierarchy is repeated with a new one.
 class IterativeSolver final : public LinearSolver {
 public:
   struct Settings {

@@ -49,11 +49,13 @@ using NewtonJudge =
 struct NewtonOptions {
   /// Part of the scale; no linear solution is more accurate than half of that.
   double residual_tolerance;
-  double linear_tolerance;            ///< of linear solutions; with `adapts_tolerance` the smallest one
+  /// Tolerance of linear solutions; with `adapts_tolerance` the smallest one.
+  double linear_tolerance;
   double max_linear_tolerance = 1e-2; ///< the loosest, with `adapts_tolerance`
-  /// To the convergence of the iterations, after Eisenstat and Walker.
+  /// Whether linear tolerances follow the convergence of the iterations, after Eisenstat and
+  /// Walker.
   bool adapts_tolerance = false;
-  /// Line search: shortens corrections at whose end the residual does more work.
+  /// Line search: whether it shortens corrections at whose end the residual does more work.
   bool searches_lines = false;
 };
 

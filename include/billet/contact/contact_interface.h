@@ -23,10 +23,10 @@ struct FrictionAccounting;
 /// A contact pair: a body and a rigid tool, two bodies, or a body with itself.
 ///
 /// A step calls start_step(), then update() at any displacements and queries about the last
-/// update(), then commit(). This class advances the pair, and its roles have the rest: the forces
-/// of a scheme, with_matrix() or without_matrix(), of which a pair has one; and penalties(),
-/// measures() and checks(), of the last update() like the forces. Virtual functions are called once
-/// per pair, never per node.
+/// update(), then commit(). This class advances the pair, and its roles have the rest. A pair has
+/// one of the forces of a scheme, with_matrix() or without_matrix(). It also has penalties(),
+/// measures() and checks(), which like the forces are those of the last update(). Virtual functions
+/// are called once per pair, never per node.
 ///
 /// Functions are local to this rank unless documented otherwise.
 class ContactInterface {

@@ -15,14 +15,14 @@ namespace billet {
 /// Load, energies and area of a contact pair.
 struct ContactLoad {
   dealii::Tensor<1, 3> force; ///< on the body, by the tool or the second body [force]
-  dealii::Tensor<1, 3>
-      moment;       ///< about the tool's moved centre; for two bodies, about the origin [force length]
-  double area = 0.; ///< current area in contact [length²]
+  /// Moment about the tool's moved centre; for two bodies, about the origin [force length].
+  dealii::Tensor<1, 3> moment;
+  double area = 0.;          ///< current area in contact [length²]
   double stored_energy = 0.; ///< in the penalty springs [energy]
   double dissipation = 0.;   ///< by friction in this step [energy]
-  /// By the tangential springs in this step, see FrictionAccount [energy].
+  /// Work of the tangential springs in this step, see FrictionAccount [energy].
   double damping = 0.;
-  /// On the springs, by gap offsets that fade in this explicit step [energy].
+  /// Work on the springs by gap offsets that fade in this explicit step [energy].
   double ramp_work = 0.;
   double deepest = 0.; ///< maximum penetration [length]
 
@@ -102,10 +102,10 @@ struct ContactNodeReport {
   double pressure, gap, slip;
   double area; ///< this rank's share
   dealii::Tensor<1, 3> traction;
-  /// Where it presses: into the surface itself, regardless of augmentation.
+  /// Penetration where it presses: into the surface itself, regardless of augmentation.
   double penetration = 0.;
   double facet_size = 0.; ///< of the facets around it
-  /// Of the spring that it sticks to; 0 without friction [force/length³].
+  /// Stiffness of the spring that it sticks to; 0 without friction [force/length³].
   double tangential_stiffness = 0.;
   /// Change of the tool's normal along a facet there, over its size [1/length].
   double curvature = 0.;

@@ -50,8 +50,9 @@ public:
   using VisitSupporting = std::function<void(const SupportingPoint &, std::size_t body, std::size_t other)>;
   /// Visits the points in contact; none for self-contact.
   virtual void visit_supporting(const VisitSupporting &visit) const = 0;
-  /// Returns the maximum motion over the step, relative to the touched surface and beyond
-  /// `expected` [length], of a node that pressed at its start [facet sizes]; at least 0.
+  /// Returns the maximum motion over the step of a node that pressed at its start, at least 0
+  /// [facet sizes]. The motion is relative to the touched surface, and counts beyond `expected`
+  /// [length].
   virtual double max_sliding(double expected) const = 0;
   /// Returns the sums of tangential forces and of their limits over the nodes that press.
   virtual FrictionUse friction_use() const { return {}; }

@@ -27,12 +27,14 @@ struct SurfaceSide {
 /// surface. It has gone through if it came in from the front and is too deep, or nearer to another
 /// side of the wall.
 ///
-/// The method is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996, ch. 2):
-/// a node in front at distance d meets nothing along the next length d of its path. `locate(s)`
+/// The method is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996, ch. 2).
+/// A node in front at distance d meets nothing along the next length d of its path. `locate(s)`
 /// returns its side after part s of the motion; `length` bounds its path relative to any point of
 /// the surface. Near the surface and behind it, increments are at least `finest` and 1e-4 of the
 /// motion. This bounds the cost of corrections by a nearly singular matrix, which may have any
-/// size. The returned part is below the limit by at most 1/32 of this minimum.
+/// size.
+///
+/// The returned part is below the limit by at most 1/32 of this minimum.
 ///
 /// The signed distance is continuous where a node goes through the surface, and jumps where it
 /// comes in from beyond the edge. Only the first case counts. A node that is too deep at the start

@@ -25,8 +25,8 @@ struct EdgeFading {
   double stiffness; ///< bound of the norm of `tangent` [stress/length]
 };
 
-/// Returns the fading at the position `edge_point`, for a `gap` to the surface and a `width` w of
-/// the zone in which the pressure fades [length]. Requires border.beyond < width.
+/// Returns the fading at the position `edge_point`, for a `gap` to the surface. The pressure fades
+/// in a zone of the `width` w [length]. Requires border.beyond < width.
 EdgeFading compute_edge_fading(const RigidSurface::EdgePoint &edge_point, double width,
                                const HardeningSpring &penalty, double gap);
 

@@ -27,9 +27,9 @@ public:
   /// contact between bodies adds none.
   virtual void add_start_crossings(Crossings & /*crossings*/, const NodalVectors & /*velocities*/,
                                    double /*step*/) const {}
-  /// Returns Σ a·k a of the penalties against a tool that translates along its force's direction,
-  /// or rotates about its axis [force/length, or force length]. a is the change of a node's gap and
-  /// slip for a unit of that motion. Returns 0 without such a tool.
+  /// Returns Σ a·k a of the penalties against a tool [force/length, or force length]. The tool
+  /// translates along its force's direction, or rotates about its axis. Here a is the change of a
+  /// node's gap and slip for a unit of that motion. Returns 0 without such a tool.
   virtual double stiffness_against_tool() const { return 0.; }
   /// Starts a pair that is new at the start of a step, as if it had existed without contact.
   /// Collective.

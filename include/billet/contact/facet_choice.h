@@ -55,18 +55,21 @@ struct GapOffset {
 /// A node can touch a facet if it projects onto it, is behind it, and faces it. It must have come
 /// through a facet that it has not touched before. At the start of the step it was then in front of
 /// the facet, or behind it by at most its reach. Thus a wall does not stick to its own far side,
-/// and a fast node is not lost. A node that was behind the facet by more than round-off has come in
-/// from the side. It touches the facet with an offset; otherwise it would be ejected.
+/// and a fast node is not lost.
+///
+/// A node that was behind the facet by more than round-off has come in from the side. It touches
+/// the facet with an offset; otherwise it would be ejected.
 ///
 /// The order is that of Bittencourt & Creus (1998): the last facet, then those around it, then the
 /// candidates for nodes that still touch nothing. Among several facets at one stage, the one with
 /// the least penetration counts at a convex edge, or for the two sides of a wall. There the middle
 /// of one facet lies behind the other's plane. Otherwise, at a concave edge, the node must leave
-/// both facets, and the one with the larger penetration counts. Unlike in the paper, this rule may
-/// also replace the last facet at concave edges. Otherwise a node that slides along one flank would
-/// go through the other. A facet that the node has come through and that faces it much better may
-/// also replace the last one. Facets that are nearly coplanar with the last one need not be
-/// checked.
+/// both facets, and the one with the larger penetration counts.
+///
+/// Unlike in the paper, this rule may also replace the last facet at concave edges. Otherwise a
+/// node that slides along one flank would go through the other. A facet that the node has come
+/// through and that faces it much better may also replace the last one. Facets that are nearly
+/// coplanar with the last one need not be checked.
 ///
 /// Where facets meet smoothly, either choice is valid: share_facets() combines them.
 ///

@@ -12,7 +12,7 @@ struct FacetContactLoad {
   dealii::Tensor<1, 3> moment; ///< the same about the origin [force length]
   double stored_energy = 0.;   ///< in the penalty springs [energy]
   double dissipation = 0.;     ///< by friction in this step [energy]
-  /// By the tangential springs in this step, see FrictionAccount [energy].
+  /// Work of the tangential springs in this step, see FrictionAccount [energy].
   double damping = 0.;
   double area = 0.;                     ///< of slaves in contact, over both passes [length²]
   double n_touching = 0.;               ///< slave nodes; a shared node counts on each of its ranks

@@ -15,9 +15,10 @@ public:
   /// Maximum penetration of a slave facet behind a target within a step, in reaches of the target.
   /// It allows for a poor first guess. Half of it, or of the wall, is the limit if the facet's
   /// middle was deeper than that at the start of the step. Thus a wall does not stick to its own
-  /// far side, nor to the far side of a wall that approaches from the front. Facets that are nearly
-  /// at right angles at the start of the step do not count. The face on which a box stands touches
-  /// none of its sides, whose planes it is far behind.
+  /// far side, nor to the far side of a wall that approaches from the front.
+  ///
+  /// Facets that are nearly at right angles at the start of the step do not count. The face on
+  /// which a box stands touches none of its sides, whose planes it is far behind.
   static constexpr double penetration = 10.;
 
   /// Lists the pairs that may overlap before positions move by more than `margin` relative to each

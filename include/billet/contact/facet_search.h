@@ -51,8 +51,10 @@ struct SlaveNode {
 /// Each slave has a list of candidates. It contains every facet within its reach of the node, now
 /// or on the straight paths of both since the start of the step. A list contains facets within
 /// reach + margin, so that it remains valid until nodes have moved by more than the margin relative
-/// to each other. Only then are the lists rebuilt. The displacements since then lie in a box. No
-/// relative displacement exceeds its diagonal, and no common motion enlarges it.
+/// to each other. Only then are the lists rebuilt.
+///
+/// The displacements since then lie in a box. No relative displacement exceeds its diagonal, and no
+/// common motion enlarges it.
 ///
 /// A facet is never a candidate of its own nodes, nor of the nodes of facets that share a node with
 /// it. Building the lists takes O(n log n), with a tree of the facets' boxes; a look-up costs

@@ -73,9 +73,9 @@ Number effective_area(const std::vector<FacetShareOf<Number>> &shares, const std
   return 1. / sum;
 }
 
-/// Combines normals and gaps of facets by their parts s_f, those of `shares` from index `first` on,
-/// which it scales to the sum 1:
-///   n = Σ s_f n_f/|Σ s_f n_f|,   g = Σ s_f g_f/|Σ s_f n_f|
+/// Combines normals and gaps of facets by their parts s_f. These are the parts of `shares` from
+/// index `first` on, which it scales to the sum 1:
+///   n = Σ s_f n_f/|Σ s_f n_f|,   g = Σ s_f g_f/|Σ s_f n_f|.
 /// For fixed parts, g is the gap to the mean of the planes and has the gradient n.
 template <class Number>
 SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std::size_t first) {
@@ -97,10 +97,11 @@ SharedGapOf<Number> combine(std::vector<FacetShareOf<Number>> &shares, const std
 /// Appends to `shares` the facets that share a node at x which touches `touched`. These are that
 /// facet and, if the node is within the zone of its edges, others around its nearest corner. The
 /// others meet it smoothly, and their zones contain the node. Their parts in combine() are
-/// FacetProjection::share. The result does not jump where the node slides from one facet to the
-/// next. It does not depend on the choice among them, as long as neighbours differ less than
-/// twofold in size. Its gap may be >= 0, though that of `touched` is not. A node well inside a
-/// facet costs nothing.
+/// FacetProjection::share.
+///
+/// The result does not jump where the node slides from one facet to the next. It does not depend on
+/// the choice among them, as long as neighbours differ less than twofold in size. Its gap may
+/// be >= 0, though that of `touched` is not. A node well inside a facet costs nothing.
 ///
 /// Facets do not share nodes at corners and sharp edges: there the choice decides.
 template <class Facet>

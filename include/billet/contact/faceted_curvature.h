@@ -28,9 +28,9 @@ ChordGap find_chord_gap(const Discretization &discretization, const BodyPair &pa
 
 /// Returns the tilt of an undeformed facet against its surface of revolution, or its sphere, in the
 /// scene. It is the sine of the angle between its normal and the plane through its middle and the
-/// axis, or the line to the centre. It is 0 for symmetric facets of the surface, and of second
-/// order in their angle for others, for any profile of a surface of revolution. If an axis is off
-/// by d, the maximum tilt is about d/R.
+/// axis, or the line to the centre. It is 0 for symmetric facets of the surface. For others it is
+/// of second order in their angle, for any profile of a surface of revolution. If an axis is off by
+/// d, the maximum tilt is about d/R.
 double tilt_of(const BoundaryFacet &facet, const parameters::ContactPair::Correction &correction);
 
 /// Maximum tilt of a facet of the named surface. This is about the relative error of heights above

@@ -18,9 +18,9 @@ struct FrictionAccounting {
   /// FrictionAccount::handed_over().
   bool counts_hand_over;
 
-  /// By the rule with which an integrator computes works.
+  /// Accounting by the rule with which an integrator computes works.
   static const FrictionAccounting of_motion;
-  /// For the path between two equilibria, whose works no integrator uses.
+  /// Accounting for the path between two equilibria, whose works no integrator uses.
   static const FrictionAccounting of_equilibria;
 };
 
@@ -58,6 +58,7 @@ struct FrictionStep {
 /// In statics dissipation never decreases, (I6): D = ½ A_n max(−t_n·γ, τ_n |γ|) + ½ A <−t·γ>, with
 /// φ Δg_t in γ. A node that sticks at the start slips once it bears τ_n, and not with t_n. In
 /// steady sliding this equals W above, except for the change of stored energy by a change of area.
+///
 /// A node that leaves has D = A_n <Ψ_n − ½ φ t_n·Δg_t>. `beyond` is the work of mean forces on the
 /// rest of the motion of nodes that enter or leave. `missed` is the friction work that mean forces
 /// omit for nodes that begin to slip.

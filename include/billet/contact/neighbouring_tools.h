@@ -9,7 +9,7 @@
 
 namespace billet {
 
-/// The other tools that a body may touch: where one of them continues a tool's surface, pressure
+/// The other tools that a body may touch. Where one of them continues a tool's surface, pressure
 /// does not fade beyond the edge, and no node misses it.
 class NeighbouringTools {
 public:

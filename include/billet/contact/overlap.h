@@ -38,11 +38,12 @@ struct Overlap {
 
 /// Finds the nodes of one body's faces, and points of the elements at them, that are inside
 /// elements of another body. The depth of such a point is its distance to the whole boundary of
-/// that body except its symmetry planes (among `other_constraints`). The nearest boundary need not
-/// be a contact face: a node that lies on the head of a bolt is not inside its shank. The points
-/// include some on every part of the faces' sides that the other's faces (`other_boundary_ids`) cut
-/// off. Thus they detect intersecting bodies anywhere. Collective; intended for the start only: all
-/// ranks get all of the first body's faces.
+/// that body except its symmetry planes (among `other_constraints`).
+///
+/// The nearest boundary need not be a contact face: a node that lies on the head of a bolt is not
+/// inside its shank. The points include some on every part of the faces' sides that the other's
+/// faces (`other_boundary_ids`) cut off. Thus they detect intersecting bodies anywhere. Collective;
+/// intended for the start only: all ranks get all of the first body's faces.
 Overlap find_overlap(const Discretization &discretization, std::size_t body,
                      const std::vector<unsigned int> &boundary_ids, std::size_t other_body,
                      const std::vector<unsigned int> &other_boundary_ids,

@@ -21,8 +21,9 @@ inline bool any_touches(const CornerStates &states) {
                      [](const ToolContactState *state) { return state->status != ContactStatus::open; });
 }
 
-/// Area shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet, ν its outward area
-/// vector and n_a the normal of the tool at corner a. The share of a corner without contact is 0.
+/// Area shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet. ν is its outward
+/// area vector, and n_a the normal of the tool at corner a. The share of a corner without contact
+/// is 0.
 struct ProjectedAreas {
   std::array<double, 4> areas; ///< [length²]
   /// ∂A_a/∂x_b at fixed normals

@@ -28,13 +28,14 @@ namespace billet {
 ///
 /// The pressure fades beyond the edge of the tool's surface, (T3), (T4). A node beyond the edge by
 /// d keeps the part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it. The
-/// gradient of the energy ½ k s g² per area pushes it outwards by −½ k g² s′ e, where e points away
-/// from the edge. With inertia, nodes may miss the edge (MissedEdge).
+/// gradient of the energy ½ k s g² per area pushes the node outwards by −½ k g² s′ e. Here e points
+/// away from the edge. With inertia, nodes may miss the edge (MissedEdge).
 ///
-/// Facets between whose nodes the tool could enter undetected (FacetDivision) are divided, (T10):
-/// each into n × m bilinear facets, whose interior corners are contact points like nodes. A point's
-/// position is Σ N_a x_a of the facet's nodes, which take its force and its stiffness by the same
-/// N_a. All of the above applies to the parts and their corners as it does to facets and nodes.
+/// Facets are divided if the tool could enter undetected between their nodes (FacetDivision),
+/// (T10). Each is divided into n × m bilinear facets, whose interior corners are contact points
+/// like nodes. A point's position is Σ N_a x_a of the facet's nodes, which take its force and its
+/// stiffness by the same N_a. All of the above applies to the parts and their corners as it does to
+/// facets and nodes.
 ///
 /// Every rank that owns a facet at a node stores and computes the same state of the node. Points
 /// inside facets belong to one facet each, also those on its sides.

@@ -33,15 +33,15 @@ struct ContactPoint {
   HardeningSpring spring() const { return {stiffness.normal, hardening_penetration}; }
   double touching_gap; ///< of nodes that start on the tool; far below stiff-penalty penetrations
   double gap_n = 0.;   ///< at the start of the step
-  /// Of the tool's surface, where the search for the next contact point starts.
+  /// Patch of the tool's surface where the search for the next contact point starts.
   unsigned int patch = 0;
   /// λ/k of augmentation, now and at the start of the step [length]
   double multiplier_offset = 0., multiplier_offset_n = 0.;
   /// Allowed initial penetration; < 0: a gap that counts as closed.
   double initial_penetration = 0.;
-  /// At the start of the step: it has missed the tool's surface, ...
+  /// Whether it had missed the tool's surface at the start of the step.
   bool is_behind = false;
-  dealii::Tensor<1, 3> behind_at; ///< ... and was here, in the tool's coordinates
+  dealii::Tensor<1, 3> behind_at; ///< its place then, in the tool's coordinates
 
   /// Returns the displacement of a node of the mesh.
   dealii::Tensor<1, 3> displacement_in(const Vector &displacements) const {

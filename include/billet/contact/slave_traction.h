@@ -79,9 +79,9 @@ dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction 
   return tangent;
 }
 
-/// Returns the part φ = g/(g − g_n) of the step in which a node was behind a facet that it came
-/// through within the step. g is the distance now. Returns 1 if the node touched the facet at the
-/// start.
+/// Returns the part φ = g/(g − g_n) of the step in which a node was behind a facet. The node came
+/// through the facet within the step. g is the distance now. Returns 1 if the node touched the
+/// facet at the start.
 template <class Number>
 Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number> &normal,
                        const SlaveMotionOf<Number> &motion) {

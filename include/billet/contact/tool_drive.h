@@ -23,11 +23,12 @@ public:
   void add_push(const Placement &after, Vector &forces) const;
 
   /// Adds derivatives of the residual R and of the power of the tool, P = Σ F·v, for a rate of the
-  /// tool, which translates, or rotates about a fixed centre. Adds ∂R/∂s to `column` and ∂P/∂u to
-  /// `row` (additive vectors), and returns ∂P/∂s. They follow from K = −∂F_c/∂u and the invariance
-  /// of F_c under rigid motions of node and tool together: with v_b the rate at node b and ω its
-  /// rotation,
-  ///   ∂F_a/∂s = ω × F_a + Σ_b K_ab v_b,   ∂P/∂u_b = −Σ_a v_a·K_ab + ω × F_b·,   ∂P/∂s = Σ_a v_a·∂F_a/∂s.
+  /// tool. The tool translates, or rotates about a fixed centre. Adds ∂R/∂s to `column` and ∂P/∂u
+  /// to `row` (additive vectors), and returns ∂P/∂s. They follow from K = −∂F_c/∂u and the
+  /// invariance of F_c under rigid motions of node and tool together. With v_b the rate at node b
+  /// and ω its rotation,
+  ///   ∂F_a/∂s = ω × F_a + Σ_b K_ab v_b,   ∂P/∂u_b = −Σ_a v_a·K_ab + ω × F_b·,
+  ///   ∂P/∂s = Σ_a v_a·∂F_a/∂s.
   double add_derivatives(const ToolTangents &tangents, const ToolRate &rate, Vector &column,
                          Vector &row) const;
 

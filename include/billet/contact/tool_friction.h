@@ -12,8 +12,8 @@
 
 namespace billet {
 
-/// Friction of nodes on a tool: histories, tractions by return map in a contact frame that each
-/// node carries along, and the account of their works. Exists only with friction.
+/// Friction of nodes on a tool. It has the histories, the tractions by return map in a contact
+/// frame that each node carries along, and the account of their works. Exists only with friction.
 class ToolFriction {
 public:
   /// History of a node.

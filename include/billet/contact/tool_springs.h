@@ -39,8 +39,8 @@ inline double penetration_on_current_areas(const ContactPoint &node) {
   return std::isinf(node.hardening_penetration) ? part_of_spacing * node.spacing : 0.;
 }
 
-/// Energies in the penalty springs of nodes on a tool, and the areas on which they act: those of
-/// the last update(), and in explicit scenes also earlier ones (T7).
+/// Energies in the penalty springs of nodes on a tool, and the areas on which they act. These are
+/// those of the last update(), and in explicit scenes also earlier ones (T7).
 template <bool is_explicit> class ToolSprings {
 public:
   /// The parts must outlive this object.
@@ -51,7 +51,7 @@ public:
   double stored_energy(const std::size_t i) const {
     // Multipliers do not stretch springs.
     const ContactPoint &node = parts_.slaves.nodes[i];
-    // Except the allowed penetration.
+    // The allowed penetration does not count.
     const double gap = parts_.states[i].gap + node.multiplier_offset;
     return parts_.states[i].share * node.spring().energy(gap) +
            (stores_tangentially_ ? parts_.states[i].tangential_energy : 0.);

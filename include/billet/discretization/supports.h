@@ -125,7 +125,7 @@ private:
   struct Prescription {
     std::vector<Term> terms;
     dealii::Point<3> position;
-    /// Of supports that began within the run: their part that does not depend on time.
+    /// Part that does not depend on time, of supports that began within the run.
     double start;
     double value(double t) const;
   };

@@ -13,7 +13,7 @@
 
 namespace billet {
 
-/// Loads of all bodies on the elements, faces and nodes of a rank, in the order: body loads, loads
+/// Loads of all bodies on the elements, faces and nodes of a rank. Their order is body loads, loads
 /// on deformed faces, nodal loads, loads on surfaces, loads on points.
 class ExternalLoads {
 public:

@@ -70,7 +70,7 @@ private:
   const Discretization &discretization_;
 
   std::vector<std::unique_ptr<ElementBlock>> blocks_; // by body
-  // By body; null if its law does not depend on it.
+  // Temperatures by body; null if the body's law does not depend on it.
   std::vector<const Expression *> temperatures_;
   PointStep step_;
   // Summaries by body of the last state whose energies were computed, so that no step computes them

@@ -7,9 +7,9 @@
 namespace billet {
 
 /// Facet as the bilinear surface X(ξ, η) = Σ N_I x_I through its corners. The node's gap is its
-/// distance to the closest point; the normal is that of the surface there (Bittencourt & Creus
+/// distance to the closest point. The normal is that of the surface there (Bittencourt & Creus
 /// 1998, eqs. (10)-(12), for a facet). The gap has the gradients n at the node and −w_I n at the
-/// corners: without friction and at a fixed area, penalty forces have a potential.
+/// corners. Hence, without friction and at a fixed area, penalty forces have a potential.
 ///
 /// A node beyond an edge projects onto the extended surface, up to the tolerance. Farther out there
 /// is no projection; the result is the closest point on the facet's edges.

@@ -11,8 +11,9 @@
 
 namespace billet {
 
-/// Bilinearly blended surface spanned by four curves (Coons, MIT report MAC-TR-41, 1967): with c_0,
-/// c_1 at v = 0, 1 and d_0, d_1 at u = 0, 1, which meet in the corners P_ij at u = i, v = j,
+/// Bilinearly blended surface spanned by four curves (Coons, MIT report MAC-TR-41, 1967). The
+/// curves c_0, c_1 are at v = 0, 1, and d_0, d_1 at u = 0, 1. They meet in the corners P_ij at
+/// u = i, v = j:
 ///   X(u, v) = (1 − v) c_0(u) + v c_1(u) + (1 − u) d_0(v) + u d_1(v)
 ///             − (1 − u)(1 − v) P_00 − u (1 − v) P_10 − (1 − u) v P_01 − u v P_11.
 /// It contains the curves; its normal is along X_u × X_v.
@@ -38,7 +39,7 @@ public:
   Jet at(double u, double v) const;
 
   /// Returns the unit normal at u, v, where `jet` was evaluated. Where X_u × X_v vanishes, as on a
-  /// side that is a point, it is the limit from the middle of the patch; 0 if there is none.
+  /// side that is a point, it is the limit from the middle of the patch. It is 0 if there is none.
   Point normal(const Jet &jet, double u, double v) const;
 
 private:

@@ -30,10 +30,12 @@ struct FacetNormals {
 using CornerNormals = std::vector<std::array<dealii::Tensor<1, 3>, 3>>;
 
 /// Computes the corner normals. Around a point, facets that meet in smooth edges share the mean of
-/// their normals, with weights area/(a b)², a and b the sides there (Max 1999, exact on spheres).
-/// In a flat region of radius r the weights are multiplied by (r/1.4 r_min)⁸ if that exceeds 1,
-/// with r_min the minimum radius around the point. So the normal at the start of a fillet is that
-/// of the flat face, which otherwise would bulge.
+/// their normals. The weights are area/(a b)², with a and b the sides there (Max 1999, exact on
+/// spheres).
+///
+/// In a flat region of radius r the weights are multiplied by (r/1.4 r_min)⁸ if that exceeds 1.
+/// Here r_min is the minimum radius around the point. So the normal at the start of a fillet is
+/// that of the flat face, which otherwise would bulge.
 CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edges, const FacetNormals &facets,
                              double sharp_angle);
 

@@ -21,9 +21,13 @@ struct CurveSketch {
   CurveSketch reversed() const;
 };
 
-/// Reads 'point: x, y, z', 'line: x, y, z to x, y, z', 'arc: x, y, z via x, y, z to x, y, z' or
-/// 'spline: x, y, z via x, y, z via ... to x, y, z'. Throws std::invalid_argument with the allowed
-/// forms.
+/// Reads one of these forms:
+/// - 'point: x, y, z';
+/// - 'line: x, y, z to x, y, z';
+/// - 'arc: x, y, z via x, y, z to x, y, z';
+/// - 'spline: x, y, z via x, y, z via ... to x, y, z'.
+///
+/// Throws std::invalid_argument with the allowed forms.
 CurveSketch read_curve(const std::string &text);
 
 /// Returns "(x, y, z)", for messages.

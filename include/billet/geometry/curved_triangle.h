@@ -8,15 +8,16 @@
 
 namespace billet {
 
-/// Triangle over three corners P_i whose edges are parabolas: the quadratic patch of Nagata (2005),
-/// plus a term that rotates the normals along the edges without moving the edges. On u, v, w = 1 −
-/// u − v ≥ 0
+/// Triangle over three corners P_i whose edges are parabolas. It is the quadratic patch of Nagata
+/// (2005), plus a term that rotates the normals along the edges without moving the edges. On u, v,
+/// w = 1 − u − v ≥ 0
 ///   p = w P_0 + u P_1 + v P_2 − w u c_01 − u v c_12 − v w c_20 + F a,
-///   F = w u v (w u l_01 + u v l_12 + v w l_20)/(w u + u v + v w),   a = (P_1 − P_0) × (P_2 − P_0),
-/// where c_ij, the bend of the edge between P_i and P_j, is half of its second derivative, and l_ij
-/// = α + β (λ_j − λ_i) is linear, with the weights λ of the corners. F is 0 on the edges; its
-/// derivative across an edge, towards the opposite corner, is λ_i λ_j l_ij there and does not
-/// depend on the other two.
+///   F = w u v (w u l_01 + u v l_12 + v w l_20)/(w u + u v + v w),   a = (P_1 − P_0) × (P_2 − P_0).
+/// Here c_ij, the bend of the edge between P_i and P_j, is half of its second derivative. The
+/// function l_ij = α + β (λ_j − λ_i) is linear, with the weights λ of the corners.
+///
+/// F is 0 on the edges. Its derivative across an edge, towards the opposite corner, is λ_i λ_j l_ij
+/// there and does not depend on the other two.
 class CurvedTriangle {
 public:
   using Point = dealii::Tensor<1, 3>;

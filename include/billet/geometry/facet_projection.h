@@ -10,8 +10,8 @@
 
 namespace billet {
 
-/// Corners of a facet at (ξ, η) = (−1, −1), (1, −1), (−1, 1), (1, 1), deal.II's order, such that
-/// the area vector ∂x/∂ξ × ∂x/∂η points out of the body.
+/// Corners of a facet at (ξ, η) = (−1, −1), (1, −1), (−1, 1), (1, 1), deal.II's order. The area
+/// vector ∂x/∂ξ × ∂x/∂η points out of the body.
 template <class Number> using FacetCornersOf = std::array<dealii::Tensor<1, 3, Number>, 4>;
 using FacetCorners = FacetCornersOf<double>;
 
@@ -86,8 +86,8 @@ using Expansion = ExpansionOf<double>;
 /// inside.
 template <class Number> Number share_at(const Number &distance, const double zone) {
   const Number share = 0.5 * (distance / zone + 1.), positive = share > 0. ? share : Number(0.);
-  return positive < 1. ? positive
-                       : Number(1.); // so written it is continuous; a jump would disturb nodes on a seam
+  // So written it is continuous; a jump would disturb nodes on a seam.
+  return positive < 1. ? positive : Number(1.);
 }
 
 } // namespace facet
@@ -109,7 +109,7 @@ template <class Number> struct FacetProjectionOf {
   /// weights may be unset; if the facet has no area, everything is unset.
   bool exists = false;
   dealii::Tensor<1, 3, Number> normal; ///< unit vector, out of the body
-  /// Along the normal, negative where the node has penetrated [length].
+  /// Gap along the normal, negative where the node has penetrated [length].
   Number gap = 0.;
   /// Weights of the facet's corners; their sum is 1. If `exists`, x − Σ w_I x_I is parallel to the
   /// normal. A normal force at x and −w_I times that force at the corners then balance, and so do
@@ -119,9 +119,9 @@ template <class Number> struct FacetProjectionOf {
   /// Distance of the projection beyond the edges, in the measure of FacetLimits::tolerance; 0
   /// inside.
   double excess = std::numeric_limits<double>::infinity();
-  /// Share of the facet, not normalised, in a node that adjacent facets share: the product over its
-  /// edges of (distance + zone)/(2 zone), clipped to [0, 1]. It is 1 well inside; on a regular grid
-  /// the shares sum to 1.
+  /// Share of the facet, not normalised, in a node that adjacent facets share. It is the product
+  /// over its edges of (distance + zone)/(2 zone), clipped to [0, 1]. It is 1 well inside; on a
+  /// regular grid the shares sum to 1.
   Number share = 0.;
 };
 using FacetProjection = FacetProjectionOf<double>;

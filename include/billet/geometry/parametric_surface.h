@@ -16,7 +16,7 @@ struct SurfacePoint {
 };
 
 /// Returns the contact data of x whose foot is `foot`. The normal is along side p,u × p,v, with
-/// `side` 1 or −1. With the fundamental forms g and b, b positive where the surface is convex, and
+/// `side` 1 or −1. g and b are the fundamental forms, b positive where the surface is convex. With
 /// J = (p,u p,v)
 ///   ∂n/∂x = J (g + gap b)⁻¹ b g⁻¹ Jᵀ,
 /// which is set to zero at a centre of curvature. The caller decides whether x is beyond the edge.

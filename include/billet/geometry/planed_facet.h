@@ -26,8 +26,8 @@ namespace billet {
 /// Weights are the bilinear shape functions at the projection, for the corners projected onto the
 /// plane. Outside, ξ and η have the nearest values in range. There, and where the corners form no
 /// convex quadrilateral, the diagonals correct the weights so that they reproduce the projection
-/// exactly: w_3 += α, w_0 −= α, w_2 += β, w_1 −= β with α d_0 + β d_1 = x_P − Σ w_I x_I. They may
-/// then be negative.
+/// exactly. The corrections are w_3 += α, w_0 −= α, w_2 += β, w_1 −= β with α d_0 + β d_1 = x_P − Σ
+/// w_I x_I. They may then be negative.
 ///
 /// A facet with two coincident corners is a triangle; one without area has no projection.
 ///

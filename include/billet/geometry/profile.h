@@ -43,7 +43,7 @@ public:
 
   /// Makes a profile of segments, each beginning at the end of the previous one. With
   /// `closed_start` or `closed_end` the surface continues beyond that end as its own mirror image,
-  /// as on an axis of revolution; that end is no edge.
+  /// as on an axis of revolution. That end is no edge.
   Profile(std::vector<Segment> segments, Outside outside, bool closed_start = false, bool closed_end = false);
 
   /// Nearest point, in the plane.

@@ -11,8 +11,8 @@ namespace billet {
 struct ProfileAxes {
   dealii::Tensor<1, 3> origin, x, y, z;
 
-  /// Makes axes with z along `axis` (unit vector), x as close to `towards` as possible, and y = z ×
-  /// x.
+  /// Makes axes with z along `axis` (unit vector), x as close to `towards` as possible, and
+  /// y = z × x.
   ProfileAxes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis,
               const dealii::Tensor<1, 3> &towards);
   /// Makes axes with z along `axis` and an arbitrary x orthogonal to it.

@@ -15,7 +15,7 @@ public:
 
   struct Edge {
     TrimmingLoops::Curve on_surface; ///< in the plane of the parameters
-    /// Ascending, from end to end, with small changes of direction.
+    /// Ascending parameters from end to end, with small changes of direction.
     std::vector<double> samples;
     bool is_seam; ///< where a closed surface meets itself: no free edge
     bool is_pole; ///< a point; the next two are empty

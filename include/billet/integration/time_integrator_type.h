@@ -16,8 +16,8 @@ TypeTable<TimeIntegrator> &time_integrator_types();
 /// 2β ≥ γ ≥ ½.
 TimeIntegrator newmark(double beta, double gamma);
 
-/// Returns the method of Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α; α_f
-/// = −α here.
+/// Returns the method of Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α;
+/// α_f = −α here.
 TimeIntegrator hilber_hughes_taylor(double alpha);
 
 /// Returns the generalised-α method of Chung & Hulbert (1993): 0 ≤ ρ ≤ 1, the spectral radius at

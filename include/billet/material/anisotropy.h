@@ -18,9 +18,9 @@ namespace billet {
 struct HillCoefficients {
   double F = 0.5, G = 0.5, H = 0.5, L = 1.5, M = 1.5, N = 1.5;
 
-  /// Returns those of a sheet with these ratios of the strain rates across and through it, in
-  /// tension along 0°, 45° and 90° to axis 1; G + H = 1, so that the flow stress is that along
-  /// axis 1. Shear through the sheet is that of von Mises, L = M = 3/2.
+  /// Returns those of a sheet with these ratios of the strain rates across and through it. The
+  /// ratios are those in tension along 0°, 45° and 90° to axis 1. Since G + H = 1, the flow stress
+  /// is that along axis 1. Shear through the sheet is that of von Mises, L = M = 3/2.
   static HillCoefficients from_r_values(double r0, double r45, double r90);
   /// Returns those of yield stresses along 11, 22, 33, 12, 13, 23 over those of von Mises'
   /// function.

@@ -14,8 +14,8 @@
 namespace billet {
 
 /// Multiplicative plasticity with Hencky elasticity, F = F_e F_p, and a flow rule with directions:
-/// backstress, Hill's yield function or both (doc/theory.md, "Flow rules"). With V_e the
-/// elastic stretch and C_j⁻¹ the Lagrangian metrics of the history, a step solves
+/// backstress, Hill's yield function or both (doc/theory.md, "Flow rules"). V_e is the elastic
+/// stretch, and C_j⁻¹ are the Lagrangian metrics of the history. A step solves
 ///   ½ ln(V_e⁻¹ F C_p⁻¹ Fᵀ V_e⁻¹) = Δα H ξ/Q,   Q = √(ξ : H : ξ) = σ_y(α + Δα),                (H5)
 ///   ξ = 2G dev ln V_e − Σ ⅔ C_j κ_j,                                                          (H3)
 /// for ln V_e and Δα, by Newton's method to round-off. Without backstress and anisotropy it is

@@ -58,8 +58,8 @@ public:
   /// Returns the stress at which a point begins to yield.
   virtual double stress(double alpha) const = 0;
 
-  /// Returns the Δα with q − m Δα = flow stress at the end of a step of dt [time]; zero, with the
-  /// slope at α_n, where q does not exceed stress(α_n).
+  /// Returns the Δα with q − m Δα = flow stress at the end of a step of dt [time]. Where q does not
+  /// exceed stress(α_n), it is zero, with the slope at α_n.
   virtual PlasticIncrement solve(double q, double m, double alpha_n, double dt) const = 0;
 
   virtual std::size_t n_state() const { return 0; }

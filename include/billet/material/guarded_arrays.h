@@ -20,8 +20,8 @@ public:
   const double *operator[](const std::size_t array) const { return numbers_.data() + starts_[array]; }
   std::size_t size(const std::size_t array) const { return sizes_[array]; }
 
-  /// Returns the array beyond whose end the first change of a guard is, array 0 also for one before
-  /// it; nothing if all guards are unchanged. Restores the guards.
+  /// Returns the array beyond whose end the first change of a guard is, also array 0 for one before
+  /// it. Returns nothing if all guards are unchanged. Restores the guards.
   std::optional<std::size_t> find_overrun();
 
   /// Guards before and between arrays.

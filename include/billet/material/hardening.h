@@ -105,7 +105,7 @@ struct PowerLawHardening {
 };
 
 /// Ludwik's σ_y + B a^n, that of Johnson and Cook. Its slope is infinite at a = 0, so that up to
-/// a_0 it is the secant: the stress differs from the curve by at most B a_0^n there.
+/// a_0 it is the secant. The stress differs from the curve by at most B a_0^n there.
 struct LudwikHardening {
   static constexpr double a_0 = 1e-6;
 

@@ -25,7 +25,7 @@ std::array<double, 6> symmetric_dyad(const dealii::Tensor<1, 3> &a, const dealii
 dealii::SymmetricTensor<2, 3> exponential(const dealii::SymmetricTensor<2, 3> &A);
 
 /// Response of an isotropic law with logarithmic elasticity in the principal frame of the trial
-/// state: the Kirchhoff stress τ_A = κ tr ε + 2G β dev ε_A and its derivative
+/// state. It has the Kirchhoff stress τ_A = κ tr ε + 2G β dev ε_A and its derivative
 ///   ∂τ_A/∂ε_B = κ + 2Gβ (δ_AB − 1/3) − 2G γ ν_A ν_B,   ν = dev ε / |dev ε|,
 /// with β = 1, γ = 0 in elasticity (Simo & Hughes, Computational Inelasticity, box 9.1 and eq.
 /// 9.2.33 ff.).

@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Increment of a step from F_n to F: ΔL = (F − F_n) F_m⁻¹ with F_m at mid-step, and the rotation R
-/// = (1 − W/2)⁻¹ (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
+/// Increment of a step from F_n to F: ΔL = (F − F_n) F_m⁻¹ with F_m at mid-step, and the rotation
+/// R = (1 − W/2)⁻¹ (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
 struct MidpointIncrement {
   dealii::Tensor<2, 3> gradient; ///< ΔL
   dealii::Tensor<1, 3> spin;     ///< axial vector of W
@@ -47,7 +47,7 @@ public:
   explicit HypoelasticElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
   /// Updates as HenckyPlasticity::update() does, but with a given volume ratio J for the pressure κ
-  /// ln J: in an element with mean dilatation, J is not det F. The rows of `moduli` are those of
+  /// ln J. In an element with mean dilatation, J is not det F. The rows of `moduli` are those of
   /// dev τ alone.
   bool update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const PointStep & = {}) const {
@@ -107,8 +107,8 @@ private:
   ElasticModuli elastic_;
 };
 
-/// Hypoelastic law with J2 plasticity: q − 3 G Δα = σ_y(α + Δα), and the deviator is scaled by β =
-/// σ_y/q. The yield condition is in Kirchhoff stress.
+/// Hypoelastic law with J2 plasticity: q − 3 G Δα = σ_y(α + Δα), and the deviator is scaled by
+/// β = σ_y/q. The yield condition is in Kirchhoff stress.
 class HypoelasticPlasticity {
 public:
   struct History : HypoelasticElasticity::History {

@@ -51,7 +51,7 @@ private:
 
 /// Returns the norm of the difference of `a` and `b` over that of `b`; for symmetric velocity
 /// gradients alone if `is_symmetric`. The deviators of the stress by isochoric velocity gradients
-/// count by their own norm, so that a large bulk modulus hides no error of theirs: the result is
+/// count by their own norm, so that a large bulk modulus hides no error of theirs. The result is
 /// the larger of both.
 double relative_difference(const StressRates &a, const StressRates &b, bool is_symmetric);
 
@@ -62,8 +62,8 @@ struct TangentError {
   double asymmetry = 0.; ///< largest UserSubroutine::lost_asymmetry()
 };
 
-/// Pulls points of the law along straight paths up to a strain of 1 %, in steps of length dt, and
-/// compares the moduli at the ends of the steps for symmetric velocity gradients. It takes a few
+/// Pulls points of the law along straight paths up to a strain of 1 %, in steps of length dt.
+/// Compares the moduli at the ends of the steps for symmetric velocity gradients. It takes a few
 /// hundred updates.
 TangentError find_tangent_error(const PointLaw &law, double dt, double temperature);
 

@@ -27,9 +27,9 @@ bool compute_isochoric_state(const dealii::Tensor<2, 3> &F, const dealii::Symmet
 double compute_elastic_energy(const ElasticModuli &elastic, const IsochoricState &state);
 
 /// Overwrites `moduli` with those of τ = κ ln J 1 + β s, s = G dev b̄_e:
-///   c = κ 1⊗1 − 2 κ ln J I + β [2 μ̄ (I − 1⊗1/3) − ⅔ (1⊗s + s⊗1)] + s ⊗ ∂β,   μ̄ = G tr b̄_e/3,
-/// with ∂β : d the rate of β (Simo & Hughes 1998, box 9.2, before it is symmetrised; doc/theory.md
-/// has ∂β).
+///   c = κ 1⊗1 − 2 κ ln J I + β [2 μ̄ (I − 1⊗1/3) − ⅔ (1⊗s + s⊗1)] + s ⊗ ∂β,   μ̄ = G tr b̄_e/3.
+/// ∂β : d is the rate of β; doc/theory.md has ∂β. Source: Simo & Hughes 1998, box 9.2, before it is
+/// symmetrised.
 void compute_neo_hookean_moduli(const ElasticModuli &elastic, const IsochoricState &state, double beta,
                                 const dealii::SymmetricTensor<2, 3> &beta_rate, SpatialModuli &moduli);
 

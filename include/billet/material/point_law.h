@@ -131,10 +131,10 @@ public:
   /// stretches, (M7) of doc/theory.md; nothing if the law cannot compute it. If it is negative,
   /// ellipticity is lost and results depend on the mesh.
   virtual std::optional<double> min_wave_stiffness(const std::array<double, 3> &stretches) const = 0;
-  /// Returns the slope of the flow stress with plastic strain, with the heat of the plastic work,
-  /// for a point in this state that yields, (H20) of doc/theory [stress]. Returns nothing if the
-  /// law cannot soften. If the slope is negative, strains localise in one layer of elements.
-  /// `temperature`: of the body.
+  /// Returns the slope of the flow stress with plastic strain for a point in this state that
+  /// yields, (H20) of doc/theory [stress]. It includes the heat of the plastic work. Returns
+  /// nothing if the law cannot soften. If the slope is negative, strains localise in one layer of
+  /// elements. `temperature`: of the body.
   virtual std::optional<double> flow_slope(const double * /*state*/, double /*temperature*/) const {
     return {};
   }
@@ -154,8 +154,8 @@ template <class M> class LawWithModuli : public PointLaw {
 public:
   using Moduli = M;
 
-  /// Overwrites `tau` with the Kirchhoff stress at the end of a step [stress], `state` with the
-  /// state there and, unless it is null, `moduli` with the consistent tangent. `state_n` and
+  /// Overwrites `tau` with the Kirchhoff stress at the end of a step [stress], and `state` with the
+  /// state there. Unless `moduli` is null, overwrites it with the consistent tangent. `state_n` and
   /// `state` must not overlap. Returns false if F is inadmissible (not finite, singular): the step
   /// must be cut. In rate form the rows of the moduli are those of dev τ alone.
   virtual bool update(const dealii::Tensor<2, 3> &F, double J, const PointStep &step, const double *state_n,

@@ -20,11 +20,13 @@ using UmatFunction = void(double *stress, double *statev, double *ddsdde, double
                           double *pnewdt, double *celent, double *dfgrd0, double *dfgrd1, int *noel, int *npt,
                           int *layer, int *kspt, int *jstep, int *kinc, std::size_t cmname_length);
 
-/// Law of a UMAT. The step is that of Abaqus/Standard with NLGEOM, (U1) to (U4) of doc/theory.md:
-/// stress and strain are turned by the increment of rotation of Hughes & Winget, DSTRAN is the
-/// strain increment about the configuration at mid-step, and DDSDDE is the Jaumann rate of
-/// Kirchhoff's stress over J. F and J are those of the element, so that elements that modify F
-/// (mean dilatation) do so for the UMAT, too.
+/// Law of a UMAT. The step is that of Abaqus/Standard with NLGEOM, (U1) to (U4) of doc/theory.md.
+/// Stress and strain are turned by the increment of rotation of Hughes & Winget. DSTRAN is the
+/// strain increment about the configuration at mid-step. DDSDDE is the Jaumann rate of Kirchhoff's
+/// stress over J.
+///
+/// F and J are those of the element, so that elements that modify F (mean dilatation) do so for the
+/// UMAT, too.
 ///
 /// A shorter step follows if the UMAT asks for one (PNEWDT < 1). SSE is the stored energy, SPD +
 /// SCD the dissipated one.

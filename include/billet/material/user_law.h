@@ -29,10 +29,11 @@ struct UserLawSettings {
 void write_name(const std::string &name, char (&target)[80]);
 
 /// Base of the laws of material subroutines. The state of a point has the deformation gradient, the
-/// stress, the strain, energies, the work, the clock of the last step and a bound of the moduli,
-/// and then the state variables. Energies are (U5) of doc/theory.md. A shorter step follows if the
-/// subroutine returns numbers that are not finite. After a crash the law refuses every update:
-/// refusal() says so.
+/// stress, the strain, energies and the work. The clock of the last step, a bound of the moduli and
+/// the state variables follow. Energies are (U5) of doc/theory.md.
+///
+/// A shorter step follows if the subroutine returns numbers that are not finite. After a crash the
+/// law refuses every update: refusal() says so.
 class UserLaw : public SpatialLaw, public UserSubroutine {
 public:
   std::string name() const override { return kind_; }

@@ -10,7 +10,7 @@
 namespace billet {
 
 /// Volumetric part of a stored energy over the bulk modulus, u(J) = U/κ, (V5) of
-/// doc/theory/rubber.md: u = 0 and J u' = 0 at J = 1, and the slope of J u' over ln J is 1 there.
+/// doc/theory/rubber.md. At J = 1, u = 0, J u' = 0, and the slope of J u' over ln J is 1.
 class VolumetricLaw {
 public:
   virtual ~VolumetricLaw() = default;

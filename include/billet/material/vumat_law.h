@@ -25,10 +25,10 @@ using VumatFunction = void(int *nblock, int *ndir, int *nshr, int *nstatev, int 
                            std::size_t cmname_length);
 
 /// Law of a VUMAT. Stress, stretch and strain are those of the frame that turns with the material,
-/// F = R U, which has the rate of Green & Naghdi, (U6) and (U7) of doc/theory.md. The tangent,
-/// which implicit schemes and certifications need, is computed by central differences of the
-/// stress, in one block of 13 points. Internal less inelastic energy is the stored energy, the
-/// inelastic one the dissipated.
+/// F = R U. It has the rate of Green & Naghdi, (U6) and (U7) of doc/theory.md. The tangent, which
+/// implicit schemes and certifications need, is computed by central differences of the stress, in
+/// one block of 13 points. Internal less inelastic energy is the stored energy, the inelastic one
+/// the dissipated.
 class VumatLaw final : public UserLaw {
 public:
   /// Calls the VUMAT at the undeformed point, for the elastic moduli: at time 0, as Abaqus does.

@@ -50,9 +50,9 @@ dealii::Tensor<1, 3> find_centre(const ElementVectors &positions);
 enum class Beat { committed, evaluated };
 
 /// All elements of one body on one rank, with the same law and with history in one array. The law
-/// is fixed at construction; there is no dispatch per element. History advances in two stages.
-/// evaluate(), which may be called repeatedly, computes the end of the step from the history at its
-/// start. commit() makes the last evaluation the new start.
+/// is fixed at construction; there is no dispatch per element. History advances in two stages. The
+/// first, evaluate(), computes the end of the step from the history at its start, and may be called
+/// repeatedly. The second, commit(), makes the last evaluation the new start.
 class ElementBlock {
 public:
   virtual ~ElementBlock() = default;
@@ -86,7 +86,7 @@ public:
                                    Beat beat = Beat::committed) const = 0;
 
   /// Returns averages of the layers at the start of the step, given the displacements that belong
-  /// to its history; none with two points through the thickness.
+  /// to its history. Returns none with two points through the thickness.
   virtual std::optional<LayerSummaries> summarize_layers(std::size_t element,
                                                          const ElementVectors &displacements) const = 0;
 

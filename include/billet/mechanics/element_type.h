@@ -78,7 +78,7 @@ private:
 /// What a scene chooses of the elements of a body.
 struct ElementChoice {
   BrickElement type = BrickElement::assumed_strain;
-  /// Through the thickness: one of all_points_through.
+  /// Number through the thickness: one of all_points_through.
   unsigned int points_through = 2;
   std::vector<std::string> thickness_direction; ///< expressions of x, y, z; empty with two points
   std::string points_origin, direction_origin;  ///< their places in the scene file, for messages
@@ -87,8 +87,8 @@ struct ElementChoice {
 };
 
 /// Elements that a scene file can name. A new one is a file in source/mechanics/ with its class,
-/// its kind, its parameters and a function that returns its type, and its name in the table of
-/// element_type.cc.
+/// its kind, its parameters and a function that returns its type. The table of element_type.cc has
+/// its name.
 struct ElementType : RegisteredType<ElementChoice> {
   BrickElement element = BrickElement::assumed_strain;
 };

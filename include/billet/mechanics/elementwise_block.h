@@ -6,7 +6,7 @@
 
 namespace billet {
 
-/// Returns the block of explicit dynamics for elements and laws that the kernels do not support: it
+/// Returns the block of explicit dynamics for elements and laws that the kernels do not support. It
 /// computes the elements of implicit scenes one by one. Bulk viscosity is as in the kernels. The
 /// stable step is bounded by that of full integration,
 ///   ω² ≤ max_q M(τ_q) ‖A²‖_∞^{1/2} / min_a m_a,   A_ab = Σ_q w_q ∇N_a·∇N_b, (X16)

@@ -71,8 +71,8 @@ public:
   struct StepResult {
     double stable_step;    ///< stable for every element, including viscosity [time]
     double elastic_energy; ///< current, without the stabilisation's [energy]
-    /// In this step [energy]: mean of both ends' yield stress times the plastic strain; what the
-    /// flow stress says if it has a state, as with a rate factor.
+    /// In this step [energy]: mean of both ends' yield stress times the plastic strain. If the flow
+    /// stress has a state, as with a rate factor, it is what that says.
     double plastic_work;
     /// Dissipated by bulk viscosity in this step [energy]: ½ (q_{n−1} + q_n) ΔV, by the trapezoidal
     /// rule, as for all works. It can be negative for a step in which the rate changes sign. The
@@ -85,7 +85,7 @@ public:
   /// Sets the temperature of the next call, see PointStep. Laws of the kernels do not depend on it.
   virtual void set_temperature(double /*temperature*/) {}
 
-  /// Subtracts internal and viscous forces at these displacements from `forces` and advances the
+  /// Subtracts internal and viscous forces at these displacements from `forces`. Advances the
   /// history by dt, the time since the last call (0 in the first). After an inverted element,
   /// forces and history are invalid.
   virtual StepResult advance(const Nodes &nodes, double dt) = 0;

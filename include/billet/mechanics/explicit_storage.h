@@ -125,8 +125,9 @@ private:
   }
   /// Fills the lanes beyond the last element with copies of it.
   void repeat_last(std::size_t element);
-  /// Calls visit(position of its history, its reference volume, J̄ of eight points or J, ∂x/∂ξ up
-  /// to a factor, ∂ξ/∂X) for each point; for none if the element is inverted.
+  /// Calls visit() for each point, for none if the element is inverted. The arguments are the
+  /// position of its history, its reference volume, J̄ of eight points or J, ∂x/∂ξ up to a factor,
+  /// and ∂ξ/∂X.
   template <class Visit>
   void visit_points(std::size_t element, const double *displacements, const Visit &visit) const;
   ElementVectors gather(std::size_t element, const double *values) const;

@@ -19,8 +19,8 @@ public:
   /// than round-off.
   std::optional<dealii::Point<3>> find(const dealii::Tensor<1, 3> &point) const;
 
-  /// Returns a distance of a point outside that is not below the true one, and equal to it in front
-  /// of a face of a parallelepiped with right angles; infinity if there is none.
+  /// Returns a distance of a point outside that is not below the true one, infinity if there is
+  /// none. In front of a face of a parallelepiped with right angles both are equal.
   double distance(const dealii::Tensor<1, 3> &point) const;
 
 private:

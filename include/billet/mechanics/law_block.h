@@ -403,7 +403,7 @@ private:
                         Stresses &tau, const Update &update_all) const {
     const double elastic = element_.elastic_thinning_stiffness(reference),
                  minimum = 0.5 * Element::min_thinning_stiffness(reference), maximum = 4. * elastic;
-    // Strains; the tolerance is close to round-off.
+    // Both are strains; the tolerance is close to round-off.
     constexpr double tolerance = 1e-14, max_change = 0.3;
     constexpr unsigned int max_iterations = 60;
     double X = Element::predict_thinning(reference, kinematics, history_n);
@@ -454,7 +454,7 @@ private:
                            const Moduli &, ElementMatrix &) = nullptr;
   std::vector<Reference> elements_;
   std::vector<dealii::Tensor<1, 3>> centres_; ///< of the undeformed elements
-  /// With more than two points through the thickness.
+  /// Axes of elements with more than two points through the thickness.
   std::vector<ThicknessAxis> axes_;
   std::vector<double> state_n_, state_;             ///< states of the points
   std::vector<ElementHistory> history_n_, history_; ///< histories of the elements

@@ -50,16 +50,17 @@ struct MeanDilatationKinematics {
 bool compute_kinematics(const ReferenceElement &element, const ElementVectors &displacements,
                         MeanDilatationKinematics &kinematics);
 
-/// Adds the nodal forces [force] of the stresses `tau` (Kirchhoff, at F̄),
-///   f_a = Σ_q w [dev τ ∇N_a] + Π ∇̄N_a,   Π = Σ_q w tr τ / 3,
-/// which are the gradient of the stored energy Σ_q w ψ(F̄_q) if the law has one.
+/// Adds the nodal forces [force] of the stresses `tau` (Kirchhoff, at F̄):
+///   f_a = Σ_q w [dev τ ∇N_a] + Π ∇̄N_a,   Π = Σ_q w tr τ / 3.
+/// They are the gradient of the stored energy Σ_q w ψ(F̄_q) if the law has one.
 void add_internal_force(const ReferenceElement &element, const MeanDilatationKinematics &kinematics,
                         const std::array<dealii::SymmetricTensor<2, 3>, n_element_points> &tau,
                         ElementVectors &force);
 
 /// Overwrites `matrix` with ∂f/∂u [force/length]. With θ = (div̄ − tr L)/3, L = ∇u in the current
 /// configuration and d̄ = sym L + θ I (bars over the virtual field likewise),
-///   K = Σ_q w { δd̄ : c : d̄ + ∇N_a·τ·∇N_b I + 2 θ τ:δd + 2 δθ τ:d + 2 θ δθ tr τ + tr τ/3 tr(δL L) }
+///   K = Σ_q w { δd̄ : c : d̄ + ∇N_a·τ·∇N_b I + 2 θ τ:δd + 2 δθ τ:d + 2 θ δθ tr τ
+///               + tr τ/3 tr(δL L) }
 ///       + Π { (1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄ }.
 /// The moduli must be symmetric, and so is the matrix; only part of unsymmetric moduli would be
 /// used.

@@ -63,8 +63,8 @@ struct ModalGeometry {
   }
 };
 
-/// Returns what a number of b_1, b_2, b_3 and c in an element's own directions is in one of the
-/// eight elements into which it is divided, (R5) of doc/theory: h has the modes in its rows.
+/// Returns what a number of b_1, b_2, b_3 and c in an element's own directions is in one of its
+/// parts, (R5) of doc/theory. The element is divided into eight. h has the modes in its rows.
 template <class HourglassVector>
 HourglassVector hourglass_of_child(const HourglassVector &h, const unsigned int child) {
   HourglassVector of_child = h;

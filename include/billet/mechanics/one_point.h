@@ -11,8 +11,8 @@
 namespace billet {
 
 /// One-point brick of the explicit kernels, with its tangent. It stores the energy V ψ(F̄) of the
-/// mean gradient F̄, and that of the hourglass strains ĥ, which do not affect F̄, (X4), (X6) of
-/// doc/theory.md. In plastic bodies both yield together, (X7), and flow changes ĥ_0.
+/// mean gradient F̄, and that of the hourglass strains ĥ, (X4), (X6) of doc/theory.md. ĥ does not
+/// affect F̄. In plastic bodies both yield together, (X7), and flow changes ĥ_0.
 class OnePointElement {
 public:
   static constexpr unsigned int n_points = 1;

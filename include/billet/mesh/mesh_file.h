@@ -11,7 +11,7 @@
 
 namespace billet {
 
-// Mesh files are read without trust: every count is compared with the size of the file before
+// Mesh files are read without trust. Every count is compared with the size of the file before
 // memory is allocated, every index with what the file has. Readers throw std::invalid_argument,
 // with a message that continues "the file ..., where it ...".
 

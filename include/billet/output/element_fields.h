@@ -27,8 +27,9 @@ struct NodalAverage {
 };
 
 /// Returns the averages of the fields of floating-point numbers. A node has the mean of the
-/// elements of its body around it, weighted by undeformed volume: exact for a linear field at nodes
-/// in the inside of a regular mesh. `fields`: see collect_element_fields(). Collective.
+/// elements of its body around it, weighted by undeformed volume. The mean is exact for a linear
+/// field at nodes in the inside of a regular mesh. `fields`: see collect_element_fields().
+/// Collective.
 std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
                                            const std::vector<std::vector<GridField>> &fields);
 

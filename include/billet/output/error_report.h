@@ -38,7 +38,7 @@ struct ErrorReport {
   /// of the mesh only missed() tells.
   DiagnosticList diagnostics() const;
   /// Returns a warning if the sum of the known errors and that of the mesh, from its levels,
-  /// exceeds both targets together; nothing if not, or if there is no target.
+  /// exceeds both targets together. Returns nothing if not, or if there is no target.
   DiagnosticList missed(double of_levels = 0.) const;
   /// Writes error_estimate.csv into this folder: quantity, value. Throws SolutionFailure if it
   /// cannot be written.

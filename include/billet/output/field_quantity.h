@@ -18,7 +18,7 @@ struct ElementAverage {
   std::size_t body;
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
   double equivalent_plastic_strain;
-  /// Of the law; without numbers unless a quantity reads it.
+  /// Averages of the law's state; without numbers unless a quantity reads it.
   StateAverage state;
   dealii::Tensor<2, 3> deformation_gradient = {}; ///< mean over the undeformed element
   std::size_t material = 0;                       ///< number of the body's material

@@ -29,8 +29,8 @@ public:
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns what to open in words, once a snapshot was written and if the results are then in this
-  /// folder; empty if the scene requests no fields.
+  /// Returns in words what to open, once a snapshot was written and if the results are then in this
+  /// folder. The text is empty if the scene requests no fields.
   std::string file_to_open(const std::string &folder) const;
 
 private:

@@ -21,7 +21,7 @@ struct GridField {
 };
 
 /// Named block of a snapshot: hexahedra, or polygons of a surface. Each rank holds some of its
-/// points and cells; the whole grid has those of the first rank, then those of the second, and so
+/// points and cells. The whole grid has those of the first rank, then those of the second, and so
 /// on. All ranks have the same fields, even if they have no points.
 struct Grid {
   std::string group, name;
@@ -42,9 +42,9 @@ std::uint8_t vtk_cell_type(unsigned int n_points);
 /// Returns the text with the characters escaped that XML reserves.
 std::string escape_xml(const std::string &text);
 
-/// Joins scalars that are components of a tensor: six names in a row with the endings _xx, _yy,
-/// _zz, _xy, _xz and _yz become a symmetric tensor, nine with _xx, _xy, ... _zz a tensor. All
-/// scalars have one value for each cell or point.
+/// Joins scalars that are components of a tensor. Six names in a row with the endings _xx, _yy,
+/// _zz, _xy, _xz and _yz become a symmetric tensor. Nine with _xx, _xy, ... _zz become a tensor.
+/// All scalars have one value for each cell or point.
 std::vector<GridField> join_components(std::vector<GridField> scalars);
 
 } // namespace billet

@@ -27,7 +27,7 @@ struct FacetCrossing {
 };
 
 /// Returns where the line through x along the unit vector d meets the bilinear continuation of the
-/// facet; none if Newton's method does not find it.
+/// facet. Returns none if Newton's method does not find it.
 std::optional<FacetCrossing> cross_facet(const FacetCorners &corners, const dealii::Tensor<1, 3> &x,
                                          const dealii::Tensor<1, 3> &d);
 

@@ -14,8 +14,8 @@
 
 namespace billet {
 
-/// Console of a run: a line for every step and the remaining time, as a progress bar on a terminal,
-/// else as a line every half minute. First rank only.
+/// Console of a run, with a line for every step and the remaining time. That is a progress bar on a
+/// terminal, else a line every half minute. First rank only.
 class Progress {
 public:
   /// Lines of steps go to `stream`, warnings to `messages`, which may be the same.

@@ -49,7 +49,7 @@ struct SchemeType {
   std::string name;        ///< in scene files, checkpoints and messages
   std::string description; ///< in the summary of a scene
   bool has_inertia;        ///< bodies have densities, velocities and kinetic energy
-  /// Solves for the end of each step by iterations; else steps have a stability limit.
+  /// Whether iterations solve for the end of each step; else steps have a stability limit.
   bool has_matrix;
   bool lumps_mass; ///< always; else with inertia as the scene says
 };

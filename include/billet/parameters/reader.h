@@ -60,8 +60,8 @@ public:
     }
     leave();
   }
-  /// Makes later calls of in() and note_errors() note errors instead of throwing them, and single
-  /// numbers that are not allowed as well: what is read with errors is not to be used.
+  /// Makes later calls of in() and note_errors() note errors instead of throwing them. They note
+  /// single numbers that are not allowed as well. What is read with errors is not to be used.
   void collect_errors() { collects_ = true; }
   /// Calls `read` and notes its errors if they are collected, so that those of other parts follow.
   template <class Function> void note_errors(const Function &read) {

@@ -65,8 +65,10 @@ public:
   /// Reads `file_name` and the files that it includes, in ParameterHandler's text format. It knows
   /// `set`, `subsection`, `end`, `include` (relative to the including file), `#` comments and `\`
   /// at a line's end. A file overrides what the files that it includes set; `settings` override
-  /// all. Replaces old names of parameters by current ones. Repairs an `end` that is missing or one
-  /// too many. Throws InputError for a file that cannot be read; other errors wait for set_all() or
+  /// all.
+  ///
+  /// Replaces old names of parameters by current ones. Repairs an `end` that is missing or one too
+  /// many. Throws InputError for a file that cannot be read; other errors wait for set_all() or
   /// require_sound().
   static SceneFile read(const std::string &file_name, const std::vector<Setting> &settings = {});
 
@@ -122,8 +124,8 @@ public:
   std::string where(const Path &path) const;
 
   const std::string &file_name() const { return file_name_; }
-  /// Returns a file that an entry names, as a path from the working directory: beside the scene
-  /// file, or else, if an included file names it, beside that one.
+  /// Returns a file that an entry names, as a path from the working directory. It is beside the
+  /// scene file, or else, if an included file names it, beside that one.
   std::string resolve(const Path &path, const std::string &key, const std::string &name) const;
   /// Returns the file's text as read, with includes resolved, overridden lines as comments, and the
   /// settings of the command line at its end.
@@ -158,7 +160,7 @@ private:
   std::vector<Subsection> faulty_;
   std::vector<std::string> unmatched_; ///< errors about `end`s
   unsigned int n_files_ = 0;
-  /// Of the text, each with its entry or no_entry.
+  /// Lines of the text, each with its entry or no_entry.
   std::vector<std::pair<std::string, std::size_t>> lines_;
   static constexpr std::size_t no_entry = static_cast<std::size_t>(-1);
 };

@@ -52,8 +52,8 @@ struct ApproachSpan {
 };
 
 /// Returns the first time at which a point touches, by the gaps along the motions and bisection;
-/// none if no point touches. In the interval between two of these gaps, of which there are 200 to
-/// 1000, the surface moves by a quarter of a facet if their number allows. Collective.
+/// none if no point touches. There are 200 to 1000 of these gaps. In the interval between two, the
+/// surface moves by a quarter of a facet if their number allows. Collective.
 std::optional<MeetingReport> find_meeting(const std::vector<GapSide> &sides, const ApproachSpan &span,
                                           MPI_Comm communicator);
 

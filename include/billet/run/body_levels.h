@@ -70,7 +70,7 @@ private:
   std::vector<BodyMesh> bodies_;
   std::vector<double> errors_;  ///< by body
   std::vector<double> growths_; ///< of the elements of each body, at its last rise
-  /// The second: the last ones, all of whose meshes are resolved.
+  /// Number of runs, and of the last ones, all of whose meshes are resolved.
   unsigned int n_runs_ = 0, n_resolved_ = 0;
   double difference_ = 0.; ///< of the last run, by the bodies that rise next once these are chosen
   MeshLevelError error_;

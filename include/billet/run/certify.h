@@ -17,8 +17,8 @@ enum class PageFormat { text, markdown };
 void print(const Certificate &certificate, const std::string &title, PageFormat format, std::ostream &stream);
 
 /// Certifies the law of each body of a scene (certificate.h) with the scene's first step and
-/// temperature, or that of a file with nothing but the parameters of a material. Prints the
-/// findings. Returns whether all laws pass. Throws InputError.
+/// temperature. The file may also have nothing but the parameters of a material, whose law it then
+/// certifies. Prints the findings. Returns whether all laws pass. Throws InputError.
 bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting> &settings, PageFormat format,
                   std::ostream &stream);
 

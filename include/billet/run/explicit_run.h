@@ -15,8 +15,8 @@
 
 namespace billet {
 
-/// Run of explicit dynamics; every step is accepted. step() completes the state at the current
-/// time. after_step() checks it at intervals and advances to the next time.
+/// Run of explicit dynamics; every step is accepted. The function step() completes the state at the
+/// current time. Then after_step() checks it at intervals and advances to the next time.
 class ExplicitRun final : public Run {
 public:
   ExplicitRun(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
@@ -72,9 +72,9 @@ private:
   ExplicitDynamics problem_;
   const Stops stops_;
   RegularTimes history_times_;
-  /// The same whatever the history's interval.
+  /// Times that do not depend on the history's interval.
   RegularTimes watch_times_;
-  /// Only for scenes that control their errors.
+  /// Exists only for scenes that control their errors.
   std::unique_ptr<EnergyErrors> errors_;
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
   Stopwatch stopwatch_;                                 ///< for the steps, without output

@@ -8,7 +8,7 @@
 namespace billet {
 
 /// Returns sentences, without the last full stop, if a prescribed force or moment may exceed the
-/// limit load of a body without hardening; otherwise an empty text.
+/// limit load of a body without hardening. Otherwise returns an empty text.
 std::string describe_limit_load(const parameters::Scene &parameters);
 
 /// Whether a yielding body has elastic strains so large that its law, unlike Hencky's, computes the

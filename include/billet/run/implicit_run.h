@@ -51,7 +51,7 @@ private:
   ImplicitSolution problem_;
   StepControl control_;
   std::unique_ptr<ErrorWatch> watch_; ///< only for static scenes that control their errors
-  /// Only for dynamic ones; their steps follow another estimate.
+  /// Exists only for dynamic ones; their steps follow another estimate.
   std::unique_ptr<EnergyErrors> errors_;
   EnergyWatch energies_;
   StepReport report_;

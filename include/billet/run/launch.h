@@ -8,9 +8,11 @@
 
 namespace billet {
 
-/// Performs `billet --ranks N ...`: starts the program on N processes of this machine by mpirun and
-/// returns its exit code; nothing if the arguments have no --ranks. The processes end with 0 and
-/// leave their exit code in a file, since mpirun adds a message of its own to any other code.
+/// Performs `billet --ranks N ...`. It starts the program on N processes of this machine by mpirun
+/// and returns its exit code. It returns nothing if the arguments have no --ranks. The processes
+/// end with 0 and leave their exit code in a file, since mpirun adds a message of its own to any
+/// other code.
+///
 /// Ctrl-C and SIGTERM stop the run as SIGUSR1 does, with a checkpoint. To be called before MPI
 /// starts.
 std::optional<int> launch(const std::vector<std::string> &arguments);

@@ -32,8 +32,9 @@ std::string scene_copy(const parameters::Scene &parameters);
 std::string left_copy(const std::string &folder);
 
 /// Throws InputError if the scene's output folder does not exist and cannot be made, is not
-/// writable, has results that would have to be moved aside but cannot be, is in use by another run,
-/// or has files that the scene is made of and that results would replace.
+/// writable, or is in use by another run. It also throws if the folder has results that would have
+/// to be moved aside but cannot be. Files in the folder that the scene is made of and that results
+/// would replace are an error, too.
 void check_output_folder(const parameters::Scene &parameters, EarlierResults earlier);
 
 /// Moves earlier results aside, or removes checkpoints and fields, if they are to be, and makes the

@@ -60,8 +60,8 @@ public:
   virtual bool can_refine() const { return true; }
   /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.
   void save(StateWriter &writer) const;
-  /// Ends the run at time(), for a run on another mesh that goes on from what save() has saved:
-  /// completes the state there, and returns its energies. Nothing may follow. Throws as step().
+  /// Ends the run at time(), for a run on another mesh that continues from what save() has saved.
+  /// Completes the state there, and returns its energies. Nothing may follow. Throws as step().
   virtual EnergyLedger hand_over(RunOutput &output) = 0;
 
 protected:

@@ -18,7 +18,7 @@ struct ErrorReport;
 /// Mesh of a body in a run that has reached its end.
 struct BodyMesh {
   std::size_t n_elements; ///< of all ranks
-  /// Its part of the relative error of the forces, by (W5) and (W8) of the theory.
+  /// Part of the relative error of the forces, by (W5) and (W8) of the theory.
   double error;
   bool is_resolved = true; ///< whether that sees all: what varies in single elements, and contact
 };

@@ -18,8 +18,8 @@ struct BoundaryReport {
   std::size_t n_faces = 0;
   double area = 0.;
   dealii::Tensor<1, 3> centre; ///< of the area
-  dealii::Tensor<1, 3>
-      normal;           ///< unit vector along the sum of all area vectors, out of the body; 0 if that is 0
+  /// Unit vector along the sum of all area vectors, out of the body; 0 if that is 0.
+  dealii::Tensor<1, 3> normal;
   double flatness = 0.; ///< length of that sum over the area: 1 for a plane, 0 for a closed surface
 };
 
@@ -91,9 +91,9 @@ struct StableStepReport {
 struct RunReport {
   std::size_t n_dofs = 0;
   double memory = 0.; ///< estimate for all ranks [bytes]
-  /// Explicit and fixed steps: about, as the run prints; automatic: at least.
+  /// Approximate number of explicit and fixed steps, as the run prints; minimum of automatic ones.
   double n_steps = 0.;
-  /// Explicit steps if contact lasts from where pairs meet; 0: it shortens none.
+  /// Number of explicit steps if contact lasts from where pairs meet; 0: it shortens none.
   double max_steps = 0.;
   bool is_minimum = false; ///< whether there may be many more steps
   std::optional<StableStepReport> stable_step;
@@ -102,7 +102,7 @@ struct RunReport {
 /// The physics of a scene at its start, for --check. The same on all ranks.
 struct SceneReport {
   std::vector<BodyReport> bodies;
-  /// Those with tools first; none for a restart, which begins deformed.
+  /// Reports of pairs, those with tools first; none for a restart, which begins deformed.
   std::vector<PairReport> pairs;
   std::optional<RunReport> run; ///< none for a restart
 };

@@ -9,7 +9,7 @@
 namespace billet {
 
 /// Prints what scene files can name, such as primitives, surfaces and loads, with their parameters.
-/// The first of `names` is that of a list, the others are those of its entries; without them,
+/// The first of `names` is that of a list, the others are those of its entries. Without the others,
 /// prints all entries, and without `names` the names of the lists. After "faces", `names` are CAD
 /// files, whose faces it prints. Throws InputError for an unknown name or a file that cannot be
 /// read.

@@ -9,13 +9,15 @@ namespace billet {
 
 /// Returns warnings about inconsistent numbers, often due to mixed units. It checks yield stresses,
 /// speeds, the durations of run and steps, travels and forces of tools, friction, and nodes that
-/// start behind a tool. A tool with many turns gets a note. All criteria are dimensionless ratios.
-/// `mesh`: all bodies or their outlines, on each rank its cells. Collective.
+/// start behind a tool. A tool with many turns gets a note.
+///
+/// All criteria are dimensionless ratios. `mesh`: all bodies or their outlines, on each rank its
+/// cells. Collective.
 DiagnosticList check_plausibility(const Scene &scene, const dealii::Triangulation<3> &mesh,
                                   MPI_Comm communicator);
 
-/// Returns the force that a body bears on a section: area times the flow stress at a plastic strain
-/// of one, or, for an elastic body, the stress at a strain of one [force].
+/// Returns the force that a body bears on a section [force]. It is area times the flow stress at a
+/// plastic strain of one. For an elastic body it is area times the stress at a strain of one.
 double borne_force(const Body &body, double section);
 /// Limits above which a tool force, relative to the borne force, and a number of explicit steps are
 /// implausible.

@@ -27,8 +27,8 @@ struct Resistance {
 void add_contact(const dealii::Tensor<1, 3> &position, const dealii::Tensor<1, 3> &normal,
                  bool presses_with_force, bool has_friction, std::vector<Resistance> &resistances);
 
-/// Infinitesimal rigid-body motion, up to a factor: x moves by translation + rotation × (x −
-/// centre) / size.
+/// Infinitesimal rigid-body motion, up to a factor: x moves by translation +
+/// rotation × (x − centre) / size.
 struct RigidMotion {
   dealii::Tensor<1, 3> translation, rotation;
 };

@@ -123,7 +123,7 @@ struct Body {
   std::string name;
   BoundaryNames boundary_names; ///< of its mesh
   std::shared_ptr<const PointLaw> law;
-  /// Its number, the same for bodies whose materials have the same parameters.
+  /// Number of the material, the same for bodies whose materials have the same parameters.
   std::size_t material;
   ElementFormulation formulation; ///< for implicit scenes
   double young_modulus;
@@ -172,7 +172,7 @@ struct PairSettings {
   bool penalty_counts_thickness; ///< see penalty_length()
   double normal_penalty, tangential_penalty;
   std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: pure penalty; none: (L7)
-  /// In dynamics, while penetration is too large, (L8).
+  /// Whether it is raised in dynamics while penetration is too large, (L8).
   bool is_raised;
   InitialOverlap overlap;
 

@@ -40,9 +40,9 @@ public:
   dealii::Tensor<1, 3> across(const dealii::Tensor<1, 3> &v) const {
     return v - (v * direction_) * direction_;
   }
-  /// Returns points that stand for the same point of the section in the solid, `x` first: around
-  /// the axis at angles that no symmetry of few axes repeats, or along the width of the layer, on
-  /// both sides and between.
+  /// Returns points that stand for the same point of the section in the solid, `x` first. Around
+  /// the axis they are at angles that no symmetry of few axes repeats. Along the width of the layer
+  /// they are on both sides and between.
   std::vector<dealii::Tensor<1, 3>> places(const dealii::Tensor<1, 3> &x) const;
 
 private:

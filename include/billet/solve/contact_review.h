@@ -52,7 +52,7 @@ public:
   DiagnosticList finish() const;
 
   /// Returns the part by which penetration makes forces too small, along the softest load path,
-  /// (L6); 0 if it is below the limit of the warning.
+  /// (L6). Returns 0 if it is below the limit of the warning.
   double penalty_error() const;
 
   /// Whether no pair has facets that are too coarse for its tool's curves, or too few nodes that
@@ -95,11 +95,11 @@ private:
   const Discretization &discretization_;
   /// Numbers of mirror images of a node by symmetry planes.
   struct Images {
-    /// By planes away from it, itself included; by planes through it.
+    /// Images by planes away from it, itself included; images by planes through it.
     double apart = 1., on_it = 1.;
   };
   std::map<DofIndex, Images> images_; ///< by first dof, on this rank
-  /// Of the bodies: the largest face of the bounding box [length²].
+  /// Largest face of the bounding box of each body [length²].
   std::vector<double> sections_;
   std::vector<Pair> pairs_; ///< with tools first
   std::vector<LoadPath> paths_;

@@ -11,11 +11,11 @@
 namespace billet {
 
 /// Viscous forces that resist the motion of static bodies while contact does not support them,
-/// (Q3). In a step of length Δt from u_n, the force on a node a of body b is
-///   f_a = −φ_b c_a (u_a − u_n,a) / Δt,    c_a = ζ E T V_a / L²    [force time/length]
-/// E: Young's modulus; L: the body's longest extent; T: the end time; V_a: the node's undeformed
-/// volume. φ_b is 1 once the body is held, and fades in accepted steps at whose end contact
-/// supports the body.
+/// (Q3). In a step of length Δt from u_n, a node a of body b has the force [force time/length]
+///   f_a = −φ_b c_a (u_a − u_n,a) / Δt,    c_a = ζ E T V_a / L².
+/// Here E is Young's modulus, L the body's longest extent, T the end time, V_a the node's
+/// undeformed volume. The factor φ_b is 1 once the body is held, and fades in accepted steps at
+/// whose end contact supports the body.
 class ContactStabilisation {
 public:
   /// Factor ζ. It is small enough that a body that moves by its size within the run feels a mean
@@ -27,8 +27,8 @@ public:
   /// Maximum part of all work that viscous forces may do, and of the forces that they may be at the
   /// end.
   static constexpr double max_part = 1e-3;
-  /// Part of the work against these forces that loads do in a step in which loads move the body,
-  /// rather than a tool or another body.
+  /// Part of the work against these forces that loads do in a step. In that step, loads move the
+  /// body, rather than a tool or another body.
   static constexpr double by_loads = 0.5;
 
   /// Node on this rank.
@@ -93,8 +93,8 @@ public:
   /// [length].
   const std::vector<dealii::Tensor<1, 3>> &drifts() const { return drifts_; }
   /// Accepts the drifts of earlier steps, as far as nothing resists them now, and adds those of
-  /// this step: the parts `unresisted` of the motions that neither supports nor contact resist, if
-  /// loads do work on them.
+  /// this step. These are the parts `unresisted` of the motions that neither supports nor contact
+  /// resist, if loads do work on them.
   void add_drifts(std::vector<dealii::Tensor<1, 3>> earlier, const std::vector<Motion> &motions,
                   const std::vector<dealii::Tensor<1, 3>> &unresisted);
   void set_drifts(std::vector<dealii::Tensor<1, 3>> drifts) { drifts_ = std::move(drifts); }

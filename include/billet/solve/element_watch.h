@@ -42,9 +42,9 @@ public:
 
 private:
   void compare(const SolutionState &state);
-  /// Returns warnings about plastic bending, (L3) and (L10): of bodies with too few one-point
-  /// elements through the thickness, or with flow between the points of assumed-strain bricks or at
-  /// their faces.
+  /// Returns warnings about plastic bending, (L3) and (L10). They concern bodies with too few
+  /// one-point elements through the thickness, or with flow between the points of assumed-strain
+  /// bricks or at their faces.
   DiagnosticList judge_bending() const;
   /// Returns warnings about probes that read stresses of one-point elements that bend.
   DiagnosticList judge_probes() const;

@@ -29,8 +29,8 @@ public:
   /// Loads the sums; they start from zero if the earlier run did not save them.
   void load(const StateReader &reader);
 
-  /// Lumped over consistent energy above which periods are off by 15 % or more: 1.5 in torsion with
-  /// two bricks across, 1.7 in waves of three bricks' length.
+  /// Lumped over consistent energy above which periods are off by 15 % or more. It is 1.5 in
+  /// torsion with two bricks across, 1.7 in waves of three bricks' length.
   static constexpr double doubtful_ratio = 1.6;
 
 private:

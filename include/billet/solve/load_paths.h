@@ -13,7 +13,8 @@ namespace billet {
 /// of them, and their penetrations add up. Tools are rigid and connect nothing.
 struct LoadPath {
   std::vector<std::size_t> bodies, pairs;
-  /// On bodies or driven tools: its forces are right at any penalty.
+  /// Whether it bears given loads, on bodies or driven tools. Then its forces are right at any
+  /// penalty.
   bool bears_given_loads = false;
 };
 /// Finds the load paths. `bodies_of`: the one or two bodies of each pair.

@@ -16,7 +16,9 @@ namespace billet {
 /// Warns of contact pairs whose penalties are too low, by three signs. The first is penetration of
 /// a tenth of a facet. The second is penetration of a fifth of the largest displacement so far, of
 /// bodies or of the pair's tool. The third is more than a fifth of all work in the pair's springs.
+///
 /// It finds flat contact on bodies that move aside, where the penalty yields in place of the body.
+///
 /// In an impact, penetration precedes deformation. There only the first sign counts, if springs
 /// hold 1 % of all energy or the penetration persists until the next check.
 class PenaltyWatch {

@@ -19,7 +19,7 @@ namespace billet {
 struct ForceBalance {
   dealii::Tensor<1, 3> reactions; ///< of supports and symmetry planes
   dealii::Tensor<1, 3> contact;   ///< of tools
-  /// Including forces of removed tools, of releases and of stabilisation.
+  /// Loads, including forces of removed tools, of releases and of stabilisation.
   dealii::Tensor<1, 3> loads;
   dealii::Tensor<1, 3> inertia; ///< −M a
   dealii::Tensor<1, 3> free;    ///< forces that are out of balance at unconstrained dofs
@@ -49,7 +49,7 @@ struct BodyBalance {
 /// Forces on the bodies at the end of the last step, the same on all ranks.
 struct Reactions {
   std::vector<Resultant> of_supports; ///< in the order of named_supports()
-  /// In the order of Scene::pairs(), moments about the origin.
+  /// Loads in the order of Scene::pairs(), moments about the origin.
   std::vector<ContactLoad> of_tool_pairs;
   ForceBalance balance;
   std::vector<BodyBalance> of_bodies;          ///< of implicit schemes, else empty

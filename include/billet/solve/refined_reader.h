@@ -18,10 +18,11 @@ namespace billet {
 void save_mesh(StateWriter &writer, const Discretization &discretization);
 
 /// State of a run, read on a mesh on which each element of some bodies is divided into eight. Rows
-/// of nodes are interpolated between the nodes of the element before, (R3) of doc/theory; nodal
+/// of nodes are interpolated between the nodes of the element before, (R3) of doc/theory. Nodal
 /// forces of refined bodies are 0, for the mesh has others. An element of a refined body gets the
-/// row of the element of which it is a part: set_parent_state() takes its own history from it. Rows
-/// of contact at nodes are interpolated between those of the facet before; of friction, the
+/// row of the element of which it is a part: set_parent_state() takes its own history from it.
+///
+/// Rows of contact at nodes are interpolated between those of the facet before; of friction, the
 /// traction is. Everything else is read as it is. The entry "refined bodies", in each group, names
 /// the refined bodies, see refined_bodies().
 class RefinedReader final : public StateReader {

@@ -95,9 +95,8 @@ HistoryFormat load_format(const StateReader &reader);
 
 /// Saves the names of the fields of a law's state, beside the histories that have them.
 void save_fields(StateWriter &writer, const PointLaw &law);
-/// Reads the histories of a body's elements, which have the states of the law at `points`, and
-/// orders the fields of these states by name as the law has them. Throws InputError if the fields
-/// differ.
+/// Reads the histories of a body's elements, which have the states of the law at `points`. Orders
+/// the fields of these states by name as the law has them. Throws InputError if the fields differ.
 std::vector<double> load_history(const StateReader &reader, const std::string &body, const PointLaw &law,
                                  const PointStates &points, std::size_t width,
                                  const std::vector<std::uint64_t> &keys);

@@ -17,10 +17,10 @@ namespace billet {
 /// Rigid-body modes of all bodies and driven tools together that neither supports nor contact
 /// resist, (Q2).
 ///
-/// The unknowns are z = (v_1, ω_1 L_1, ..., s_1, ...): velocity v and spin ω of each body about its
-/// centre c, and the rate s of each driven tool. L is the size of the body. A row r z is the
-/// relative velocity of two points along a direction d. A body contributes d·v + ((x − c) × d)·ω, a
-/// tool −d·v_s s.
+/// The unknowns are z = (v_1, ω_1 L_1, ..., s_1, ...). They are velocity v and spin ω of each body
+/// about its centre c, and the rate s of each driven tool. L is the size of the body. A row r z is
+/// the relative velocity of two points along a direction d. A body contributes d·v +
+/// ((x − c) × d)·ω, a tool −d·v_s s.
 ///
 /// A support, the normal of a point in contact and the surface of a sticking point resist r z of
 /// either sign. Their springs are in the tangent, and an unloaded point that opens is no longer in
@@ -100,7 +100,7 @@ private:
   Mode mode_of(const Row &motion) const;
   /// Orthonormal motions without resistance in either direction.
   struct Unresisted {
-    /// All of them, including those of tools alone: a body may follow a tool.
+    /// All rows, including those of tools alone: a body may follow a tool.
     std::vector<Row> all;
     std::vector<Row> of_bodies; ///< one of each set that differs in the motion of tools only
   };

@@ -19,8 +19,8 @@ public:
 
   /// Adds an accepted step that ends at time `t`. Collective.
   void add(const Contacts &contacts, double t, MPI_Comm communicator);
-  /// Returns a warning for each pair whose gaps at the start differ by more than a tenth of the
-  /// indentation F/(E √A) of the softer body, after a slide by a facet.
+  /// Returns a warning for each pair whose gaps at the start differ by too much after a slide by a
+  /// facet. The limit is a tenth of the indentation F/(E √A) of the softer body.
   DiagnosticList judge() const;
 
   void save(StateWriter &writer) const;

@@ -177,7 +177,7 @@ void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) 
   const NodalVectors u_before = parts_.motion.displacements_before(step_length());
   const std::vector<Placement> placements = parts_.tools.placements_before();
   for (auto &contact : parts_.contacts) {
-    // What the coarser mesh cannot tell remains as it begins.
+    // Contact keeps its initial state where the coarser mesh has no data.
     const bool begins = is_refined(reader, contact);
     if (begins)
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);

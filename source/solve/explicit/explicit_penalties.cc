@@ -39,7 +39,7 @@ DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   }
   dealii::Utilities::MPI::max(maxima, parts_.communicator(), maxima);
 
-  // Of all pairs.
+  // Part of the energy in the springs of all pairs.
   const double part = energies.total() > 0. ? energies.contact / energies.total() : 0.;
   const double time = parts_.clock.time();
   auto next = maxima.begin() + 1;

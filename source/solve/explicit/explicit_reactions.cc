@@ -114,7 +114,7 @@ void ExplicitReactions::sum_forces() {
                        v_before = get_vector(motion.velocities_before().data(), node);
     const double factor = parts_.masses.values()[node] / duration;
     inertia -= factor * (v - v_before);
-    // Whose last bits are round-off of the accelerations.
+    // The last bits of these are round-off of the accelerations.
     size += factor * (l1_norm(v) + l1_norm(v_before));
     size += l1_norm(get_vector(motion.support_forces().data(), node));
   }

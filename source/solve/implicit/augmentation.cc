@@ -81,7 +81,7 @@ struct Augmentation::Series {
   Pace pace;
   std::vector<ContactSprings> springs;
   std::vector<double> before; ///< demands before the last augmentation
-  /// See stiffen_slow_contacts(); of all augmentations, of the last.
+  /// Factors of stiffness by all augmentations, and parts of the forces added by the last.
   std::vector<double> stiffer, added;
   /// Of sheets: change of the normal force by the last augmentation over the force that springs
   /// held; else 1
@@ -93,8 +93,8 @@ struct Augmentation::Series {
 
 namespace {
 
-/// Whether the pair is with a driven tool that has neither a load nor a mass: it gives way to
-/// bodies, and any force is an error of the iterations.
+/// Whether the pair is with a driven tool that has neither a load nor a mass. Such a tool gives way
+/// to bodies, and any force is an error of the iterations.
 bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size_t> &tool) {
   if (!tool)
     return false;

@@ -18,7 +18,7 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
                          const ConstraintFilter &acts, const LoadFilter &springs_act) {
   const std::size_t n_bodies = scene.bodies().size();
   const double far = 10. * discretization.radius();
-  // About the scene's centre, negative.
+  // Both are about the scene's centre; the high ones are negative.
   std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far);
   for (std::size_t body = 0; body < n_bodies; ++body)
     for (const auto &element : discretization.elements(body))

@@ -96,8 +96,8 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
                : p_.continuation.iterate(way == Way::by_low_penalties ? PenaltyContinuation::Start::low
                                                                       : PenaltyContinuation::Start::enough,
                                          x.offsets, x.displacements);
-  if (linear_step.force > 0.)
-    report.iterations.insert(report.iterations.begin(), linear_step); // its cost is that of an iteration
+  if (linear_step.force > 0.) // its cost is that of an iteration
+    report.iterations.insert(report.iterations.begin(), linear_step);
   if (is_direct)
     report.hardest = report.iterations.size();
   p_.augmentation.augment(report, x.offsets, x.displacements);

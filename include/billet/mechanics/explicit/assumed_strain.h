@@ -423,8 +423,9 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
 
   const Real per_mass = reference_volume * load(constants + mean_gradient::bound * n_lanes);
   const Real omega = per_mass * bound_points(sums.lambda);
+  // The sum is tr J̄⁻¹ J̄⁻ᵀ.
   const Real of_volume =
-      per_mass * (frame.inverse_metric[0] + frame.inverse_metric[1] + frame.inverse_metric[2]); // tr J̄⁻¹ J̄⁻ᵀ
+      per_mass * (frame.inverse_metric[0] + frame.inverse_metric[1] + frame.inverse_metric[2]);
   const Real mean_tau = material.bulk * volume.logarithm_of_J;
   const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
   store(history + last::omega * n_lanes, omega);

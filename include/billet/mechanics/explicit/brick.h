@@ -125,8 +125,8 @@ BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes
 #endif
 }
 
-/// Returns the exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}: linear in
-/// the modes a1 and b1 of x, in a2 and b2 of y, in a3 and b3 of z.
+/// Returns the exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}. It is
+/// linear in the modes a1 and b1 of x, in a2 and b2 of y, and in a3 and b3 of z.
 BILLET_INLINE Real compute_volume(const Modes &x, const Modes &y, const Modes &z) {
   Real a[3], b[3], t[3];
   cross(y.m[1], z.m[2], a);
@@ -145,8 +145,8 @@ BILLET_INLINE Real compute_volume_change(const Modes &before, const Modes &diffe
          (compute_volume(before, difference, after) + compute_volume(before, before, difference));
 }
 
-/// Columns ∂x/∂ξ_k at the four lines along ξ_k through the Gauss points: [k][line], bit 0 of the
-/// line for the first of the other two directions. Also used for the conjugate forces.
+/// Columns ∂x/∂ξ_k at the four lines along ξ_k through the Gauss points. The index is [k][line],
+/// bit 0 of the line for the first of the other two directions. Also used for the conjugate forces.
 struct Columns {
   Real c[3][4][3];
 };

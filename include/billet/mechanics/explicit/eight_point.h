@@ -37,8 +37,8 @@ struct MotionColumns {
 };
 
 /// Computes the stress dev τ of a point from the law, and completes `map`. Returns the factor that
-/// converts it to Cauchy's stress times the weight of the Jacobian: reference_volume/det j with the
-/// point's share of the volume, or 1/J̄ for a rate form.
+/// converts it to Cauchy's stress times the weight of the Jacobian. This is reference_volume/det j
+/// with the point's share of the volume, or 1/J̄ for a rate form.
 template <class Law, bool is_plastic>
 BILLET_INLINE Real compute_stress(const Material &material, const LaneFunctions &functions,
                                   const unsigned int q, const MotionColumns &columns, const Number *weights,

@@ -70,7 +70,7 @@ template <class Number> struct BasicMaterial {
   BasicViscosity<Number> viscosity;
 };
 
-/// Count of numbers per element, stored in batches of as many elements as there are lanes: number k
+/// Count of numbers per element, stored in batches of as many elements as there are lanes. Number k
 /// of batch b and lane l is at (b n + k) n_lanes + l.
 struct Layout {
   std::size_t n_constants;
@@ -112,15 +112,17 @@ using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Numbe
 
 // Order of these numbers. Constants of the eight-point element: V, 1/(smallest nodal mass), then,
 // unless hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the
-// viscous pressure of the last call, then the history of each point. Point history: H = j⁻¹ b_e j⁻ᵀ
-// (6 numbers, convected: C_p⁻¹ in the element's own coordinates) or dev τ (11, 22, 12, 13, 23);
-// then, with plasticity, α, unless hardening is linear, σ_y(α), and the state of the flow stress,
-// in the user's units. The constants of the other elements are listed below.
+// viscous pressure of the last call, then the history of each point.
+//
+// Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the element's own coordinates) or
+// dev τ (11, 22, 12, 13, 23). With plasticity follow α, unless hardening is linear, σ_y(α), and the
+// state of the flow stress, in the user's units. The constants of the other elements are listed
+// below.
 //
 // In float, differences must be formed before rounding, so the modes of the reference positions (21
-// numbers) are constants, too. History: J̄ − 1 instead of v; for each point spatial b_e − 1 up to a
-// factor (6 numbers) or dev τ; then α in two parts, σ_y(α), and each number of the flow stress'
-// state in two parts.
+// numbers) are constants, too. The history has J̄ − 1 instead of v. Each point has spatial b_e − 1
+// up to a factor (6 numbers) or dev τ. Then follow α in two parts, σ_y(α), and each number of the
+// flow stress' state in two parts.
 
 /// Offsets of the data of the last call that every element stores; data of its kind follow. In
 /// float J̄ − 1 replaces the volume.
@@ -138,7 +140,7 @@ constexpr unsigned int n = 21;
 /// Offsets of the data of the one-point element.
 namespace one_point {
 using namespace mean_gradient;
-/// As `bound`, for the columns and the modes b, c.
+/// Like `bound`, for the columns and the modes b, c.
 constexpr unsigned int bound_of_all = mean_gradient::n;
 /// Maximum modulus of the hourglass strains.
 constexpr unsigned int hourglass_modulus = 22;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Before it includes this file, a translation unit defines BILLET_LANES, the number of elements
-// computed at once, and BILLET_SINGLE, 1 for float or 0 for double.
+// A translation unit defines two macros before it includes this file. BILLET_LANES is the number of
+// elements computed at once; BILLET_SINGLE is 1 for float or 0 for double.
 #ifndef BILLET_MECHANICS_EXPLICIT_LANES_H
 #define BILLET_MECHANICS_EXPLICIT_LANES_H
 

@@ -5,7 +5,7 @@
 #include "billet/mechanics/explicit/lanes.h"
 
 // Material laws at a point. `hourglass` is the term 6 G W (X7) that the stabilisation of a
-// one-point element adds to the squared stress in the yield condition; zero for eight points.
+// one-point element adds to the squared stress in the yield condition. It is zero for eight points.
 // Symmetric tensors have the order 11, 22, 33, 12, 13, 23. Matrices are arrays of columns: m[k][i]
 // is row i of column k.
 
@@ -166,7 +166,7 @@ BILLET_INLINE Real compute_yield_stress(const Hardening &hardening, const Real a
   return hardening.strength * exponential(hardening.exponent * logarithm(hardening.prestrain + alpha));
 }
 
-/// Relative to the yield stress.
+/// Tolerance relative to the yield stress.
 constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r;
 
 /// Solves q − m Δα = σ_y(α + Δα) for Δα > 0 in the lanes that yield; `yield_stress` becomes the new
@@ -196,8 +196,8 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
   return delta;
 }
 
-/// Offsets of a point's plastic data. In float α and the state of the flow stress are sums of two
-/// parts, since increments may be below the last digit of the first.
+/// Offsets of a point's plastic data. In float, α and the state of the flow stress are sums of two
+/// parts. Increments may be below the last digit of the first part.
 constexpr unsigned int n_parts = is_single ? 2 : 1, place_of_yield_stress = n_parts;
 
 BILLET_INLINE std::size_t place_of_state(const Material &material) {
@@ -289,7 +289,7 @@ BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &f
     yields = Mask{};
     return {Real{}, before, all_q, Real{}};
   }
-  // Other lanes: any number.
+  // Other lanes have any number.
   const Real q = select(yields, all_q, 2._r * before), excess = q - before;
   Real x = min(excess / before, power(excess / (unit * m), 1._r / p));
   Real low{}, high = x, step{}, delta{}, yield = before, slope{};
@@ -299,7 +299,7 @@ BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &f
     const Real residual = q - m * delta - yield * (1._r + x);
     const Real stiffness = m + slope * (1._r + x), change = p * delta / x; // dΔα/dx
     const Real descent = stiffness * change + yield;                       // −d residual/dx
-    // Its derivative, but for σ_y''.
+    // `bend` is its derivative, but for σ_y''.
     const Real bend = ((p - 1._r) * stiffness / x + 2._r * slope) * change;
     const Real newton = residual / descent;
     const Real halley = newton / (1._r + 0.5_r * newton * bend / descent);
@@ -419,8 +419,8 @@ BILLET_INLINE Polynomial exponential_series(const Real i2, const Real i3, const 
 
 // Eigenvalues of a traceless X are at most √(4 i2/3). Up to `small_strain`, as in metals, few terms
 // suffice; up to `moderate_strain` more are needed; beyond that each lane is computed from its
-// eigenvalues. The truncation error relative to X in double is 0.02⁹/10 with nine terms, 0.2²⁴/25
-// with 24; in float it is 0.05⁶/7 = 2e-9 with six, 0.35¹⁵/16 = 9e-9 with 15.
+// eigenvalues. In double, the truncation error relative to X is 0.02⁹/10 with nine terms, and
+// 0.2²⁴/25 with 24. In float it is 0.05⁶/7 = 2e-9 with six, and 0.35¹⁵/16 = 9e-9 with 15.
 constexpr Number small_strain = is_single ? 0.05_r : 0.02_r, moderate_strain = is_single ? 0.35_r : 0.2_r;
 constexpr Number small_i2 = 0.75_r * small_strain * small_strain,
                  moderate_i2 = 0.75_r * moderate_strain * moderate_strain;
@@ -664,8 +664,8 @@ struct NeoHookean {
     strain.store_to(history);
   }
 
-  /// Returns ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x −
-  /// i3. This avoids the difference of numbers close to 1.
+  /// Returns ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e:
+  /// x³ − 1 = i2 x − i3. This avoids the difference of numbers close to 1.
   BILLET_INLINE static Real compute_distortion(const Material &material, const Real x, const Real i2,
                                                const Real i3) {
     return (1.5_r * material.shear) * (i2 * x - i3) / (x * (x + 1._r) + 1._r);

@@ -6,9 +6,9 @@
 #include "billet/mechanics/hourglass_energy.h"
 
 // The one-point brick. It stores the energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F
-// dV, plus that of the hourglass strains ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄ (a_1, a_2,
-// a_3)_0. These are zero in linear fields and invariant under rotations. doc/theory.md has the
-// derivation.
+// dV, plus that of the hourglass strains. These are ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄
+// (a_1, a_2, a_3)_0. They are zero in linear fields and invariant under rotations. doc/theory.md
+// has the derivation.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -94,8 +94,8 @@ BILLET_INLINE void add_hourglass(const Real volume, const HourglassTrial &hourgl
 }
 
 /// Returns the bound (X12) of the stiffness per volume of the columns and of the modes b and c.
-/// `of_mean` is that of the mean gradient, `metric` and `eigenvalue` are J̄⁻¹ J̄⁻ᵀ and a bound of
-/// its eigenvalues, `modulus` is that of the hourglass strains.
+/// `of_mean` is that of the mean gradient, `modulus` that of the hourglass strains. `metric` is
+/// J̄⁻¹ J̄⁻ᵀ, and `eigenvalue` a bound of its eigenvalues.
 BILLET_INLINE Real bound_stiffness(const HourglassTrial &hourglass, const Real of_mean, const Real metric[6],
                                    const Real eigenvalue, const Real modulus) {
   const auto &own = hourglass.metric;

@@ -47,7 +47,7 @@ public:
 private:
   std::string file_name_;
   double time_ = 0., step_ = 0., step_before_ = 0.;
-  /// Steps were much shorter than allowed, and are still short.
+  /// Whether steps were much shorter than allowed, and are still short.
   bool is_growing_ = false;
   double event_ = 0.; ///< end of the planned steps
   /// Steps taken; steps of the present length before the event.

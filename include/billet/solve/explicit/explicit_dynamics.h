@@ -16,8 +16,8 @@ namespace billet {
 
 /// M a = F_ext + F_c − F_int by central differences with a lumped mass:
 ///   v_{n+½} = v_{n−½} + ½ (Δt_{n−1} + Δt_n) M⁻¹ F_n,   u_{n+1} = u_n + Δt_n v_{n+½}.
-/// A step has two parts. prepare_step() computes the forces at t_n and the velocities after it,
-/// which completes the state at t_n. finish_step() moves on to t_{n+1}.
+/// A step has two parts. The first, prepare_step(), computes the forces at t_n and the velocities
+/// after it, which completes the state at t_n. The second, finish_step(), moves on to t_{n+1}.
 ///
 /// In a linear system with equal steps the sum of the energies of ExplicitLedger is constant to
 /// round-off.
@@ -39,8 +39,8 @@ public:
   /// Returns the maximum step while no node comes through a surface.
   double usual_step() const { return std::max(step_length(), stable_step_.usual()); }
   /// Returns the maximum step, as usual_step(), if at time t the bodies had moved without
-  /// deformation by these translations; for forecasts, after which there are no further steps.
-  /// Collective.
+  /// deformation by these translations. It is for forecasts, after which there are no further
+  /// steps. Collective.
   double usual_step_at(double t, const std::vector<dealii::Tensor<1, 3>> &translations);
   unsigned int n_steps() const { return parts_.clock.n_steps(); }
   /// Returns this rank's element with the shortest stable step at the start.

@@ -61,10 +61,10 @@ private:
   LoadWorks of_loads_;
   double bound_factor_; ///< of contacts
   NodalVectors forces_, external_;
-  /// Of stiffness and damping beside the elements' own; zero except at bounded_nodes_.
+  /// Bounds of stiffness and damping beside the elements' own; zero except at bounded_nodes_.
   NodalVectors bounds_;
   std::vector<unsigned int> loaded_nodes_, bounded_nodes_; ///< of this rank; of all ranks
-  /// Contacts, springs or dashpots on any rank.
+  /// Whether there are contacts, springs or dashpots on any rank.
   bool has_bounds_ = false;
   double element_step_ = 0.;
   Crossings crossings_;

@@ -45,7 +45,7 @@ public:
   const NodalVectors &support_forces() const { return supports_; }
 
   /// Changes velocities by `forces`, which it sets to 0. The two nodes at one place of a prism, on
-  /// the axis of a wedge, move as one: each takes the part of their forces that its mass has of
+  /// the axis of a wedge, move as one. Each takes the part of their forces that its mass has of
   /// theirs. A failure of supports is reported at the next forces; see check().
   void kick(const ExplicitClock &clock, const NodalMasses &masses, NodalVectors &forces);
   /// Throws SolutionFailure if supports have failed on this rank in the last kick.

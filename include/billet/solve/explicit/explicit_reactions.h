@@ -7,9 +7,9 @@
 
 namespace billet {
 
-/// Reactions of an explicit scene at t_n, after the kick: M a − F at constrained nodes, with a =
-/// (v_{n+½} − v_{n−½})/(½ (Δt_{n−1} + Δt_n)). Supports that have ended and removed tools have the
-/// forces that fade.
+/// Reactions of an explicit scene at t_n, after the kick: M a − F at constrained nodes, with
+/// a = (v_{n+½} − v_{n−½})/(½ (Δt_{n−1} + Δt_n)). Supports that have ended and removed tools have
+/// the forces that fade.
 class ExplicitReactions {
 public:
   explicit ExplicitReactions(const ExplicitParts &parts);

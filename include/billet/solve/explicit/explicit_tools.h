@@ -45,7 +45,7 @@ public:
   /// Returns the addition of the free tools' masses to ω² of the contacts [1/time²]. Collective.
   double max_frequency_square() const;
 
-  /// Removes tools that are due from their contacts, after a step to t: their forces of the last
+  /// Removes tools that are due from their contacts, after a step to t. Their forces of the last
   /// update fade from there on, and a checkpoint has them. Their energies leave `external_work`.
   void remove_due(double t, Contacts &contacts, double &external_work);
   /// Adds what is left at t of removed tools' forces at these nodes.

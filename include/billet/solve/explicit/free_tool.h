@@ -8,10 +8,10 @@
 
 namespace billet {
 
-/// Tool in an explicit scene. A tool with a force or moment has a mass, or moment of inertia, m. It
-/// moves by an offset s beyond its prescribed motion along its direction, or about its axis,
+/// Tool in an explicit scene. A tool with a force or moment has a mass, or moment of inertia, m.
+/// Its offset s beyond its prescribed motion is along its direction, or about its axis. It obeys
 ///   m s̈ = load − resistance of the bodies,
-/// by the same central differences as the nodes.
+/// and is integrated by the same central differences as the nodes.
 class FreeTool {
 public:
   FreeTool(const Tool &tool, const parameters::Motion &motion);

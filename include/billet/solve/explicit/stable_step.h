@@ -58,7 +58,7 @@ private:
   double safety_factor_;
   double factor_ = 1.; ///< beside the safety factor
   double value_ = 0.;
-  /// Of the elements alone, over all ranks; at the start.
+  /// Stable step of the elements alone, over all ranks; that at the start.
   double of_elements_ = 0., of_elements_first_ = 0.;
 };
 

@@ -15,7 +15,7 @@
 namespace billet {
 
 /// Tools with a given force or moment: their offsets, beyond the prescribed motion, are unknowns
-/// beside the displacements. They border the tangent,
+/// beside the displacements. They border the tangent:
 ///   K du + B ds = r_u,   C du + D ds = r_s.
 /// The unknown of a tool that rotates, and its equation, are scaled by the scene's radius to a
 /// length and a force. Tools that have reached their stop force stay in place.

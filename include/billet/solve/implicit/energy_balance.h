@@ -46,8 +46,8 @@ public:
   virtual void load(const StateReader &reader);
 
 protected:
-  /// Work of contact in a step, less the energy that springs then store and friction dissipates; <
-  /// 0: contact generates energy.
+  /// Work of contact in a step, less the energy that springs then store and friction
+  /// dissipates; < 0: contact generates energy.
   struct ContactLoss {
     double total = 0.;
     double friction = 0.; ///< part of it by the springs of friction

@@ -66,7 +66,7 @@ public:
   double step_error(const Vector &displacements) const;
 
   /// Begins the next step with the loads that act after t, if loads jump there or if velocities do.
-  /// Then `forces`, the sum of all forces with the sign of the residual, changes with them, the
+  /// Then `forces`, the sum of all forces with the sign of the residual, changes with them. The
   /// accelerations have to be computed anew, and it returns true. Collective.
   bool follow_loads(double t, bool velocities_jump, Vector &forces);
   void add_end_inertia(Vector &residual) const override;

@@ -140,7 +140,7 @@ private:
   SolutionState state_;
   Vector raw_internal_, raw_contact_;               ///< additive
   std::vector<std::vector<SlaveForce>> linearised_; ///< of the contacts at the last tangent
-  /// Between the last tangent and the last residual.
+  /// Changes between the last tangent and the last residual.
   StatusChanges status_changes_;
   std::string obstacle_;
   std::function<std::string()> judge_; ///< of trial states; may be empty

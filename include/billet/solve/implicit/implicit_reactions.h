@@ -13,8 +13,9 @@ namespace billet {
 /// Reactions of the accepted steps of an implicit scene, at their ends: at a constrained dof, the
 /// sum of all forces without constraints. In dynamics they include inertia, with the accelerations
 /// at the end of the step. The free residual is that of the integrator's balance, which weighs
-/// forces of both ends; inertia of the whole model is what is in balance with the other forces. A
-/// support that has ended has the force that fades.
+/// forces of both ends. Inertia of the whole model is what is in balance with the other forces.
+///
+/// A support that has ended has the force that fades.
 class ImplicitReactions {
 public:
   explicit ImplicitReactions(const ImplicitProblem &problem);
@@ -29,8 +30,8 @@ public:
   /// the step.
   void set_pair(std::size_t pair, const ContactLoad &load, const FacetPenetration &between_nodes,
                 const Placement &placement);
-  /// Adds what is left of a removed tool's load through a pair, which is known unless the run
-  /// resumes with other pairs; moment about the placement's moved centre.
+  /// Adds what is left of a removed tool's load through a pair, with the moment about the
+  /// placement's moved centre. The pair is known unless the run resumes with other pairs.
   void add_removed(std::optional<std::size_t> pair, const ContactLoad &load, const Placement &placement);
 
 private:

@@ -35,7 +35,7 @@ public:
 
 private:
   struct Limits {
-    /// Maximum rotation of a tool in a step [rad]: by the chord of an arc of 15 degrees the moment
+    /// Maximum rotation of a tool in a step [rad]. By the chord of an arc of 15 degrees the moment
     /// of friction is 0.9 % too small.
     static constexpr double max_turn = M_PI / 12.;
     /// Maximum approach of nodes in the step of first contact, as part of their facets.

@@ -29,8 +29,10 @@ public:
   Groups of_trial() const;
   /// Returns the size that each group counts with at least, by the last accepted state. That of a
   /// travel is the travel by which the tool's load does the work of all loads so far
-  /// (doc/theory.md, W3): what it is off by changes the other forces, as a part of them, by no more
-  /// than the part of that which it is. At most the scene's radius, for loads near zero.
+  /// (doc/theory.md, W3). An error of the travel changes the other forces by a part of them that is
+  /// no larger than the error over this size.
+  ///
+  /// The size is at most the scene's radius, for loads near zero.
   std::vector<double> min_sizes() const;
 
 private:
@@ -43,7 +45,7 @@ private:
 
 /// Effect of penetration on the results at the end of a step.
 struct OfPenetration {
-  /// The deepest, see ContactSet::find_penetration(), before augmentation.
+  /// Largest penetration before augmentation, see ContactSet::find_penetration().
   double penetration = 0.;
   StepResults::Groups with, without; ///< empty: not found
   double residual = 0.;              ///< of `without`, as part of the forces

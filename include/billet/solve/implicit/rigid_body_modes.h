@@ -85,7 +85,7 @@ private:
   ImplicitParts &parts_ = problem_.parts();
   bool may_change_; ///< whether supports or springs begin or end
   RigidBodies bodies_;
-  /// On bodies at the end of the last step; maxima so far.
+  /// Forces on bodies at the end of the last step; maxima so far.
   std::vector<double> forces_n_, max_forces_;
   std::vector<FrictionUse> friction_n_; ///< of the contacts at the end of the last step
   Loss loss_; ///< earliest loss for which a step failed; it explains failures of earlier steps

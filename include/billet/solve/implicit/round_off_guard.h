@@ -15,7 +15,7 @@ public:
       : problem_(problem), is_balanced_by_inertia_(parts_.scheme().has_inertia()) {}
 
   /// Returns a failure of a converged step if round-off of contact is too large a part of the
-  /// forces, in several such steps in succession or at the end of the run.
+  /// forces. This must be so in several such steps in succession, or at the end of the run.
   std::optional<StepFailure> judge(double t, const NewtonReport &report) const;
   /// Whether round-off of contacts may explain the residual of a failed step. Collective.
   bool may_explain(const NewtonReport &report) const;

@@ -13,9 +13,10 @@ namespace billet {
 /// Bounds how far forces slide bodies over each other, or over tools, in a static step. If an
 /// equilibrium is lost, Newton's method may find another one far away, and contact has not seen
 /// what is between them. With automatic steps, a solution that slides too far is rejected.
-/// Iterations may slide further, and return. If they fail, the next attempt takes trial states that
-/// slide too far as inadmissible, so that it finds an equilibrium that is near; the one after that
-/// does not, and so on in turn.
+/// Iterations may slide further, and return.
+///
+/// If they fail, the next attempt takes trial states that slide too far as inadmissible, so that it
+/// finds an equilibrium that is near. The one after that does not, and so on in turn.
 class SlidingGuard {
 public:
   explicit SlidingGuard(ImplicitProblem &problem);
