@@ -284,7 +284,8 @@ void Diagnostics::report(const Diagnostic &diagnostic) {
   if (is_new) {
     entries_.push_back({diagnostic, 1, diagnostic.measure(), diagnostic.time()});
     write_line(diagnostic.json());
-    if (is_first_ && print_ && diagnostic.kind().severity != Severity::error) // main() prints errors
+    // main() prints errors.
+    if (is_first_ && print_ && diagnostic.kind().severity != Severity::error)
       print_(diagnostic.kind().severity, diagnostic.text());
     return;
   }

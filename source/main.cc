@@ -99,7 +99,8 @@ void print_help(std::ostream &stream) {
             "--help'\n";
 }
 
-/// Prints where the manual is. In a graphical session the desktop's program for such files shows it.
+/// Prints where the manual is. In a graphical session the desktop's program for such files shows
+/// it.
 void open_manual() {
   std::string manual = find_manual();
   std::cout << "The manual is " << manual << std::endl;
@@ -307,8 +308,8 @@ billet::parameters::Scene read_scene(const std::string &file, const CommandLine 
   return parameters;
 }
 
-/// Calls `use` with the parameters of a scene. Throws InputError with all errors of the scene, not only with
-/// those that show first.
+/// Calls `use` with the parameters of a scene. Throws InputError with all errors of the scene, not
+/// only with those that show first.
 template <class Function>
 void use_scene(const std::string &file, const CommandLine &command, const Function &use) {
   try {
@@ -331,8 +332,8 @@ void print_refusal(const std::string &file, const billet::InputError &error, con
     std::cout << billet::describe_refusal_as_json(file, error.diagnostics()) << "\n";
 }
 
-/// Writes the scene of the first file with current names to the second file, or prints it. Reports the
-/// changes.
+/// Writes the scene of the first file with current names to the second file, or prints it. Reports
+/// the changes.
 void update_scene(const std::vector<std::string> &files) {
   const billet::SceneUpdate update = billet::update_scene(files.front());
   const bool has_target = files.size() > 1;
@@ -478,8 +479,8 @@ int main(int argc, char *argv[]) {
   if (const auto code = billet::launch(arguments))
     return *code;
   billet::prepare_for_one_process();
-  // Only the program's name is passed on: PETSc, if deal.II has it, would interpret --check as its own
-  // option. One thread for each rank: more would be idle.
+  // Only the program's name is passed on: PETSc, if deal.II has it, would interpret --check as its
+  // own option. One thread for each rank: more would be idle.
   int n_for_libraries = 1;
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

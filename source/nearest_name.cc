@@ -15,8 +15,8 @@ std::string in_lower_case(const std::string &text) {
   return result;
 }
 
-/// Returns how many letters of `a` must be inserted, removed, replaced, or exchanged with their neighbours to
-/// get `b` (optimal string alignment).
+/// Returns how many letters of `a` must be inserted, removed, replaced, or exchanged with their
+/// neighbours to get `b` (optimal string alignment).
 std::size_t edit_distance(const std::string &a, const std::string &b) {
   std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j)
@@ -52,7 +52,8 @@ std::string only_continuation(const std::string &start, const std::vector<std::s
 } // namespace
 
 std::string nearest_name(const std::string &name, const std::vector<std::string> &known) {
-  constexpr std::size_t max_letters = 200; // longer text is no name, and the distance costs its square
+  // Longer text is no name, and the distance costs its square.
+  constexpr std::size_t max_letters = 200;
   if (name.empty() || name.size() > max_letters)
     return "";
   const std::string wanted = in_lower_case(name);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: prose.py [--program BILLET] [FILE.md|FILE.prm...]
+"""Usage: prose.py [--program BILLET] [FILE...]
        prose.py --self-check
 
 Checks the prose of the pages beside README.md, in .github/ and in doc/: no line has more than 100 columns, no
@@ -9,13 +9,18 @@ sentence more than 25 words, no paragraph more than five sentences. Tables, code
 The same holds for the comments of scenes and of their parts in prm/, materials/ and examples/. An empty
 comment ends a paragraph there; a comment at the end of a line is one. Lines without a comment may be wider.
 
+It also holds for the comments of C++ in include/ and source/. Formulas and tables have more indent there
+than the text above them, and operators or columns. Such a line counts as one word, with the sign at its end,
+but is no wider, either. Symbols that operators join within a line count as one word. An item of a list is a
+paragraph. Directives for tools such as clang-tidy are no comments.
+
 Words are what stands between blanks, per cent and words of code within a line among them, but no operators. A
 formula counts as one word. A sentence that goes on below a formula, or in the next item of a list, counts as
 one. Tables have a head. Their cells, also of those in lists, have no more than 25 words between semicolons,
 but for tables of results, which have messages of the program.
 
-FILE checks some pages or scenes only. --program checks what a program says of its parameters and messages,
-too.
+FILE checks some pages (.md), scenes (.prm) or sources (.h, .cc) only. --program checks what a program says of
+its parameters and messages, too.
 """
 
 from __future__ import annotations
@@ -33,6 +38,7 @@ MAX_WORDS = 25
 MAX_SENTENCES = 5
 LEFT_OUT = ("doc/site/",)
 SCENES = ("examples", "materials", "prm")
+SOURCES = ("include/**/*.h", "source/**/*.h", "source/**/*.cc")
 WITH_MESSAGES = ("doc/results/", "doc/messages.md")  # --program checks those
 
 FENCE = re.compile(r"\s*(`{3,}|~{3,}|\$\$)")
@@ -44,6 +50,18 @@ ABBREVIATION = re.compile(
 )
 BLANK_IN_CODE = "\ue000"
 END = re.compile(r"[.!?][)\"'»”*_]*(?=\s+[^a-zµ]|\s*$)")
+# Of C++: strings and the like, which may have two slashes that begin no comment; and comments.
+TOKEN = re.compile(
+    r'R"([^()\\\s]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'|/\*.*?\*/'
+    r"|(//[/!]?<?)([^\n]*)",
+    re.DOTALL,
+)
+DIRECTIVE = re.compile(r"\s*(?:NOLINT|clang-format o|SPDX-)")
+OPERATOR = re.compile(r"[-=+−*/·×⊗:≈≤≥<>→←∈]|[<>]=|<<|>>")
+FUNCTION = re.compile(r"\W*(?:exp|ln|log|sin|cos|tan|tr|dev|sym|det|max|min)\b")
+ITEM_OF_CODE = re.compile(r"\s*- +\S")
+COLUMNS = re.compile(r"\S {2,}\S")
+END_OF_FORMULA = re.compile(r"([.,;:])\s*(?:\([A-Z]?\d+[a-z]?\))*$")  # before its number
 
 
 class Paragraph(NamedTuple):
@@ -246,6 +264,115 @@ def faults_of_scene(scene: str) -> list[Fault]:
     return sorted(faults)
 
 
+class Comment(NamedTuple):
+    """A comment of C++ in one line."""
+
+    line: int
+    column: int
+    mark: str
+    text: str
+    is_whole_line: bool
+
+
+def cpp_comments(code: str) -> list[Comment]:
+    """Returns the comments of C++, without those for tools."""
+    comments = []
+    for token in TOKEN.finditer(code):
+        if token[2] and not DIRECTIVE.match(token[3]):
+            begin = code.rfind("\n", 0, token.start()) + 1
+            before = code[begin : token.start()]
+            line = code.count("\n", 0, begin) + 1
+            comments.append(Comment(line, len(before), token[2], token[3], not before.strip()))
+    return comments
+
+
+def continues(before: Comment, comment: Comment) -> bool:
+    """Returns whether a comment may be of the paragraph of that in the line before."""
+    is_below = before.is_whole_line or comment.mark == "///<" or comment.column == before.column
+    return comment.line == before.line + 1 and comment.mark == before.mark and is_below
+
+
+def is_symbol(word: str) -> bool:
+    """Returns whether a word may be part of a formula: no word of ordinary letters but a function's name."""
+    return bool(FUNCTION.match(word)) or not re.search(r"(?<![\w\\])[A-Za-z][a-z'-]+(?![\w(])", word)
+
+
+def is_layout(line: str) -> bool:
+    """Returns whether a line that is set apart is a formula or a row of a table."""
+    return bool(COLUMNS.search(line)) or any(OPERATOR.fullmatch(word) for word in line.split())
+
+
+def formulas_as_words(text: str) -> str:
+    """Returns a text in which symbols that operators join are one word."""
+    found: list[str] = []
+    formula: list[str] = []
+
+    def close() -> None:
+        if any(OPERATOR.fullmatch(word) for word in formula[1:-1]):
+            end = re.search(r"[.,;:!?)]*$", formula[-1])
+            found.append("Formula" + (end[0] if end else ""))
+        else:
+            found.extend(formula)
+        formula.clear()
+
+    for word in text.split():
+        if not is_symbol(word):
+            close()
+            found.append(word)
+            continue
+        formula.append(word)
+        if re.search(r"[^.][.,;:!?]$", word):
+            close()
+    close()
+    return " ".join(found)
+
+
+def paragraphs_of_code(code: str) -> list[Paragraph]:
+    """Returns the paragraphs of the comments of C++; what is set apart is one word of the text around it."""
+    found: list[Paragraph] = []
+    lines: list[str] = []
+    first = last = Comment(0, 0, "", "", False)
+    in_item = False
+
+    def close() -> None:
+        if lines:
+            text = " ".join(lines).replace("<", "=")  # which begins no tag here
+            text = re.sub(r"(?<=[,.] )([A-Z])\.(?= )", r"\1", text)  # initials of authors end no sentence
+            found.append(Paragraph(first.line, formulas_as_words(text), False))
+        lines.clear()
+
+    for comment in cpp_comments(code):
+        is_next = comment.is_whole_line and continues(last, comment)
+        indent = len(comment.text) - len(comment.text.lstrip())
+        is_apart = is_next and last.is_whole_line and indent >= (6 if in_item else 3)
+        is_item = not is_apart and bool(ITEM_OF_CODE.match(comment.text))
+        if not is_next or is_item or not comment.text.strip():
+            close()
+            in_item = is_item
+        first = first if lines else comment
+        last = comment
+        if is_apart and is_layout(comment.text):
+            end = END_OF_FORMULA.search(comment.text)
+            lines.append("Formula" + (end[1] if end else ""))
+        elif comment.text.strip(" -"):
+            lines.append(comment.text.strip())
+    close()
+    return found
+
+
+def faults_of_code(code: str) -> list[Fault]:
+    """Returns what breaks the rules in the comments of C++."""
+    widths = [len(line) for line in code.splitlines()]
+    faults = [
+        Fault(comment.line, f"{widths[comment.line - 1]} columns")
+        for comment in cpp_comments(code)
+        if widths[comment.line - 1] > MAX_COLUMNS
+    ]
+    for paragraph in paragraphs_of_code(code):
+        faults += faults_of_sentences(paragraph.line, sentences_of(paragraph.text))
+    return sorted(faults)
+
+
 def descriptions_of(program: str) -> Iterator[tuple[str, str]]:
     """Returns what a program says of its parameters and messages."""
 
@@ -297,14 +424,22 @@ def scenes() -> list[str]:
     return [file.relative_to(ROOT).as_posix() for file in files]
 
 
+def sources() -> list[str]:
+    """Returns the files of C++ whose comments are checked."""
+    return sorted(file.relative_to(ROOT).as_posix() for files in SOURCES for file in ROOT.glob(files))
+
+
 def check_files(names: list[str]) -> int:
     """Prints what is wrong; returns the number of errors."""
     n_errors = 0
     for name in names:
         text = (ROOT / name).read_text(encoding="utf-8")
-        faults = faults_of_scene(text) if name.endswith(".prm") else faults_of(text)
-        if not name.endswith(".prm") and not name.startswith(WITH_MESSAGES):
-            faults += faults_of_tables(text)
+        if name.endswith(".prm"):
+            faults = faults_of_scene(text)
+        elif name.endswith((".h", ".cc")):
+            faults = faults_of_code(text)
+        else:
+            faults = faults_of(text) + ([] if name.startswith(WITH_MESSAGES) else faults_of_tables(text))
         for fault in sorted(faults):
             print(f"{name}:{fault.line}: {fault.what}")
             n_errors += 1
@@ -358,6 +493,39 @@ SCENE_SAMPLES: tuple[tuple[str, list[str]], ...] = (
     ("# One. Two. Three.\n#\n# Four. Five. Six.\n", []),
     ("  # One. Two. Three.\n  # Four. Five. Six.", ["6 sentences"]),
 )
+CODE_SAMPLES: tuple[tuple[str, list[str]], ...] = (
+    ("/// A short sentence.\nint i = 1; ///< another\n", []),
+    ("int i = " + "1 + " * 40 + "1;\n", []),
+    ("int i = " + "1 + " * 20 + "1; // a comment at its end\n", ["114 columns"]),
+    ('f("' + "x" * 60 + '"); // NOLINT(' + "x" * 40 + ")\n", []),
+    ("///" + " word" * 20 + "\n", ["103 columns"]),
+    ("  /// One" + " word" * 12 + "\n  /// and" + " word" * 12 + "\n", ["26 words"]),
+    ("// One" + " word" * 12 + "\n//\n// And" + " word" * 12 + "\n", []),
+    ("// One" + " word" * 12 + "\nint i;\n// And" + " word" * 12 + "\n", []),
+    ("// One" + " word" * 12 + "\n/// And" + " word" * 12 + "\n", []),
+    ("int i; ///< One" + " word" * 12 + "\n    ///< and" + " word" * 12 + "\n", ["26 words"]),
+    ("int i; // One" + " word" * 12 + "\n       // and" + " word" * 12 + "\n", ["26 words"]),
+    ("int i; // One" + " word" * 12 + "\n// And" + " word" * 12 + "\n", []),
+    ("/// One" + " word" * 12 + ":\n/// - item" + " word" * 12 + "\n", []),
+    ("/// - item" + " word" * 12 + "\n///   and" + " word" * 12 + "\n", ["26 words"]),
+    ("/// One" + " word" * 11 + ":\n///   a b c" + " = a" * 15 + ",\n/// where" + " word" * 11 + "\n", []),
+    ("/// One" + " word" * 11 + ":\n///   a = b,\n/// where" + " word" * 12 + "\n", ["26 words"]),
+    ("/// One" + " word" * 11 + ":\n///   name   " + "word " * 14 + "\n/// where" + " word" * 11 + "\n", []),
+    ("/// One" + " word" * 12 + "\n///   and" + " word" * 12 + "\n", ["26 words"]),
+    ("/// It has a_n = Σ b_i (c + d)/e² < 1" + " word" * 11 + "\n///" + " word" * 11 + "\n", []),
+    ("/// It has it = the" + " word" * 11 + " x" * 11 + "\n", ["26 words"]),
+    ("/// It has a = ln b · tr c" + " word" * 11 + "\n///" + " word" * 11 + "\n", []),
+    ("/// - item" + " word" * 12 + "\n///   and a = b" + " word" * 12 + "\n", ["27 words"]),
+    ("/// One" + " word" * 11 + ":\n///   force = mass times rate\n/// where" + " word" * 11 + "\n", []),
+    ("/// One" + " word" * 12 + ":\n///   a = b.   (C1)\n/// Then" + " word" * 12 + "\n", []),
+    ("/// By One, A. B. & Two, C. D., 2001. Three. Four. Five. Six.\n", []),
+    ("/// It is <a" + " so" * 24 + ">\n", ["27 words"]),
+    ("/// In a = 1. Two. Three. Four. Five. Six.\n", ["6 sentences"]),
+    ("/// One. Two. Three.\n///\n/// Four. Five. Six.\n", []),
+    ('f("// One. Two. Three. Four. Five. Six."); // Seven.\n', []),
+    ('f(R"(\n// One. Two. Three. Four. Five. Six.\n)"); // Seven.\n', []),
+    ("const int n = 1'000; // it's one. Two. Three. Four. Five. Six.\n", ["6 sentences"]),
+)
 
 
 def self_check() -> int:
@@ -365,6 +533,7 @@ def self_check() -> int:
     n_errors = 0
     samples = [(text, faults_of(text), expected) for text, expected in SAMPLES]
     samples += [(text, faults_of_scene(text), expected) for text, expected in SCENE_SAMPLES]
+    samples += [(text, faults_of_code(text), expected) for text, expected in CODE_SAMPLES]
     for text, found, expected in samples:
         faults = [fault.what for fault in found]
         if len(faults) != len(expected) or not all(f.startswith(e) for f, e in zip(faults, sorted(expected))):
@@ -389,9 +558,10 @@ def main() -> int:
         n_errors += check_program(arguments[at + 1])
         del arguments[at : at + 2]
     files = [argument for argument in arguments if not argument.startswith("--")]
-    n_errors += check_files(files or pages() + scenes())
+    n_errors += check_files(files or pages() + scenes() + sources())
     if not files:
-        print(f"{len(pages())} pages, {len(scenes())} scenes and parts, {n_errors} errors")
+        counts = f"{len(pages())} pages, {len(scenes())} scenes and parts, {len(sources())} files of C++"
+        print(f"{counts}, {n_errors} errors")
     return 1 if n_errors else 0
 
 

@@ -2,8 +2,8 @@
 #ifndef BILLET_COMPATIBILITY_H
 #define BILLET_COMPATIBILITY_H
 
-// Names that moved between releases of deal.II, from 9.4 on. Nothing else in the program depends on its
-// version.
+// Names that moved between releases of deal.II, from 9.4 on. Nothing else in the program depends on
+// its version.
 
 #include <deal.II/base/config.h>
 #include <deal.II/base/index_set.h>

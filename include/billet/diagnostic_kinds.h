@@ -4,11 +4,11 @@
 
 #include "billet/diagnostics.h"
 
-/// Kinds of messages, each with its key, its meaning and its remedy. `billet --print-diagnostics` prints this
-/// table.
+/// Kinds of messages, each with its key, its meaning and its remedy. `billet --print-diagnostics`
+/// prints this table.
 namespace billet::diagnostic {
 
-// --- the scene -------------------------------------------------------------------------------------------
+// --- the scene -----------------------------------------------------------------------------------
 
 inline const DiagnosticKind
     bad_input("bad-input", Severity::error,
@@ -178,7 +178,7 @@ inline const DiagnosticKind faceted_curvature(
     "Place the nodes of both faces at the same angles, use more facets around, or name the true surface in "
     "'Surface correction'");
 
-// --- contact ---------------------------------------------------------------------------------------------
+// --- contact -------------------------------------------------------------------------------------
 
 inline const DiagnosticKind
     penalty_too_low("penalty-too-low", Severity::warning,
@@ -307,7 +307,7 @@ inline const DiagnosticKind nodes_behind_tool(
     "Nodes have moved around the edge of a tool. Its surface has no back, so nodes behind it are free.",
     "Give the tool sides, a larger surface, or a radius where it ends");
 
-// --- accuracy --------------------------------------------------------------------------------------------
+// --- accuracy ------------------------------------------------------------------------------------
 
 inline const DiagnosticKind
     round_off_limits_forces("round-off-limits-forces", Severity::warning,
@@ -449,7 +449,7 @@ inline const DiagnosticKind target_error_expensive(
     "The allowed error requires very many steps. The run continues, and may take very long.",
     "Choose a larger 'Target error' or 'Error tolerance'");
 
-// --- solution --------------------------------------------------------------------------------------------
+// --- solution ------------------------------------------------------------------------------------
 
 inline const DiagnosticKind
     unsupported_body("unsupported-body", Severity::warning,

@@ -18,8 +18,8 @@ namespace billet {
 enum class Severity { note, warning, error };
 const char *to_string(Severity severity);
 
-/// Kind of message: its key, its severity, its meaning, and what a user can do. Each kind is one object in
-/// diagnostic_kinds.h; its constructor adds it to all_diagnostic_kinds().
+/// Kind of message: its key, its severity, its meaning, and what a user can do. Each kind is one
+/// object in diagnostic_kinds.h; its constructor adds it to all_diagnostic_kinds().
 class DiagnosticKind {
 public:
   DiagnosticKind(const char *key, Severity severity, const char *meaning, const char *remedy);
@@ -39,8 +39,8 @@ const DiagnosticKind &diagnostic_kind(const std::string &key);
 /// Returns all kinds as a JSON array of objects.
 std::string describe_diagnostic_kinds_as_json();
 
-/// Message about a run: its kind, what happened, where, and what to do. The setters return the object itself,
-/// so that a message is written as one expression.
+/// Message about a run: its kind, what happened, where, and what to do. The setters return the
+/// object itself, so that a message is written as one expression.
 class Diagnostic {
 public:
   /// Makes a message. `what`: a sentence without its full stop.
@@ -110,7 +110,8 @@ public:
   /// Returns the message as one JSON object on one line.
   std::string json() const;
 
-  /// Returns all of the message as bytes, for other ranks; deserialize() makes the same message of them.
+  /// Returns all of the message as bytes, for other ranks; deserialize() makes the same message of
+  /// them.
   std::string serialize() const;
   static Diagnostic deserialize(const std::string &bytes);
 
@@ -144,7 +145,8 @@ struct Explanation {
 
 using DiagnosticList = std::vector<Diagnostic>;
 
-/// Returns all of the messages as bytes, for other ranks; deserialize() makes the same messages of them.
+/// Returns all of the messages as bytes, for other ranks; deserialize() makes the same messages of
+/// them.
 std::string serialize(const DiagnosticList &diagnostics);
 DiagnosticList deserialize(const std::string &bytes);
 
@@ -157,21 +159,22 @@ const Diagnostic *find(const DiagnosticList &list, const DiagnosticKind &kind);
 /// Appends `more` to `list`.
 void append(DiagnosticList &list, DiagnosticList more);
 
-/// Collects the messages of a run. The first message with a given identity is printed and written to a file
-/// of JSON lines; repetitions are counted. All ranks report the same messages.
+/// Collects the messages of a run. The first message with a given identity is printed and written
+/// to a file of JSON lines; repetitions are counted. All ranks report the same messages.
 class Diagnostics {
 public:
   using Print = std::function<void(Severity, const std::string &)>;
 
-  /// Makes an empty collection. `is_first`: this is the first rank, the only one that prints and writes.
+  /// Makes an empty collection. `is_first`: this is the first rank, the only one that prints and
+  /// writes.
   explicit Diagnostics(const bool is_first) : is_first_(is_first) {}
 
-  /// Sets the function that prints later messages, without a final line end. If it is empty, nothing is
-  /// printed.
+  /// Sets the function that prints later messages, without a final line end. If it is empty,
+  /// nothing is printed.
   void set_print(Print print) { print_ = std::move(print); }
 
-  /// Opens the file of JSON lines and writes the messages reported so far. Appends if `continues`. Throws
-  /// InputError. First rank only.
+  /// Opens the file of JSON lines and writes the messages reported so far. Appends if `continues`.
+  /// Throws InputError. First rank only.
   void open(const std::string &file_name, bool continues);
 
   void report(const Diagnostic &diagnostic);
@@ -185,16 +188,16 @@ public:
   bool has(const DiagnosticKind &kind) const;
   /// Returns "1 error, 3 warnings"; empty if there is neither.
   std::string count_in_words() const;
-  /// Returns one line for each warning or error that was reported more than once, or became worse after it
-  /// was printed.
+  /// Returns one line for each warning or error that was reported more than once, or became worse
+  /// after it was printed.
   std::vector<std::string> repetitions() const;
-  /// Writes the last JSON line, {"summary": ...}, which counts the reports of each message. Returns false if
-  /// the file could not be written.
+  /// Writes the last JSON line, {"summary": ...}, which counts the reports of each message. Returns
+  /// false if the file could not be written.
   bool write_summary(int exit_code);
   const std::string &file_name() const { return file_name_; }
 
-  /// Saves and restores all reports so far, for checkpoints. load() skips kinds that the program does not
-  /// know.
+  /// Saves and restores all reports so far, for checkpoints. load() skips kinds that the program
+  /// does not know.
   std::string save() const;
   void load(const std::string &state);
 

@@ -23,8 +23,8 @@ enum class ExitCode : int {
   target_missed = 7    ///< the run completed, and its estimated error exceeds the 'Target error'
 };
 
-/// Error for input that cannot be used. The message names the place, the value found and the allowed values.
-/// Thrown on all ranks or on none.
+/// Error for input that cannot be used. The message names the place, the value found and the
+/// allowed values. Thrown on all ranks or on none.
 class InputError : public std::runtime_error {
 public:
   explicit InputError(const std::string &message);
@@ -42,8 +42,8 @@ private:
   DiagnosticList diagnostics_;
 };
 
-/// Error for a computation that cannot continue. The message names the time, the cause and possible remedies.
-/// Thrown on all ranks or on none.
+/// Error for a computation that cannot continue. The message names the time, the cause and possible
+/// remedies. Thrown on all ranks or on none.
 class SolutionFailure : public std::runtime_error {
 public:
   explicit SolutionFailure(const std::string &message);
@@ -60,8 +60,8 @@ private:
 /// Returns the failure of a run that cannot write a file of its results.
 SolutionFailure file_lost(const std::string &name);
 
-/// Calls `action` before the run starts: rethrows a SolutionFailure as InputError with the same diagnostic.
-/// Its kind becomes 'bad-input' if it was the general 'solution-failed'.
+/// Calls `action` before the run starts: rethrows a SolutionFailure as InputError with the same
+/// diagnostic. Its kind becomes 'bad-input' if it was the general 'solution-failed'.
 void check_before_start(const std::function<void()> &action);
 
 } // namespace billet

@@ -11,8 +11,8 @@
 namespace billet {
 
 /// Calls `action` on every rank. If it throws on any of them, every rank throws: InputError or
-/// SolutionFailure with the same diagnostic if that was thrown, otherwise std::runtime_error. `action` itself
-/// must not communicate.
+/// SolutionFailure with the same diagnostic if that was thrown, otherwise std::runtime_error.
+/// `action` itself must not communicate.
 void fail_together(MPI_Comm communicator, const std::function<void()> &action);
 
 } // namespace billet

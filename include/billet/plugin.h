@@ -4,7 +4,8 @@
 
 #include "billet/version.h"
 
-/// Begins the function that registers the types of a shared library, which scenes load by 'Libraries':
+/// Begins the function that registers the types of a shared library, which scenes load by
+/// 'Libraries':
 ///   BILLET_PLUGIN { hardening_types().add(...); }
 /// A library has one. It may throw: the message then names the library.
 #define BILLET_PLUGIN                                                                                        \

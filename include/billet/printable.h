@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Returns what a file has for a message: its first characters, without what a terminal would take for a
-/// command, and "..." if there are more.
+/// Returns what a file has for a message: its first characters, without what a terminal would take
+/// for a command, and "..." if there are more.
 inline std::string printable(const std::string_view text, const std::size_t max_length) {
   std::string result(text.substr(0, max_length));
   for (char &c : result)

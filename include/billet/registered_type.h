@@ -11,16 +11,17 @@
 
 namespace billet {
 
-// A RegisteredType describes one type that a scene file can name, such as a surface or a hardening law: its
-// name, its parameters and its factory function. The parameters are declared, documented and printed from it.
-// A new type is one file with a function that returns its RegisteredType, and one line in the table of its
-// kind. Outside the library, it is one call of TypeTable::add() before the scene is read.
+// A RegisteredType describes one type that a scene file can name, such as a surface or a hardening
+// law. It has its name, its parameters and its factory function. The parameters are declared,
+// documented and printed from it. A new type is one file with a function that returns its
+// RegisteredType, and one line in the table of its kind. Outside the library, it is one call of
+// TypeTable::add() before the scene is read.
 
 /// Returns a finite number. Throws std::invalid_argument.
 double parse_number(const std::string &text);
 
-/// Values of the parameters that a user wrote in one subsection. All getters except text() and is_set()
-/// refuse values of the wrong type and name the parameter's place in the scene file.
+/// Values of the parameters that a user wrote in one subsection. All getters except text() and
+/// is_set() refuse values of the wrong type and name the parameter's place in the scene file.
 class TypeInput {
 public:
   virtual ~TypeInput() = default;
@@ -37,7 +38,8 @@ public:
   virtual dealii::Tensor<1, 3> direction(const std::string &key) const = 0;
   /// Returns the trimmed parts between separators.
   virtual std::vector<std::string> parts(const std::string &key, char separator = ';') const = 0;
-  /// Returns the name of a file, which is relative to the scene file, as a path from the working directory.
+  /// Returns the name of a file, which is relative to the scene file, as a path from the working
+  /// directory.
   virtual std::string file(const std::string &key) const = 0;
   /// Returns "file:line: 'Key' in 'path'", for messages of later checks.
   virtual std::string origin(const std::string &key) const = 0;
@@ -45,15 +47,16 @@ public:
   [[noreturn]] virtual void reject(const std::string &key, const std::string &allowed) const = 0;
 };
 
-/// Parameter of a registered type. Types of one table may share a parameter: they then give the same default,
-/// kind and meaning.
+/// Parameter of a registered type. Types of one table may share a parameter: they then give the
+/// same default, kind and meaning.
 struct TypeParameter {
   enum class Kind { number, text, choice, flag };
 
   std::string key;
   std::string default_value;
   Kind kind;
-  std::string meaning; ///< with the unit at its end; a choice begins with its values, "a|b: meaning"
+  /// Text with the unit at its end; a choice begins with its values, "a|b: meaning".
+  std::string meaning;
 };
 
 /// Type of `Product` that a scene can select by name.
@@ -64,8 +67,8 @@ template <class Product> struct RegisteredType {
   std::function<Product(const TypeInput &)> make;
 };
 
-/// Table of all types of `Product`, in the order of their registration. `T`: a RegisteredType, or derived
-/// from it.
+/// Table of all types of `Product`, in the order of their registration. `T`: a RegisteredType, or
+/// derived from it.
 template <class Product, class T = RegisteredType<Product>> class TypeTable {
 public:
   using Type = T;

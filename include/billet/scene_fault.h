@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// What an error in a scene file is about, as data. The search for further errors (run/all_errors.h) decides
-/// on this, never on the words of the message.
+/// What an error in a scene file is about, as data. The search for further errors
+/// (run/all_errors.h) decides on this, never on the words of the message.
 struct SceneFault {
   enum class Kind {
     other,
@@ -24,8 +24,8 @@ struct SceneFault {
 
   Kind kind = Kind::other;
   std::string suggestion = {}; ///< value or name that the user probably meant; may be empty
-  /// Other parameters, and names of bodies, tools and other parts, on which the error depends. If one of them
-  /// is wrong, this error may only follow from that.
+  /// Other parameters, and names of bodies, tools and other parts, on which the error depends. If
+  /// one of them is wrong, this error may only follow from that.
   std::vector<std::string> depends_on = {};
 };
 

@@ -14,10 +14,11 @@
 
 namespace billet {
 
-// Interfaces through which the parts of a run save and restore their state, independent of where it is
-// stored. A class with state has a pair of functions save(StateWriter &) const and load(StateReader &).
-// load() reads what save() wrote, on any number of ranks. Rows of numbers have keys that do not depend on the
-// ranks: NodeKeys for nodes, element_key() for elements. All functions are collective.
+// Interfaces through which the parts of a run save and restore their state, independent of where it
+// is stored. A class with state has a pair of functions save(StateWriter &) const and
+// load(StateReader &). load() reads what save() wrote, on any number of ranks. Rows of numbers have
+// keys that do not depend on the ranks: NodeKeys for nodes, element_key() for elements. All
+// functions are collective.
 
 /// Writes state. Names are words and unique within their group.
 class StateWriter {
@@ -30,8 +31,8 @@ public:
   /// Writes numbers of the whole run, which are the same on all ranks.
   virtual void write(const std::string &name, const std::vector<double> &values) = 0;
   virtual void write_text(const std::string &name, const std::string &text) = 0;
-  /// Writes rows of `width` numbers; the row of keys[i] begins at values[i width]. Several ranks may write
-  /// the same row.
+  /// Writes rows of `width` numbers; the row of keys[i] begins at values[i width]. Several ranks
+  /// may write the same row.
   virtual void write_rows(const std::string &name, std::size_t width, const std::vector<std::uint64_t> &keys,
                           const std::vector<double> &values) = 0;
 
@@ -47,7 +48,8 @@ private:
   virtual void leave() = 0;
 };
 
-/// Returns a count from a number of a file. Throws InputError if it is not a whole number from 0 to `max`.
+/// Returns a count from a number of a file. Throws InputError if it is not a whole number from 0 to
+/// `max`.
 template <class Count = unsigned int>
 Count to_count(const double value, const Count max = std::numeric_limits<Count>::max()) {
   if (!(value >= 0. && value <= static_cast<double>(max)) || value != std::floor(value))
@@ -68,8 +70,8 @@ public:
   virtual bool has(const std::string &name) const = 0;
   virtual std::vector<double> read(const std::string &name) const = 0;
   virtual std::string read_text(const std::string &name) const = 0;
-  /// Returns the rows of these keys, in their order. Without `found`, every key must be present. With
-  /// `found`, keys may be missing: it marks those present, and rows of missing keys are 0.
+  /// Returns the rows of these keys, in their order. Without `found`, every key must be present.
+  /// With `found`, keys may be missing: it marks those present, and rows of missing keys are 0.
   virtual std::vector<double> read_rows(const std::string &name, std::size_t width,
                                         const std::vector<std::uint64_t> &keys,
                                         std::vector<bool> *found = nullptr) const = 0;

@@ -14,10 +14,10 @@ struct TrialLimits {
 
 enum class TrialEnd { returned, crashed, out_of_time, out_of_memory };
 
-/// Calls `action` in a copy of this process, and returns how it ended: a library may crash or never end on a
-/// damaged file. The changes and the output of `action` stay in the copy. It may throw, which counts as a
-/// return, and must not communicate with other ranks. If the system allows no copy, the function returns
-/// TrialEnd::returned without a call.
+/// Calls `action` in a copy of this process, and returns how it ended: a library may crash or never
+/// end on a damaged file. The changes and the output of `action` stay in the copy. It may throw,
+/// which counts as a return, and must not communicate with other ranks. If the system allows no
+/// copy, the function returns TrialEnd::returned without a call.
 TrialEnd try_in_copy(const TrialLimits &limits, const std::function<void()> &action);
 
 } // namespace billet

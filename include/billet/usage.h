@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Capabilities that cost time and memory only in scenes that use them. Scene::describe() reports which of
-/// them a scene uses.
+/// Capabilities that cost time and memory only in scenes that use them. Scene::describe() reports
+/// which of them a scene uses.
 enum class Capability {
   plasticity,
   stabilisation, ///< of one-point elements
@@ -35,9 +35,9 @@ enum class Capability {
 /// Returns the capability's name; Scene::describe() uses the same.
 const char *name_of(Capability capability);
 
-/// Counters of each capability in this process: calls of its loops, items in them (elements, nodes, pairs,
-/// tools, entries), and the peak of its memory. Loops are counted as a whole, never inside. Capabilities that
-/// a scene does not use stay at 0.
+/// Counters of each capability in this process: calls of its loops, items in them (elements, nodes,
+/// pairs, tools, entries), and the peak of its memory. Loops are counted as a whole, never inside.
+/// Capabilities that a scene does not use stay at 0.
 class Usage {
 public:
   struct Entry {

@@ -9,9 +9,10 @@
 
 namespace billet {
 
-/// Returns the trimmed components of a vector: what stands between semicolons or, without these, between
-/// commas outside parentheses, so that 'atan2(y, x), 0, t' has three. "0,5" stays one: it may be a number
-/// with a decimal comma. An empty text has none, and a separator at the end begins none.
+/// Returns the trimmed components of a vector. They stand between semicolons or, without these,
+/// between commas outside parentheses, so that 'atan2(y, x), 0, t' has three. "0,5" stays one: it
+/// may be a number with a decimal comma. An empty text has none, and a separator at the end begins
+/// none.
 std::vector<std::string> split_vector(const std::string &text);
 
 /// Whether any component is empty, as in '0 ; ; 1'.

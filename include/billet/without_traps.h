@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Disables trapping of floating-point exceptions during its lifetime, for computations that may yield
-/// non-finite values and check for them.
+/// Disables trapping of floating-point exceptions during its lifetime, for computations that may
+/// yield non-finite values and check for them.
 class WithoutTraps {
 public:
   WithoutTraps() { std::feholdexcept(&environment_); }

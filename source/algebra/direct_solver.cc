@@ -70,8 +70,9 @@ private:
   bool is_analysed_ = false;
 };
 
-/// Direct interface to MUMPS: in its symmetric indefinite form, LDLᵀ of the upper triangle, which Amesos does
-/// not offer, or LU of the whole matrix. If MUMPS underestimates its memory, it is called again with more.
+/// Direct interface to MUMPS: in its symmetric indefinite form, LDLᵀ of the upper triangle, which
+/// Amesos does not offer, or LU of the whole matrix. If MUMPS underestimates its memory, it is
+/// called again with more.
 class MumpsSolver final : public LinearSolver {
 public:
   MumpsSolver(const bool is_symmetric, const Matrix &matrix, MPI_Comm communicator)
@@ -104,7 +105,8 @@ public:
     for (int attempt = 0; attempt < 4; ++attempt) {
       if (call(job_factorize))
         return true;
-      // Work arrays of integers and reals, the stack, buffers (MUMPS users' guide, "Error diagnostics").
+      // Work arrays of integers and reals, the stack, buffers (MUMPS users' guide, "Error
+      // diagnostics").
       constexpr std::array<int, 6> too_small = {-8, -9, -11, -12, -14, -15};
       if (std::find(too_small.begin(), too_small.end(), mumps_.infog[0]) == too_small.end())
         return false;
@@ -127,8 +129,8 @@ public:
 
   std::string name() const override { return is_symmetric_ ? "MUMPS (symmetric)" : "MUMPS (unsymmetric)"; }
   double memory() const override {
-    // INFOG(19): allocated on all ranks, in 1e6 bytes. INFOG(29): entries of the factors; if negative,
-    // millions of them.
+    // INFOG(19): allocated on all ranks, in 1e6 bytes. INFOG(29): entries of the factors; if
+    // negative, millions of them.
     const double n_entries = mumps_.infog[28] < 0 ? -1e6 * mumps_.infog[28] : mumps_.infog[28];
     return std::max(1e6 * mumps_.infog[18], sizeof(double) * n_entries);
   }
@@ -137,7 +139,8 @@ private:
   static constexpr int job_initialize = -1, job_end = -2, job_analyze = 1, job_factorize = 2, job_solve = 3;
   static constexpr int spare_memory = 14, distribution = 18; ///< of control(); memory in per cent
 
-  MUMPS_INT &control(const int number) { return mumps_.icntl[number - 1]; } // numbered as in MUMPS's manual
+  // The numbers are those of MUMPS's manual.
+  MUMPS_INT &control(const int number) { return mumps_.icntl[number - 1]; }
 
   bool call(const int job) {
     mumps_.job = job;

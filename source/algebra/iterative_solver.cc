@@ -128,8 +128,8 @@ public:
     return solver_->factorize();
   }
 
-  /// Returns a copy of A = K + C with K + θ C instead, where θ makes C's diagonal, on average, `stiffness`
-  /// times that of K.
+  /// Returns a copy of A = K + C with K + θ C instead, where θ makes C's diagonal, on average,
+  /// `stiffness` times that of K.
   std::unique_ptr<Epetra_CrsMatrix> soften(const double stiffness) const {
     double ratio = 0., n = 0.;
     for (std::size_t i = 0; i < dofs_.size(); ++i) {
@@ -249,8 +249,8 @@ public:
   const char *Label() const override { return "smoothed aggregation"; }
   bool is_ready() const { return ml_->IsPreconditionerComputed(); }
   double memory() const {
-    // Counts entries with their columns: of the softened matrix, the coarser ones, and the transfer between
-    // them.
+    // Counts entries with their columns: of the softened matrix, the coarser ones, and the transfer
+    // between them.
     double entries = softened_ != nullptr ? softened_->NumMyNonzeros() : 0.;
     const ML *levels = ml_->GetML();
     for (int level = 0; level < levels->ML_num_levels; ++level) {
@@ -327,8 +327,8 @@ void IterativeSolver::start_contact(const std::vector<int> &dofs) {
 }
 
 bool IterativeSolver::factorize() {
-  // Keep the hierarchy if the last solve converged well: it is expensive, and a Newton iteration changes
-  // little.
+  // Keep the hierarchy if the last solve converged well: it is expensive, and a Newton iteration
+  // changes little.
   const bool keeps_pace =
       multigrid_ != nullptr && last_pace_ >= settings_.min_pace * fresh_pace_ && fresh_pace_ > 0.;
   if (!keeps_pace)
@@ -389,7 +389,8 @@ bool IterativeSolver::iterate(const Vector &rhs, Vector &solution, const double 
   };
   compute_residual();
   const double start = relative_residual_;
-  // The recursive residual may be smaller than the true one: then the iterations continue from there.
+  // The recursive residual may be smaller than the true one: then the iterations continue from
+  // there.
   unsigned int left = max_iterations;
   for (unsigned int attempt = 0;
        relative_residual_ > relative_tolerance && attempt < Limits::max_attempts && left > 0; ++attempt) {

@@ -28,21 +28,24 @@ using ReturnType = NOX::Abstract::Group::ReturnType;
 
 /// Limits of linear solutions and of the line search.
 struct Limits {
-  /// Tightest linear solution, as part of the residual that ends the iterations, and the loosest one, as part
-  /// of the present residual.
+  /// Tightest linear solution, as part of the residual that ends the iterations, and the loosest
+  /// one, as part of the present residual.
   static constexpr double linear_part = 0.5, max_linear_tolerance = 0.1;
-  /// Maximum number of cuts of a correction that leads to an inadmissible state, and the factor of each.
+  /// Maximum number of cuts of a correction that leads to an inadmissible state, and the factor of
+  /// each.
   static constexpr unsigned int max_cuts = 5;
   static constexpr double cut = 0.5;
-  /// Maximum number of trials of regula falsi, and the work of the residual at the end of a correction over
-  /// that at its start from which on a trial is good enough: in general, and if the residual stagnates.
+  /// Maximum number of trials of regula falsi, and the limits from which on a trial is good enough,
+  /// in general and if the residual stagnates. A limit is the work of the residual at the end of a
+  /// correction over that at its start.
   static constexpr unsigned int max_trials = 4;
   static constexpr double enough = 0.8, enough_of_cycles = 0.3;
   /// Trial without a bracket, as part of the step so far.
   static constexpr double without_bracket = 0.5;
   /// Minimum distance of a trial from both ends of the bracket, as part of the bracket.
   static constexpr double from_ends = 0.1;
-  /// Number of iterations in which the norm of the residual falls by less than this factor if it stagnates.
+  /// Number of iterations in which the norm of the residual falls by less than this factor if it
+  /// stagnates.
   static constexpr std::size_t window = 4;
   static constexpr double stagnation = 0.5;
 };
@@ -129,8 +132,8 @@ public:
   }
   ReturnType computeNewton(Teuchos::ParameterList &options) override {
     if (!has_newton_) {
-      // The tolerance need not be tighter than the one that ends the iterations (Kelley, Iterative Methods
-      // for Linear and Nonlinear Equations, 1995, eq. 6.20).
+      // The tolerance need not be tighter than the one that ends the iterations (Kelley, Iterative
+      // Methods for Linear and Nonlinear Equations, 1995, eq. 6.20).
       const double enough =
           f_->norm() > 0. ? Limits::linear_part * residual_tolerance_ * scale_ / f_->norm() : 0.;
       const double tolerance =
@@ -181,9 +184,9 @@ private:
 
 double dot(const NOX::Abstract::Vector &a, const NOX::Abstract::Vector &b) { return a.innerProduct(b); }
 
-/// Shortens a correction that leads to an inadmissible state, and, on request, one at whose end the residual
-/// does more work than at its start. In the second case regula falsi approaches the zero of R·d (Crisfield,
-/// Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 9).
+/// Shortens a correction that leads to an inadmissible state, and, on request, one at whose end the
+/// residual does more work than at its start. In the second case regula falsi approaches the zero
+/// of R·d (Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1, ch. 9).
 class LineSearch final : public NOX::LineSearch::Generic {
 public:
   explicit LineSearch(const bool by_energy) : by_energy_(by_energy) {}
@@ -250,8 +253,8 @@ private:
     return group.computeF() == NOX::Abstract::Group::Ok;
   }
 
-  /// Whether the residual has not decreased in some iterations. Contact chatter is a cycle in which each
-  /// correction undoes the last one, with as much work.
+  /// Whether the residual has not decreased in some iterations. Contact chatter is a cycle in which
+  /// each correction undoes the last one, with as much work.
   bool is_stagnating(const double norm) {
     norms_.push_back(norm);
     if (norms_.size() <= Limits::window)
@@ -319,8 +322,9 @@ RCP<Teuchos::ParameterList> make_options(const NewtonOptions &settings) {
   newton.set("Rescue Bad Newton Solve", false);
   newton.sublist("Linear Solver").set("Tolerance", settings.linear_tolerance);
   if (settings.adapts_tolerance) {
-    // η_k = γ (|R_k| / |R_{k−1}|)^α, but not below γ η_{k−1}^α while that is above 0.1: Eisenstat & Walker,
-    // SIAM J. Sci. Comput. 17 (1996) 16–32, eq. (2.6). Contact needs a tighter start than their 0.5.
+    // η_k = γ (|R_k| / |R_{k−1}|)^α, but not below γ η_{k−1}^α while that is above 0.1: Eisenstat &
+    // Walker, SIAM J. Sci. Comput. 17 (1996) 16–32, eq. (2.6). Contact needs a tighter start than
+    // their 0.5.
     newton.set("Forcing Term Method", "Type 2");
     newton.set("Forcing Term Initial Tolerance", settings.max_linear_tolerance);
     newton.set("Forcing Term Maximum Tolerance", settings.max_linear_tolerance);
@@ -352,7 +356,8 @@ NewtonEnd solve_by_newton(NonlinearSystem &system, const NewtonOptions &options,
     while (status == NOX::StatusTest::Unconverged || status == NOX::StatusTest::Unevaluated)
       status = solver->step();
     x = values_of(solver->getSolutionGroup().getX());
-  } catch (const char *) { // a correction cannot be computed; NOX's text, "NOX Error", gives no reason
+  } catch (const char *) {
+    // a correction cannot be computed; NOX's text, "NOX Error", gives no reason.
     return NewtonEnd::failed;
   }
   return status == NOX::StatusTest::Converged ? NewtonEnd::converged : NewtonEnd::failed;

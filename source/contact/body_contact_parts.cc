@@ -66,8 +66,8 @@ void BodyContactParts::allow_overlap() {
 }
 
 void BodyContactParts::allow_penetrations() {
-  // A node's mean gap over overlapping facets hides larger penetrations in parts of them. Repetition reduces
-  // these until none remain.
+  // A node's mean gap over overlapping facets hides larger penetrations in parts of them.
+  // Repetition reduces these until none remain.
   constexpr unsigned int max_times = 200;
   constexpr double none = 1e-10; // facet sizes
   for (unsigned int i = 0; i < max_times; ++i) {

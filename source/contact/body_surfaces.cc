@@ -14,15 +14,16 @@ namespace billet {
 namespace {
 
 struct Limits {
-  /// Reach of the search over the largest gap that counts as closed, so that gaps at this limit are found.
+  /// Reach of the search over the largest gap that counts as closed, so that gaps at this limit are
+  /// found.
   static constexpr double beyond_gap = 1.1;
-  /// Penetration over the size or the wall of a facet up to which nodes are found: all methods find nodes
-  /// there, and all elements are thicker.
+  /// Penetration over the size or the wall of a facet up to which nodes are found. All methods find
+  /// nodes there, and all elements are thicker.
   static constexpr double part_of_facet = 0.4;
 };
 
-/// Returns the key of a facet: unique, and the same on any number of ranks. It is made of those of two
-/// opposite corners, unless these are of a refined body and have too many bits.
+/// Returns the key of a facet: unique, and the same on any number of ranks. It is made of those of
+/// two opposite corners, unless these are of a refined body and have too many bits.
 std::uint64_t make_key(const BoundaryFacet &facet, const NodeKeys &keys) {
   const std::uint64_t first = keys(facet.dofs[0][0]), second = keys(facet.dofs[3][0]);
   constexpr std::uint64_t refined = std::uint64_t{1} << 63U;
@@ -98,7 +99,8 @@ PairPenalties compute_penalties(const Scene &scene, const BodyPair &pair, const 
                                                      totals[4 + surface] / totals[surface]);
   };
   std::vector<double> lengths = surfaces.penalty_lengths;
-  if (pair.facets == FacetMethod::overlap) // these pass a uniform pressure exactly if all penalties are equal
+  // These pass a uniform pressure exactly if all penalties are equal.
+  if (pair.facets == FacetMethod::overlap)
     for (std::size_t i = 0; i < lengths.size(); ++i)
       lengths[i] = mean_length(surfaces.surface_of[i]);
   const auto of_sides =

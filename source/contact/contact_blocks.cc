@@ -15,7 +15,8 @@ bool has_dof(const ContactBlocks::NodeDofs &dofs, const DofIndex dof) {
   return std::find(dofs.begin(), dofs.end(), dof) != dofs.end();
 }
 
-/// Returns the parts of a node: its own dofs, or all dofs on which those depend if others are among them.
+/// Returns the parts of a node: its own dofs, or all dofs on which those depend if others are among
+/// them.
 std::vector<ContactBlocks::NodeDofs> collect_parts(const ContactBlocks::NodeDofs &own,
                                                    const Constraints &links) {
   std::vector<DofIndex> all;
@@ -33,7 +34,7 @@ std::vector<ContactBlocks::NodeDofs> collect_parts(const ContactBlocks::NodeDofs
   for (std::size_t first = 0; first < all.size(); first += 3) {
     parts.emplace_back();
     for (unsigned int i = 0; i < 3; ++i)
-      parts.back()[i] = first + i < all.size() ? all[first + i] : all[first]; // again, with weight 0
+      parts.back()[i] = first + i < all.size() ? all[first + i] : all[first]; // again, weight 0
   }
   return parts;
 }
@@ -195,7 +196,8 @@ void ContactBlocks::add_lift(const Parts &parts, const Motions &motions,
 
 void ContactBlocks::add_tangent(const ContactTangent tangent, const TangentSystem &system) const {
   const Motions motions = resolve_all(system.constraints);
-  const Parts parts = find_all_parts(); // indices of ghosts may have changed since the couplings were found
+  // Indices of ghosts may have changed since the couplings were found.
+  const Parts parts = find_all_parts();
   std::vector<FacetSearch::Positions> lift;
   if (system.lift != nullptr)
     lift.assign(parts.size(), FacetSearch::Positions(parts[0].size()));

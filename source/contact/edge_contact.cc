@@ -21,24 +21,24 @@ Tensor<1, 3> unit_normal(const facet::Expansion &surface) {
   return size > 0. ? area_vector / size : Tensor<1, 3>();
 }
 
-/// Returns the factor by which an edge's share fades towards its ends, and its derivative with respect to the
-/// parameter. The ends are nodes, which facets detect. The factor is smooth and extends over each half of the
-/// edge, since steps must resolve it.
+/// Returns the factor by which an edge's share fades towards its ends, and its derivative with
+/// respect to the parameter. The ends are nodes, which facets detect. The factor is smooth and
+/// extends over each half of the edge, since steps must resolve it.
 std::array<double, 2> fade(const double parameter) {
   const double z = 2. * std::min(parameter, 1. - parameter);
   return {z * z * (3. - 2. * z), 12. * z * (1. - z) * (parameter < 0.5 ? 1. : -1.)};
 }
 
-/// Whether edges meet at their ends, as those of flush faces do. Their area is 0, and round-off decides
-/// whether they cross.
+/// Whether edges meet at their ends, as those of flush faces do. Their area is 0, and round-off
+/// decides whether they cross.
 bool meets_at_end(const SegmentPair &pair) {
   constexpr double rounding = 1e-6;
   return std::any_of(pair.parameters.begin(), pair.parameters.end(),
                      [](const double s) { return std::min(s, 1. - s) < rounding; });
 }
 
-/// Sets the area and its gradients. With a, b the edges and d the difference, d·a = d·b = 0 at any positions.
-/// Motions of nodes add δr to d at fixed s and t, and δa, δb to the edges; therefore
+/// Sets the area and its gradients. With a, b the edges and d the difference, d·a = d·b = 0 at any
+/// positions. Motions of nodes add δr to d at fixed s and t, and δa, δb to the edges; therefore
 ///   a² δs − a·b δt = −(a·δr + d·δa),   a·b δs − b² δt = −(b·δr + d·δb).
 void set_area(const Tensor<1, 3> &a, const Tensor<1, 3> &b, EdgeContact::Crossing &crossing) {
   const double aa = a * a, bb = b * b, ab = a * b, determinant = aa * bb - ab * ab;
@@ -127,7 +127,8 @@ std::vector<EdgeContact::Edge> EdgeContact::find_outward_edges(const Positions &
 
 bool EdgeContact::is_between_normals(const Edge &edge, const Tensor<1, 3> &normal,
                                      const Positions &positions) const {
-  constexpr double beside = 0.35; // radians: tolerance of the normal outside the angle between theirs
+  // Tolerance of the normal outside the angle between theirs [radians].
+  constexpr double beside = 0.35;
   Tensor<1, 3> middle = unit_normal(corners_of(facets_[edge.facets[0]], positions));
   if (edge.facets[1] != none)
     middle = 0.5 * (middle + unit_normal(corners_of(facets_[edge.facets[1]], positions)));

@@ -9,7 +9,8 @@ namespace billet {
 EdgeFading compute_edge_fading(const RigidSurface::EdgePoint &edge_point, const double width,
                                const HardeningSpring &penalty, const double gap) {
   const double q = edge_point.beyond / width, left = 1. - q * q;
-  const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width); // s′, s″
+  // s′, s″.
+  const double slope = -4. * q * left / width, bend = (12. * q * q - 4.) / (width * width);
   const double penetration = std::max(-gap, 0.), spring = penalty.energy(penetration),
                pressure = penalty.pressure(penetration);
   const dealii::Tensor<1, 3> &n = edge_point.normal, &e = edge_point.outward;

@@ -46,8 +46,8 @@ void EdgeSprings::add_forces(Positions &forces) const {
 
 void EdgeSprings::add_row_sums(std::vector<double> &sums) const {
   for (const auto &crossing : crossings_) {
-    // The second derivatives of ½ k A g², except those of A and g, which are smaller by g/L. The full area
-    // applies always, since the reduced area changes fast where it fades.
+    // The second derivatives of ½ k A g², except those of A and g, which are smaller by g/L. The
+    // full area applies always, since the reduced area changes fast where it fades.
     const double k = stiffness_of(crossing), penetration = std::max(-crossing.counted_gap(), 0.);
     double sum = 0.;
     for (const auto &gradient : crossing.area_gradients)

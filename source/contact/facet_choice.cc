@@ -15,16 +15,16 @@ using dealii::Tensor;
 
 namespace {
 
-/// Reduction of the scalar product of the normals of node and facet for which another facet replaces the last
-/// one.
+/// Reduction of the scalar product of the normals of node and facet for which another facet
+/// replaces the last one.
 constexpr double far_better = 0.5;
 
-/// Maximum distance beyond a facet's edge at which a node counts as in line with it, as where the ends of two
-/// bodies are coplanar. Round-off must not decide whether the node is beside the body.
+/// Maximum distance beyond a facet's edge at which a node counts as in line with it, as where the
+/// ends of two bodies are coplanar. Round-off must not decide whether the node is beside the body.
 constexpr double in_line = 1e-3;
 
-/// Minimum scalar product of the normals of facets that count as coplanar or stacked. For a node that touches
-/// one of them, the other is not the second flank of a concave edge.
+/// Minimum scalar product of the normals of facets that count as coplanar or stacked. For a node
+/// that touches one of them, the other is not the second flank of a concave edge.
 constexpr double one_plane = 0.99;
 
 /// Choice of a facet for one node. Each consider_ function adds a facet to the options.
@@ -37,8 +37,8 @@ public:
 
   const TouchedFacet &best() const { return best_; }
 
-  /// Considers a facet around the last one. The two may not meet smoothly, as at the edge of an end. The node
-  /// may then be far behind one of them without having come through it.
+  /// Considers a facet around the last one. The two may not meet smoothly, as at the edge of an
+  /// end. The node may then be far behind one of them without having come through it.
   void consider_around(const TouchedFacet &last, const unsigned int facet) {
     TouchedFacet touched = project_onto(facet, {});
     if (!touched.exists() || !is_held(touched))
@@ -66,7 +66,8 @@ public:
       take_better(touched);
   }
 
-  /// Considers a facet only if it meets the touched facet at a concave edge, or faces the node much better.
+  /// Considers a facet only if it meets the touched facet at a concave edge, or faces the node much
+  /// better.
   void consider_beside_held(const unsigned int facet) {
     if (facet == best_.facet ||
         facets_.plane(facet).normal() * facets_.plane(best_.facet).normal() > one_plane)
@@ -108,8 +109,8 @@ private:
     return facets_.project<Facet>(facet, x_, make_limits(tolerance, limits_), start);
   }
 
-  /// Projects the node. Returns the facet if the node is behind it and within the zone in which facets may
-  /// share it, and otherwise none.
+  /// Projects the node. Returns the facet if the node is behind it and within the zone in which
+  /// facets may share it, and otherwise none.
   TouchedFacet project_onto(const unsigned int facet, const std::array<double, 2> &start) const {
     const double tolerance = std::max(limits_.tolerance, limits_.zone);
     const PlanedFacet &plane = facets_.plane(facet);
@@ -138,9 +139,9 @@ private:
     return touched.projection.gap >= -limits_.held_penetration * search_.facets()[touched.facet].reach;
   }
 
-  /// Whether the node was in front of the facet at the start of the step, or slightly behind it, which sets
-  /// the offset. The facet's plane suffices for this. A node that is now outside the body but was behind the
-  /// facet was under the body's end, beside this facet, and is leaving.
+  /// Whether the node was in front of the facet at the start of the step, or slightly behind it,
+  /// which sets the offset. The facet's plane suffices for this. A node that is now outside the
+  /// body but was behind the facet was under the body's end, beside this facet, and is leaving.
   bool has_come_through(TouchedFacet &touched) const {
     const SurfaceFacet &target = search_.facets()[touched.facet];
     const PlanedFacet plane(corners_of(target, positions_n_));
@@ -151,8 +152,8 @@ private:
     return penetration <= target.reach && !is_out(touched);
   }
 
-  /// Calls visit(projection, whether it meets smoothly) for the facets around the corner nearest to a node
-  /// beyond the edge of one of them.
+  /// Calls visit(projection, whether it meets smoothly) for the facets around the corner nearest to
+  /// a node beyond the edge of one of them.
   template <class Visit> void visit_beside(const TouchedFacet &touched, const Visit &visit) const {
     search_.visit_around(
         search_.nearest_corner(touched.facet, touched.projection.parameters), [&](const unsigned int facet) {
@@ -163,9 +164,9 @@ private:
         });
   }
 
-  /// Whether the node is in front of a facet around the nearest corner that bounds the body there, as beside
-  /// a block. Its edges do not matter: a corner bulges, so that the block's top is then above the edge of its
-  /// end.
+  /// Whether the node is in front of a facet around the nearest corner that bounds the body there,
+  /// as beside a block. Its edges do not matter: a corner bulges, so that the block's top is then
+  /// above the edge of its end.
   bool is_out(const TouchedFacet &touched) const {
     bool is_out = false;
     visit_beside(touched, [&](const FacetProjection &p, const bool is_smooth) {
@@ -174,8 +175,8 @@ private:
     return is_out;
   }
 
-  /// Whether a node beyond the facet's edge is on the facet's side: within the tolerance, it must not be
-  /// outside the body. Farther out, a smooth neighbour must share it.
+  /// Whether a node beyond the facet's edge is on the facet's side: within the tolerance, it must
+  /// not be outside the body. Farther out, a smooth neighbour must share it.
   bool is_on_its_own_side(const TouchedFacet &touched) const {
     const double excess = touched.projection.excess;
     if (excess <= std::min(in_line, limits_.tolerance))

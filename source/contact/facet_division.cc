@@ -13,7 +13,8 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double unseen = 0.125;         // part of a facet's length by which a tool may enter undetected
+// Part of a facet's length by which a tool may enter undetected.
+constexpr double unseen = 0.125;
 constexpr std::size_t max_points = 4000; // of a triangulation; a finer one is thinned out
 const double diagonal = std::sqrt(0.5);
 
@@ -47,7 +48,8 @@ FacetDivision::FacetDivision(const RigidSurface &surface, const OutputRegion &re
 }
 
 void FacetDivision::add_samples(const Tensor<1, 3> &position, const double distance) {
-  constexpr double fixed_foot = 0.1; // on a smooth surface the foot point moves by about the distance
+  // On a smooth surface the foot point moves by about the distance.
+  constexpr double fixed_foot = 0.1;
   const auto at = surface_.project(position);
   const Tensor<1, 3> &normal = at.normal;
   if (at.exists)
@@ -56,8 +58,8 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
     const Tensor<1, 3> x = position + distance * (normal + aside);
     const auto beside = surface_.project(x, at.patch);
     const Tensor<1, 3> foot = x - beside.gap * beside.normal;
-    // On smooth surfaces the foot point moves along; at a convex edge the normal rotates about a fixed foot
-    // point.
+    // On smooth surfaces the foot point moves along; at a convex edge the normal rotates about a
+    // fixed foot point.
     if (beside.exists && beside.gap > 0. && (foot - position).norm() < fixed_foot * distance)
       samples_.push_back({position, beside.normal});
   }
@@ -66,7 +68,8 @@ void FacetDivision::add_samples(const Tensor<1, 3> &position, const double dista
 bool FacetDivision::is_seen(const double spacing, const double length) const {
   constexpr double round_off = 1e-9;
   constexpr double min_unseen = 0.1 * unseen; // the smallest depth tried, for thin tools
-  constexpr double opposing = 0.5;            // cosine: contact on a steeper flank lets the tool pass
+  // Cosine of the angle above which contact on a flank lets the tool pass.
+  constexpr double opposing = 0.5;
   const auto is_met_at = [&](const Tensor<1, 3> &x, const Tensor<1, 3> &normal) {
     const auto projection = surface_.project(x);
     return projection.exists && projection.gap <= round_off * length &&

@@ -72,8 +72,8 @@ std::vector<SlaveForce> FacetMeasures::slave_forces() const {
 
 namespace {
 
-/// Returns the parts of a slave's force that the nodes of its facet count. Beyond an edge of the facet some
-/// weights are negative; their nodes count nothing, since no pressure is negative.
+/// Returns the parts of a slave's force that the nodes of its facet count. Beyond an edge of the
+/// facet some weights are negative; their nodes count nothing, since no pressure is negative.
 std::array<double, 4> counted_parts(const std::array<double, 4> &weights) {
   std::array<double, 4> parts{};
   double sum = 0.;

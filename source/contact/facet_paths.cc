@@ -124,7 +124,8 @@ FacetPaths::FacetPaths(MPI_Comm communicator, const FacetSearch::Partners partne
                        std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets,
                        const std::vector<double> penetrations)
     : communicator_(communicator), partners_(partners), exchange_(communicator, std::move(node_keys), [&] {
-        for (std::size_t f = 0; f < facets.size(); ++f) // here ghosts transfer the depth as their reach
+        // Here ghosts transfer the depth as their reach.
+        for (std::size_t f = 0; f < facets.size(); ++f)
           facets[f].reach = penetrations[f];
         return std::move(facets);
       }()) {

@@ -11,7 +11,8 @@ namespace billet {
 using dealii::Tensor;
 
 bool meet_smoothly(const Tensor<1, 3> &normal, const Tensor<1, 3> &other) {
-  constexpr double cosine_of_edge = 0.5; // facets that meet at more than 60 degrees have an edge between them
+  // Facets that meet at more than 60 degrees have an edge between them.
+  constexpr double cosine_of_edge = 0.5;
   return normal * other > cosine_of_edge;
 }
 
@@ -21,7 +22,8 @@ SharedGap share_facets(const MovedFacets &facets, const TouchedFacet &touched, c
   const FacetSearch &search = facets.search();
   const FacetProjection &own = touched.projection;
   const std::size_t first = shares.size();
-  // Twice the zone, since that of a larger neighbour is wider: (1 − |ξ|)/2 is the distance from the edge.
+  // Twice the zone, since that of a larger neighbour is wider: (1 − |ξ|)/2 is the distance from the
+  // edge.
   const double inner = 1. - 4. * limits.zone;
   if (std::max(std::abs(own.parameters[0]), std::abs(own.parameters[1])) > inner)
     search.visit_around(search.nearest_corner(touched.facet, own.parameters), [&](const unsigned int f) {

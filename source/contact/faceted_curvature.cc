@@ -21,8 +21,9 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Chord gap, and error of the surface correction, over the largest displacement, above which a run warns:
-  /// about the error of an engineering result. A motion much larger than the gap closes it in any case.
+  /// Chord gap, and error of the surface correction, over the largest displacement, above which a
+  /// run warns: about the error of an engineering result. A motion much larger than the gap closes
+  /// it in any case.
   static constexpr double notable = 0.03;
 };
 
@@ -200,8 +201,8 @@ bool is_faceted(const BodyPair &pair) {
          pair.bodies[0] != pair.bodies[1];
 }
 
-/// Returns the maximum error of the corrected facets of both sides against the surface in the scene [length].
-/// Between the corners the surface has the bilinear radius of these. Collective.
+/// Returns the maximum error of the corrected facets of both sides against the surface in the scene
+/// [length]. Between the corners the surface has the bilinear radius of these. Collective.
 double find_correction_error(const Discretization &discretization, const BodyPair &pair) {
   constexpr std::array<double, 3> along{-0.5, 0., 0.5};
   double sum = 0.;

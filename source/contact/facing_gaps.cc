@@ -11,11 +11,12 @@ using dealii::Tensor;
 
 namespace {
 
-// Directions are those of the middles of squares on the six sides of a cube. An odd number of squares gives
-// each axis a direction of its own.
+// Directions are those of the middles of squares on the six sides of a cube. An odd number of
+// squares gives each axis a direction of its own.
 constexpr unsigned int n_squares = 9;
 
-// Facets at right angles share an edge, whose normal is at 45 degrees to both, or a corner, at 54.7 degrees.
+// Facets at right angles share an edge, whose normal is at 45 degrees to both, or a corner, at 54.7
+// degrees.
 constexpr double same_way = 0.55; // cosine of the angle
 
 unsigned int square_of(const double part) {

@@ -11,8 +11,8 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Minimum cosine between the direction that a tool must face and its normal: 60 degrees. A flank of a
-  /// tool counts, its back does not.
+  /// Minimum cosine between the direction that a tool must face and its normal: 60 degrees. A flank
+  /// of a tool counts, its back does not.
   static constexpr double alike = 0.5;
 };
 

@@ -27,11 +27,11 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Overlap over the chords of both faces, up to which faces that fit each other start: heights of chords
-  /// neglect higher powers of the facet size over the radius.
+  /// Overlap over the chords of both faces, up to which faces that fit each other start. Heights of
+  /// chords neglect higher powers of the facet size over the radius.
   static constexpr double beyond_chords = 1.01;
-  /// Depth of the middle of a facet over that of its edges: on a sphere, chords of both directions add up,
-  /// (C8).
+  /// Depth of the middle of a facet over that of its edges: on a sphere, chords of both directions
+  /// add up, (C8).
   static constexpr double chords_of_sphere = 2., chords_of_cylinder = 1.;
 };
 
@@ -48,7 +48,8 @@ public:
   explicit Elements(const std::vector<Element> &elements)
       : elements_(elements), tree_(make_boxes(elements)) {}
 
-  /// Returns the number of elements that contain the point, up to a tolerance in reference coordinates.
+  /// Returns the number of elements that contain the point, up to a tolerance in reference
+  /// coordinates.
   unsigned int count_around(const dealii::Point<3> &x, const double tolerance) const {
     unsigned int n = 0;
     const double nowhere_else = 0.;
@@ -57,7 +58,8 @@ public:
         if (dealii::GeometryInfo<3>::is_inside_unit_cell(
                 mapping_.transform_real_to_unit_cell(elements_[e].cell, x), tolerance))
           ++n;
-      } catch (const dealii::Mapping<3>::ExcTransformationFailed &) { // far outside a distorted element
+      } catch (const dealii::Mapping<3>::ExcTransformationFailed &) {
+        // The point is far outside a distorted element.
       }
     });
     return n;
@@ -110,8 +112,8 @@ private:
   BoxTree tree_;
 };
 
-/// Returns where a segment meets a triangle, as a parameter in [0, 1] from its first end. Returns nothing if
-/// it does not, or if it lies in the triangle's plane. The edges belong to the triangle.
+/// Returns where a segment meets a triangle, as a parameter in [0, 1] from its first end. Returns
+/// nothing if it does not, or if it lies in the triangle's plane. The edges belong to the triangle.
 std::optional<double> meet(const Segment &segment, const Tensor<1, 3> &a, const Tensor<1, 3> &b,
                            const Tensor<1, 3> &c) {
   constexpr double rounding = 1e-9;
@@ -182,9 +184,10 @@ public:
     }
   }
 
-  /// Adds points where sides of the facets pierce the other body's faces. Between two such intersections, or
-  /// between one and its end, a side is either entirely inside or entirely outside the other body. `facets`
-  /// are those of this rank. Bodies that overlap have such a side unless one contains the other.
+  /// Adds points where sides of the facets pierce the other body's faces. Between two such
+  /// intersections, or between one and its end, a side is either entirely inside or entirely
+  /// outside the other body. `facets` are those of this rank. Bodies that overlap have such a side
+  /// unless one contains the other.
   void add_pierced_sides(const std::vector<BoundaryFacet> &facets, MPI_Comm communicator) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(facets.size());
@@ -230,8 +233,8 @@ public:
   const std::vector<Tensor<1, 3>> &points() const { return points_; }
 
 private:
-  /// Depth relative to the element's thickness, so that no points of a touching body are in elements of the
-  /// other body.
+  /// Depth relative to the element's thickness, so that no points of a touching body are in
+  /// elements of the other body.
   static constexpr double inset = 1e-3;
 
   void add(const ProbedFacet &facet, const std::array<double, 2> &parameters, const double penetration) {
@@ -253,8 +256,8 @@ private:
   std::vector<Tensor<1, 3>> points_;
 };
 
-/// Finds the deepest of these points, which are the same on all ranks, among those in at least `n_elements`
-/// elements of the body. The depth is the distance to its faces.
+/// Finds the deepest of these points, which are the same on all ranks, among those in at least
+/// `n_elements` elements of the body. The depth is the distance to its faces.
 Overlap find_deepest(const Discretization &discretization, const std::vector<Tensor<1, 3>> &points,
                      const std::size_t body, const std::vector<BoundaryFacet> &faces,
                      const unsigned int n_elements, const double tolerance) {

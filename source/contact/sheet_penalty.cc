@@ -10,8 +10,8 @@ namespace billet {
 
 namespace {
 
-// Maximum of a sheet's volume over the area that may touch, a half or all of its thickness, as part of the
-// extent of that area.
+// Maximum of a sheet's volume over the area that may touch, as part of the extent of that area. The
+// quotient is a half or all of its thickness.
 constexpr double thickness_of_sheets = 0.02;
 
 /// Whether the body of these facets is thin beside their extent. Collective.

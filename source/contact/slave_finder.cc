@@ -50,7 +50,8 @@ TouchedFacet SlaveFinder<Facet>::choose(const std::size_t s, const TouchedFacet 
   const FacetSearch::Positions &positions_n = parts_.surfaces.positions_n();
   const GapOffset gap_offset = parts_.offsets.of(s);
   TouchedFacet touched;
-  // Indices of facets are valid only for the last search; it is rarely rebuilt while a node is restless.
+  // Indices of facets are valid only for the last search; it is rarely rebuilt while a node is
+  // restless.
   if (parts_.restless.is_restless(s) && last_iteration.exists() && !parts_.surfaces.is_rebuilt())
     touched = keep_facet<Facet>(facets, s, positions_n, last_iteration, parts_.settings.limits, gap_offset);
   if (!touched.exists())
@@ -84,7 +85,8 @@ bool SlaveFinder<Facet>::is_resting(const TouchedFacet &below, const std::size_t
 }
 
 template <class Facet> void SlaveFinder<Facet>::compute_areas(const std::size_t s, SlaveState &state) const {
-  // A near node counts only in bounds, for which an estimate suffices: a quarter of each undeformed facet.
+  // A near node counts only in bounds, for which an estimate suffices: a quarter of each undeformed
+  // facet.
   const double quarter = 0.25 * parts_.slaves.facet_size(s) * parts_.slaves.facet_size(s);
   const unsigned int node = parts_.slaves.node(s);
   parts_.surfaces.search().visit_around(node, [&](const unsigned int f) {

@@ -21,19 +21,21 @@ using dealii::Tensor;
 
 namespace {
 
-// Maximum number of points inside the facets of a pair on all ranks, half a kilobyte each. Above it, facets
-// have fewer parts.
+// Maximum number of points inside the facets of a pair on all ranks, half a kilobyte each. Above
+// it, facets have fewer parts.
 constexpr double max_interior_points = 400'000.;
 
 // Facets with lengths that differ by less than this factor have the same number of parts.
 const double same_length = std::pow(2., 0.125);
 
-// Acceptable penetration of a node: these parts of the size of its facets and of the wall below them.
+// Acceptable penetration of a node: these parts of the size of its facets and of the wall below
+// them.
 constexpr double reach_of_facet = 0.2, reach_of_wall = 0.4;
 
 constexpr std::uint64_t points_per_key = 1024; // > (FacetDivision::max_parts + 1)²
 
-/// Sets the spacing of each node: the root of the mean area of the parts of facets around it. Collective.
+/// Sets the spacing of each node: the root of the mean area of the parts of facets around it.
+/// Collective.
 void measure_spacings(const Discretization &discretization,
                       const std::vector<std::array<unsigned int, 4>> &corners,
                       const std::vector<std::array<unsigned int, 2>> &n_parts,
@@ -274,7 +276,8 @@ std::vector<Tensor<1, 3>> SlaveSurface::sum_normals(const std::vector<Tensor<1, 
 }
 
 void SlaveSurface::harden_springs(const double tool_thickness) {
-  constexpr double hardening = 0.002; // part of the distance between points, or of the tool's thickness
+  // Part of the distance between points, or of the tool's thickness.
+  constexpr double hardening = 0.002;
   for (auto &node : nodes)
     if (node.is_divided)
       node.hardening_penetration = hardening * std::min(node.spacing, tool_thickness);

@@ -29,8 +29,8 @@ FacetOverlapOf<Number> follow_overlap(const FacetCornersOf<Number> &slave,
   if constexpr (std::is_same_v<Number, double>)
     return compute_overlap(slave, target, penetration, gap_offsets, augmentation, slave_bulge, target_bulge);
   else {
-    // Derivatives with respect to the 24 coordinates of this pair, then the chain rule: a slave depends on
-    // many more.
+    // Derivatives with respect to the 24 coordinates of this pair, then the chain rule: a slave
+    // depends on many more.
     constexpr int n = 24;
     FacetCornersOf<Derivative> s, t;
     for (unsigned int a = 0; a < 4; ++a)
@@ -147,7 +147,8 @@ private:
   template <class Number>
   Number follow_own_area(std::size_t s, const Placed<Number> &placed,
                          const Tensor<1, 3, Number> &normal) const;
-  /// Returns the point of a share at the start of the step: the slave node, or a point of its facet.
+  /// Returns the point of a share at the start of the step: the slave node, or a point of its
+  /// facet.
   template <class Number>
   Tensor<1, 3, Number> point_n(std::size_t s, const FacetShareOf<Number> &share) const;
 
@@ -186,7 +187,8 @@ void SlaveTangentsOf<Facet, Law>::add_closed_tangent([[maybe_unused]] const Fric
   }
   const std::vector<unsigned int> nodes = collect_nodes(s, false);
   FullMatrix<double> matrix(3 * nodes.size(), 3 * nodes.size());
-  // Weights of the nodes in the slave's motion, and in forces of this rank, for all shares and for one.
+  // Weights of the nodes in the slave's motion, and in forces of this rank, for all shares and for
+  // one.
   std::vector<double> weights(nodes.size()), areas(nodes.size()), own(nodes.size());
   const auto add_product = [&](const std::vector<double> &rows, const std::vector<double> &columns,
                                const double factor, const Tensor<2, 3> &D) {

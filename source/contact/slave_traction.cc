@@ -33,8 +33,8 @@ template SlaveMotionOf<Derivative> compute_slave_motion(const FacetCorners &,
 FrictionAccount compute_friction_account(const SlaveHistory &history_n, const SlaveHistory &history,
                                          const SlaveMotion &motion, const FrictionRule &rule,
                                          const double part_in_contact, const double limit_n) {
-  // A frame of the last step rotates with the facet; the choice of the normal does not affect tangential
-  // components.
+  // A frame of the last step rotates with the facet; the choice of the normal does not affect
+  // tangential components.
   const Tensor<1, 3> q = history.is_active ? history.frame.q : motion.rotation * history_n.frame.q,
                      r = history.is_active ? history.frame.r : motion.rotation * history_n.frame.r;
   FrictionStep step{

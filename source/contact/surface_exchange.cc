@@ -82,7 +82,8 @@ std::vector<int> SurfaceExchange::find_near_ranks(const BoundingBox &box, const 
   std::vector<BoundingBox> boxes(static_cast<std::size_t>(n_ranks_));
   MPI_Allgather(&box, sizeof(BoundingBox), MPI_BYTE, boxes.data(), sizeof(BoundingBox), MPI_BYTE,
                 communicator_);
-  // Both ranks of a pair must compute the same answer, bit by bit; otherwise one would wait for the other.
+  // Both ranks of a pair must compute the same answer, bit by bit; otherwise one would wait for the
+  // other.
   const auto is_near = [&](const BoundingBox &other) {
     bool all = true;
     for (unsigned int i = 0; i < 3; ++i)
@@ -150,7 +151,8 @@ SurfaceExchange::Parcel SurfaceExchange::pack(const Positions &positions_n, cons
   BoundingBox all = BoundingBox::empty();
   for (const auto &box : boxes)
     all.add(box);
-  std::vector<unsigned int> index(node_keys_.size(), static_cast<unsigned int>(-1)); // in the parcel
+  // Index in the parcel.
+  std::vector<unsigned int> index(node_keys_.size(), static_cast<unsigned int>(-1));
   for (std::size_t f = 0; f < n_own_facets_; ++f) {
     SurfaceFacet facet = facets_[f];
     BoundingBox facet_box = BoundingBox::empty();

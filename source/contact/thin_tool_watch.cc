@@ -8,14 +8,15 @@ namespace billet {
 namespace {
 
 struct Limits {
-  /// Thickness below which a tool is watched [facet sizes]: exceeds the travel of a node in a step, and its
-  /// penetration.
+  /// Thickness below which a tool is watched [facet sizes]: exceeds the travel of a node in a step,
+  /// and its penetration.
   static constexpr double far = 2.;
-  /// Thickness over size up to which a tool is one flat surface: boxes of CAD faces reach a tolerance beyond
-  /// them.
+  /// Thickness over size up to which a tool is one flat surface: boxes of CAD faces reach a
+  /// tolerance beyond them.
   static constexpr double flat = 1e-6;
-  /// Parts of the thickness. Paths that enter less than `deep` only graze the tool; the path is looked at in
-  /// increments of `fine` where the tool is near; above `middle` the other side is about as near.
+  /// Parts of the thickness. Paths that enter less than `deep` only graze the tool. The path is
+  /// looked at in increments of `fine` where the tool is near. Above `middle` the other side is
+  /// about as near.
   static constexpr double deep = 0.1, fine = 0.125, middle = 0.45;
   /// Cosine: a node in one side of a square edge may enter through the other.
   static constexpr double square = 1e-6;
@@ -48,8 +49,8 @@ bool ThinToolWatch::passes(const std::size_t i, const Node &node) const {
   const auto start = surface_->project(from, node.patch), end = surface_->project(to, node.patch);
   const bool starts_inside = start.exists && start.gap < 0., ends_inside = end.exists && end.gap < 0.;
   if (starts_inside || ends_inside) {
-    // The node passes from one side to the other or, deep inside, from the end of the tool to a side: an edge
-    // cuts in.
+    // The node passes from one side to the other or, deep inside, from the end of the tool to a
+    // side: an edge cuts in.
     const double turned = start.exists && end.exists ? start.normal * end.normal : 1.;
     return turned < -Limits::square || (turned < Limits::turned && std::max(start.gap, end.gap) < -deep);
   }

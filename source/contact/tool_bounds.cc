@@ -20,7 +20,8 @@ template <class Add> void ToolBounds::visit_near(const Add &add) const {
   for (unsigned int i = 0; i < parts_.slaves.nodes.size(); ++i) {
     const ContactPoint &node = parts_.slaves.nodes[i];
     const double gap = parts_.states[i].gap;
-    // The step in which a node enters must be short enough already, and equal steps conserve energy best.
+    // The step in which a node enters must be short enough already, and equal steps conserve energy
+    // best.
     const bool is_near = gap < near_gap * node.size || gap + near_steps * (gap - node.gap_n) < 0.;
     if (parts_.states[i].status == ContactStatus::open && gap >= 0. && is_near && parts_.bound.is_owned[i])
       add(i, node.spacing * node.spacing);
@@ -72,7 +73,8 @@ double ToolBounds::stiffness_against_tool() const {
   const bool turns = parts_.tool.control() == Tool::Control::moment;
   const Tensor<1, 3> along = turns ? Tensor<1, 3>() : parts_.tool.force_direction(),
                      about = turns ? parts_.tool.rotation_axis() : Tensor<1, 3>();
-  // Adds the part of the normal spring; returns (a·a) − (a·n)², a the motion of the node with the tool.
+  // Adds the part of the normal spring; returns (a·a) − (a·n)², a the motion of the node with the
+  // tool.
   const auto add_normal = [&](const unsigned int i, const double area) {
     const ToolContactState &state = parts_.states[i];
     const Tensor<1, 3> n = // undefined for open nodes

@@ -31,8 +31,8 @@ double ToolDrive::add_derivatives(const ToolTangents &tangents, const ToolRate &
                    }
                    for (unsigned int a = 0; a < 4; ++a) {
                      Tensor<1, 3> along = dealii::cross_product_3d(rate.rotation, F[a]); // ∂F_a/∂s
-                     Tensor<1, 3> power =
-                         dealii::cross_product_3d(F[a], rate.rotation); // ∂P/∂u_a: ω × x · F = x · F × ω
+                     // ∂P/∂u_a: ω × x · F = x · F × ω
+                     Tensor<1, 3> power = dealii::cross_product_3d(F[a], rate.rotation);
                      for (unsigned int i = 0; i < 3; ++i)
                        for (unsigned int b = 0; b < 4; ++b)
                          for (unsigned int j = 0; j < 3; ++j) {
@@ -40,7 +40,8 @@ double ToolDrive::add_derivatives(const ToolTangents &tangents, const ToolRate &
                            power[i] -= v[b][j] * K(3 * b + j, 3 * a + i);
                          }
                      power_slope += v[a] * along;
-                     // The arm rotates with the tool about a fixed centre: ω × v adds no further term.
+                     // The arm rotates with the tool about a fixed centre: ω × v adds no further
+                     // term.
                      parts_.slaves.add_to_dofs(facet.nodes[a], -along, column);
                      parts_.slaves.add_to_dofs(facet.nodes[a], power, row);
                    }

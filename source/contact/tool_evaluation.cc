@@ -56,7 +56,8 @@ private:
     return slaves_.at(i, [&](const std::size_t parent) { return states_[parent].position; });
   }
 
-  /// Whether a divided facet is too far from the tool for its interior points to touch. If so, releases them.
+  /// Whether a divided facet is too far from the tool for its interior points to touch. If so,
+  /// releases them.
   bool is_far(DividedFacet &divided);
 
   RigidContactParts &parts_;
@@ -68,7 +69,8 @@ private:
 template <class Node> bool ToolEvaluationOf<Node>::is_far(DividedFacet &divided) {
   if (divided.may_touch)
     return false;
-  // Gaps are distances: no gap in the facet is less than that of the nearest corner minus the distance to it.
+  // Gaps are distances: no gap in the facet is less than that of the nearest corner minus the
+  // distance to it.
   std::array<const ToolContactState *, 4> corners{};
   double minimum = std::numeric_limits<double>::infinity(), approach = 0., size = 0.;
   for (unsigned int a = 0; a < 4; ++a) {

@@ -31,14 +31,15 @@ void ToolFriction::press(const std::size_t i, const ContactPoint &node, const Fr
   const Frame &Z = history.frame;
   const std::array<Tensor<1, 3>, 3> axes{Z.q, Z.r, Z.n};
 
-  // Displacement over the step relative to the tool's material point that was at the node (eq. (33), with the
-  // tool's motion).
+  // Displacement over the step relative to the tool's material point that was at the node (eq.
+  // (33), with the tool's motion).
   const Tensor<1, 3> displacement = state.position - step_.placement.to_space(history_n.tool_position);
   TangentialIncrement increment{{displacement * Z.q, displacement * Z.r}};
   increment.per_time = step_.duration > 0. ? 1. / step_.duration : 0.;
   increment.rate = history_n.slip_rate;
 
-  // A node that enters within the step has slid along the tool only for the part φ = g/(g − g_n) of it.
+  // A node that enters within the step has slid along the tool only for the part φ = g/(g − g_n) of
+  // it.
   ContactStiffness stiffness = node.stiffness;
   stiffness.normal = state.share * node.spring().secant(std::max(-state.gap, 0.));
   double fraction = 1., relative_slope = 0.; // (∂φ/∂g)/φ

@@ -10,8 +10,8 @@ using dealii::Tensor;
 
 namespace {
 
-/// Returns the maximum curvature of the surface that a node touches; a concave edge has none that facets must
-/// follow.
+/// Returns the maximum curvature of the surface that a node touches; a concave edge has none that
+/// facets must follow.
 double max_curvature(const ToolContactState &state) {
   if (is_in_concave_edge(state.gap, state.turning))
     return 0.;
@@ -132,7 +132,8 @@ StartGaps ToolMeasures::start_gaps() const {
     gaps.add(reports[i].pressure * reports[i].area, reports[i].area, (way - (way * normal) * normal).norm(),
              node.size, InitialOverlap::counted(node.initial_penetration, parts_.step.allowed_part));
   }
-  for (std::size_t i = reports.size(); i < parts_.slaves.nodes.size(); ++i) { // points inside facets
+  for (std::size_t i = reports.size(); i < parts_.slaves.nodes.size(); ++i) {
+    // These are points inside facets.
     const ContactPoint &point = parts_.slaves.nodes[i];
     gaps.add(0., 0., 0., point.size,
              InitialOverlap::counted(point.initial_penetration, parts_.step.allowed_part));

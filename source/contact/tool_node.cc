@@ -44,9 +44,10 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
     if (state.is_passed) // distance to the front
       state.gap = -state.gap;
   state.patch = projection.patch;
-  // A node that starts on the tool counts as touching: its stiffness may be the only constraint of the body.
-  // With inertia the body needs no constraint, and a stiffness without a force would mislead Newton's method
-  // at lift-off. The node then counts only while its lift-off is within round-off.
+  // A node that starts on the tool counts as touching: its stiffness may be the only constraint of
+  // the body. With inertia the body needs no constraint, and a stiffness without a force would
+  // mislead Newton's method at lift-off. The node then counts only while its lift-off is within
+  // round-off.
   const double on_it = node.touching_gap;
   constexpr double of_projection = 1e-13, of_position = 4. * std::numeric_limits<double>::epsilon();
   const double rounding = of_projection * node.size + of_position * position.norm();
@@ -69,8 +70,8 @@ ToolContactState ToolNode<Law, has_inertia, is_exact>::evaluate(const std::size_
     state.pressure = t.pressure;
     state.traction = t.pressure * state.normal;
     state.tangent = penalty * dealii::outer_product(state.normal, state.normal);
-    // Across a concave edge the stiffness is as large as along the normal, and symmetric: Newton's method
-    // needs it.
+    // Across a concave edge the stiffness is as large as along the normal, and symmetric: Newton's
+    // method needs it.
     if (is_exact || is_in_concave_edge(projection.gap, projection.turning))
       state.tangent -= t.pressure * state.turning;
   }

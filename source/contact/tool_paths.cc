@@ -54,7 +54,8 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
   const auto here = surface.project(X, patch);
   SurfaceSide result{Side::beyond, std::abs(here.gap), {}, false};
   if (!here.exists) {
-    constexpr double beside_edge = 1e-3; // part of `shallow` within which a node is still above the surface
+    // Part of `shallow` within which a node is still above the surface.
+    constexpr double beside_edge = 1e-3;
     if (here.beyond <= beside_edge * shallow)
       result.side = here.is_behind ? Side::behind : Side::front;
     return result;
@@ -62,7 +63,8 @@ SurfaceSide locate(const RigidSurface &surface, const unsigned int patch, const 
   result.side = here.gap < 0. ? Side::behind : Side::front;
   result.normal = placement.rotation * here.normal;
   if (result.side == Side::behind && result.distance > shallow) {
-    // Tests whether, at twice the depth, the same point of the surface is still nearest, or nearly so.
+    // Tests whether, at twice the depth, the same point of the surface is still nearest, or nearly
+    // so.
     constexpr double nearly = 0.6;
     const auto deeper = surface.project(X - result.distance * here.normal, here.patch);
     result.is_too_deep = deeper.exists && deeper.gap > -2. * nearly * result.distance;

@@ -16,14 +16,16 @@ FrameTraction compute_frictionless_traction(const double normal_stiffness, const
 
 namespace {
 
-/// Returns the slip γ >= 0 with |t*| − k_t γ = L(p, γ/Δt), by Newton's method inside a bracket. It exists and
-/// is unique if L does not increase with the slip rate and its decrease does not get steeper.
+/// Returns the slip γ >= 0 with |t*| − k_t γ = L(p, γ/Δt), by Newton's method inside a bracket. It
+/// exists and is unique if L does not increase with the slip rate and its decrease does not get
+/// steeper.
 double solve_slip(const FrictionLaw &law, const double pressure, const double trial, const double k_t,
                   const double per_time) {
   const auto excess = [&](const double slip) {
     return trial - k_t * slip - law.limit(pressure, slip * per_time).value;
   };
-  // The excess is positive at γ = 0, and not positive where the slip has consumed the trial traction.
+  // The excess is positive at γ = 0, and not positive where the slip has consumed the trial
+  // traction.
   double low = 0., high = trial / k_t;
   double slip = std::max(0., (trial - law.limit(pressure, 0.).value) / k_t);
   constexpr unsigned int max_iterations = 100; // bisection alone takes 50

@@ -57,8 +57,8 @@ bool couple_ranks(const Constraints &constraints, const dealii::IndexSet &owned,
 }
 
 void condense(const Constraints &constraints, const bool couples_ranks, Vector &forces) {
-  // This works on the rank's own values: writing through deal.II's vector would be collective, but ranks have
-  // different numbers of constraints.
+  // This works on the rank's own values: writing through deal.II's vector would be collective, but
+  // ranks have different numbers of constraints.
   const dealii::ArrayView<double> values = owned_values(forces);
   const dealii::IndexSet owned = forces.locally_owned_elements();
   const auto place = [&owned](const DofIndex dof) { return owned.index_within_set(dof); };

@@ -37,8 +37,8 @@ void build_partitioned(const Scene &scene, const MeshLevels &levels, const unsig
                                              dealii::SparsityTools::Partitioner::metis);
 }
 
-/// Gives the faces at the edge of the rank's part of the mesh an id that no scene can name. Otherwise deal.II
-/// would treat them as boundary faces with id 0.
+/// Gives the faces at the edge of the rank's part of the mesh an id that no scene can name.
+/// Otherwise deal.II would treat them as boundary faces with id 0.
 void close_rim(const dealii::TriangulationDescription::Description<3, 3> &description,
                dealii::Triangulation<3> &mesh) {
   constexpr dealii::types::boundary_id rim = dealii::numbers::internal_face_boundary_id - 1;

@@ -22,8 +22,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double near = 0.1; // maximum distance from the nearest node [scene's radius]
 
-/// Place of a point in an element of this rank. Of several the one with the least distance, then with the
-/// least key, counts.
+/// Place of a point in an element of this rank. Of several the one with the least distance, then
+/// with the least key, counts.
 struct Candidate {
   double distance = infinity;
   LocatedPoint at{0, std::numeric_limits<std::uint64_t>::max(), {}};

@@ -9,8 +9,8 @@ using dealii::Tensor;
 
 namespace {
 
-/// Returns the vector d in the space of these independent normals with d · n = 1 for the one at `index` and 0
-/// for all others.
+/// Returns the vector d in the space of these independent normals with d · n = 1 for the one at
+/// `index` and 0 for all others.
 Tensor<1, 3> dual_vector(const std::vector<Tensor<1, 3>> &normals, const std::size_t index) {
   std::vector<Tensor<1, 3>> others;
   const auto remove_others = [&others](Tensor<1, 3> v) {

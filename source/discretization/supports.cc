@@ -17,7 +17,8 @@ namespace billet {
 namespace {
 
 constexpr double little_weight = 1e-14; ///< of a constraint in a combination: round-off
-constexpr double disagreement = 1e-8;   ///< allowed of prescribed displacements, over the scene's radius
+/// Allowed disagreement of prescribed displacements, over the scene's radius.
+constexpr double disagreement = 1e-8;
 
 /// Returns what is wrong with prescribed displacements.
 std::string describe_contradiction(const Constraint &constraint, const double time,
@@ -232,8 +233,8 @@ void Supports::eliminate(const ConstrainedNode &node) {
 
 namespace {
 
-/// Constraints of a node that depend on each other, while they act. With those that began at `start` or
-/// before they agree there, and from then on their changes have to.
+/// Constraints of a node that depend on each other, while they act. With those that began at
+/// `start` or before they agree there, and from then on their changes have to.
 class DependentConstraints {
 public:
   DependentConstraints(const ConstraintRow &row, const ConstrainedNode &node)
@@ -389,7 +390,8 @@ std::vector<SupportTrack> Supports::moving_nodes() const {
         all.back().parts_.push_back({term.constraint, term.weight, n_lines});
     ++n_lines;
   }
-  // Supports that begin later, each by itself: which of them a node's motion will follow is not known yet.
+  // Supports that begin later, each by itself: which of them a node's motion will follow is not
+  // known yet.
   const auto begins_later = [](const Constraint &constraint) {
     return constraint.value != nullptr && !constraint.times.acts_after(0.);
   };

@@ -40,7 +40,8 @@ Point<3> centre_of(const BoundaryFacet &facet) {
   return centre;
 }
 
-/// Returns the time of a load's values at time t: after 'Until' they keep those of that time, and fade.
+/// Returns the time of a load's values at time t: after 'Until' they keep those of that time, and
+/// fade.
 double time_of_values(const AppliedLoad &load, const double t) { return std::min(t, load.times.until); }
 
 bool are_uniform(const std::vector<Expression> &expressions) {
@@ -56,8 +57,8 @@ template <class Position> Point<3> place_of(const FacetPoint &point, const Posit
   return Point<3>(place);
 }
 
-/// Returns the values of the expressions at the facet_points() of faces, one set after the other for each
-/// face; only those of one face for uniform expressions.
+/// Returns the values of the expressions at the facet_points() of faces, one set after the other
+/// for each face. Returns only those of one face for uniform expressions.
 LoadValues evaluate_at_points(const AppliedLoad &load, const double time,
                               const std::vector<LoadedFace> &faces, const double *positions) {
   const double t = time_of_values(load, time);
@@ -150,8 +151,8 @@ std::unique_ptr<LoadedSurface> whole_of(const OwnSelection &selection) {
   return whole;
 }
 
-/// Refuses a moment on nodes on one line, or on one node: their forces have no moment about the line, and how
-/// they turn about it is unknown.
+/// Refuses a moment on nodes on one line, or on one node. Their forces have no moment about the
+/// line, and how they turn about it is unknown.
 void check_spread(const AppliedLoad &load) {
   constexpr double least = 1e-3; // distance from the line, in parts of the length along it
   const auto points = load.nodes->points();
@@ -277,7 +278,8 @@ void ExternalLoads::place(const AppliedLoad &load, const NodalLoad &action, cons
   const auto facets = collect_boundary_facets(nodes_.discretization(), body, load.boundary_ids);
   auto surface = measure_surface(facets);
   std::vector<LoadedNode> nodes;
-  // Forces that depend on the place alone are integrated; those that resist motions are lumped at the nodes.
+  // Forces that depend on the place alone are integrated; those that resist motions are lumped at
+  // the nodes.
   const bool is_integrated = action.tangent() == LoadTangent::none;
   for (const auto &facet : facets) {
     const auto corners = local_corners(facet, nodes_);

@@ -14,8 +14,8 @@ namespace billet {
 
 namespace {
 
-/// Finds the thickness axes of a body's elements. Throws InputError if no axis is clearly nearest to the
-/// direction.
+/// Finds the thickness axes of a body's elements. Throws InputError if no axis is clearly nearest
+/// to the direction.
 std::vector<ThicknessAxis> find_thickness_axes(const Scene &scene, const std::size_t b,
                                                const Discretization &discretization,
                                                const std::vector<ElementVectors> &positions) {

@@ -39,7 +39,8 @@ NodeDofs find_dofs(const AppliedLoad &load, const Discretization &discretization
   return dofs;
 }
 
-/// Calls visit(load, dofs of its nodes on this rank) for each load on a surface, or on nodes as a whole.
+/// Calls visit(load, dofs of its nodes on this rank) for each load on a surface, or on nodes as a
+/// whole.
 template <class Visit>
 void for_each_surface(const Scene &scene, const Discretization &discretization, const Visit &visit) {
   for (std::size_t body = 0; body < scene.bodies().size(); ++body)
@@ -48,7 +49,8 @@ void for_each_surface(const Scene &scene, const Discretization &discretization, 
         visit(load, find_dofs(load, discretization, body));
 }
 
-/// Returns the dofs of a surface's nodes and of those on which they depend, of all ranks, in their order.
+/// Returns the dofs of a surface's nodes and of those on which they depend, of all ranks, in their
+/// order.
 std::vector<DofIndex> find_coupled_dofs(const Discretization &discretization, const Constraints &constraints,
                                         const NodeDofs &nodes_of_load) {
   Vector marks = discretization.make_additive_vector();

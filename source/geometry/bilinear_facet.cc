@@ -20,7 +20,8 @@ double into_range(const double value, const double range) { return std::min(std:
 
 std::array<double, 2> BilinearFacet::compute_step(const Tensor<1, 3> &arm, const double range,
                                                   const std::array<double, 2> &at) const {
-  // Derivatives of ½|X − x|². A parameter stays at the end of its range if its step points outwards.
+  // Derivatives of ½|X − x|². A parameter stays at the end of its range if its step points
+  // outwards.
   const Tensor<1, 3> away = difference(at, arm);
   const std::array<Tensor<1, 3>, 2> tangents{surface_.e_1 + at[1] * surface_.e_3,
                                              surface_.e_2 + at[0] * surface_.e_3};
@@ -55,7 +56,8 @@ std::array<double, 2> BilinearFacet::minimise(const Tensor<1, 3> &arm, const dou
     const std::array<double, 2> step = compute_step(arm, range, at);
     const double size = std::max(std::abs(step[0]), std::abs(step[1]));
     bool is_lower = false;
-    // A full step may increase the distance if it neglects the curvature or is clipped to the range.
+    // A full step may increase the distance if it neglects the curvature or is clipped to the
+    // range.
     for (double length = 1.; !is_lower && length > 1e-10; length *= 0.5) {
       const std::array<double, 2> next{into_range(at[0] + length * step[0], range),
                                        into_range(at[1] + length * step[1], range)};
@@ -102,7 +104,8 @@ FacetProjection BilinearFacet::project(const Tensor<1, 3> &x, const FacetLimits 
     return 0.5 * std::max({std::abs(at[0]) - 1., std::abs(at[1]) - 1., 0.});
   };
   const Tensor<1, 3> arm = surface_.e_0 - x;
-  const double range = 1.1 + 2. * limits.tolerance; // keeps the end of the range outside the tolerance
+  // This keeps the end of the range outside the tolerance.
+  const double range = 1.1 + 2. * limits.tolerance;
   std::array<double, 2> at = minimise(arm, range, {into_range(start[0], range), into_range(start[1], range)});
   const std::array<bool, 2> is_undefined = surface_.undefined_at(at);
   for (unsigned int i = 0; i < 2; ++i)

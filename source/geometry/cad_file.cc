@@ -18,7 +18,8 @@ bool is_digit(const char c) { return std::isdigit(static_cast<unsigned char>(c))
 bool is_blank(const char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(const char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// Names of entities in a STEP file, "#1", and its keywords; text in quotes and comments are left out.
+/// Names of entities in a STEP file, "#1", and its keywords; text in quotes and comments are left
+/// out.
 class StepScan {
 public:
   explicit StepScan(const std::string &text) : text_(text) {
@@ -47,8 +48,9 @@ public:
 private:
   void take() {
     const char c = text_[at_];
+    // A quote in a text is written twice, as if a text ended and another began.
     if (c == '\'')
-      at_ = after("'", at_ + 1); // a quote in a text is written twice, as if a text ended and another began
+      at_ = after("'", at_ + 1);
     else if (text_.compare(at_, 2, "/*") == 0)
       at_ = after("*/", at_ + 2);
     else if (c == '#')
@@ -119,7 +121,8 @@ CadFileReport check_iges_file(const std::string &text) {
       continue;
     const std::size_t n = ++counts[static_cast<std::size_t>(place - sections.begin())];
     const std::string type = line.substr(0, width_of_count);
-    // Every other line of the directory names the type of its entity; 144 and 510 are bounded faces.
+    // Every other line of the directory names the type of its entity; 144 and 510 are bounded
+    // faces.
     if (section == 'D' && n % 2 == 1 && (type == "     144" || type == "     510"))
       ++result.n_faces;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Faces from CAD files, by the OpenCASCADE with which deal.II may have been built. Projections onto planes,
-// cylinders, cones, spheres and tori are in closed form; those onto other surfaces use Newton's method from
-// the nearest facet of a triangulation.
+// Faces from CAD files, by the OpenCASCADE with which deal.II may have been built. Projections onto
+// planes, cylinders, cones, spheres and tori are in closed form. Those onto other surfaces use
+// Newton's method from the nearest facet of a triangulation.
 #include "billet/errors.h"
 #include "billet/geometry/cad_file.h"
 #include "billet/geometry/surface_type.h"
@@ -68,7 +68,8 @@ constexpr double sewing_tolerance = 1e-5; // of loose faces, over the size of th
 template <class Triple> Tensor<1, 3> tensor(const Triple &t) { return Tensor<1, 3>({t.X(), t.Y(), t.Z()}); }
 gp_Pnt point(const Tensor<1, 3> &x) { return {x[0], x[1], x[2]}; }
 
-/// Returns parameters along a curve, in space or in a plane, between which its direction changes little.
+/// Returns parameters along a curve, in space or in a plane, between which its direction changes
+/// little.
 template <class Curve> std::vector<double> sample(const Curve &curve) {
   if (curve.GetType() == GeomAbs_Line)
     return {curve.FirstParameter(), curve.LastParameter()};
@@ -80,8 +81,8 @@ template <class Curve> std::vector<double> sample(const Curve &curve) {
   return result;
 }
 
-/// Returns a function for the parameter of the nearest point of a curve, in closed form for lines and
-/// circles.
+/// Returns a function for the parameter of the nearest point of a curve, in closed form for lines
+/// and circles.
 std::function<double(const Tensor<1, 3> &)> nearest_on(const GeomAdaptor_Curve &curve) {
   const double first = curve.FirstParameter(), last = curve.LastParameter();
   if (curve.GetType() == GeomAbs_Line)
@@ -169,8 +170,8 @@ SampledSurface sample(const TopoDS_Face &face, const GeomAdaptor_Surface &surfac
   return {evaluate, ranges, std::move(mesh), std::move(parameters)};
 }
 
-/// Returns the parameters of the nearest point on that sheet of a cone which contains the middle of the face;
-/// ElSLib may choose the other one.
+/// Returns the parameters of the nearest point on that sheet of a cone which contains the middle of
+/// the face. ElSLib may choose the other one.
 TrimmedSurface::Parameters project(const gp_Cone &cone, const double sheet, const Tensor<1, 3> &x) {
   const gp_Ax3 &axes = cone.Position();
   const Tensor<1, 3> arm = x - tensor(axes.Location());
@@ -180,7 +181,8 @@ TrimmedSurface::Parameters project(const gp_Cone &cone, const double sheet, cons
           (sheet * std::hypot(a, b) - cone.RefRadius()) * sine + arm * tensor(axes.Direction()) * cosine};
 }
 
-/// Returns the projection in closed form, or nothing if there is none. `v` is a parameter of the face.
+/// Returns the projection in closed form, or nothing if there is none. `v` is a parameter of the
+/// face.
 std::function<TrimmedSurface::Parameters(const Tensor<1, 3> &)>
 closed_form_of(const GeomAdaptor_Surface &surface, const double v) {
   const auto with = [](const auto &elementary) {
@@ -267,7 +269,8 @@ double size_of(const TopoDS_Shape &shape) {
   return box.IsVoid() ? 0. : std::sqrt(box.SquareExtent());
 }
 
-/// Refuses a shape whose edges miss their vertices or faces: OpenCASCADE then gives these large tolerances.
+/// Refuses a shape whose edges miss their vertices or faces: OpenCASCADE then gives these large
+/// tolerances.
 void check_tolerances(const CadSource &source, const TopoDS_Shape &shape) {
   constexpr double allowed = 1e-3; // over the size of the shape; sound files have 1e-5
   double tolerance = 0.;
@@ -370,8 +373,8 @@ TopoDS_Shape choose_faces(const TypeInput &input, const TopoDS_Shape &shape) {
   return chosen;
 }
 
-/// Returns the maximum distance of coincident edges. An edge with only one face may duplicate an edge of
-/// another face, within its tolerance.
+/// Returns the maximum distance of coincident edges. An edge with only one face may duplicate an
+/// edge of another face, within its tolerance.
 double edge_accuracy(const TopoDS_Shape &shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of_edges;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of_edges);
@@ -415,7 +418,8 @@ SurfacePatches convert_file(const TypeInput &input, const CadSource &source, con
   return patches;
 }
 
-/// Refuses a file that is cut short or damaged as its text shows, and returns how many faces it defines.
+/// Refuses a file that is cut short or damaged as its text shows, and returns how many faces it
+/// defines.
 std::size_t check_text(const CadSource &source, const std::string &text) {
   const CadFileReport report = is_iges(source) ? check_iges_file(text) : check_step_file(text);
   if (!report.fault.empty())
@@ -430,7 +434,8 @@ TrialLimits limits_for(const std::size_t n_bytes) {
   return {8 + 20 * static_cast<unsigned int>(n_megabytes), 2000 + 500 * n_megabytes};
 }
 
-/// Returns what `read` makes of a file that defines this number of faces. Refuses a damaged file before that.
+/// Returns what `read` makes of a file that defines this number of faces. Refuses a damaged file
+/// before that.
 template <class Read> auto read_soundly(const CadSource &source, const Read &read) {
   std::ostringstream text;
   text << std::ifstream(source.name(), std::ios::binary).rdbuf();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Closest point of a Coons patch: Newton's method from the nearest cell centre, then from every cell that may
-// still contain a nearer point.
+// Closest point of a Coons patch: Newton's method from the nearest cell centre, then from every
+// cell that may still contain a nearer point.
 #include "billet/geometry/coons_patch.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double round_off = std::numeric_limits<double>::epsilon();
-// Tolerances for "nearer" and for "directly above", relative to the distance and to the patch's size.
+// Tolerances for "nearer" and for "directly above", relative to the distance and to the patch's
+// size.
 constexpr double not_nearer = 1e-13, straight_above = 1e-10;
 
 /// Quadratic function g·s + s·H s/2 of s = (s_u, s_v), in lengths.
@@ -26,8 +27,8 @@ struct Quadratic {
   double min_eigenvalue() const { return 0.5 * (uu + vv) - half_difference(); }
   double max_eigenvalue() const { return 0.5 * (uu + vv) + half_difference(); }
   double half_difference() const { return std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv); }
-  /// Replaces the eigenvalues λ_1, λ_2 of H with their absolute values, by (H² + |λ_1 λ_2| I)/(|λ_1| +
-  /// |λ_2|), and raises them to at least `lowest`.
+  /// Replaces the eigenvalues λ_1, λ_2 of H with their absolute values, by (H² + |λ_1 λ_2|
+  /// I)/(|λ_1| + |λ_2|), and raises them to at least `lowest`.
   void make_convex(const double lowest) {
     const double first = std::abs(min_eigenvalue()), second = std::abs(max_eigenvalue());
     if (first + second > 0.) {
@@ -48,7 +49,8 @@ struct Quadratic {
 /// Pair of coordinates, in lengths.
 using Pair = std::array<double, 2>;
 
-/// Returns the minimum of a convex quadratic between `low` and `high`: inside, or on one of the four sides.
+/// Returns the minimum of a convex quadratic between `low` and `high`: inside, or on one of the
+/// four sides.
 Pair minimum(const Quadratic &q, const Pair &low, const Pair &high) {
   const double determinant = q.uu * q.vv - q.uv * q.uv;
   const Pair inside{(q.uv * q.g_v - q.vv * q.g_u) / determinant, (q.uv * q.g_u - q.uu * q.g_v) / determinant};
@@ -90,8 +92,9 @@ struct CoonsPatch::Block {
   }
 };
 
-/// Whether the cell may contain a point nearer to x than `distance`. It uses the hull of the cell's corners
-/// plus the slack, projected on `arm`, the vector from the cell's middle to x, whose square is given.
+/// Whether the cell may contain a point nearer to x than `distance`. It uses the hull of the cell's
+/// corners plus the slack, projected on `arm`. This is the vector from the cell's middle to x,
+/// whose square is given.
 bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const double square,
                                const double distance) const {
   double towards = -infinity;
@@ -102,11 +105,12 @@ bool CoonsPatch::may_be_nearer(const std::size_t cell, const Point &arm, const d
   return square == 0. || square - towards < distance * std::sqrt(square);
 }
 
-/// Whether no point of the block is nearer to x than `foot`, a minimum in it. For X = foot + X_α δ^α + B, if
-/// d = x − foot makes no acute angle with X_α δ^α,
-///   |X − x|² − d² >= (|X_α δ^α| − |B|)² − 2 d·B,
-/// with 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`. d·X_αβ is its value at the foot plus a
-/// change bounded by third derivatives. All quantities use lengths a, b instead of u, v.
+/// Whether no point of the block is nearer to x than `foot`, a minimum in it. Let X = foot + X_α
+/// δ^α + B. If d = x − foot makes no acute angle with X_α δ^α,
+///   |X − x|² − d² >= (|X_α δ^α| − |B|)² − 2 d·B.
+/// Here 2B = X_αβ δ^α δ^β somewhere in the block, bounded by `bend`. d·X_αβ is its value at the
+/// foot plus a change bounded by third derivatives. All quantities use lengths a, b instead of u,
+/// v.
 bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block) const {
   const Range &low = cells_[block.low_i * n_v_ + block.low_j].range,
               &high = cells_[block.high_i * n_v_ + block.high_j].range;
@@ -137,8 +141,9 @@ bool CoonsPatch::is_nearest(const Foot &foot, const Point &x, const Block &block
 
 /// Returns a step of Newton's method on
 ///   (X − x)·X_u = 0,  (X − x)·X_v = 0
-/// (Bittencourt & Creus 1998, eqs. (10), (11)). The step leads to the minimum, within the range, of the
-/// second-order model of |X − x|²/2. The model is made convex if necessary, and has Marquardt's damping.
+/// (Bittencourt & Creus 1998, eqs. (10), (11)). The step leads to the minimum, within the range, of
+/// the second-order model of |X − x|²/2. The model is made convex if necessary, and has Marquardt's
+/// damping.
 CoonsPatch::Step CoonsPatch::newton_step(const Point &x, const Foot &foot, const Range &range,
                                          const double damping) const {
   const Jet &jet = foot.jet;
@@ -202,8 +207,8 @@ CoonsPatch::Foot CoonsPatch::newton(const Point &x, Foot foot, const Range &rang
   return foot;
 }
 
-/// Moves `foot` off a side that is a point, nearer to x, if possible. The parameter along such a side does
-/// not move the point, but selects the direction in which the patch continues.
+/// Moves `foot` off a side that is a point, nearer to x, if possible. The parameter along such a
+/// side does not move the point, but selects the direction in which the patch continues.
 bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) const {
   const bool at_low_v = foot.v == 0. && is_pole_[0], at_high_u = foot.u == 1. && is_pole_[1],
              at_high_v = foot.v == 1. && is_pole_[2], at_low_u = foot.u == 0. && is_pole_[3];
@@ -216,7 +221,8 @@ bool CoonsPatch::leave_pole(const Point &x, const Range &range, Foot &foot) cons
   const auto at_pole = [&](const double t) { return along_v ? at(foot.u, t) : at(t, foot.v); };
   const auto slope = [&](const Jet &jet) { return inwards * (r * (along_v ? jet.u : jet.v)); };
 
-  // Find the steepest descent: among samples, then by bisection for the zero of the slope's derivative.
+  // Find the steepest descent: among samples, then by bisection for the zero of the slope's
+  // derivative.
   constexpr unsigned int n = 16;
   unsigned int steepest = 0;
   double lowest = infinity;
@@ -327,8 +333,9 @@ Tensor<2, 3> CoonsPatch::turning(const Foot &foot, const Point &normal, const do
   const double b_uu = normal * jet.uu, b_uv = normal * jet.uv, b_vv = normal * jet.vv;
   const double w_ee = -a * a * b_uu, w_ef = -a * (b * b_uu + c * b_uv),
                w_ff = -(b * b * b_uu + 2. * b * c * b_uv + c * c * b_vv);
-  // W = mean I + D with D² = half² I and principal curvatures mean ± half, so W (I + gap W)⁻¹ has the same
-  // form. Its mean is that of the curvatures after turned(); D is scaled by the ratio of their differences.
+  // W = mean I + D with D² = half² I and principal curvatures mean ± half, so W (I + gap W)⁻¹ has
+  // the same form. Its mean is that of the curvatures after turned(); D is scaled by the ratio of
+  // their differences.
   const double mean = 0.5 * (w_ee + w_ff), half = std::hypot(0.5 * (w_ee - w_ff), w_ef);
   const double high = turned(mean + half, gap), low = turned(mean - half, gap);
   const double part_high = 1. + gap * (mean + half), part_low = 1. + gap * (mean - half);

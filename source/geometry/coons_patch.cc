@@ -16,9 +16,10 @@ using Kind = CurveSketch::Kind;
 
 namespace {
 
-constexpr double meeting = 1e-8; // maximum distance of curves that meet, relative to the patch's size
-// Maximum change of direction in a cell [radians], such that Newton's method from its middle is safe and its
-// box is tight.
+// Maximum distance of curves that meet, relative to the patch's size.
+constexpr double meeting = 1e-8;
+// Maximum change of direction in a cell [radians], such that Newton's method from its middle is
+// safe and its box is tight.
 constexpr double cell_angle = 0.2;
 constexpr unsigned int facets_per_cell =
     2; // along a side, for output and for the search for folds and intersections
@@ -205,8 +206,8 @@ void CoonsPatch::refuse_folds() const {
 
 void CoonsPatch::refuse_crossings() const {
   const unsigned int n_u = facets_per_cell * n_u_, n_v = facets_per_cell * n_v_;
-  // The steps are unequal. With equal steps the corners of two sheets that cross symmetrically would
-  // coincide, and no triangle would pierce another.
+  // The steps are unequal. With equal steps the corners of two sheets that cross symmetrically
+  // would coincide, and no triangle would pierce another.
   const auto parameter = [](const unsigned int i, const unsigned int n) {
     const double t = i / static_cast<double>(n);
     return t + 0.1 * t * (1. - t);

@@ -44,8 +44,8 @@ std::vector<std::string> split(const std::string &line) {
   return parts;
 }
 
-/// Replaces tabs and carriage returns by blanks. Refuses other control characters, since messages quote a
-/// line.
+/// Replaces tabs and carriage returns by blanks. Refuses other control characters, since messages
+/// quote a line.
 void clean(std::string &line) {
   for (char &c : line) {
     const auto code = static_cast<unsigned char>(c);

@@ -14,7 +14,8 @@ using dealii::Tensor;
 namespace {
 
 constexpr double flat_angle = 2e-4; // maximum angle between the normals of a flat region [radians]
-constexpr double min_height = 3e-7; // minimum height of a facet with an area, over the size of the mesh
+// Minimum height of a facet with an area, over the size of the mesh.
+constexpr double min_height = 3e-7;
 
 /// Connected facets in one plane.
 struct FlatRegion {
@@ -95,8 +96,8 @@ FacetNormals::FacetNormals(const TriangleMesh &mesh, const TriangleEdges &edges)
     areas.push_back(is_sliver ? 0. : 0.5 * cross.norm());
     normals.push_back(is_sliver ? Tensor<1, 3>() : cross / cross.norm());
   }
-  // A sliver takes the normal of the facet at its longest side. A chain of slivers needs as many passes as
-  // its length.
+  // A sliver takes the normal of the facet at its longest side. A chain of slivers needs as many
+  // passes as its length.
   for (bool continues = true; continues;) {
     continues = false;
     for (const unsigned int f : slivers) {
@@ -129,7 +130,8 @@ CornerNormals corner_normals(const TriangleMesh &mesh, const TriangleEdges &edge
     if (facets.is_sharp(edge, sharp_angle))
       continue;
     const auto [a, b] = edge.facets;
-    const auto [i, j] = edge.corners; // the second facet traverses the edge in the opposite direction
+    // The second facet traverses the edge in the opposite direction.
+    const auto [i, j] = edge.corners;
     groups.join(3 * a + i, 3 * b + (j + 1) % 3);
     groups.join(3 * a + (i + 1) % 3, 3 * b + j);
   }

@@ -184,7 +184,8 @@ Point Curve::max_second(const double from, const double to) const {
     const Span &span = spans_[i];
     if (span.start > to || end_of(i) < from)
       continue;
-    for (const double t : {std::max(from, span.start), std::min(to, end_of(i))}) // linear in between
+    // The second derivative is linear in between.
+    for (const double t : {std::max(from, span.start), std::min(to, end_of(i))})
       for (unsigned int c = 0; c < 3; ++c)
         maximum[c] = std::max(maximum[c], std::abs(2. * span.c2[c] + 6. * (t - span.start) * span.c3[c]));
   }

@@ -44,7 +44,8 @@ Jet linear(const CurvedTriangle::Seam &seam, const Jet &i, const Jet &j) {
   return {a + b * (j.f - i.f), b * (j.u - i.u), b * (j.v - i.v)};
 }
 
-/// Returns F. At the corners its second derivatives depend on the direction; there they are set to zero.
+/// Returns F. At the corners its second derivatives depend on the direction; there they are set to
+/// zero.
 Jet turning_part(const std::array<CurvedTriangle::Seam, 3> &seams, const double u, const double v) {
   const Jet l_0{1. - u - v, -1., -1.}, l_1{u, 1., 0.}, l_2{v, 0., 1.};
   const Jet l_01 = l_0 * l_1, l_12 = l_1 * l_2, l_20 = l_2 * l_0;
@@ -107,8 +108,8 @@ double CurvedTriangle::max_turning_part() const {
 
 bool CurvedTriangle::is_farther(const Point &x, const double square) const {
   constexpr double third = 1. / 3.;
-  const Point arm = x - origin_,
-              view = arm - third * (u_ + v_) - third * third * (uu_ + uv_ + vv_); // from near the centroid
+  // `view` is from near the centroid.
+  const Point arm = x - origin_, view = arm - third * (u_ + v_) - third * third * (uu_ + uv_ + vv_);
   // Control points relative to the first corner.
   const double u = u_ * view, v = v_ * view, uu = uu_ * view, uv = uv_ * view, vv = vv_ * view;
   double farthest = std::max({0., 0.5 * u, 0.5 * v, u + uu, v + vv, 0.5 * (u + v + uv)});

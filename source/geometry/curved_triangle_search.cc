@@ -109,8 +109,8 @@ CurvedTriangle::Step CurvedTriangle::choose_step(const Iterate &here) {
   return best;
 }
 
-/// Descends by Newton's method with line search inside the triangle. At an edge it follows the edge until
-/// descent inwards is possible again. It ends at a minimum over the triangle.
+/// Descends by Newton's method with line search inside the triangle. At an edge it follows the edge
+/// until descent inwards is possible again. It ends at a minimum over the triangle.
 CurvedTriangle::Iterate CurvedTriangle::descend(const Point &x, Iterate here) const {
   constexpr unsigned int max_steps = 60;
   for (unsigned int n = 0; n < max_steps; ++n) {
@@ -162,15 +162,16 @@ CurvedTriangle::Iterate CurvedTriangle::at_edge(const Point &x, const unsigned i
   return at(x, (i == 0 ? 1. : 0.) + t * u, t * v, edges);
 }
 
-/// Returns the nearest point of the edge opposite to corner i. The derivative of the squared distance along
-/// it is cubic, and monotonic between the roots of its own derivative.
+/// Returns the nearest point of the edge opposite to corner i. The derivative of the squared
+/// distance along it is cubic, and monotonic between the roots of its own derivative.
 CurvedTriangle::Iterate CurvedTriangle::nearest_on_edge(const Point &x, const unsigned int i) const {
   const auto [u, v] = edge_direction[i];
   const double start = i == 0 ? 1. : 0.; // start value of u
   const Point arm = x - position(start, 0.);
   const Point b = u * (u_ + 2. * start * uu_) + v * (v_ + start * uv_);
   const Point c = u * (u * uu_ + v * uv_) + v * v * vv_;
-  // p = ... + b t + c t²; a quarter of the derivative over t, with its own: k_0 + k_1 t + k_2 t² + k_3 t³.
+  // p = ... + b t + c t²; a quarter of the derivative over t, with its own: k_0 + k_1 t + k_2 t² +
+  // k_3 t³.
   const double k_0 = -0.5 * (arm * b), k_1 = 0.5 * (b * b) - arm * c, k_2 = 1.5 * (b * c), k_3 = c * c;
   const auto slope = [&](const double t) { return k_0 + t * (k_1 + t * (k_2 + t * k_3)); };
   std::array<double, 4> ends{0., 0., 0., 1.};
@@ -191,7 +192,8 @@ CurvedTriangle::Iterate CurvedTriangle::nearest_on_edge(const Point &x, const un
     if (!(slope(low) < 0. && slope(high) > 0.)) // no minimum between
       continue;
     double t = 0.5 * (low + high);
-    for (unsigned int n = 0; n < 60 && high - low > 1e-15; ++n) { // Newton's method, within the bracket
+    for (unsigned int n = 0; n < 60 && high - low > 1e-15; ++n) {
+      // Newton's method, within the bracket.
       const double f = slope(t);
       (f < 0. ? low : high) = t;
       const double next = t - f / (k_1 + t * (2. * k_2 + 3. * t * k_3));

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double mesh_angle = M_PI / 18.;
 
-/// Returns the bend of an edge with chord d. m_0 and m_1 are the tangents' slopes towards `up` at its start
-/// and end [times a length].
+/// Returns the bend of an edge with chord d. The tangents' slopes towards `up` at its start and end
+/// are m_0 and m_1 [times a length].
 Tensor<1, 3> bend(const Tensor<1, 3> &d, const Tensor<1, 3> &up, const double m_0, const double m_1) {
   const double sum = m_0 + m_1;
   if (m_0 * m_1 <= 0. || std::abs(m_0 * m_1 / sum) < 1e-10 * d.norm())
@@ -27,8 +27,8 @@ Tensor<1, 3> bend_smooth(const Tensor<1, 3> &d, const Tensor<1, 3> &n_0, const T
   return square < 0.25 ? Tensor<1, 3>() : bend(d, mean / square, n_0 * d, -(n_1 * d));
 }
 
-/// Computes the slope, across `along`, of the tangent at an end of a sharp edge that is orthogonal to the
-/// normals of both sides. Returns false if it is steeper than 45°.
+/// Computes the slope, across `along`, of the tangent at an end of a sharp edge that is orthogonal
+/// to the normals of both sides. Returns false if it is steeper than 45°.
 bool crease_slope(const Tensor<1, 3> &along, const Tensor<1, 3> &n_a, const Tensor<1, 3> &n_b,
                   Tensor<1, 3> &slope) {
   Tensor<1, 3> tangent = dealii::cross_product_3d(n_a, n_b);
@@ -40,8 +40,8 @@ bool crease_slope(const Tensor<1, 3> &along, const Tensor<1, 3> &n_a, const Tens
   return slope.norm() <= 1.;
 }
 
-/// Returns the bend of a sharp edge. `normals` are those of side a at the start and the end, then those of
-/// side b.
+/// Returns the bend of a sharp edge. `normals` are those of side a at the start and the end, then
+/// those of side b.
 Tensor<1, 3> bend_crease(const Tensor<1, 3> &d, const std::array<Tensor<1, 3>, 4> &normals) {
   const double length = d.norm();
   const Tensor<1, 3> along = d / length;
@@ -123,7 +123,8 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
     const auto [a, b] = edge.facets;
     const auto [i, j] = edge.corners;
     const bool is_open_edge = b == TriangleEdges::none;
-    if (facets_.areas[a] == 0. || (!is_open_edge && facets_.areas[b] == 0.)) // slivers stay straight
+    // Slivers stay straight.
+    if (facets_.areas[a] == 0. || (!is_open_edge && facets_.areas[b] == 0.))
       continue;
     const Tensor<1, 3> d = mesh_.points[edge.points[1]] - mesh_.points[edge.points[0]];
     const Tensor<1, 3> &start = normals[a][i], &end = normals[a][(i + 1) % 3];
@@ -133,8 +134,8 @@ void CurvedTriangles::bend_edges(const TriangleEdges &edges, const CornerNormals
   }
 }
 
-/// Straightens the edges of facets whose triangles would fold over, since the normals are too far from that
-/// of the facet; then those of neighbours that fold as a consequence.
+/// Straightens the edges of facets whose triangles would fold over, since the normals are too far
+/// from that of the facet. Then straightens those of neighbours that fold as a consequence.
 void CurvedTriangles::straighten_where_folded() {
   for (bool continues = true; continues;) {
     continues = false;

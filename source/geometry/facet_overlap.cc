@@ -28,8 +28,8 @@ template <class Number> struct Polygon {
 
   void add(const Point<Number> &corner) { corners[n++] = corner; }
 
-  /// Clips the polygon where the linear function `value` is < 0. A corner nearer to that line than `rounding`
-  /// counts as on it, since edges of matching facets coincide.
+  /// Clips the polygon where the linear function `value` is < 0. A corner nearer to that line than
+  /// `rounding` counts as on it, since edges of matching facets coincide.
   template <class Function> void clip(const Function &value, const double rounding) {
     if (n == 0)
       return;
@@ -59,8 +59,8 @@ template <class Number> struct Polygon {
   }
 };
 
-/// Facet as four triangles in the target's plane, around the middle, counter-clockwise seen from its own
-/// side, with heights above that plane.
+/// Facet as four triangles in the target's plane, around the middle, counter-clockwise seen from
+/// its own side, with heights above that plane.
 template <class Number> struct Fan {
   std::array<Point<Number>, 4> corners; ///< corners in the order of FacetCorners
   std::array<Number, 4> heights;
@@ -231,7 +231,8 @@ FacetOverlapOf<Number> compute_overlap(const FacetCornersOf<Number> &slave,
   const std::array<Tensor<1, 3, Number>, 3> axes{q, dealii::cross_product_3d(overlap.normal, q),
                                                  overlap.normal};
   const Fan<Number> of_slave(slave, surface.e_0, axes, lowered), of_target(target, surface.e_0, axes, {});
-  constexpr double rounding = 1e-10; // maximum mismatch of matching corners, relative to a facet's size
+  // Maximum mismatch of matching corners, relative to a facet's size.
+  constexpr double rounding = 1e-10;
   const double height_rounding = rounding * penetration;
   for (unsigned int t = 0; t < 4; ++t) {
     const Triangle<Number> below(of_target, t);

@@ -32,9 +32,10 @@ Tensor<2, 3, Number> facet_rotation(const FacetCorners &from, const FacetCorners
   }
   const Frame old_frame = make_frame(old_surface);
   const FrameOf<Number> frame = make_frame(surface);
-  // Let p and s be the corners' coordinates, relative to their means, on the old and on the new q and r. The
-  // angle that minimises Σ |rotated p − s|² has the cosine Σ p·s and the sine Σ p × s, up to a common factor.
-  // p and s are ± e_1 ± e_2 ± e_3 with mutually orthogonal signs, so the sums run over these vectors.
+  // Let p and s be the corners' coordinates, relative to their means, on the old and on the new q
+  // and r. The angle that minimises Σ |rotated p − s|² has the cosine Σ p·s and the sine Σ p × s,
+  // up to a common factor. Both p and s are ± e_1 ± e_2 ± e_3 with mutually orthogonal signs, so
+  // the sums run over these vectors.
   Number cosine = 0., sine = 0.;
   const auto add = [&](const Tensor<1, 3> &p, const Tensor<1, 3, Number> &s) {
     const double p_q = p * old_frame.q, p_r = p * old_frame.r;

@@ -33,8 +33,8 @@ ClosestPoint at_foot(const SurfacePoint &foot, const Tensor<1, 3> &x, const doub
 
 namespace {
 
-/// Returns the step of Newton's method in the free directions or, if that does not lead towards a minimum, of
-/// steepest descent in the metric.
+/// Returns the step of Newton's method in the free directions or, if that does not lead towards a
+/// minimum, of steepest descent in the metric.
 std::array<double, 2> choose_step(const SurfacePoint &here, const Tensor<1, 3> &arm,
                                   const std::array<bool, 2> &is_fixed, bool &is_newton) {
   const double slope_u = -(arm * here.p_u), slope_v = -(arm * here.p_v);
@@ -158,8 +158,8 @@ SurfaceFoot SampledSurface::descend(const Tensor<1, 3> &x, const FacetTree::Foot
   return descend_to_foot(surface_, ranges_, x, uv[0], uv[1]);
 }
 
-/// Improves the start near a pole, where facets give a poor estimate of the parameter `around` it: takes that
-/// of the nearest of several points.
+/// Improves the start near a pole, where facets give a poor estimate of the parameter `around` it:
+/// takes that of the nearest of several points.
 std::array<double, 2> SampledSurface::turn_about_pole(const Tensor<1, 3> &x, std::array<double, 2> uv,
                                                       const unsigned int around) const {
   constexpr unsigned int n = 24;

@@ -61,8 +61,8 @@ void PlanedFacetOf<Number>::locate(const InPlane &x, const double zone,
 
 template <class Number>
 std::array<Number, 2> PlanedFacetOf<Number>::compute_parameters(const InPlane &x) const {
-  // x = ξ e_1 + η e_2 + ξη e_3. The cross product with e_1 + η e_3 gives A η² + B η + C = 0, whose slope at a
-  // root is the Jacobian. The right root has a positive Jacobian.
+  // x = ξ e_1 + η e_2 + ξη e_3. The cross product with e_1 + η e_3 gives A η² + B η + C = 0, whose
+  // slope at a root is the Jacobian. The right root has a positive Jacobian.
   using std::sqrt;
   const Number A = cross(e_3_, e_2_), B = cross(x, e_3_) + cross(e_1_, e_2_), C = cross(x, e_1_),
                square_of_root = B * B - 4. * A * C,

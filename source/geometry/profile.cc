@@ -282,7 +282,8 @@ Segment round_off(Segment &before, Segment &after, const double radius) {
   bool found = false;
   Segment best;
   double best_distance = infinity;
-  for (const double side : {1., -1.}) { // the fillet's centre lies to the left, or to the right, of both
+  for (const double side : {1., -1.}) {
+    // The fillet's centre lies to the left, or to the right, of both.
     const Segment a = offset_curve(before, side * radius), b = offset_curve(after, side * radius);
     if ((a.is_arc && a.radius <= 0.) || (b.is_arc && b.radius <= 0.))
       continue;
@@ -329,8 +330,8 @@ double distance_to(const Point &x, const Point &a, const Point &b) {
   return (x - a - part * along).norm();
 }
 
-/// Throws if chords of the segments meet other than consecutive ones at their common end, or if these fold
-/// back.
+/// Throws if chords of the segments meet other than consecutive ones at their common end, or if
+/// these fold back.
 void check_crossings(const std::vector<Segment> &segments) {
   const Profile profile(segments, Profile::Outside::left);
   const std::vector<Point> points = profile.polyline(M_PI / 60., Point(), 0.);

@@ -15,10 +15,11 @@ namespace {
 
 constexpr double far_round_off = 1e-7; // round-off of closest points, relative to the distance
 constexpr double smooth = 1e-6;        // maximum sine of the angle between normals at a smooth seam
-constexpr double along_edge = 1e-4;    // maximum sine of the angle by which an arm may lean along an edge
+// Maximum sine of the angle by which an arm may lean along an edge.
+constexpr double along_edge = 1e-4;
 
-/// Whether a corner's normal lies among those of its patches, or about as near to their mean. Otherwise it
-/// points beyond a free edge that ends in the corner.
+/// Whether a corner's normal lies among those of its patches, or about as near to their mean.
+/// Otherwise it points beyond a free edge that ends in the corner.
 bool is_between(const Tensor<1, 3> &normal, const std::vector<Tensor<1, 3>> &normals,
                 const Tensor<1, 3> &mean) {
   constexpr double slack = 0.1; // radians
@@ -124,12 +125,14 @@ RigidSurface::Projection RigidSurface::project_beyond_edge(const Tensor<1, 3> &x
   if (around.is_straight_below) // equally near within round-off
     return around.below;
 
-  // The surface continues beyond the seam, which acts as an edge: seen from outside if the tool is convex,
-  // from inside if it is concave. The gap is the distance to it, with the sign given by the mean normal.
+  // The surface continues beyond the seam, which acts as an edge: seen from outside if the tool is
+  // convex, from inside if it is concave. The gap is the distance to it, with the sign given by the
+  // mean normal.
   Projection projection{true, around.mean, arm * around.mean, around.turning, patch};
   if (around.sharpness < smooth || around.sharpness * distance <= tolerance_) {
     const double aside = (arm - projection.gap * around.mean).norm();
-    return aside > 2. * smooth * distance + tolerance_ ? none : projection; // none if past the seam's end
+    // There is none past the seam's end.
+    return aside > 2. * smooth * distance + tolerance_ ? none : projection;
   }
   projection.gap = projection.gap < 0. ? -distance : distance;
   projection.normal = arm / projection.gap;
@@ -152,10 +155,11 @@ RigidSurface::EdgePoint RigidSurface::edge_point(const Tensor<1, 3> &x, const un
   if (!(edge_point.beyond > 0.))
     return edge_point;
   edge_point.outward = aside / edge_point.beyond;
-  // Derivatives of the edge's point and normal by x, from central differences, since patches do not provide
-  // them.
+  // Derivatives of the edge's point and normal by x, from central differences, since patches do not
+  // provide them.
   const Tensor<1, 3> along = dealii::cross_product_3d(edge_point.normal, edge_point.outward);
-  const double h = std::max(1e-3 * edge_point.beyond, 1e-6 * width); // smaller steps leave mostly round-off
+  // Smaller steps leave mostly round-off.
+  const double h = std::max(1e-3 * edge_point.beyond, 1e-6 * width);
   const ClosestPoint before = patches_[patch]->closest_point(x - h * along),
                      after = patches_[patch]->closest_point(x + h * along);
   const double carried = along * (after.position - before.position) / (2. * h);
@@ -168,8 +172,8 @@ RigidSurface::EdgePoint RigidSurface::edge_point(const Tensor<1, 3> &x, const un
 
 double RigidSurface::turning_along_edge(const Projection &projection, const ClosestPoint &nearest,
                                         const unsigned int patch, const Neighbours &around) const {
-  // Both patches determine the edge's curvature vector k in the plane across the edge: on the surface
-  // e·∂n/∂x·e = −k·n. With n = a n_1 + b n_2, the value for n is κ = a κ_1 + b κ_2.
+  // Both patches determine the edge's curvature vector k in the plane across the edge: on the
+  // surface e·∂n/∂x·e = −k·n. With n = a n_1 + b n_2, the value for n is κ = a κ_1 + b κ_2.
   const auto curvature = [&](const unsigned int i) {
     return around.edge * patches_[i]->closest_point(nearest.position).turning * around.edge;
   };

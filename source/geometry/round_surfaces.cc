@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Sphere, cylinder, cone and torus: profiles of one arc or one line, revolved, and trimmed along the profile
-// and around the axis.
+// Sphere, cylinder, cone and torus: profiles of one arc or one line, revolved, and trimmed along
+// the profile and around the axis.
 #include "billet/geometry/sector.h"
 
 #include <cmath>
@@ -34,8 +34,8 @@ SurfacePatches revolve(const TypeInput &input, const std::string &origin_key, co
   return revolve(input, profile, input.vector(origin_key), input.direction("Axis"));
 }
 
-/// Returns the outside of a profile that runs upwards (counter-clockwise, for an arc), with the axis on its
-/// left.
+/// Returns the outside of a profile that runs upwards (counter-clockwise, for an arc), with the
+/// axis on its left.
 Profile::Outside away_from_axis(const TypeInput &input) {
   return side_sign(input) > 0. ? Profile::Outside::right : Profile::Outside::left;
 }

@@ -54,8 +54,8 @@ bool pierces(const Triangle &first, const Triangle &second) {
   return false;
 }
 
-/// Whether the two lie in one plane and share more than an edge. For generic triangles, a corner of one is
-/// then inside the other, or edges cross.
+/// Whether the two lie in one plane and share more than an edge. For generic triangles, a corner of
+/// one is then inside the other, or edges cross.
 bool overlap_in_plane(const Triangle &first, const Triangle &second) {
   for (const auto &corner : first.corners)
     if (std::abs((corner - second.corners[0]) * second.normal) > on_it * second.size)

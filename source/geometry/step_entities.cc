@@ -80,8 +80,9 @@ const char *name_of(const Kind kind) {
   return "another entity";
 }
 
-/// Entity of shapes: how many parameters it has, which of them, counted from 0, are lengths > 0, and what
-/// those are that refer to entities, by themselves or in a list. Source: ISO 10303-42, sections 4 and 5.
+/// Entity of shapes. It has the number of its parameters and which of them, counted from 0, are
+/// lengths > 0. It has the kinds of those that refer to entities, alone or in a list. Source: ISO
+/// 10303-42, sections 4 and 5.
 struct EntityRule {
   Kind kind;
   std::size_t n_parameters;
@@ -348,7 +349,8 @@ private:
     return std::string_view(text_).substr(begin, at_ - begin);
   }
 
-  /// Returns the next character that is neither blank nor in a comment; nothing at the end of the file.
+  /// Returns the next character that is neither blank nor in a comment; nothing at the end of the
+  /// file.
   char next() {
     while (true) {
       at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size());
@@ -412,8 +414,8 @@ public:
       }
   }
 
-  /// Refuses points and directions of faces that have not three coordinates, and those in the parameters of
-  /// a surface that have not two.
+  /// Refuses points and directions of faces that have not three coordinates, and those in the
+  /// parameters of a surface that have not two.
   void check_coordinates() const {
     std::vector<std::size_t> in_space, in_parameters;
     for (std::size_t i = 0; i < entities_.size(); ++i)
@@ -428,8 +430,8 @@ public:
   }
 
 private:
-  /// Whether an entity may stand where one of this kind should be. Other types of curves and surfaces than
-  /// those of the rules have telling names.
+  /// Whether an entity may stand where one of this kind should be. Other types of curves and
+  /// surfaces than those of the rules have telling names.
   static bool can_be(const Entity &entity, const Kind kind) {
     const auto has = [&](const std::string_view word) {
       return entity.type.find(word) != std::string_view::npos;

@@ -13,8 +13,8 @@ using dealii::Tensor;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Maximum angles of facets that represent an arc, whose chords are up to 0.015 % and 0.1 % of its radius
-/// away from it. The coarse one is for surfaces that would have more facets otherwise.
+/// Maximum angles of facets that represent an arc, whose chords are up to 0.015 % and 0.1 % of its
+/// radius away from it. The coarse one is for surfaces that would have more facets otherwise.
 struct FacetAngles {
   static constexpr double fine = M_PI / 90., coarse = M_PI / 36.;
   static constexpr std::size_t max_facets = 10000;
@@ -66,8 +66,8 @@ ClosestPoint RevolvedProfile::closest_point(const Tensor<1, 3> &x) const {
     double turned = std::atan2(b, a) - from_;
     turned -= 2. * M_PI * std::floor(turned / (2. * M_PI));
     if (radius <= tiny || turned > sweep_) {
-      // Project onto the nearer one of the two bounding half-planes, in which the point may have a negative
-      // radius.
+      // Project onto the nearer one of the two bounding half-planes, in which the point may have a
+      // negative radius.
       const double to_start = 2. * M_PI - turned, to_end = turned - sweep_;
       const double angle = radius > tiny && to_end < to_start ? from_ + sweep_ : from_;
       outwards = std::cos(angle) * axes_.x + std::sin(angle) * axes_.y;

@@ -44,8 +44,8 @@ public:
   PointGrid(const Tensor<1, 3> &origin, const double tolerance)
       : origin_(origin), tolerance_(tolerance), width_(8. * tolerance) {}
 
-  /// Returns the index of the first of the `points` that is nearer than the tolerance. If there is none, it
-  /// adds the point and returns `index`.
+  /// Returns the index of the first of the `points` that is nearer than the tolerance. If there is
+  /// none, it adds the point and returns `index`.
   unsigned int find_or_add(const Tensor<1, 3> &point, const unsigned int index,
                            const std::vector<Tensor<1, 3>> &points) {
     // Visit all cubes within the tolerance, usually one.
@@ -94,7 +94,8 @@ bool TriangleMesh::has_area() const {
 
 double TriangleMesh::six_volumes() const {
   double sum = 0.;
-  const Tensor<1, 3> origin = points.empty() ? Tensor<1, 3>() : points.front(); // reduces cancellation
+  // This reduces cancellation.
+  const Tensor<1, 3> origin = points.empty() ? Tensor<1, 3>() : points.front();
   for (const auto &facet : facets)
     sum += (points[facet[0]] - origin) * dealii::cross_product_3d(Tensor<1, 3>(points[facet[1]] - origin),
                                                                   Tensor<1, 3>(points[facet[2]] - origin));

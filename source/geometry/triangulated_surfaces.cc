@@ -12,8 +12,8 @@ namespace {
 
 using Kind = TypeParameter::Kind;
 
-/// Tolerance for merging points that rounding to single precision, or to six digits, has separated; relative
-/// to the size of the surface.
+/// Tolerance for merging points that rounding to single precision, or to six digits, has separated;
+/// relative to the size of the surface.
 constexpr double weld_tolerance = 1e-6;
 
 TriangleMesh read_welded(const TypeInput &input) {

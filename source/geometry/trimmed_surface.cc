@@ -11,7 +11,8 @@ namespace billet {
 using dealii::Tensor;
 
 namespace {
-constexpr double smooth_pole = 1. - 1e-4; // minimum length of the mean of the normals around a smooth pole
+// Minimum length of the mean of the normals around a smooth pole.
+constexpr double smooth_pole = 1. - 1e-4;
 } // namespace
 
 TrimmedSurface::TrimmedSurface(Description description)
@@ -117,7 +118,8 @@ bool TrimmedSurface::goes_around(const Edge &pole) const {
   return false;
 }
 
-/// Returns points around a pole, at the small fraction `aside` of the distance to the middle of the face.
+/// Returns points around a pole, at the small fraction `aside` of the distance to the middle of the
+/// face.
 std::vector<SurfacePoint> TrimmedSurface::ring_about(const Edge &pole, const double aside) const {
   constexpr unsigned int n = 12;
   std::vector<SurfacePoint> result;
@@ -143,8 +145,8 @@ Tensor<1, 3> TrimmedSurface::mean_normal(const Edge &pole) const {
   return result;
 }
 
-/// Adds a cap: close to a pole, derivatives are lost in round-off, and the osculating paraboloid replaces the
-/// surface.
+/// Adds a cap: close to a pole, derivatives are lost in round-off, and the osculating paraboloid
+/// replaces the surface.
 void TrimmedSurface::add_cap(const Edge &pole) {
   const Tensor<1, 3> mean = mean_normal(pole);
   if (mean.norm() < smooth_pole)
@@ -168,7 +170,8 @@ ClosestPoint TrimmedSurface::Cap::project(const Tensor<1, 3> &x) const {
   const Tensor<1, 3> arm = x - position;
   const double height = arm * normal;
   const Tensor<2, 3> stretch = Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) + height * curvature;
-  const bool is_focus = std::abs(dealii::determinant(stretch)) < 1e-12; // all directions are equally near
+  // All directions are equally near.
+  const bool is_focus = std::abs(dealii::determinant(stretch)) < 1e-12;
   const Tensor<2, 3> shrink = is_focus ? Tensor<2, 3>() : dealii::invert(stretch);
   const Tensor<1, 3> aside = shrink * (arm - height * normal);
   ClosestPoint result;

@@ -7,8 +7,8 @@ LoadType force_type();
 
 namespace {
 
-/// F_a = A_a/A F: the force is spread evenly over all faces. Its line of action passes through their
-/// centroid.
+/// F_a = A_a/A F: the force is spread evenly over all faces. Its line of action passes through
+/// their centroid.
 class SpreadForce final : public DeadLoad<NodalLoad> {
 public:
   explicit SpreadForce(const Axes &axes) : axes_(axes) {}

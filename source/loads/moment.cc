@@ -10,8 +10,8 @@ namespace {
 
 using dealii::Tensor;
 
-/// F_a = ω × p_a with ω = J⁻¹ m, (F4) of the theory: no resultant, and the moment m about any point, however
-/// the surface deforms. m = R M if the moment follows, else M.
+/// F_a = ω × p_a with ω = J⁻¹ m, (F4) of the theory: no resultant, and the moment m about any
+/// point, however the surface deforms. m = R M if the moment follows, else M.
 class Moment final : public SurfaceLoad {
 public:
   explicit Moment(const bool follows) : follows_(follows) {}

@@ -28,7 +28,8 @@ public:
     }
   }
 
-  /// The derivative is symmetric only if the pressure is uniform and its edge is fixed or does not exist.
+  /// The derivative is symmetric only if the pressure is uniform and its edge is fixed or does not
+  /// exist.
   LoadTangent tangent() const override { return LoadTangent::unsymmetric; }
   /// Its stiffness, p h at a node of a brick of size h, is small against E h, that of the brick.
   Bound bound(const LoadedSurface & /*surface*/) const override { return {}; }

@@ -12,8 +12,8 @@ using dealii::Tensor;
 
 namespace {
 
-/// Returns the rotation that fits K = ∫ r ⊗ (X − C) dA best, (F2). A plane surface has no third axis of its
-/// own: that of the first two is taken.
+/// Returns the rotation that fits K = ∫ r ⊗ (X − C) dA best, (F2). A plane surface has no third
+/// axis of its own: that of the first two is taken.
 Tensor<2, 3> fit_rotation(const Tensor<2, 3> &K) {
   const auto squares = dealii::symmetrize(transpose(K) * K);
   const auto axes = dealii::eigenvectors(squares); // the largest first

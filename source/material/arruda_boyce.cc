@@ -9,8 +9,8 @@ ElasticityType arruda_boyce_type();
 
 namespace {
 
-/// W = M Σ_i C_i/N^{i−1} (I1^i − 3^i), N = L², i from 1 to 5: the series of the eight-chain model (Arruda &
-/// Boyce 1993), as powers of I1 − 3.
+/// W = M Σ_i C_i/N^{i−1} (I1^i − 3^i), N = L², i from 1 to 5: the series of the eight-chain model
+/// (Arruda & Boyce 1993), as powers of I1 − 3.
 SharedEnergy make_energy(const TypeInput &input) {
   constexpr std::array<double, 5> C = {1. / 2., 1. / 20., 11. / 1050., 19. / 7000., 519. / 673750.};
   const double mu = input.positive("Chain modulus"), limit = input.positive("Locking stretch");

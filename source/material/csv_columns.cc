@@ -50,8 +50,8 @@ bool has_decimal_comma(std::string cell) {
   }
 }
 
-/// Returns the first number with a decimal comma between semicolons, or else between tabs or blanks; empty if
-/// there is none.
+/// Returns the first number with a decimal comma between semicolons, or else between tabs or
+/// blanks; empty if there is none.
 std::string find_decimal_comma(std::string line) {
   const bool has_semicolons = line.find(';') != std::string::npos;
   if (!has_semicolons)

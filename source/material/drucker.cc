@@ -22,7 +22,8 @@ double min_drucker_stiffness(const IsochoricEnergy &energy, const IsochoricStrai
 
 namespace {
 
-/// Returns the stretch nearest to 1 towards `end` beyond which the condition fails; `end` if there is none.
+/// Returns the stretch nearest to 1 towards `end` beyond which the condition fails; `end` if there
+/// is none.
 double find_limit(const IsochoricEnergy &energy, const std::array<double, 3> &direction, const double end) {
   constexpr unsigned int n_steps = 2000;
   for (unsigned int i = 1; i <= n_steps; ++i) {

@@ -87,8 +87,8 @@ struct Recovery {
   }
 };
 
-/// Returns ∫ |exp(−u) P + (1 − exp(−u)) D/x|² du from 0 to x: the energy that recovery dissipates in a step,
-/// over ⅔ C.
+/// Returns ∫ |exp(−u) P + (1 − exp(−u)) D/x|² du from 0 to x: the energy that recovery dissipates
+/// in a step, over ⅔ C.
 double integrate_recovery(const double x, const Vector6 &P, const Vector6 &D) {
   if (!(x > 0.))
     return 0.;
@@ -122,8 +122,8 @@ template <bool has_directions, bool is_thermal> struct FlowRulePlasticity<has_di
   PrincipalElasticState principal; ///< of M
   SymmetricTensor<2, 3> strain;    ///< dev ½ ln M
 
-  /// Returns the gradient of the rate that symmetric d of space has in that frame, d − Ω with the spin Ω of
-  /// the rotation, (H14) of doc/theory.md.
+  /// Returns the gradient of the rate that symmetric d of space has in that frame, (H14) of
+  /// doc/theory.md. It is d − Ω with the spin Ω of the rotation.
   Tensor<2, 3> gradient_of(const SymmetricTensor<2, 3> &d, const bool is_turned) const {
     Tensor<2, 3> L = d;
     if (!is_turned)
@@ -413,8 +413,8 @@ private:
     return response;
   }
 
-  /// Finds Δα and μ = Δα/Q. Q over Δα is linear, and exact if flow is radial: 1/Q is linear in μ, (H7).
-  /// Returns false, and keeps both, far from the solution where that line is of no use.
+  /// Finds Δα and μ = Δα/Q. Q over Δα is linear, and exact if flow is radial: 1/Q is linear in μ,
+  /// (H7). Returns false, and keeps both, far from the solution where that line is of no use.
   bool find_increment() {
     const LinearSystem6 system(jacobian());
     if (!system.is_regular())
@@ -499,7 +499,8 @@ private:
 
   Vector6 strain_; ///< deviator of the elastic strain
   struct {
-    double mu = 0., alpha = 0., slope = 0.; ///< Δα/Q, Δα, derivative of the flow stress without heat
+    /// Δα/Q, Δα, derivative of the flow stress without heat.
+    double mu = 0., alpha = 0., slope = 0.;
   } increment_;
   struct {
     double factor = 1., rise = 0., work = 0., slope = 0.; ///< slope: of the flow stress with heat

@@ -10,8 +10,9 @@ ThermalFactorType johnson_cook_thermal_type();
 
 namespace {
 
-/// Factor 1 − T*^m, T* = (T − T_r)/(T_m − T_r), (H15) of doc/theory.md (Johnson & Cook 1983). It is 1 below
-/// T_r. From T* = 1 − 1e-6 on it is constant, so that molten points keep a small flow stress.
+/// Factor 1 − T*^m, T* = (T − T_r)/(T_m − T_r), (H15) of doc/theory.md (Johnson & Cook 1983). It is
+/// 1 below T_r. From T* = 1 − 1e-6 on it is constant, so that molten points keep a small flow
+/// stress.
 class JohnsonCookThermal final : public ThermalFactor {
 public:
   JohnsonCookThermal(const double reference, const double melting, const double exponent)

@@ -161,7 +161,8 @@ double asymmetry(const StressRates &rates, const SymmetricTensor<2, 3> &tau) {
   return std::sqrt(difference / size);
 }
 
-/// Kind of random paths, with two steps in the direction D before the one whose tangent is compared.
+/// Kind of random paths, with two steps in the direction D before the one whose tangent is
+/// compared.
 struct Way {
   const char *name;
   /// Returns the increment of F in the last step.

@@ -8,8 +8,8 @@ namespace billet {
 
 namespace {
 
-/// Returns the largest row sum of the symmetric part of a square matrix, a bound of the largest eigenvalue of
-/// that part.
+/// Returns the largest row sum of the symmetric part of a square matrix, a bound of the largest
+/// eigenvalue of that part.
 template <class Matrix> double bound_eigenvalue(const Matrix &matrix) {
   double largest = 0.;
   for (std::size_t i = 0; i < matrix.size(); ++i) {
@@ -38,7 +38,8 @@ double bound_by_moduli(const SpatialModuli &moduli, const dealii::SymmetricTenso
 }
 
 double bound_by_moduli(const GradientModuli &moduli, const dealii::SymmetricTensor<2, 3> &tau) {
-  constexpr std::array<std::size_t, 9> rows{0, 3, 4, 3, 1, 5, 4, 5, 2}; // of τ11, τ12, τ13, τ21, ...
+  // Rows of τ11, τ12, τ13, τ21, ...
+  constexpr std::array<std::size_t, 9> rows{0, 3, 4, 3, 1, 5, 4, 5, 2};
   std::array<std::array<double, 9>, 9> full;
   for (std::size_t i = 0; i < 9; ++i)
     full[i] = moduli[rows[i]];

@@ -59,8 +59,8 @@ void compute_neo_hookean_moduli(const ElasticModuli &elastic, const IsochoricSta
 
 namespace {
 
-/// Returns ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of q and m =
-/// 3 μ̄:
+/// Returns ∂β with β = σ_y(α + Δα)/q, q − m Δα = σ_y(α + Δα), k = σ_y'/(m + σ_y'), and the rates of
+/// q and m = 3 μ̄:
 ///   q q̇ = (m s + 3 dev s²) : d,   ṁ = 2 s : d.
 dealii::SymmetricTensor<2, 3> compute_beta_rate(const dealii::SymmetricTensor<2, 3> &s, const double q,
                                                 const double m, const double beta, const double k,

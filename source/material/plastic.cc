@@ -55,7 +55,8 @@ bool HenckyPlasticity::respond(const dealii::Tensor<2, 3> &F, const History &his
   if (!(J > 0.) ||
       !compute_principal_state(dealii::symmetrize(F * C_p_inverse * dealii::transpose(F)), trial))
     return false;
-  // This keeps det C_p = 1 exactly; with Σ ε_A, round-off would accumulate over the steps to a pressure.
+  // This keeps det C_p = 1 exactly; with Σ ε_A, round-off would accumulate over the steps to a
+  // pressure.
   trial.volumetric_log_strain = std::log(J);
 
   const double two_g = 2. * elastic_.shear;

@@ -14,8 +14,8 @@ RateFactorType rate_curves_type();
 
 namespace {
 
-/// Measured curves of hardening at several rates, (H19) of doc/theory.md. The stress is linear in the
-/// logarithm of the rate.
+/// Measured curves of hardening at several rates, (H19) of doc/theory.md. The stress is linear in
+/// the logarithm of the rate.
 class RateCurves final : public RateFactor {
 public:
   /// `curves`: over logarithms of rates.

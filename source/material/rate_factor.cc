@@ -47,9 +47,9 @@ struct FlowOfStep {
   }
 };
 
-/// Solves q − m Δα − flow stress = 0 for Δα > 0, given the left side at rest, `excess` > 0. In ln Δα the
-/// slope at rest is finite, and Newton's method approaches the root from above for factors such as a power or
-/// a logarithm of the rate. A shrinking bracket safeguards it. It stops at round-off.
+/// Solves q − m Δα − flow stress = 0 for Δα > 0, given the left side at rest, `excess` > 0. In ln
+/// Δα the slope at rest is finite. Newton's method approaches the root from above for factors such
+/// as a power or a logarithm of the rate. A shrinking bracket safeguards it. It stops at round-off.
 double solve_at_rate(const FlowOfStep &law, const double q, const double m, const double excess) {
   double low = std::numeric_limits<double>::min(), high = excess / m, delta = high;
   const double tolerance = 4. * std::numeric_limits<double>::epsilon() * q;

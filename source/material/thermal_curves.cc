@@ -14,8 +14,8 @@ ThermalFactorType thermal_curves_type();
 
 namespace {
 
-/// Measured curves of hardening at several temperatures, (H19) of doc/theory.md with temperatures in place of
-/// logarithms of rates.
+/// Measured curves of hardening at several temperatures, (H19) of doc/theory.md with temperatures
+/// in place of logarithms of rates.
 class ThermalCurves final : public ThermalFactor {
 public:
   explicit ThermalCurves(HardeningCurves curves) : curves_(std::move(curves)) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Subroutines of Abaqus that a UMAT may call, under their names in Fortran: the program exports them for the
-// libraries that it loads. Tensors are 11, 22, 33, 12, 13, 23; with LSTR = 2 they are strains with
-// engineering shears.
+// Subroutines of Abaqus that a UMAT may call, under their names in Fortran: the program exports
+// them for the libraries that it loads. Tensors are 11, 22, 33, 12, 13, 23; with LSTR = 2 they are
+// strains with engineering shears.
 
 #include "billet/material/guarded_call.h"
 #include "billet/material/subroutine_messages.h"

@@ -26,8 +26,8 @@ constexpr const char *library_key = "Library", *constants_key = "Constants",
                      *symmetry_key = "Unsymmetric tangent", *length_key = "Element length",
                      *temperature_key = "Reads temperature";
 constexpr std::size_t max_variables = 10000;
-/// A library's own functions come before those of the program with the same name, such as BLAS. Sanitizers
-/// do not allow this.
+/// A library's own functions come before those of the program with the same name, such as BLAS.
+/// Sanitizers do not allow this.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int own_symbols_first = 0;
 #else

@@ -60,9 +60,9 @@ double log_difference(const double x, const double y) {
   return (r == 0. ? 1. : std::log1p(r) / r) / y;
 }
 
-/// Returns the second divided difference of ln at x, y and z. Where they are close it is the mean of −1/s²
-/// over the simplex between them, by Gauss' rule of 7 points in each direction; else there is no
-/// cancellation.
+/// Returns the second divided difference of ln at x, y and z. Where they are close it is the mean
+/// of −1/s² over the simplex between them, by Gauss' rule of 7 points in each direction. Elsewhere
+/// there is no cancellation.
 double second_log_difference(double x, double y, double z) {
   if (x < y)
     std::swap(x, y);
@@ -171,8 +171,8 @@ private:
   double factor_[3][3];
 };
 
-/// Returns e with dev t(e) = `stress`, whose sum is 0, by Newton's method on the convex W − stress · e with
-/// steps that reduce it. Beyond Drucker's limit it returns the last iterate.
+/// Returns e with dev t(e) = `stress`, whose sum is 0, by Newton's method on the convex
+/// W − stress · e with steps that reduce it. Beyond Drucker's limit it returns the last iterate.
 IsochoricStrains invert_stress(const IsochoricEnergy &energy, const std::array<double, 3> &stress) {
   const double scale = 2. * energy.shear_modulus();
   IsochoricStrains e{};

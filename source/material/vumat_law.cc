@@ -47,7 +47,8 @@ struct Polar {
   }
 };
 
-/// F and, if they are wanted, its changes by small symmetric velocity gradients, forwards and backwards.
+/// F and, if they are wanted, its changes by small symmetric velocity gradients, forwards and
+/// backwards.
 std::array<Tensor<2, 3>, 13> change(const Tensor<2, 3> &F, const bool has_changes) {
   std::array<Tensor<2, 3>, 13> result;
   result[0] = F;
@@ -83,8 +84,8 @@ public:
       numbers->assign(n, 0.);
     coordinates_.assign(3 * n, 0.);
     std::fill(length_.begin(), length_.end(), law.settings().element_length);
-    points_.assign(4 + n,
-                   1); // newer versions of Abaqus have the number of the point and others behind nblock
+    // Newer versions of Abaqus have the number of the point and others behind nblock.
+    points_.assign(4 + n, 1);
     points_[0] = static_cast<int>(n);
     write_name(law.settings().name, name_);
   }

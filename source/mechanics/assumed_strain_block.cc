@@ -47,8 +47,8 @@ bool compare(const ElementComparison &comparison, const ComparedBrick &brick, El
 /// (B19)
 PlaneFactors find_plane_factors(const ElasticModuli &elastic, const ElementFormulation &formulation,
                                 const ElementVectors &positions, const unsigned int direction) {
-  if (formulation.points_through > AssumedStrainElement<>::points_through)
-    return {3., std::sqrt(1. + 0.5 * kept_shear_of_layers * kept_shear_of_layers)}; // of plane stress
+  if (formulation.points_through > AssumedStrainElement<>::points_through) // of plane stress
+    return {3., std::sqrt(1. + 0.5 * kept_shear_of_layers * kept_shear_of_layers)};
   const auto modes = compute_modes(positions);
   const auto constants =
       compute_strain_constants(elastic, {2. * modes[0].norm(), 2. * modes[1].norm(), 2. * modes[2].norm()});

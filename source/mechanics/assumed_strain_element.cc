@@ -21,7 +21,8 @@ namespace {
 constexpr unsigned int n_directions = 9; ///< components of the columns a_k
 constexpr unsigned int n_vectors = AssumedStrainElement<>::n_vectors;
 constexpr unsigned int n_unknowns = 3 * n_vectors; ///< columns and hourglass vectors
-constexpr unsigned int thinning = n_unknowns; ///< bricks with layers have X as one more unknown, the last
+/// Bricks with layers have X as one more unknown, the last.
+constexpr unsigned int thinning = n_unknowns;
 constexpr unsigned int thinning_direction = n_directions;
 // Rows are padded to a multiple of the SIMD width.
 constexpr unsigned int width = 24, direction_width = 10;
@@ -133,8 +134,8 @@ template <class Real, unsigned int n_through> auto no_thinning() {
     return strain_modes::FreeThinning<Real>{Real{}, Real{}};
 }
 
-/// Sums over the points, with volumes w: w (p 1 + Y dev τ Y⁻¹), conjugate to the mean gradient, and w sym(dev
-/// τ Y⁻¹) for each strain.
+/// Sums over the points, with volumes w: w (p 1 + Y dev τ Y⁻¹), conjugate to the mean gradient, and
+/// w sym(dev τ Y⁻¹) for each strain.
 struct StressSums {
   Tensor<2, 3> mean;
   Strains<double> of_strains{};
@@ -267,8 +268,8 @@ struct Numbers {
   const double *operator[](const unsigned int i) const { return a[i]; }
 };
 
-/// Computes the rates of the Kirchhoff stress by the unknowns, from those of the gradient, L = δF F⁻¹ (3 i +
-/// j).
+/// Computes the rates of the Kirchhoff stress by the unknowns, from those of the gradient, L = δF
+/// F⁻¹ (3 i + j).
 void compute_stress_rates(const Numbers &tau, const SpatialModuli &c, const Rows<9> &L, Rows<6> &rates) {
   Rows<6> d;
   for (unsigned int r = 0; r < 6; ++r) {
@@ -312,8 +313,8 @@ inline void combine(const double a, const Row &x, const double b, const Row &y, 
     row[u] = a * x[u] + b * y[u] + c * z[u];
 }
 
-/// Adds a point's contribution to the rates of the mean, δp 1 + {δY M + Y δM − Y M Y⁻¹ δY} Y⁻¹, with Z = Y⁻¹
-/// and N = Y M Y⁻¹.
+/// Adds a point's contribution to the rates of the mean, δp 1 + {δY M + Y δM − Y M Y⁻¹ δY} Y⁻¹,
+/// with Z = Y⁻¹ and N = Y M Y⁻¹.
 template <unsigned int n_mean>
 [[gnu::always_inline]] inline void add_mean_rates(const double weight, const Numbers &M, const Numbers &Y,
                                                   const Numbers &Z, const Numbers &N, const Rows<6> &dY,
@@ -339,8 +340,8 @@ template <unsigned int n_mean>
     }
 }
 
-/// Adds the points' contributions to the rates of StressSums by the unknowns; those of the mean only for the
-/// first `n_mean` unknowns.
+/// Adds the points' contributions to the rates of StressSums by the unknowns; those of the mean
+/// only for the first `n_mean` unknowns.
 template <unsigned int n_mean, unsigned int n_through, class Moduli>
 void add_point_rates(const typename AssumedStrainElement<n_through>::Reference &reference,
                      const typename AssumedStrainElement<n_through>::Kinematics &kinematics,
@@ -483,9 +484,9 @@ void add_thinning(const typename AssumedStrainElement<n_through>::Reference &ref
   }
 }
 
-/// Computes the exact tangent, (B6): the part from the rates of the stresses and, at fixed stresses, that
-/// from the directions. The latter uses the code of the forces with derivatives by the columns.
-/// `is_symmetric` holds for symmetric moduli.
+/// Computes the exact tangent, (B6): the part from the rates of the stresses and, at fixed
+/// stresses, that from the directions. The latter uses the code of the forces with derivatives by
+/// the columns. `is_symmetric` holds for symmetric moduli.
 template <bool is_symmetric, unsigned int n_through, class Moduli>
 void compute_element_tangent(
     const typename AssumedStrainElement<n_through>::Reference &reference,

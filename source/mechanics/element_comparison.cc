@@ -136,7 +136,8 @@ double ElementComparison::energy_of_taper(const ElementVectors &positions,
       const double bending = (back * modes[between] - reference.modes[between]) * along / length;
       if (bending == 0.)
         continue;
-      const auto tapered = [&](const unsigned int mode, const double other) { // taper of a_i and other
+      const auto tapered = [&](const unsigned int mode, const double other) {
+        // Taper of a_i and other.
         return -bending * reference.modes[mode] * along / other * length / thickness;
       };
       const double wanted = tapered(between, thickness), sheared = tapered(3 + j, width);

@@ -233,7 +233,8 @@ private:
   std::unique_ptr<ElementBlock> block_;
   std::vector<std::array<unsigned int, n_element_nodes>> nodes_;
   std::vector<ReferenceElement> references_;
-  std::vector<std::array<double, n_element_nodes>> masses_; ///< lumped masses of the elements' nodes
+  /// Lumped masses of the elements' nodes.
+  std::vector<std::array<double, n_element_nodes>> masses_;
   std::vector<Last> last_;
 };
 

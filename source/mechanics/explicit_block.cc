@@ -137,8 +137,8 @@ double typical_length(const std::vector<std::array<unsigned int, n_element_nodes
   return sum / static_cast<double>(elements.size());
 }
 
-/// Guard that flushes subnormal numbers to zero, since processors are a hundred times slower with them. In
-/// float, products of small values ahead of a wave are subnormal.
+/// Guard that flushes subnormal numbers to zero, since processors are a hundred times slower with
+/// them. In float, products of small values ahead of a wave are subnormal.
 class NoSubnormals {
 public:
 #ifdef __SSE2__
@@ -152,7 +152,8 @@ public:
 
 private:
 #ifdef __SSE2__
-  static constexpr unsigned int bits = 0x8040; // of MXCSR: subnormal results and operands become zero
+  // Bits of MXCSR: subnormal results and operands become zero.
+  static constexpr unsigned int bits = 0x8040;
   unsigned int before_;
 #endif
 };
@@ -224,7 +225,8 @@ public:
       kernel_(storage_.copy_element(element, copy), kernel_material_, functions_,
               make_step({at_rest.data(), at_rest.data(), ignored_forces.data()}, 0.), result);
       const double excess = min_step * max_rate(result);
-      if (excess > 1.) // stiffness/mass scales as the square of a rate, damping/mass linearly with it
+      // stiffness/mass scales as the square of a rate, damping/mass linearly with it.
+      if (excess > 1.)
         added += material_.density * storage_.scale_mass(element, excess * excess);
     }
     return added;
@@ -300,8 +302,8 @@ public:
       const PointState &state = states[q % states.size()];
       compute_distortion(state.tensor, stress[q].deviator);
       stress[q].equivalent_plastic_strain = state.equivalent_plastic_strain;
-      if (flow_ != nullptr)
-        stress[q].memory = flow_->numbers_of(state.flow); // as the memory of all laws that kernels have
+      if (flow_ != nullptr) // as the memory of all laws that kernels have
+        stress[q].memory = flow_->numbers_of(state.flow);
     }
     return stress;
   }
@@ -361,8 +363,8 @@ private:
             1. / units_.length,  units_.force()};
   }
 
-  /// Returns the rate with a margin in float: its round-off, a few parts in 10⁷, must not make the step
-  /// unstable.
+  /// Returns the rate with a margin in float: its round-off, a few parts in 10⁷, must not make the
+  /// step unstable.
   double max_rate(const explicit_kernels::Result &result) const {
     return (is_single ? 1. + 2e-6 : 1.) * result.max_rate / units_.time;
   }
@@ -424,7 +426,8 @@ private:
   LaneLaw lane_law_;
   const FlowStress *flow_; ///< null for elastic bodies
   Material material_;
-  double reference_rate_ = 0.; ///< D of the rate factor; 0 if there is none, or kernels do not have it
+  /// D of the rate factor; 0 if there is none, or kernels do not have it.
+  double reference_rate_ = 0.;
   KernelUnits units_;
   explicit_kernels::BasicMaterial<Number> kernel_material_{};
   explicit_kernels::LaneFunctions functions_{};

@@ -23,7 +23,8 @@ constexpr std::size_t n_mode_numbers = 21, eight_point_modes = 2;
 
 double next_power_of_two(const double x) { return std::exp2(std::round(std::log2(x))); }
 
-/// Returns ∂ξ/∂X at a point: the gradient of the field with the corners' coordinates ξ as nodal values.
+/// Returns ∂ξ/∂X at a point: the gradient of the field with the corners' coordinates ξ as nodal
+/// values.
 Tensor<2, 3> compute_inverse_jacobian(const ReferenceElement &reference, const unsigned int q) {
   Tensor<2, 3> result;
   for (unsigned int a = 0; a < n_element_nodes; ++a)
@@ -45,8 +46,8 @@ template <std::size_t n> double bound_by_rows(const std::array<std::array<double
   return maximum;
 }
 
-/// Returns a bound of λ_max of A Aᵀ per squared displacement. A maps the nodal values to vectors; `rows` are
-/// their coefficients by the seven modes, which are orthogonal with squared length 1/8.
+/// Returns a bound of λ_max of A Aᵀ per squared displacement. A maps the nodal values to vectors;
+/// `rows` are their coefficients by the seven modes, which are orthogonal with squared length 1/8.
 template <std::size_t n> double bound_squares(const std::array<std::array<double, 7>, n> &rows) {
   std::array<std::array<double, n>, n> matrix{};
   for (std::size_t k = 0; k < n; ++k)
@@ -65,7 +66,8 @@ std::array<std::array<double, 7>, 3> rows_of_mean(const ModalGeometry &geometry)
   return rows;
 }
 
-/// Returns the same with the modes b and c added, minus `part` times the contribution of the mean gradient.
+/// Returns the same with the modes b and c added, minus `part` times the contribution of the mean
+/// gradient.
 std::array<std::array<double, 7>, 7> rows_of_all(const ModalGeometry &geometry, const Tensor<2, 3> &inverse,
                                                  const double part) {
   std::array<std::array<double, 7>, 7> rows{};

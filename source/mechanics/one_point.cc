@@ -47,8 +47,9 @@ double respond(const hourglass::Moduli<double> &moduli, const hourglass::Metric<
   return energy;
 }
 
-/// Transforms rows of modes to rows of nodes, x_m = Σ_a mode_values[m][a] x_a/8. The row of a node is the
-/// signed sum of the modes' rows, computed by sums and differences over the three directions.
+/// Transforms rows of modes to rows of nodes, x_m = Σ_a mode_values[m][a] x_a/8. The row of a node
+/// is the signed sum of the modes' rows, computed by sums and differences over the three
+/// directions.
 template <std::size_t width>
 std::array<double, n_element_dofs * width>
 scatter_rows(const std::array<double, n_modal_dofs * width> &modal) {
@@ -239,8 +240,9 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
   add_mean_tangent(reference.volume, kinematics.gradients, tau, moduli, modal);
 
   const SharedYield &yield = stabilisation.yield;
-  const auto flow = multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share),
-                                       kinematics.gradients); // change of δτ by the trial's δ(energy)
+  // Change of δτ by the trial's δ(energy).
+  const auto flow =
+      multiply_gradients(dealii::deviator(tau) * (yield.slope / yield.share), kinematics.gradients);
 
   const Tensor<2, 3> &Z = kinematics.inverse_jacobian;
   const HourglassVector &c = kinematics.strain, &s = stabilisation.stress;
@@ -251,8 +253,8 @@ void OnePointElement::compute_tangent(const Reference &reference, const Kinemati
   const double factor = yield.share * reference.volume;
   for (unsigned int m = 0; m < n_element_modes; ++m)
     for (unsigned int i = 0; i < 3; ++i) {
-      // Unit variation of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z (δb − δJ̄
-      // c).
+      // Unit variation of component i of mode m: δJ̄ = e_i ⊗ β, δ(b_p) = e_i if p is m − 3; δc = Z
+      // (δb − δJ̄ c).
       const std::array<double, 3> beta =
           m < n_linear_modes ? reference.beta[m] : std::array<double, 3>{0., 0., 0.};
       const std::array<double, 3> gradient =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Decks of Abaqus and CalculiX: nodes, elements, sets and surfaces; what concerns the analysis is skipped.
+// Decks of Abaqus and CalculiX: nodes, elements, sets and surfaces; what concerns the analysis is
+// skipped.
 #include "billet/mesh/abaqus_sets.h"
 #include "billet/mesh/boundary_groups.h"
 #include "billet/mesh/mesh_collector.h"
@@ -19,7 +20,8 @@ namespace {
 
 bool is_abaqus(const std::string &bytes) {
   MeshCursor cursor(bytes);
-  return cursor.next_word().substr(0, 1) == "*" && lower_case(cursor.next_word()) != "*keyword"; // LS-DYNA
+  // LS-DYNA.
+  return cursor.next_word().substr(0, 1) == "*" && lower_case(cursor.next_word()) != "*keyword";
 }
 
 constexpr auto flat_remedy =
@@ -184,8 +186,8 @@ private:
 /// Numbers of groups: a name that is a number has this one, the others count from 1 beside these.
 class GroupNumbers {
 public:
-  /// Keeps the number for this name if it is one. All names are reserved before the first number is asked
-  /// for.
+  /// Keeps the number for this name if it is one. All names are reserved before the first number is
+  /// asked for.
   void reserve(const std::string &name) {
     if (const std::optional<unsigned int> id = id_of_name(name))
       reserved_.insert(*id);
@@ -624,8 +626,8 @@ private:
         mesh_.add_edge({element.nodes[side], element.nodes[(side + 1) % 4]}, of_edge);
   }
 
-  /// Sets with shells are groups of faces; in a two-dimensional mesh sets with trusses or beams are groups of
-  /// edges.
+  /// Sets with shells are groups of faces; in a two-dimensional mesh sets with trusses or beams are
+  /// groups of edges.
   void add_shells() {
     for (const std::string &name : element_sets_.names()) {
       std::vector<const Element *> shells, lines;
@@ -682,8 +684,10 @@ private:
   AbaqusSets node_sets_, element_sets_;
   std::unordered_map<long long, Element> elements_;
   std::vector<Surface> surfaces_;
-  std::vector<std::pair<std::string, std::string>> nodes_of_elements_; ///< set of nodes, set of elements
-  std::map<std::pair<std::string, std::string>, std::size_t> groups_;  ///< by kind, and name in lower case
+  /// Pairs of a set of nodes and a set of elements.
+  std::vector<std::pair<std::string, std::string>> nodes_of_elements_;
+  /// Index by kind and by name in lower case.
+  std::map<std::pair<std::string, std::string>, std::size_t> groups_;
   std::set<std::string> sections_; ///< sets of elements with a section, in lower case
   GroupNumbers numbers_;
   std::size_t n_bytes_ = 0, n_files_ = 0, n_nodes_ = 0, n_members_ = 0, depth_ = 0;

@@ -12,7 +12,8 @@ namespace billet {
 
 namespace {
 
-/// Face of a hexahedron: corners in ascending order, the one opposite to the first, and the hexahedron.
+/// Face of a hexahedron: corners in ascending order, the one opposite to the first, and the
+/// hexahedron.
 struct SidedFace {
   BoundaryGroups::Face nodes;
   unsigned int opposite, element;
@@ -204,8 +205,8 @@ void BoundaryGroups::assign_ids(const std::vector<std::vector<unsigned int>> &gr
   name_numbers(mesh, ids_of_group);
 }
 
-/// Lets numbers that are names of groups with other numbers stand for these. Where another group has the
-/// number, both need a word in front of it.
+/// Lets numbers that are names of groups with other numbers stand for these. Where another group
+/// has the number, both need a word in front of it.
 void BoundaryGroups::name_numbers(const MeshFile &mesh,
                                   const std::vector<std::vector<unsigned int>> &ids_of_group) {
   std::map<unsigned int, std::vector<unsigned int>> ids_of_name;

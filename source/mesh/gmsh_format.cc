@@ -51,7 +51,8 @@ long long magnitude(const long long number) {
 
 constexpr std::size_t max_nodes = 27; // of one element
 
-/// Reads one file. The functions `number`, `size` and `real` read from its ASCII or its binary parts.
+/// Reads one file. The functions `number`, `size` and `real` read from its ASCII or its binary
+/// parts.
 class GmshReader {
 public:
   explicit GmshReader(const std::string &bytes) : cursor_(bytes) {}
@@ -230,7 +231,8 @@ private:
     }
     return groups;
   }
-  /// Returns the volumes of a hexahedron, likewise: those of the geometry if it has no physical ones.
+  /// Returns the volumes of a hexahedron, likewise: those of the geometry if it has no physical
+  /// ones.
   std::vector<std::size_t> volumes(const std::vector<long long> &physical, const long long entity) {
     std::vector<std::size_t> all;
     for (const long long number : physical)
@@ -479,8 +481,9 @@ private:
   std::set<std::string> sections_;
   int version_ = 0; ///< 1, 2, 40 or 41; 0: unknown
   bool is_binary_ = false, has_entities_ = false;
-  std::int32_t last_ = 0;                                 ///< the last number of four bytes
-  std::array<std::map<long long, std::string>, 4> names_; ///< of physical groups, by their dimension
+  std::int32_t last_ = 0; ///< the last number of four bytes
+  /// Names of physical groups, by their dimension.
+  std::array<std::map<long long, std::string>, 4> names_;
   /// Physical groups of the geometry's points, curves, surfaces and volumes.
   std::array<std::map<long long, std::vector<long long>>, 4> physical_;
   std::vector<Hexahedron> hexahedra_; ///< of formats before 4

@@ -85,8 +85,8 @@ void drop_unused_nodes(MeshFile &mesh) {
   renumber(mesh, new_index);
 }
 
-/// Returns for each node the first node within a distance of it, which is the smaller one of the radii of
-/// both: itself if there is none.
+/// Returns for each node the first node within a distance of it, or itself if there is none. The
+/// distance is the smaller one of the radii of both.
 std::vector<unsigned int> nearest_first(const MeshFile &mesh, const std::vector<double> &radii) {
   const auto &x = mesh.positions;
   std::vector<unsigned int> first(x.size());
@@ -95,11 +95,13 @@ std::vector<unsigned int> nearest_first(const MeshFile &mesh, const std::vector<
   std::vector<unsigned int> order = first;
   std::stable_sort(order.begin(), order.end(),
                    [&](const unsigned int a, const unsigned int b) { return radii[a] > radii[b]; });
-  // The node is in a cell of the level of its radius: cells are twice as wide as the radii of a level.
+  // The node is in a cell of the level of its radius: cells are twice as wide as the radii of a
+  // level.
   using Cell = std::array<std::int64_t, 4>;
   const auto level_of = [&](const unsigned int node) {
     int level = 0;
-    return std::frexp(radii[node], &level) == 0.5 ? level - 1 : level; // 2^(level - 1) < radius <= 2^level
+    // 2^(level - 1) < radius <= 2^level.
+    return std::frexp(radii[node], &level) == 0.5 ? level - 1 : level;
   };
   const auto cell_of = [&](const Position &p, const int level) {
     Cell cell{0, 0, 0, level};
@@ -254,8 +256,8 @@ void check_inverted(MeshFile &mesh) {
         "four around one face, then the four above them");
 }
 
-/// Finds nodes that are close to each other for the edges there, or within `same_place`. No edge of an
-/// element is as short as that.
+/// Finds nodes that are close to each other for the edges there, or within `same_place`. No edge of
+/// an element is as short as that.
 NearNodes find_near_nodes(const MeshFile &mesh, const double same_place) {
   constexpr double near = 1e-3; // of the shortest edge at a node
   constexpr unsigned int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},

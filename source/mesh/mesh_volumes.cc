@@ -22,8 +22,8 @@ std::string list_names(const std::vector<MeshVolume> &volumes) {
   return list;
 }
 
-/// Returns the volumes that a scene means by a name: those with this name, with it in other letters, or with
-/// this number; the first of these ways that finds one counts.
+/// Returns the volumes that a scene means by a name. They are those with this name, with it in
+/// other letters, or with this number. The first of these ways that finds one counts.
 std::vector<std::size_t> find_volumes(const std::vector<MeshVolume> &volumes, const std::string &name) {
   long long number = -1;
   if (!is_integer(name, number))

@@ -34,8 +34,8 @@ void check_kinds(const MeshFile &mesh) {
                                 "mesh is generated");
 }
 
-/// Returns the size of the mesh of the nodes that quadrilaterals use. Refuses a mesh that is in no plane
-/// z = constant.
+/// Returns the size of the mesh of the nodes that quadrilaterals use. Refuses a mesh that is in no
+/// plane z = constant.
 double size_in_plane(const MeshFile &mesh) {
   constexpr double rounding = 1e-9;
   std::array<double, 3> least = mesh.positions[mesh.plane.quadrilaterals.front().nodes[0]], most = least;

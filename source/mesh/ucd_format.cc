@@ -38,7 +38,8 @@ CellShape ucd_shape(const std::string_view name) {
 }
 
 MeshFile read_ucd(const std::string &bytes, const FileAccess & /*access*/) {
-  constexpr std::size_t node_bytes = 8, cell_bytes = 9; // the least that one takes: "1 0 0 0\n", "1 0 pt 1\n"
+  // Minimum number of bytes of one: "1 0 0 0\n", "1 0 pt 1\n".
+  constexpr std::size_t node_bytes = 8, cell_bytes = 9;
   MeshCursor cursor(bytes);
   MeshCollector mesh;
   skip_comments(cursor);

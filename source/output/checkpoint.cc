@@ -100,7 +100,7 @@ std::string folder_of(const std::string &file) {
 
 } // namespace
 
-// --- writing -----------------------------------------------------------------------------------------------
+// --- writing -------------------------------------------------------------------------------------
 
 namespace {
 
@@ -281,7 +281,7 @@ std::string CheckpointWriter::finish() {
   return dealii::Utilities::MPI::broadcast(communicator_, failure_, 0);
 }
 
-// --- reading -----------------------------------------------------------------------------------------------
+// --- reading -------------------------------------------------------------------------------------
 
 namespace {
 
@@ -369,8 +369,8 @@ bool CheckpointReader::has(const std::string &name) const {
 
 namespace {
 
-/// Returns the numbers of rows and columns of an array. An array that says to have more than the file holds
-/// is refused: it would take the memory of the machine.
+/// Returns the numbers of rows and columns of an array. An array that says to have more than the
+/// file holds is refused: it would take the memory of the machine.
 std::array<hsize_t, 2> extent_of(const hid_t set, const std::string &name) {
   const Handle space(H5Dget_space(set), H5Sclose), type(H5Dget_type(set), H5Tclose);
   std::array<hsize_t, 2> size{};
@@ -473,7 +473,7 @@ std::vector<double> CheckpointReader::read_rows(const std::string &name, const s
   return result;
 }
 
-// --- when --------------------------------------------------------------------------------------------------
+// --- when ----------------------------------------------------------------------------------------
 
 namespace {
 
@@ -537,7 +537,8 @@ void Checkpoints::load(const StateReader &reader, const double time, const bool 
   if (!is_same_folder)
     return;
   n_written_ = reader.count("checkpoints written");
-  // These files will be removed: a name that is none of this class's own could be any file of the user.
+  // These files will be removed: a name that is none of this class's own could be any file of the
+  // user.
   const std::regex own_name("checkpoint_[0-9]{5,10}\\.h5");
   std::istringstream names(reader.read_text("checkpoints"));
   for (std::string name; std::getline(names, name);) {
@@ -548,7 +549,7 @@ void Checkpoints::load(const StateReader &reader, const double time, const bool 
   }
 }
 
-// --- signals -----------------------------------------------------------------------------------------------
+// --- signals -------------------------------------------------------------------------------------
 
 namespace {
 

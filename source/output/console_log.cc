@@ -30,7 +30,8 @@ public:
     }
   }
 
-  /// Takes the end of a line on the console as a terminal does: a carriage return takes back the line.
+  /// Takes the end of a line on the console as a terminal does: a carriage return takes back the
+  /// line.
   void put(const char c) {
     if (c == '\r') {
       line_.clear();

@@ -13,8 +13,8 @@ namespace billet {
 
 namespace {
 
-/// Returns the first elasticity whose plastic law has its dissipation exactly, as the beginning of an advice;
-/// empty if there is none.
+/// Returns the first elasticity whose plastic law has its dissipation exactly, as the beginning of
+/// an advice; empty if there is none.
 std::string choose_exact_elasticity() {
   const SharedFlow flow = make_hardening(LinearHardening{1., 0.});
   for (const ElasticityType &type : elasticity_types()) {
@@ -61,8 +61,8 @@ std::string EnergyWatch::advise(const Cause cause) {
 
 DiagnosticList EnergyWatch::check(const double time, const EnergyLedger &energies,
                                   const std::function<Cause()> &find_cause) {
-  // The current total counts only half, as in explicit dynamics, so that created energy does not hide the
-  // imbalance.
+  // The current total counts only half, as in explicit dynamics, so that created energy does not
+  // hide the imbalance.
   maximum_ =
       std::max({maximum_, 0.5 * std::abs(energies.total()), std::abs(energies.initial + energies.external)});
   DiagnosticList messages;

@@ -10,7 +10,8 @@ namespace {
 struct Factors {
   /// Force times lever over moment, below which a load is a couple. What forces of round-off are.
   static constexpr double couple = 1e-3;
-  /// By how much a load has to exceed one that is shown to take its place, so that few headers are printed.
+  /// By how much a load has to exceed one that is shown to take its place, so that few headers are
+  /// printed.
   static constexpr double larger = 1.5;
   /// Load over the largest one, below which it takes no place: round-off.
   static constexpr double negligible = 1e-6;

@@ -56,7 +56,8 @@ std::string number_attributes(const FileNumber type) {
          (is_long ? "8" : "4") + R"(" Format="HDF")";
 }
 
-/// Returns symmetric tensors with all nine components: the readers of XDMF do not agree on the order of six.
+/// Returns symmetric tensors with all nine components: the readers of XDMF do not agree on the
+/// order of six.
 GridField to_full_tensor(const GridField &field) {
   constexpr std::size_t n_symmetric = 6;
   constexpr std::array<std::size_t, 9> places{0, 3, 5, 3, 1, 4, 5, 4, 2}; // of xx, xy, xz, yx, ...

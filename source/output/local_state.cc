@@ -38,8 +38,8 @@ public:
     }
   }
 
-  /// Returns the state at a coordinate from −1 to 1, less the mean: on lines between the positions, which
-  /// continue beyond the outermost ones.
+  /// Returns the state at a coordinate from −1 to 1, less the mean: on lines between the positions,
+  /// which continue beyond the outermost ones.
   PointStress variation(const double at) const {
     std::size_t upper = 1;
     while (upper + 1 < positions_.size() && at > positions_[upper])
@@ -89,8 +89,8 @@ SymmetricTensor<2, 3> unit_of_plane(const Tensor<1, 3> &n) {
   return dealii::unit_symmetric_tensor<3>() - dealii::symmetrize(dealii::outer_product(n, n));
 }
 
-/// Returns the strain per coordinate from -1 to 1 along a direction, by the difference between its Gauss
-/// points. At a face that is an edge, as on the axis of a wedge, there is no gradient.
+/// Returns the strain per coordinate from -1 to 1 along a direction, by the difference between its
+/// Gauss points. At a face that is an edge, as on the axis of a wedge, there is no gradient.
 SymmetricTensor<2, 3> bending_strain(const ElementVectors &positions, const ElementVectors &deformed,
                                      const unsigned int direction, const Tensor<2, 3> &mean_inverse) {
   const auto gradient_at = [&](const dealii::Point<3> &place) {
@@ -113,7 +113,8 @@ double LocalStates::find_share(const ElementData &element, const double volume_r
   const FlowStress *flow = law_->flow_stress();
   if (flow == nullptr)
     return 1.;
-  // Flow at a rate, or by another function than von Mises', may exceed the yield stress at the points, too.
+  // Flow at a rate, or by another function than von Mises', may exceed the yield stress at the
+  // points, too.
   double excess = 1.;
   for (const PointStress &point : element.points->stress)
     excess = std::max(excess, von_mises(point.deviator) / flow->stress(point.equivalent_plastic_strain));
@@ -160,8 +161,8 @@ LocalState LocalStates::evaluate(const ElementData &element, const dealii::Point
     const SymmetricTensor<2, 3> plane =
         (2. * coordinates[k] - 1.) *
         plane_part(bending_strain(element.positions, deformed, k, inverse), normals[k]);
-    // One point has no bending stress: its strain is that of an elastic plate, (1 − 2ν)/(1 − ν) of the
-    // plane's.
+    // One point has no bending stress: its strain is that of an elastic plate, (1 − 2ν)/(1 − ν) of
+    // the plane's.
     const double volumetric =
         formulation_.element.is_stabilised()
             ? 6. * elastic.shear / (3. * elastic.bulk + 4. * elastic.shear) * dealii::trace(plane)

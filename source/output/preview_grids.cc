@@ -20,7 +20,8 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// Dimensions of arrows, relative to their length, and lengths relative to half the diagonal of the scene.
+/// Dimensions of arrows, relative to their length, and lengths relative to half the diagonal of the
+/// scene.
 struct Sizes {
   static constexpr double shaft = 0.03, head = 0.09, head_length = 0.3;
   static constexpr double support = 0.06;        ///< of a support that does not move
@@ -92,8 +93,8 @@ double sum_of_norms(const LocalNodes &nodes, const NodalVectors &forces) {
   return mpi::sum(sum, nodes.discretization().communicator());
 }
 
-/// Returns the forces of a load at the time at which they are largest, of fifty times; sets that time.
-/// Collective.
+/// Returns the forces of a load at the time at which they are largest, of fifty times; sets that
+/// time. Collective.
 NodalVectors find_max_forces(const Scene &scene, const ExternalLoads &loads, const AppliedLoad &load,
                              const LocalNodes &nodes, double &time) {
   const NodalVectors at_rest = nodes.make_vectors();

@@ -14,9 +14,10 @@ namespace {
 
 struct Limits {
   static constexpr unsigned int iterations = 30;
-  static constexpr double converged = 1e-10; ///< last step of Newton's method, in reference coordinates
-  static constexpr double diverged = 100.;   ///< step of Newton's method, in reference coordinates
-  static constexpr double outside = 1e-6;    ///< of the unit square, as round-off
+  /// Last step of Newton's method, in reference coordinates.
+  static constexpr double converged = 1e-10;
+  static constexpr double diverged = 100.; ///< step of Newton's method, in reference coordinates
+  static constexpr double outside = 1e-6;  ///< of the unit square, as round-off
 };
 
 std::array<double, 4> shape_functions(const std::array<double, 2> &at) {

@@ -32,7 +32,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 2> middle{0.5, 0.5};
-constexpr double near = 0.1; ///< distance from nodes and faces that counts as near them [scene's radius]
+/// Distance from nodes and faces that counts as near them [scene's radius].
+constexpr double near = 0.1;
 
 /// Material point in an owned element.
 struct MaterialPoint {
@@ -96,8 +97,9 @@ void append(const Kind kind, const Tensor<1, 3> &vector, const Axes &axes, const
   values.insert(values.end(), {components[0], components[1], components[2], vector.norm()});
 }
 
-/// Appends what a quantity of elements writes of a state. `centre`: of the undeformed element, where
-/// cylindrical axes are taken, since the stress of a brick does not turn about their line within it.
+/// Appends what a quantity of elements writes of a state. `centre`: of the undeformed element,
+/// where cylindrical axes are taken, since the stress of a brick does not turn about their line
+/// within it.
 void append(const Kind kind, const LocalState &state, const Axes &axes, const Tensor<1, 3> &centre,
             std::vector<double> &values) {
   if (kind == Kind::strain)
@@ -249,8 +251,9 @@ public:
         coordinates);
   }
 
-  /// Returns the coordinates of a point of an element moved onto the exterior face on which it is, or that is
-  /// less than a hundredth of the element away; none inside the body. A node keeps its place.
+  /// Returns the coordinates of a point of an element moved onto the exterior face on which it is.
+  /// The face may be less than a hundredth of the element away. Returns none inside the body. A
+  /// node keeps its place.
   static std::optional<dealii::Point<3>> on_surface(const Element &element,
                                                     const dealii::Point<3> &coordinates) {
     constexpr double near = 0.01, at_node = 1e-9;
@@ -332,8 +335,8 @@ ProbeReader::~ProbeReader() = default;
 
 namespace {
 
-/// Returns the coordinates of the point of a facet that is nearest to x. Exact if the facet is a plane
-/// rectangle, or if the point is not on its edge.
+/// Returns the coordinates of the point of a facet that is nearest to x. Exact if the facet is a
+/// plane rectangle, or if the point is not on its edge.
 std::array<double, 2> nearest_on_facet(const FacetCorners &corners, const Tensor<1, 3> &x) {
   std::array<double, 2> at = middle;
   if (const auto crossing = cross_facet(corners, x, normal_of_facet(corners, middle)))

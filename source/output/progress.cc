@@ -56,7 +56,8 @@ void Progress::find_loads() {
                       }});
   for (std::size_t i = 0; i < scene_.pairs().size(); ++i) {
     const auto is_of_tool = [&](const ContactPair &pair) { return pair.tool == scene_.pairs()[i].tool; };
-    if (std::count_if(scene_.pairs().begin(), scene_.pairs().end(), is_of_tool) > 1) // else it is the tool's
+    // If the tool has one pair, its load is the tool's.
+    if (std::count_if(scene_.pairs().begin(), scene_.pairs().end(), is_of_tool) > 1)
       loads_.push_back({scene_.pairs()[i].name, [i](const Solution &s) {
                           const ContactLoad &load = s.reactions().of_tool_pairs[i];
                           return Resultant{load.force, load.moment};

@@ -34,8 +34,8 @@ BlockCells all_elements(const Discretization &discretization, const std::size_t 
   return cells;
 }
 
-/// Returns the boundary faces of a body whose id is among `ids`; all of them without ids. Their normals point
-/// out of the body.
+/// Returns the boundary faces of a body whose id is among `ids`; all of them without ids. Their
+/// normals point out of the body.
 BlockCells boundary_faces(const Discretization &discretization, const std::size_t body,
                           const std::set<unsigned int> &ids) {
   BlockCells cells;
@@ -59,8 +59,8 @@ BlockCells boundary_faces(const Discretization &discretization, const std::size_
   return cells;
 }
 
-/// Numbers the nodes of a block over all ranks. The owner of a node writes it, even if its cells are on other
-/// ranks.
+/// Numbers the nodes of a block over all ranks. The owner of a node writes it, even if its cells
+/// are on other ranks.
 class BlockNodes {
 public:
   /// Collective.

@@ -463,7 +463,8 @@ void Support::declare(ParameterHandler &prm) {
 
 namespace {
 
-/// Reads 'Displacement' of a support: three expressions, or one for each component that it prescribes.
+/// Reads 'Displacement' of a support: three expressions, or one for each component that it
+/// prescribes.
 std::array<std::string, 3> read_displacement(const Reader &reader, const std::array<bool, 3> &components) {
   const auto expressions = split_vector(reader.text("Displacement"));
   const auto n = static_cast<std::size_t>(std::count(components.begin(), components.end(), true));
@@ -483,7 +484,8 @@ std::array<std::string, 3> read_displacement(const Reader &reader, const std::ar
   return displacement;
 }
 
-/// Reads 'From', 'Until' and 'Fade time' of a support or a load. `never_fades`: reason if 'Until' is not set.
+/// Reads 'From', 'Until' and 'Fade time' of a support or a load. `never_fades`: reason if 'Until'
+/// is not set.
 template <class Timed> void parse_times(const Reader &reader, const std::string &never_fades, Timed &timed) {
   timed.from = reader.not_negative("From");
   if (!reader.text("Until").empty()) {
@@ -651,7 +653,8 @@ SymmetryPlane parse_plane(const Reader &reader, const std::string &text) {
   return plane;
 }
 
-/// Returns the planes of both sides of a layer in plane strain or of a wedge, which moves with the mesh.
+/// Returns the planes of both sides of a layer in plane strain or of a wedge, which moves with the
+/// mesh.
 std::vector<SymmetryPlane> sides_of_section(const Mesh &mesh) {
   if (mesh.section.value == Mesh::Section::solid)
     return {};

@@ -87,7 +87,8 @@ const NamedValues<TimeStepping::Scheme> &schemes() {
     NamedValues<TimeStepping::Scheme> values;
     for (const SchemeType &type : scheme_types())
       values.emplace_back(type.name, type.scheme);
-    values.emplace_back("static", TimeStepping::Scheme::quasi_static); // as most users and the manual say
+    // Most users and the manual say so.
+    values.emplace_back("static", TimeStepping::Scheme::quasi_static);
     return values;
   }();
   return names;
@@ -215,7 +216,7 @@ void TimeStepping::parse(Reader &reader) {
     for (const std::string key :
          {"Step control", "Initial step", "Minimum step", "Maximum step", "Growth iterations",
           "Shrink iterations", "Growth factor", "Shrink factor", "Cut factor", "Error tolerance"})
-      if (reader.is_set(key) && reader.text(key) != "automatic") // as a scene that includes this one says
+      if (reader.is_set(key) && reader.text(key) != "automatic") // as an including scene says
         reader.reject_beside({"Scheme"}, key,
                              "no value: the steps of an explicit scene follow from its elements");
     return;

@@ -19,8 +19,8 @@ namespace billet {
 
 namespace {
 
-/// Whether the text has a comma outside parentheses. muParser would read "0,1" as two values and return the
-/// last; its author meant 0.1.
+/// Whether the text has a comma outside parentheses. muParser would read "0,1" as two values and
+/// return the last; its author meant 0.1.
 bool has_free_comma(const std::string &text) {
   int depth = 0;
   return std::any_of(text.begin(), text.end(), [&depth](const char c) {
@@ -51,7 +51,8 @@ bool can_be_evaluated(const std::string &text, const ExpressionVariables variabl
   return makes_sense;
 }
 
-/// Returns the first name of a text, other than of functions, that is none of these; empty if there is none.
+/// Returns the first name of a text, other than of functions, that is none of these; empty if there
+/// is none.
 std::string find_unknown_name(const std::string &text, const std::vector<std::string> &known) {
   const auto is_of_name = [](const char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';

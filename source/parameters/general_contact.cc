@@ -79,8 +79,8 @@ double young_modulus(const SceneFile &file, const std::string &body) {
   }
 }
 
-/// Returns two bodies, the softer one first where both moduli are known: its nodes are the slaves in one
-/// pass. Those of a much stiffer body let the soft one through between them.
+/// Returns two bodies, the softer one first where both moduli are known: its nodes are the slaves
+/// in one pass. Those of a much stiffer body let the soft one through between them.
 Partners soft_before_stiff(const SceneFile &file, const std::string &body, const std::string &other) {
   const double modulus = young_modulus(file, body), of_other = young_modulus(file, other);
   return of_other > 0. && of_other < modulus ? Partners{other, body, false} : Partners{body, other, false};
@@ -129,14 +129,15 @@ bool contains(const std::vector<std::string> &keys, const std::string &key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// Returns the parameters, among them this one, that make sense together only: a pair that sets one of them
-/// takes none from 'General contact'.
+/// Returns the parameters, among them this one, that make sense together only: a pair that sets one
+/// of them takes none from 'General contact'.
 std::vector<std::string> group_of(const std::string &key) {
   std::vector<std::string> friction = {"Friction law"};
   for (const auto &type : friction_law_types())
     for (const auto &parameter : type.parameters)
       friction.push_back(parameter.key);
-  std::vector<std::string> tangential = friction; // it needs friction, and has the unit of the normal penalty
+  // The tangential penalty needs friction, and has the unit of the normal penalty.
+  std::vector<std::string> tangential = friction;
   const std::vector<std::string> penalties = {"Penalty unit", "Normal penalty", "Tangential penalty"};
   tangential.insert(tangential.end(), penalties.begin(), penalties.end());
   if (key == "Tangential penalty")
@@ -149,7 +150,8 @@ std::vector<std::string> group_of(const std::string &key) {
   return {key};
 }
 
-/// Gives a pair all exterior faces and the values of 'General contact', where it sets nothing itself.
+/// Gives a pair all exterior faces and the values of 'General contact', where it sets nothing
+/// itself.
 void complete(SceneFile &file, const std::string &pair, const std::vector<SceneFile::Entry> &values) {
   const Path path = {pairs_section, pair};
   const Partners partners = partners_of(file, pair);

@@ -54,7 +54,8 @@ void load_library(const std::string &name, const std::string &origin) {
   }
   try {
     register_types();
-  } catch (const std::exception &error) { // types that it has registered stay: the library stays loaded
+  } catch (const std::exception &error) {
+    // Types that it has registered stay: the library stays loaded.
     throw InputError(origin + ": '" + name + "' cannot register its types: " + error.what());
   }
   loaded.push_back(path);

@@ -63,8 +63,8 @@ double factor_of(const std::string &unit) {
   return factor.value(dealii::Point<1>());
 }
 
-/// Returns a list of numbers "a, b", or a table "a : b, c : d" with units for each column, in other units.
-/// Throws std::invalid_argument.
+/// Returns a list of numbers "a, b", or a table "a : b, c : d" with units for each column, in other
+/// units. Throws std::invalid_argument.
 std::string turned(const std::string &value, const std::string &unit) {
   std::vector<double> factors;
   for (const std::string &column : dealii::Utilities::split_string_list(unit, ':'))

@@ -352,7 +352,8 @@ bool are_counts(const std::string &text, const std::size_t n, const bool may_be_
   return parts.size() == n && product <= 1e9;
 }
 
-/// Whether the text is `n` lists, separated by semicolons, of `n_each` numbers (0: any number of them).
+/// Whether the text is `n` lists, separated by semicolons, of `n_each` numbers (0: any number of
+/// them).
 bool are_lists(const std::string &text, const std::size_t n, const std::size_t n_each, const bool positive) {
   const auto lists = dealii::Utilities::split_string_list(text, ';');
   for (const auto &list : lists) {

@@ -27,16 +27,16 @@ namespace {
 
 using Path = SceneFile::Path;
 
-/// Schemes to which a row applies. Statics is divided by materials: path-dependent, elastic with friction,
-/// elastic with self-contact, and independent of steps.
+/// Schemes to which a row applies. Statics is divided by materials: path-dependent, elastic with
+/// friction, elastic with self-contact, and independent of steps.
 constexpr unsigned int statics_with_path = 1, statics_with_slip = 8, statics_with_folds = 32,
                        statics_without_path = 16, implicit_dynamics = 2, explicit_dynamics = 4,
                        statics_elastic = statics_with_slip | statics_with_folds | statics_without_path,
                        statics = statics_with_path | statics_elastic, implicit = statics | implicit_dynamics;
 
-/// Values of a parameter for the profiles and the target error; empty: the parameter's default. T is the end
-/// time, E the target error. "0.2 T" and "0.5 E" are products, "0.3 E 1e-3" is a product with a maximum, and
-/// "0.03 / E" is a quotient.
+/// Values of a parameter for the profiles and the target error; empty: the parameter's default. T
+/// is the end time, E the target error. "0.2 T" and "0.5 E" are products, "0.3 E 1e-3" is a product
+/// with a maximum, and "0.03 / E" is a quotient.
 struct Row {
   unsigned int schemes;
   const char *section; ///< subsection; each one for "Contact pairs", "Bodies", "Materials"
@@ -44,14 +44,17 @@ struct Row {
   const char *fast, *balanced, *accurate, *target;
 };
 
-// Table of presets. 'balanced' is the default of nearly every parameter. Costs and errors of each profile:
-// scripts/benchmarks profiles; of the target error: doc/results/target-error.md.
+// Table of presets. 'balanced' is the default of nearly every parameter. Costs and errors of each
+// profile: scripts/benchmarks profiles; of the target error: doc/results/target-error.md.
 constexpr std::array<Row, 34> rows = {{
-    // Steps. Iterations alone control the steps of `fast`; their maximum is such that a step does not need
-    // more iterations than two of half the length. Steps of `balanced` are half as long where the forces
-    // may depend on them. That halves the error of plastic scenes, and takes 0.8 to 1.7 times the iterations.
-    // Error estimates control the steps of `accurate`. In elastic bodies without friction they alone suffice.
-    // They do not see what lies between the ends of steps, which matters where friction makes curved paths.
+    // Steps. Iterations alone control the steps of `fast`; their maximum is such that a step does
+    // not need more iterations than two of half the length. Steps of `balanced` are half as long
+    // where the forces may depend on them. That halves the error of plastic scenes, and takes 0.8
+    // to 1.7 times the iterations.
+    //
+    // Error estimates control the steps of `accurate`. In elastic bodies without friction they
+    // alone suffice. They do not see what lies between the ends of steps, which matters where
+    // friction makes curved paths.
     {statics_with_path, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.04 T"},
     {statics_with_slip, "Time stepping", "Initial step", "0.05 T", "", "0.02 T", "0.1 T"},
     {statics_with_folds, "Time stepping", "Initial step", "0.05 T", "", "0.005 T", "0.02 T"},
@@ -79,18 +82,19 @@ constexpr std::array<Row, 34> rows = {{
     {implicit_dynamics, "Solver", "Energy tolerance", "", "", "1e-12", "3e-3 E 3e-5"},
     {implicit, "Solver", "Displacement tolerance", "", "", "1e-4", "1 E 1e-2"},
     {implicit, "Solver", "Linear tolerance", "1e-4", "", "", "0.03 E 1e-3"},
-    // Contact. All augment in statics: `fast` only in soft bodies, since a tenth of Young's modulus makes a
-    // penetration of 0.01. They do not in dynamics, since penetrating nodes would have to stop within a step.
-    // In explicit scenes `accurate` and the target error raise the penalty or the resolution in time.
+    // Contact. All augment in statics: `fast` only in soft bodies, since a tenth of Young's modulus
+    // makes a penetration of 0.01. They do not in dynamics, since penetrating nodes would have to
+    // stop within a step. In explicit scenes `accurate` and the target error raise the penalty or
+    // the resolution in time.
     {statics, "Contact pairs", "Penetration tolerance", "0.01", "", "automatic", "1e-5"},
     // Only for self-contact, which occurs in few places and late.
     {statics, "Contact pairs", "Facets", "planed", "", "", ""},
     {explicit_dynamics, "Contact pairs", "Normal penalty", "1", "", "40", "0.09 / E"},
     {explicit_dynamics, "Explicit dynamics", "Contact resolution", "1", "", "4", ""},
     {explicit_dynamics, "Explicit dynamics", "Safety factor", "0.95", "", "0.4", "0.9"},
-    // Elements and laws. A target error changes neither elements nor the mesh. The law with the final
-    // instantaneous rotation differs from the multiplicative law by less than a thousandth for small elastic
-    // strains.
+    // Elements and laws. A target error changes neither elements nor the mesh. The law with the
+    // final instantaneous rotation differs from the multiplicative law by less than a thousandth
+    // for small elastic strains.
     {explicit_dynamics, "Bodies", "Element", "one point", "", "", ""},
     {explicit_dynamics, "Materials", "Elasticity", "hypoelastic", "", "", "hypoelastic"},
     // After elements and laws, which must have kernels in float.
@@ -101,7 +105,8 @@ constexpr const char *profile_key = "Profile", *target_key = "Target error",
                      *target_of_key = "Target error of", *finest_key = "Finest mesh level";
 constexpr const char *of_mesh_given = "mesh given", *of_everything = "everything";
 constexpr double part_of_mesh = 2. / 3.; // its error falls the most slowly with the cost
-constexpr double min_target = 1e-6; // smaller targets are below the errors of Newton's method and round-off
+// Smaller targets are below the errors of Newton's method and round-off.
+constexpr double min_target = 1e-6;
 
 double number_in(const std::string &text, const double otherwise) {
   try {
@@ -116,7 +121,8 @@ class BodyDrafts {
 public:
   BodyDrafts(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
 
-  /// Returns the material of a body. Its law is null if values are refused, which reading the scene reports.
+  /// Returns the material of a body. Its law is null if values are refused, which reading the scene
+  /// reports.
   Material material(const std::string &body) const {
     Material material;
     read(body, [&](Reader &reader) { reader.in("Material", [&] { material.parse(reader); }); });
@@ -141,8 +147,8 @@ public:
       return law != nullptr && has_kernel(element(body), *law);
     });
   }
-  /// Whether stresses or dashpots depend on the path. Friction does, too, but slip soon loses the influence
-  /// of earlier steps, so that it needs no shorter ones.
+  /// Whether stresses or dashpots depend on the path. Friction does, too, but slip soon loses the
+  /// influence of earlier steps, so that it needs no shorter ones.
   bool depend_on_path() const {
     const std::vector<std::string> bodies = file_.names_below({"Bodies"});
     return std::any_of(bodies.begin(), bodies.end(), [this](const std::string &body) {
@@ -341,8 +347,8 @@ void check_contradictions(const SceneFile &file, const double target) {
   }
 }
 
-/// Refuses settings that the error estimates do not cover: 'Penetration tolerance' in some pairs only, and,
-/// in explicit scenes, settings that change the physics.
+/// Refuses settings that the error estimates do not cover: 'Penetration tolerance' in some pairs
+/// only, and, in explicit scenes, settings that change the physics.
 void check_what_is_estimated(const SceneFile &file, const double target) {
   const bool is_explicit = !type_of(scheme_of(file)).has_matrix;
   const std::vector<Path> pairs = paths_of("Contact pairs", file);

@@ -33,8 +33,8 @@ InputError refuse(const std::string &origin, const std::string &value, const std
   return InputError(scene_error(origin + " is '" + value + "'; allowed is " + allowed, fault));
 }
 
-/// Returns the parameters that the allowed values depend on: by convention, a text names them in quotes,
-/// 'Key' or 'Key = value'.
+/// Returns the parameters that the allowed values depend on: by convention, a text names them in
+/// quotes, 'Key' or 'Key = value'.
 std::vector<std::string> parameters_in(const std::string &allowed) {
   std::vector<std::string> names;
   for (std::size_t at = allowed.find('\''); at != std::string::npos; at = allowed.find('\'', at + 1)) {
@@ -107,7 +107,8 @@ void Reader::reject(const std::string &key, const std::string &allowed) const {
 
 void Reader::reject_beside(const std::vector<std::string> &others, const std::string &key,
                            const std::string &allowed) const {
-  // A number that stands for a wrong one in this subsection may be the reason: then that error stays alone.
+  // A number that stands for a wrong one in this subsection may be the reason: then that error
+  // stays alone.
   const Diagnostic *const known = path_.empty() ? nullptr : errors_.find(" in '" + join(path_) + "' is '");
   if (known != nullptr)
     throw InputError(*known);

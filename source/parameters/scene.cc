@@ -200,7 +200,8 @@ private:
 /// Notes names of bodies and tools that the scene does not have.
 void check_names(const Scene &scene, Reader &reader) {
   const auto check_name = [&reader](const auto &list, const Located<std::string> &name) {
-    if (!name.origin.empty() && !name.value.empty()) // otherwise what has it has other errors, or none
+    // Otherwise the entry has other errors, or none.
+    if (!name.origin.empty() && !name.value.empty())
       reader.note_errors([&] { index_of(list, name); });
   };
   for (const ContactPair &pair : scene.pairs) {
@@ -246,8 +247,8 @@ std::array<Side, 2> sides_of(const ContactPair &pair) {
                      : Side{pair.second_body.value, pair.second_boundary_ids.value}};
 }
 
-/// Returns a boundary id of faces that both pairs bring into contact with the same faces or tool; no_id if
-/// there is none.
+/// Returns a boundary id of faces that both pairs bring into contact with the same faces or tool;
+/// no_id if there is none.
 unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
   if (first.is_between_bodies() != second.is_between_bodies())
     return Side::no_id;
@@ -263,8 +264,8 @@ unsigned int repeated_id(const ContactPair &first, const ContactPair &second) {
   return Side::no_id;
 }
 
-/// Returns the name of the scene file without folder and extension, for the results of a scene that names no
-/// folder. If that is the file itself or its folder, ".results" follows.
+/// Returns the name of the scene file without folder and extension, for the results of a scene that
+/// names no folder. If that is the file itself or its folder, ".results" follows.
 std::string default_folder(const std::string &file_name) {
   namespace fs = std::filesystem;
   const std::string name = fs::path(file_name).stem().string();
@@ -308,7 +309,8 @@ void check_probe(const Scene &scene, const Probe &probe) {
 /// Refuses parameters of one scheme in scenes of another: a forgotten switch is the usual reason.
 class SchemeCheck {
 public:
-  /// `notes`: gets a note for each subsection that is left out since the command line sets the scheme.
+  /// `notes`: gets a note for each subsection that is left out since the command line sets the
+  /// scheme.
   SchemeCheck(const Scene &scene, const SceneFile &file, DiagnosticList &notes)
       : scene_(scene), file_(file), notes_(notes),
         sets_scheme_(file.where(scheme_path, "Scheme").rfind("--set ", 0) == 0) {}
@@ -434,8 +436,8 @@ private:
 
 const SceneFile::Path SchemeCheck::scheme_path{"Time stepping"};
 
-/// Sets the field output of an explicit scene without a step interval. Enough for an animation, unless the
-/// scene has an interval of its own.
+/// Sets the field output of an explicit scene without a step interval. Enough for an animation,
+/// unless the scene has an interval of its own.
 void set_explicit_intervals(Scene &scene, const bool has_interval) {
   constexpr double n_intervals = 20.;
   scene.output.every_steps = 0;

@@ -30,8 +30,8 @@ std::string folder_of(const std::string &file_name) {
   return slash == std::string::npos ? "" : file_name.substr(0, slash + 1);
 }
 
-/// Removes the keyword from the start of `line`. Returns false if `line` does not start with it, followed by
-/// a blank or nothing.
+/// Removes the keyword from the start of `line`. Returns false if `line` does not start with it,
+/// followed by a blank or nothing.
 bool take_keyword(std::string &line, const std::string &keyword) {
   if (line.compare(0, keyword.size(), keyword) != 0 ||
       (line.size() > keyword.size() && line[keyword.size()] != ' ' && line[keyword.size()] != '\t'))
@@ -47,8 +47,8 @@ std::string describe_second(const SceneFile::Entry &entry, const SceneFile::Entr
   return entry.where + ": '" + entry.written_key + "' is set twice, first at " + first.where;
 }
 
-/// Removes what editors of other systems add: a byte-order mark in the first line, a carriage return at the
-/// end of each. Throws InputError for text in UTF-16.
+/// Removes what editors of other systems add: a byte-order mark in the first line, a carriage
+/// return at the end of each. Throws InputError for text in UTF-16.
 void clean_line(std::string &line, const bool is_first, const std::string &where) {
   const std::string mark = "\xEF\xBB\xBF";
   if (is_first && (line.compare(0, 2, "\xFF\xFE") == 0 || line.compare(0, 2, "\xFE\xFF") == 0))
@@ -60,8 +60,8 @@ void clean_line(std::string &line, const bool is_first, const std::string &where
     line.pop_back();
 }
 
-/// Reads a statement, which continues on the next line after a backslash; counts lines. Returns false at the
-/// end.
+/// Reads a statement, which continues on the next line after a backslash; counts lines. Returns
+/// false at the end.
 bool read_statement(std::istream &text, const std::string &name, std::string &line, unsigned int &number) {
   if (!std::getline(text, line))
     return false;
@@ -77,8 +77,8 @@ bool read_statement(std::istream &text, const std::string &name, std::string &li
   return true;
 }
 
-/// Replaces control characters by blanks, since messages quote a statement. Returns what is wrong with the
-/// first one that is no tab, or nothing.
+/// Replaces control characters by blanks, since messages quote a statement. Returns what is wrong
+/// with the first one that is no tab, or nothing.
 std::string remove_control_characters(std::string &statement) {
   std::string error;
   for (char &c : statement) {
@@ -175,8 +175,8 @@ struct PatternError {
 /// Returns what ParameterHandler's pattern allows, in plain words.
 PatternError describe_pattern(const std::string &message, const std::string &value) {
   using Kind = SceneFault::Kind;
-  // The message is "... does not match the given pattern <[Double ...]>."; deal.II breaks it into lines at
-  // any blank.
+  // The message is "... does not match the given pattern <[Double ...]>."; deal.II breaks it into
+  // lines at any blank.
   std::istringstream words(message);
   std::string text, word;
   while (words >> word)
@@ -216,7 +216,8 @@ std::string join(const SceneFile::Path &path) {
   return result;
 }
 
-/// Whether an entry is one of the command line without a value, which takes away those of the files.
+/// Whether an entry is one of the command line without a value, which takes away those of the
+/// files.
 static bool must_take_away(const SceneFile::Entry &entry) {
   return entry.files.empty() && entry.value.empty();
 }
@@ -663,7 +664,8 @@ public:
     return names;
   }
 
-  /// Returns the end of a message about an unknown name: the nearest known one, and all that are known.
+  /// Returns the end of a message about an unknown name: the nearest known one, and all that are
+  /// known.
   std::string advice(const std::string &nearest, const std::string &here, const SceneFile::Path &path) const {
     std::string list;
     for (const auto &name : parameters(path))

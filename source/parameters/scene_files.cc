@@ -10,7 +10,8 @@ namespace billet::parameters {
 
 namespace {
 
-/// Adds the files that entries name. A value of any other meaning is the name of a file by chance only.
+/// Adds the files that entries name. A value of any other meaning is the name of a file by chance
+/// only.
 void add_named_files(const SceneFile &scene, std::vector<std::string> &files) {
   for (const SceneFile::Entry &entry : scene.entries()) {
     const std::string file = scene.resolve(entry.path, entry.key, entry.value);

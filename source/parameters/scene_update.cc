@@ -22,7 +22,8 @@ std::string old_name(const Entry &entry) { return quote(entry, entry.written_key
 
 std::string new_name(const Entry &entry) { return quote(entry, entry.key, entry.value); }
 
-constexpr const char *blanks = " \t\r\n\\"; // between words; a statement may continue on the next line
+// Blanks between words; a statement may continue on the next line.
+constexpr const char *blanks = " \t\r\n\\";
 
 /// Positions of key, equals sign and value of the statement that begins at `begin`.
 struct Places {

@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds the type and range of a ParameterHandler pattern, such as "[Double 0...MAX_DOUBLE (inclusive)]".
+/// Adds the type and range of a ParameterHandler pattern, such as "[Double 0...MAX_DOUBLE
+/// (inclusive)]".
 void add_type(const std::string &pattern, Json &schema) {
   std::smatch match;
   static const std::regex selection(R"(^\[Selection (.*) \]$)"),

@@ -150,8 +150,8 @@ public:
   }
 
 private:
-  /// Returns how many subsections are open at the end of the file, and the index of the first `end` that
-  /// closes none; if there is none, the number of statements.
+  /// Returns how many subsections are open at the end of the file, and the index of the first `end`
+  /// that closes none. If there is none, the index is the number of statements.
   std::pair<std::size_t, std::size_t> count() const {
     std::size_t n_open = 0;
     for (std::size_t i = 0; i < statements_.size(); ++i)

@@ -40,8 +40,8 @@ public:
 
   bool has_bodies() const { return !file_.names_below({"Bodies"}).empty(); }
 
-  /// Notes errors, except consequences of earlier ones, and takes out the parts that they are about. Returns
-  /// whether more can be found in what is left.
+  /// Notes errors, except consequences of earlier ones, and takes out the parts that they are
+  /// about. Returns whether more can be found in what is left.
   bool take_out(const DiagnosticList &errors) {
     const bool is_first = n_rounds_++ == 0;
     bool changes = false;
@@ -70,14 +70,16 @@ public:
     return !bodies.empty();
   }
 
-  /// Returns all errors, and a note about what is unchecked. `is_sound`: nothing else was found in the rest.
+  /// Returns all errors, and a note about what is unchecked. `is_sound`: nothing else was found in
+  /// the rest.
   DiagnosticList report(const bool is_sound) const {
     DiagnosticList all = found_;
     std::string list;
     for (const auto &[path, detail] : unchecked_)
       if (!path.empty() && (reported_.count(path) == 0 || !detail.empty()))
         list += (list.empty() ? "'" : ", '") + join(path) + "'" + detail;
-    if (!is_sound && n_rounds_ > 1 && !changed_.empty()) // an error beside the scene hides nothing of it
+    // An error beside the scene hides nothing of it.
+    if (!is_sound && n_rounds_ > 1 && !changed_.empty())
       list += list.empty() ? "parts of the scene" : ", other parts";
     if (all_depends_)
       list += list.empty() ? "the rest of the scene" : ", the rest of the scene";
@@ -116,7 +118,8 @@ private:
                                                    : ""});
   }
 
-  /// Returns the part that is taken out if there is an error at this place; otherwise its subsection.
+  /// Returns the part that is taken out if there is an error at this place; otherwise its
+  /// subsection.
   static Path part_of(const Path &path) {
     if (!is_named(at(path, 0)) || path.size() < 2)
       return path;
@@ -199,9 +202,10 @@ private:
     return std::nullopt;
   }
 
-  /// Gives a parameter a value that stands for the wrong one, or for the missing one of a load, so that other
-  /// errors of its part are found: the one that the user probably meant, a number of a material, or the
-  /// default of a support or a load. Returns false if it cannot, or has done so before.
+  /// Gives a parameter a value that stands for the wrong one, or for the missing one of a load.
+  /// Thus other errors of its part are found. The value is the one that the user probably meant, a
+  /// number of a material, or the default of a support or a load. Returns false if it cannot, or
+  /// has done so before.
   bool mend(const SceneFile::Place &place, const SceneFault &fault) {
     const std::string kind = at(place.path, 2);
     const std::optional<std::string> size = default_of_load(place);
@@ -228,14 +232,16 @@ private:
     return true;
   }
 
-  /// Remembers a parameter, on which others of its subsection may depend, and on those of other sections all.
+  /// Remembers a parameter, on which others of its subsection may depend, and on those of other
+  /// sections all.
   void note_key(const SceneFile::Place &place, const SceneFault &fault) {
     if (fault.kind == SceneFault::Kind::excluded) // one such error is enough
       for (const std::string &other : fault.depends_on)
         keys_.insert({{}, other});
     if (place.key.empty())
       return;
-    const std::string key = fault.suggestion.empty() ? place.key : fault.suggestion; // of an unknown one
+    // Key of an unknown entry.
+    const std::string key = fault.suggestion.empty() ? place.key : fault.suggestion;
     for (const std::string &one : {place.key, key}) {
       keys_.insert({place.path, one});
       all_depends_ = all_depends_ || one == scheme || one == "Libraries";
@@ -279,13 +285,15 @@ private:
     return remove_subsection(part);
   }
 
-  /// Returns where a subsection is in the file; if it is not there, a place at which no message begins.
+  /// Returns where a subsection is in the file; if it is not there, a place at which no message
+  /// begins.
   std::string where_of(const Path &path) const {
     const std::string where = file_.where(path);
     return where == file_.file_name() ? "(stands in)" : where;
   }
 
-  /// Makes a static scene a dynamic one, in which a body needs no support. Returns false if it is one.
+  /// Makes a static scene a dynamic one, in which a body needs no support. Returns false if it is
+  /// one.
   bool make_dynamic() {
     const Path section{"Time stepping"};
     using Scheme = parameters::TimeStepping::Scheme;
@@ -378,7 +386,8 @@ DiagnosticList find_all_errors(const SceneSource &source, const DiagnosticList &
       is_sound = true;
     } catch (const InputError &error) { // on all ranks
       errors = error.diagnostics();
-    } catch (const std::exception &) { // on all ranks: the rest is no scene that anybody would write
+    } catch (const std::exception &) {
+      // This occurs on all ranks: the rest is no scene that anybody would write.
       break;
     }
   return rest->report(is_sound);

@@ -22,8 +22,8 @@ namespace {
 /// Settings of the search for contact.
 struct Search {
   static constexpr unsigned int min_samples = 200, max_samples = 1000;
-  /// Motion between samples [facet sizes]: less than the penetration at which a point no longer faces a
-  /// facet.
+  /// Motion between samples [facet sizes]: less than the penetration at which a point no longer
+  /// faces a facet.
   static constexpr double motion = 0.25;
   /// Gap of points that count as meeting with the first one [facet sizes].
   static constexpr double together = 1e-6;
@@ -38,8 +38,8 @@ BoundingBox box_of(const std::vector<Tensor<1, 3>> &points) {
   return box;
 }
 
-/// Returns the maximum motion of points in the box, seen from the surface, between two placements. The motion
-/// is affine in the point, so that a corner has the maximum.
+/// Returns the maximum motion of points in the box, seen from the surface, between two placements.
+/// The motion is affine in the point, so that a corner has the maximum.
 double max_motion(const BoundingBox &box, const Placement &from, const Placement &to) {
   double maximum = 0.;
   for (unsigned int corner = 0; corner < 8; ++corner) {
@@ -51,8 +51,8 @@ double max_motion(const BoundingBox &box, const Placement &from, const Placement
   return maximum;
 }
 
-/// The points of a side that this rank measures, with lower bounds of their distances. A point whose distance
-/// exceeds the motion since it was measured cannot touch.
+/// The points of a side that this rank measures, with lower bounds of their distances. A point
+/// whose distance exceeds the motion since it was measured cannot touch.
 class TrackedSide {
 public:
   TrackedSide(const GapSide &side, const MPI_Comm communicator)
@@ -60,8 +60,8 @@ public:
         stride_(mpi::n_mpi_processes(communicator)), bounds_(side.points.size(), 0.),
         patches_(side.points.size(), 0) {}
 
-  /// Moves on to the placement, and measures the points that may be within `tolerance` there. Returns whether
-  /// one is.
+  /// Moves on to the placement, and measures the points that may be within `tolerance` there.
+  /// Returns whether one is.
   bool advance(const Placement &placement, const double tolerance) {
     path_ += is_placed_ && !side_.points.empty() ? max_motion(box_, before_, placement) : 0.;
     before_ = placement;
@@ -80,8 +80,8 @@ public:
     return touches;
   }
 
-  /// Calls visit(point) for the points, among those that the last advance() measured, that are within
-  /// `tolerance` at this placement.
+  /// Calls visit(point) for the points, among those that the last advance() measured, that are
+  /// within `tolerance` at this placement.
   template <class Visit>
   void visit_touching(const Placement &placement, const double tolerance, const Visit &visit) const {
     for (const std::size_t i : near_) {
@@ -98,7 +98,8 @@ private:
   const GapSide &side_;
   BoundingBox box_;
   std::size_t first_, stride_;
-  std::vector<double> bounds_;        ///< path at which the point may touch, at the earliest [length]
+  /// Path at which the point may touch, at the earliest [length].
+  std::vector<double> bounds_;
   std::vector<unsigned int> patches_; ///< see PointGap
   std::vector<std::size_t> near_;
   Placement before_;
@@ -150,7 +151,8 @@ public:
     MeetingReport report;
     report.time = t;
     constexpr double none = std::numeric_limits<double>::infinity();
-    std::array<double, 5> own{none, 0., 0., 0., 0.}; // number of the first point, its position, number of all
+    // Number of the first point, its position, number of all.
+    std::array<double, 5> own{none, 0., 0., 0., 0.};
     double offset = 0.;
     for (const TrackedSide &side : sides_) {
       side.visit_touching(side.side().placement(t), tolerance, [&](const std::size_t i) {
@@ -215,8 +217,9 @@ GapReport measure_gaps(const std::vector<GapSide> &sides, const double t, const 
   GapReport report;
   const std::size_t first = mpi::this_mpi_process(communicator), stride = mpi::n_mpi_processes(communicator);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 5> least{infinity, infinity, 0., 0., 0.}; // gap, number of the point, its position
-  std::vector<double> sums(2, 0.);                             // facing points, their gaps
+  // Gap, number of the point, its position.
+  std::array<double, 5> least{infinity, infinity, 0., 0., 0.};
+  std::vector<double> sums(2, 0.); // facing points, their gaps
   std::size_t offset = 0;
   for (const GapSide &side : sides) {
     const Placement placement = side.placement(t);

@@ -8,15 +8,16 @@ namespace billet {
 
 namespace {
 
-/// Part of a body's equal share of the target below which its mesh stays, (W7). A body's estimate may be a
-/// third of its error (doc/results/mesh-error.md), and the others are to have most of the target.
+/// Part of a body's equal share of the target below which its mesh stays, (W7). A body's estimate
+/// may be a third of its error (doc/results/mesh-error.md), and the others are to have most of the
+/// target.
 constexpr double small_part = 0.25;
 /// Orders of convergence that count. Lower ones are none; higher ones are chance.
 constexpr double lowest_order = 0.5, highest_order = 2.;
 constexpr double in_three_directions = 8.; // growth of elements
 
-/// Returns the order that estimates (W5) of a mesh and of the next finer one show, at least 1, that of
-/// contact.
+/// Returns the order that estimates (W5) of a mesh and of the next finer one show, at least 1, that
+/// of contact.
 double expected_order(const double before, const double now) {
   return before > 0. && now > 0. ? std::clamp(std::log2(before / now), 1., highest_order) : 1.;
 }

@@ -21,8 +21,8 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// Returns this rank's separate sets of elements as a message: their number, then pairs of a node that other
-/// ranks may have, by its first dof, and the set it is in.
+/// Returns this rank's separate sets of elements as a message. It has their number, then pairs of a
+/// node that other ranks may have, by its first dof, and the set it is in.
 std::vector<std::uint64_t> find_own_parts(const Discretization &discretization, const std::size_t body) {
   std::unordered_map<DofIndex, std::size_t> nodes;
   DisjointSets sets;
@@ -88,8 +88,8 @@ double unit_volume(const std::array<Tensor<1, 3>, 3> &edges) {
 void measure_elements(const Discretization &discretization, const std::size_t body, BodyReport &report) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> sums(5, 0.); // elements, volume, edges, nodes, number of edges
-  std::vector<double> minima(8,
-                             infinity); // low corner, minus the high one, least edge, minus the largest one
+  // Low corner, minus the high one, least edge, minus the largest one.
+  std::vector<double> minima(8, infinity);
   std::array<double, 4> worst{infinity, 0., 0., 0.};
   std::set<DofIndex> nodes;
   for (const Element &element : discretization.elements(body)) {

@@ -135,7 +135,8 @@ void print(const Certificate &certificate, const std::string &title, const PageF
 
 bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting> &settings,
                   const PageFormat format, std::ostream &stream) {
-  constexpr double explicit_part = 1e-3; // of the end time, for schemes whose steps follow from the mesh
+  // Part of the end time, for schemes whose steps follow from the mesh.
+  constexpr double explicit_part = 1e-3;
   std::unique_ptr<const TemporaryScene> of_material;
   if (!is_scene(file))
     of_material = std::make_unique<const TemporaryScene>(

@@ -33,8 +33,8 @@ DiagnosticList check_meshes(const Scene &scene, const Discretization &discretiza
 
 namespace {
 
-/// Sets up the solution as a run would. Returns the warnings of a run before its first step, and fills the
-/// report. Collective.
+/// Sets up the solution as a run would. Returns the warnings of a run before its first step, and
+/// fills the report. Collective.
 DiagnosticList check_start(const Scene &scene, MPI_Comm communicator, SceneReport &report) {
   const Discretization discretization(scene, communicator);
   DiagnosticList messages =

@@ -29,7 +29,8 @@ constexpr double n_intervals = 20.;
 struct Limits {
   /// Number of checks of stability in a run: each costs one to a few steps.
   static constexpr double n_checks = 100.;
-  /// Added mass over the mass, and kinetic over internal energy, above which mass scaling changes the motion.
+  /// Added mass over the mass, and kinetic over internal energy, above which mass scaling changes
+  /// the motion.
   static constexpr double much_mass = 0.1, fast = 0.05;
 };
 
@@ -147,8 +148,8 @@ bool ExplicitRun::step(RunOutput &output) {
   return true;
 }
 
-// The state between two steps has the springs of the earlier time. Compared with those of the finer mesh, all
-// that they store in a step would seem gained, which is much at first touch.
+// The state between two steps has the springs of the earlier time. Compared with those of the finer
+// mesh, all that they store in a step would seem gained, which is much at first touch.
 EnergyLedger ExplicitRun::hand_over(RunOutput &output) {
   step(output);
   problem_.update_ledger();
@@ -283,8 +284,8 @@ std::string ExplicitRun::advise_on_law(RunOutput &output) {
   return "";
 }
 
-// At first contact, up to a quarter of the total energy may be the error of the step in which a node
-// penetrates. This fraction soon becomes small, whereas an instability keeps growing.
+// At first contact, up to a quarter of the total energy may be the error of the step in which a
+// node penetrates. This fraction soon becomes small, whereas an instability keeps growing.
 void ExplicitRun::check_drift(RunOutput &output) {
   const bool is_finite = std::isfinite(problem_.relative_drift());
   if (std::abs(problem_.relative_drift()) <= parameters_.explicit_dynamics.max_drift)

@@ -19,11 +19,13 @@ struct Limits {
   static constexpr double incompressible = 0.49995;
   /// Part of its value at the end with which a load begins, above which it is sudden.
   static constexpr double sudden = 0.5;
-  /// Norm of the elastic strain deviator above which a law without an exact dissipation unbalances energies.
+  /// Norm of the elastic strain deviator above which a law without an exact dissipation unbalances
+  /// energies.
   static constexpr double large_strain = 0.02;
 };
 
-/// Returns a sentence if the ratio of bulk to shear modulus leaves Newton's method few significant digits.
+/// Returns a sentence if the ratio of bulk to shear modulus leaves Newton's method few significant
+/// digits.
 std::string describe_incompressibility(const parameters::Scene &parameters) {
   const auto body = std::find_if(parameters.bodies.begin(), parameters.bodies.end(), [](const auto &b) {
     return b.material.law->elastic().poisson_ratio() > Limits::incompressible;
@@ -65,8 +67,8 @@ bool is_sudden_at(const double t, const double end, const AppliedLoad &load) {
          });
 }
 
-/// Returns advice if a static step fails at whose start a load is applied as a whole: a shorter step has no
-/// smaller load.
+/// Returns advice if a static step fails at whose start a load is applied as a whole: a shorter
+/// step has no smaller load.
 std::string advise_on_sudden_load(const Scene &scene, const double from) {
   const parameters::Scene &parameters = scene.parameters();
   if (parameters.scheme().has_inertia)
@@ -122,7 +124,8 @@ const BodyPair &most_loaded_pair(const Scene &scene, const ExplicitDynamics &pro
   return scene.body_pairs()[static_cast<std::size_t>(most - loads.begin())];
 }
 
-/// Returns what to change of a pair of bodies and of the steps, in order. It leaves out what the scene has.
+/// Returns what to change of a pair of bodies and of the steps, in order. It leaves out what the
+/// scene has.
 std::vector<std::string> list_changes(const parameters::ExplicitDynamics &steps, const BodyPair &pair) {
   std::vector<std::string> changes;
   const auto add = [&changes](const bool is_new, const std::string &text) {
@@ -212,7 +215,8 @@ Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, con
                                const double to, const bool is_unstable) {
   const parameters::Scene &parameters = scene.parameters();
   const NewtonReport &newton = report.newton;
-  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained(); // which is not the iterations
+  // Whether there is a cause other than the iterations.
+  const bool has_cause = newton.is_lost_in_round_off || newton.is_explained();
   std::ostringstream what, results;
   what << parameters.file_name << ": the step from time " << from << " to " << to << " failed after "
        << report.step << " accepted steps and " << report.total_cuts << " cuts: " << newton.failure

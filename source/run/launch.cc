@@ -27,8 +27,8 @@ constexpr int max_ranks = 99999;
 
 volatile pid_t mpirun = 0;
 
-/// mpirun passes SIGUSR1 and SIGUSR2 on to its ranks, but kills them on other signals. A second Ctrl-C does
-/// that.
+/// mpirun passes SIGUSR1 and SIGUSR2 on to its ranks, but kills them on other signals. A second
+/// Ctrl-C does that.
 void pass_on(const int signal) {
   static volatile std::sig_atomic_t n_stops = 0;
   const bool stops = signal != SIGUSR1 && signal != SIGUSR2;

@@ -92,7 +92,8 @@ std::string move_aside(const parameters::Scene &parameters, const fs::path &fold
   }
 }
 
-/// Names of checkpoints and fields, of which a shorter run would not write over all, and of lists of fields.
+/// Names of checkpoints and fields, of which a shorter run would not write over all, and of lists
+/// of fields.
 const char *const snapshots =
     "checkpoint_[0-9]{5,10}\\.h5|fields_[0-9]{5,10}(\\.[0-9]+)?\\.(vtm|vtu|pvtu|h5)|"
     "scene\\.pvd|fields\\.xdmf";

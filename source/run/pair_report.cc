@@ -29,10 +29,12 @@ namespace {
 
 /// One surface of a pair, undeformed, from all ranks.
 struct PairSurface {
-  std::vector<Tensor<1, 3>> nodes;                 ///< by ascending keys
-  std::vector<Tensor<1, 3>> normals;               ///< of the nodes: unit vectors along the areas around
+  std::vector<Tensor<1, 3>> nodes; ///< by ascending keys
+  /// Unit vectors at the nodes along the areas around.
+  std::vector<Tensor<1, 3>> normals;
   std::vector<std::array<Tensor<1, 3>, 4>> facets; ///< by ascending keys
-  double size = 0.;                                ///< square root of the facets' mean area [length]
+  /// Square root of the facets' mean area [length].
+  double size = 0.;
 };
 
 PairSurface gather_surface(const Discretization &discretization, const NodeKeys &keys, const std::size_t body,
@@ -83,8 +85,8 @@ PairSurface gather_surface(const Discretization &discretization, const NodeKeys 
   return surface;
 }
 
-/// Facets as four triangles each, around their middle. Points within a facet's size behind them have a gap,
-/// too.
+/// Facets as four triangles each, around their middle. Points within a facet's size behind them
+/// have a gap, too.
 class FacetedSurface {
 public:
   explicit FacetedSurface(const PairSurface &surface) : tree_(divide(surface)), reach_(surface.size) {
@@ -105,8 +107,8 @@ public:
       point.outward = normals_[foot.facet];
       return point;
     }
-    // Triangles that meet at the nearest point. Over an edge between them, the direction to x is between
-    // their normals; beyond a free edge it is not.
+    // Triangles that meet at the nearest point. Over an edge between them, the direction to x is
+    // between their normals; beyond a free edge it is not.
     std::vector<unsigned int> around;
     constexpr double rounding = 1e-9;
     const double limit = foot.square * (1. + rounding);
@@ -149,8 +151,8 @@ private:
     return x;
   }
 
-  /// Whether the direction makes no larger angle with the facet's normal than the normals around do. In the
-  /// angle, 0.02 are tolerated.
+  /// Whether the direction makes no larger angle with the facet's normal than the normals around
+  /// do. In the angle, 0.02 are tolerated.
   bool is_between(const Tensor<1, 3> &direction, const unsigned int facet,
                   const std::vector<unsigned int> &around) const {
     constexpr double tolerance = 0.02;
@@ -249,8 +251,8 @@ private:
     try {
       report.gap = measure_gaps(sides, 0., discretization_.communicator());
       report.meeting = find_meeting(sides, {end, scene_.stops(), size}, discretization_.communicator());
-    } catch (
-        const SolutionFailure &) { // a motion is undefined at time 0, on all ranks: the run will report it
+    } catch (const SolutionFailure &) {
+      // a motion is undefined at time 0, on all ranks: the run will report it.
       report.depends_on_forces = true;
     }
     return report;

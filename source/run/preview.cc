@@ -43,7 +43,8 @@ bool is_installed(const std::string &program) {
   return false;
 }
 
-/// Returns the environment without the variables by which MPI would take a program for one of our ranks.
+/// Returns the environment without the variables by which MPI would take a program for one of our
+/// ranks.
 std::vector<std::string> foreign_environment() {
   std::vector<std::string> variables;
   for (char **variable = environ; *variable != nullptr; ++variable) {
@@ -166,7 +167,8 @@ void preview_simulation(const parameters::Scene &of_run, const MPI_Comm communic
     prepare();
     try {
       problem.prepare_step(parameters.time_stepping.end_time);
-    } catch (const SolutionFailure &) { // the forces at the start fail: the scene can still be looked at
+    } catch (const SolutionFailure &) {
+      // The forces at the start fail: the scene can still be looked at.
     }
     problem.update_state();
     write_start(scene, problem);

@@ -66,9 +66,9 @@ std::unique_ptr<Run> make_run(const Scene &scene, const MPI_Comm communicator, R
 
 namespace {
 
-/// Writes a checkpoint after a step if one is due or a signal requests it. Returns whether a signal requests
-/// the end before the end time; then `has_checkpoint` says whether there is a checkpoint of the current
-/// state.
+/// Writes a checkpoint after a step if one is due or a signal requests it. Returns whether a signal
+/// requests the end before the end time; then `has_checkpoint` says whether there is a checkpoint
+/// of the current state.
 bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
   const Checkpoints &checkpoints = output.checkpoints();
   const bool is_finished = run.is_finished();
@@ -81,8 +81,8 @@ bool heed_signals(Run &run, RunOutput &output, bool &has_checkpoint) {
   return request == Signals::Request::end && !is_finished;
 }
 
-/// Returns the refinement that the scene demands at the run's time, each body at most once; none if there is
-/// none. Collective.
+/// Returns the refinement that the scene demands at the run's time, each body at most once; none if
+/// there is none. Collective.
 std::optional<MeshChange> find_change(const Run &run, const Scene &scene) {
   const MeshLevels &now = run.discretization().levels(),
                    wanted = find_mesh_levels(scene.parameters(), run.time());

@@ -18,8 +18,8 @@ namespace mpi = dealii::Utilities::MPI;
 
 namespace {
 
-/// Memory in bytes, from the resident memory of --check and of runs. Blocks of 8000 to 216000 elements were
-/// checked; multigrid is that of doc/results/linear-solvers.md.
+/// Memory in bytes, from the resident memory of --check and of runs. Blocks of 8000 to 216000
+/// elements were checked; multigrid is that of doc/results/linear-solvers.md.
 struct Memory {
   static constexpr double process = 185e6; ///< the program and its libraries, for each rank
   static constexpr double explicit_element = 2.4e3;
@@ -42,8 +42,8 @@ double growth_of_mesh(const Scene &scene, const Discretization &discretization) 
   return n / static_cast<double>(discretization.n_global_elements());
 }
 
-/// Returns the factor by which refinements of this body increase the number of steps, whose length follows
-/// its elements.
+/// Returns the factor by which refinements of this body increase the number of steps, whose length
+/// follows its elements.
 double growth_of_steps(const Scene &scene, const std::size_t body) {
   const double end = scene.parameters().time_stepping.end_time;
   double factor = 1., step = 1.;
@@ -78,7 +78,8 @@ StableStepReport find_limiting_element(const Scene &scene, const ExplicitDynamic
   return report;
 }
 
-/// Counts the steps if contact lasts: where a pair meets, nodes that are near limit them from then on.
+/// Counts the steps if contact lasts: where a pair meets, nodes that are near limit them from then
+/// on.
 double count_steps(const Scene &scene, ExplicitDynamics &problem, const SceneReport &of_scene,
                    StableStepReport &stable) {
   const double end = scene.parameters().time_stepping.end_time;

@@ -15,8 +15,8 @@ namespace billet {
 
 namespace {
 
-/// Whether the console is a terminal. Open MPI's mpirun gives its ranks a terminal of its own, wherever its
-/// output goes.
+/// Whether the console is a terminal. Open MPI's mpirun gives its ranks a terminal of its own,
+/// wherever its output goes.
 bool console_is_terminal() {
   if (isatty(STDOUT_FILENO) == 0)
     return false;

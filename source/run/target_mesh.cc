@@ -95,7 +95,8 @@ public:
   }
 
 private:
-  static constexpr unsigned int coarsest = 3; ///< levels below the given one: three of them show an order
+  /// Levels below the given one: three of them show an order.
+  static constexpr unsigned int coarsest = 3;
 
   std::string folder_of(const int level) const { return folder_ + "/mesh_level_" + std::to_string(level); }
 
@@ -121,8 +122,8 @@ private:
     });
   }
 
-  /// Removes the results of levels of an earlier run. Throws InputError if they are not to be replaced: then
-  /// another program has left them.
+  /// Removes the results of levels of an earlier run. Throws InputError if they are not to be
+  /// replaced: then another program has left them.
   void clear_levels(const bool are_replaced) const {
     const std::regex level("mesh_level_-?[0-9]+");
     std::vector<fs::path> folders;
@@ -170,7 +171,8 @@ private:
       if (level >= 0)
         throw;
       leave_out(failure.diagnostic());
-    } catch (const InputError &error) { // on all ranks: coarse faces may miss what boundary ids select
+    } catch (const InputError &error) {
+      // This occurs on all ranks: coarse faces may miss what boundary ids select.
       if (level >= 0)
         throw;
       leave_out(error.diagnostic());
@@ -187,9 +189,9 @@ private:
     bodies_.restart();
   }
 
-  /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it is the
-  /// last one. Then it returns the messages for the user. What its `others` errors leave of their target is
-  /// for the mesh.
+  /// Adds a level whose run has reached its end, in `seconds` of this rank, and decides whether it
+  /// is the last one. Then it returns the messages for the user. What its `others` errors leave of
+  /// their target is for the mesh.
   Verdict judge(const std::vector<BodyMesh> &bodies, const ErrorReport &others, const double seconds) {
     const double spare = others.knows_all() ? std::max(0., others.target - others.total()) : 0.;
     bodies_.allow(given_.mesh_target.error + spare);
@@ -314,8 +316,8 @@ private:
     if (levels_.size() > 1 && levels_.back().error.is_known) {
       const Level &last = levels_.back();
       const unsigned int more = bodies_.rises_to_target();
-      // Seconds grow at least as elements do; short runs are mostly start-up, and factors of matrices fill
-      // in.
+      // Seconds grow at least as elements do; short runs are mostly start-up, and factors of
+      // matrices fill in.
       constexpr double most_growth = 20., shortest = 1e-3; // s
       const double of_elements = bodies_.growth(),
                    of_seconds =

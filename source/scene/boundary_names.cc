@@ -41,8 +41,8 @@ void add_once(std::vector<unsigned int> &ids, const unsigned int id) {
 
 using NamedIds = std::pair<const std::string, std::vector<unsigned int>>;
 
-/// Returns the name of the body that a scene means, though in other letters: Abaqus does not tell upper case
-/// from lower case. Throws InputError if there is none.
+/// Returns the name of the body that a scene means, though in other letters: Abaqus does not tell
+/// upper case from lower case. Throws InputError if there is none.
 const NamedIds &find_ids(const std::string &name, const GroupNames &known, const std::string &origin,
                          const std::string &body) {
   const auto exact = known.ids_of_name.find(name);
@@ -148,8 +148,8 @@ void name_conditions(parameters::Mesh &mesh, BoundaryNames &names, unsigned int 
   }
 }
 
-/// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids' of Mesh
-/// gives. Adds what is to be said of the mesh file to the notes.
+/// Returns the names of a body's boundaries: those of its mesh file and those that 'Boundary ids'
+/// of Mesh gives. Adds what is to be said of the mesh file to the notes.
 KnownNames read_boundary_names(parameters::Mesh &mesh, const std::string &body, MeshFileNotes &notes) {
   unsigned int new_id = min_new_id(mesh) + 1;
   KnownNames names;
@@ -189,9 +189,10 @@ std::vector<unsigned int> ids_beside(const std::vector<parameters::SymmetryPlane
   return ids;
 }
 
-/// Returns all boundary ids that the body's faces can have, except those of which all faces are on its
-/// symmetry planes. Which faces a condition selects shows on the full mesh alone, so that this is made where
-/// they may be on a plane. Otherwise faces descend from those of the outline, and may get ids by conditions.
+/// Returns all boundary ids that the body's faces can have, except those of which all faces are on
+/// its symmetry planes. Which faces a condition selects shows on the full mesh alone, so that this
+/// is made where they may be on a plane. Otherwise faces descend from those of the outline, and may
+/// get ids by conditions.
 std::vector<unsigned int> find_exterior_ids(const parameters::Body &body) {
   const auto &planes = body.symmetry_planes.value;
   const auto &conditions = body.mesh.boundary_ids.value;

@@ -73,7 +73,8 @@ InputError lacks_support(const std::string &body, const std::string &motion) {
 
 } // namespace
 
-/// Refuses supports in cylindrical axes all of whose nodes are on the line, where no direction is radial.
+/// Refuses supports in cylindrical axes all of whose nodes are on the line, where no direction is
+/// radial.
 void Scene::check_axes(const Triangulation<3> &mesh) const {
   std::set<const Constraint *> on_line, off_line;
   const auto visit = [&](const Constraint &constraint, const dealii::Point<3> &position, const double size) {
@@ -140,7 +141,8 @@ void Scene::check_boundary_ids(const Triangulation<3> &mesh, const MeshDetail de
 
 namespace {
 
-/// Adds the resistances of supports and springs of a body that act in a step that starts at this time.
+/// Adds the resistances of supports and springs of a body that act in a step that starts at this
+/// time.
 void add_supports(const Body &body, const std::size_t index, const Triangulation<3> &mesh, const double time,
                   const double tolerance, std::vector<Resistance> &resistances) {
   const auto add = [&](const Constraint &constraint, const dealii::Point<3> &position) {
@@ -338,7 +340,8 @@ void Scene::check_initial_penetration(const Triangulation<3> &mesh) const {
         return;
       const double h = std::sqrt(face->measure());
       for (const unsigned int v : face->vertex_indices()) {
-        const double gap = tool.surface().project(start.to_tool(face->vertex(v))).gap; // none: positive
+        // It is positive if there is none.
+        const double gap = tool.surface().project(start.to_tool(face->vertex(v))).gap;
         if (gap / h < deepest / size_there) {
           deepest = gap;
           size_there = h;

@@ -16,7 +16,8 @@ namespace billet {
 
 namespace {
 
-/// Tangents with a larger relative error are wrong. Consistent ones are off by the order of the step.
+/// Tangents with a larger relative error are wrong. Consistent ones are off by the order of the
+/// step.
 constexpr double allowed_error = 0.05;
 
 const DiagnosticKind idle_subroutines(
@@ -71,8 +72,9 @@ dealii::Tensor<1, 3> find_point(const parameters::SymmetryPlane &plane) {
   return plane.offset * plane.normal + std::max(1., std::abs(plane.offset)) * (frame.q + 0.7 * frame.r);
 }
 
-/// Returns the norm of the difference of the stresses at a yielding point and at its mirror image about a
-/// plane through it, over that of the stress; nothing if the law refuses the strains.
+/// Returns the norm of the difference of the stresses at a yielding point and at its mirror image
+/// about a plane through it. It is relative to the norm of the stress. Returns nothing if the law
+/// refuses the strains.
 std::optional<double> find_asymmetry(const PointLaw &law, const double temperature, const double dt,
                                      const parameters::SymmetryPlane &plane) {
   const dealii::Tensor<1, 3> &normal = plane.normal;
@@ -93,8 +95,9 @@ std::optional<double> find_asymmetry(const PointLaw &law, const double temperatu
 
 /// Heating of a point that flows, at the start of the run.
 struct Heating {
-  double per_energy; ///< rise of the temperature by dissipated energy per volume [temperature/stress]
-  double strength;   ///< flow stress over that without the factors of rate and temperature
+  /// Rise of the temperature by dissipated energy per volume [temperature/stress].
+  double per_energy;
+  double strength; ///< flow stress over that without the factors of rate and temperature
 };
 
 /// Measures the heating; returns nothing if the law does not heat or flow.

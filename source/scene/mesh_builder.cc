@@ -24,8 +24,8 @@ using dealii::Triangulation;
 
 namespace {
 
-/// Returns the words of a deal.II message between two of its headings, on one line; it breaks lines anywhere
-/// and ends with a ruler.
+/// Returns the words of a deal.II message between two of its headings, on one line; it breaks lines
+/// anywhere and ends with a ruler.
 std::string words_between(const std::string &message, const std::string &heading, const std::string &next) {
   const std::size_t begin = message.find(heading);
   if (begin == std::string::npos)
@@ -39,8 +39,9 @@ std::string words_between(const std::string &message, const std::string &heading
   return result;
 }
 
-/// Returns the part of an exception's message that names the problem, on one line: deal.II's explanation, or
-/// the condition that it requires. Its list of all elements that a point may be in becomes one sentence.
+/// Returns the part of an exception's message that names the problem, on one line: deal.II's
+/// explanation, or the condition that it requires. Its list of all elements that a point may be in
+/// becomes one sentence.
 std::string essence(const std::exception &error) {
   const std::string message = error.what(),
                     information = "Additional information:", condition = "The violated condition was:";
@@ -59,8 +60,8 @@ std::string describe_refusal(const parameters::Mesh &parameters) {
          parameters.arguments + "'; allowed are arguments for which GridGenerator makes a mesh";
 }
 
-/// Lets deal.II's assertions throw instead of aborting, during its lifetime: the user provides the arguments
-/// of meshes.
+/// Lets deal.II's assertions throw instead of aborting, during its lifetime: the user provides the
+/// arguments of meshes.
 class AssertionsThrow {
 public:
   AssertionsThrow() { dealii::deal_II_exceptions::disable_abort_on_exception(); }
@@ -117,8 +118,9 @@ template <int dim> void refine_primitive(const parameters::Mesh &parameters, Tri
   make_primitive(parameters, [&] { mesh.refine_global(parameters.refinements); });
 }
 
-/// Turns the section, x the radius and y the height, about the axis of z. Bricks on the axis become prisms:
-/// the sides of the wedge hold the two nodes at one place there, and Gauss points see no zero.
+/// Turns the section, x the radius and y the height, about the axis of z. Bricks on the axis become
+/// prisms: the sides of the wedge hold the two nodes at one place there, and Gauss points see no
+/// zero.
 void turn_section(const parameters::Mesh &parameters, const Triangulation<2> &section,
                   Triangulation<3> &mesh) {
   constexpr double rounding = 1e-9;
@@ -138,7 +140,8 @@ void turn_section(const parameters::Mesh &parameters, const Triangulation<2> &se
   dealii::GridGenerator::extrude_triangulation(section, 2, 1., mesh);
   dealii::GridTools::transform(
       [&](const dealii::Point<3> &x) {
-        const double angle = (1. - x[2]) * parameters.wedge_angle; // this way corners keep their order
+        // This way corners keep their order.
+        const double angle = (1. - x[2]) * parameters.wedge_angle;
         const double radius = x[0] > rounding * largest ? x[0] : 0.;
         return dealii::Point<3>(radius * std::cos(angle), radius * std::sin(angle), x[1]);
       },
@@ -191,7 +194,8 @@ void make_section(const parameters::Mesh &parameters, const LoadedMesh &loaded, 
       }
 }
 
-/// Gives both sides of a section from a file ids above those of its groups, as load_mesh_file() announces.
+/// Gives both sides of a section from a file ids above those of its groups, as load_mesh_file()
+/// announces.
 void name_sides(const LoadedMesh &loaded, const Triangulation<2> &section, Triangulation<3> &mesh) {
   unsigned int largest = 0;
   for (const unsigned int id : section.get_boundary_ids())
@@ -342,8 +346,8 @@ LoadedMesh load_mesh_file(const parameters::Mesh &parameters) {
 
 namespace {
 
-/// Refuses 'Positions' that leave no volume. An outline may have none where the full mesh has one, such as a
-/// bar that is rolled to a ring: then the full mesh tells.
+/// Refuses 'Positions' that leave no volume. An outline may have none where the full mesh has one,
+/// such as a bar that is rolled to a ring. Then the full mesh decides.
 void check_positions(const parameters::Body &body, const MeshDetail detail, const Triangulation<3> &mesh) {
   const std::string axis = missing_extent(mesh);
   if (body.mesh.positions.value.empty() || axis.empty())

@@ -18,10 +18,11 @@ using dealii::Tensor;
 
 namespace {
 
-constexpr double near = 0.01; // maximum distance of a node from a point or line [shortest edge at the node]
+// Maximum distance of a node from a point or line [shortest edge at the node].
+constexpr double near = 0.01;
 
-/// Adds the nodes at the same points of the section: on the other side of its layer or wedge. `nodes`: all
-/// nodes of the section, those of one side after those of the other.
+/// Adds the nodes at the same points of the section: on the other side of its layer or wedge.
+/// `nodes`: all nodes of the section, those of one side after those of the other.
 void add_columns(const std::vector<Point<3>> &nodes, std::vector<Point<3>> &found) {
   const NodePlaces chosen(found);
   const std::size_t n = nodes.size() / 2;

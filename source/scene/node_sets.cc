@@ -17,7 +17,8 @@ void NodeSets::take(const MeshFile &file) {
 
 namespace {
 
-/// Marks the vertex in the middle of an object, which is a corner of its first child, if its own are marked.
+/// Marks the vertex in the middle of an object, which is a corner of its first child, if its own
+/// are marked.
 template <class Object>
 void mark_middle(const Object &object, const unsigned int middle, std::vector<bool> &marked) {
   bool are_all = true;

@@ -66,8 +66,9 @@ private:
 struct Start {
   std::vector<Box> boxes;                               ///< by body
   std::vector<double> sizes, speeds, sections, volumes; ///< by body
-  std::vector<double> steps; ///< by body: minimum time in which a wave crosses an element, up to a factor
-  double size = 0.;          ///< of all bodies together
+  /// Minimum time in which a wave crosses an element, by body and up to a factor.
+  std::vector<double> steps;
+  double size = 0.;                 ///< of all bodies together
   std::vector<double> penetrations; ///< penetration by pair with a tool [facet sizes]
 };
 
@@ -251,8 +252,8 @@ struct FacingNode {
   double gap, reach; ///< reach: diameter of its face
 };
 
-/// Returns the nodes of a pair on faces that look at the tool, at the start. Those on the sides of a body, or
-/// on its far end, look elsewhere.
+/// Returns the nodes of a pair on faces that look at the tool, at the start. Those on the sides of
+/// a body, or on its far end, look elsewhere.
 std::vector<FacingNode> find_facing_nodes(const Scene &scene, const ContactPair &pair,
                                           const Triangulation<3> &mesh) {
   constexpr double facing = 0.1; // cosine between the face and the tool, below 90 degrees
@@ -278,8 +279,8 @@ std::vector<FacingNode> find_facing_nodes(const Scene &scene, const ContactPair 
   return nodes;
 }
 
-/// Checks whether supports hold nodes that a tool with a given force presses on first, along that force. A
-/// support that acts on a neighbouring face holds the nodes of their common edge.
+/// Checks whether supports hold nodes that a tool with a given force presses on first, along that
+/// force. A support that acts on a neighbouring face holds the nodes of their common edge.
 void check_constrained_nodes(const Scene &scene, const Triangulation<3> &mesh, const MPI_Comm communicator,
                              DiagnosticList &diagnostics) {
   constexpr double along = 0.1; // cosine between the support and the force
@@ -315,7 +316,8 @@ void check_constrained_nodes(const Scene &scene, const Triangulation<3> &mesh, c
           static_cast<double>(pressed.size()),
           static_cast<double>(std::count_if(held[h].begin(), held[h].end(),
                                             [&](const unsigned int v) { return pressed.count(v) > 0; }))};
-      dealii::Utilities::MPI::sum(n, communicator, n); // nodes of several ranks count more than once
+      // Nodes of several ranks count more than once.
+      dealii::Utilities::MPI::sum(n, communicator, n);
       if (n[1] == 0.)
         continue;
       std::ostringstream text;
@@ -333,8 +335,8 @@ void check_constrained_nodes(const Scene &scene, const Triangulation<3> &mesh, c
 }
 
 void check_speeds(const Scene &scene, const Start &start, DiagnosticList &diagnostics) {
-  // A bar that rebounds from a wall loses 16 % of its momentum in steps of 0.6 wave crossing times. In steps
-  // of 0.3 it loses 7 %.
+  // A bar that rebounds from a wall loses 16 % of its momentum in steps of 0.6 wave crossing times.
+  // In steps of 0.3 it loses 7 %.
   constexpr double fast = 0.3, coarse = 0.35;
   const parameters::TimeStepping &steps = scene.parameters().time_stepping;
   double fastest_wave = 0.;
@@ -395,7 +397,8 @@ void check_places(const Scene &scene, const Start &start, DiagnosticList &diagno
                                   .body(scene.bodies()[b].name));
 }
 
-/// Warns of probes of the contact pressure where no pair has any: nodes of its first body alone have one.
+/// Warns of probes of the contact pressure where no pair has any: nodes of its first body alone
+/// have one.
 void check_pressure_probes(const Scene &of_run, DiagnosticList &diagnostics) {
   const parameters::Scene &scene = of_run.parameters();
   for (const parameters::Probe &probe : scene.probes) {

@@ -21,8 +21,8 @@ using Sense = Resistance::Sense;
 
 namespace {
 
-/// Sum of r rᵀ over constraint rows r = (n, (x − c) × n / L) on the six rigid-body motions (translation,
-/// rotation · L).
+/// Sum of r rᵀ over constraint rows r = (n, (x − c) × n / L) on the six rigid-body motions
+/// (translation, rotation · L).
 struct RigidMotionGram {
   std::array<std::array<double, 6>, 6> values{};
   void add(const std::array<double, 6> &row) {
@@ -68,9 +68,10 @@ public:
     rows_.push_back(part);
   }
 
-  /// Returns a motion that no row resists, if there is one. All motions are resisted if the rows r_i span the
-  /// space with factors λ_i >= 0. This holds if minus their sum can be written as Σ λ_i r_i; otherwise the
-  /// remainder is such a motion (Farkas). Coordinate descent finds the factors.
+  /// Returns a motion that no row resists, if there is one. All motions are resisted if the rows
+  /// r_i span the space with factors λ_i >= 0. This holds if minus their sum can be written as Σ
+  /// λ_i r_i; otherwise the remainder is such a motion (Farkas). Coordinate descent finds the
+  /// factors.
   std::vector<std::array<double, 6>> free_motions() const {
     const std::size_t n = free_.size();
     if (n == 0)

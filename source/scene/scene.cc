@@ -39,8 +39,8 @@ bool wants_symmetry(const parameters::Solver &solver) {
   return solver.linear_solver.value && requires_symmetry(*solver.linear_solver.value);
 }
 
-/// Refuses the linear solver of the scene, which is for symmetric matrices. `reason` follows "but ";
-/// `otherwise` is what else would help, such as ", or ...".
+/// Refuses the linear solver of the scene, which is for symmetric matrices. `reason` follows "but
+/// "; `otherwise` is what else would help, such as ", or ...".
 [[noreturn]] void refuse_symmetric_solver(const parameters::Solver &solver, const std::string &reason,
                                           const std::string &otherwise = "") {
   throw InputError(solver.linear_solver.origin + " is '" +
@@ -199,8 +199,8 @@ void check_wedges(const std::vector<parameters::Body> &bodies) {
   }
 }
 
-/// Refuses layers in plane strain that do not have the same sides: a load on one would bear on a part of the
-/// width of the other.
+/// Refuses layers in plane strain that do not have the same sides. A load on one would bear on a
+/// part of the width of the other.
 void check_layers(const std::vector<parameters::Body> &bodies) {
   constexpr double rounding = 1e-9;
   const parameters::Body *first = nullptr;
@@ -352,7 +352,8 @@ Scene::Scene(ResolvedScene resolved) : parameters_(std::move(resolved.parameters
   using Tangent = parameters::ContactTangent;
   const bool is_symmetric = wants_symmetry(parameters.solver);
   contact_tangent_ = parameters.solver.contact_tangent;
-  // If bodies fold onto each other, Newton's method does not converge with frozen areas and normals.
+  // If bodies fold onto each other, Newton's method does not converge with frozen areas and
+  // normals.
   if (contact_tangent_ == Tangent::automatic)
     contact_tangent_ = capabilities_.friction || (capabilities_.body_contact && !is_symmetric)
                            ? Tangent::exact
@@ -417,7 +418,8 @@ void Scene::make_pairs() {
                                             : pair.penetration_tolerance;
   };
   const auto is_raised = [&](const parameters::ContactPair &pair) {
-    // A raise in implicit dynamics treats existing penetration as allowed overlap; with a ramp it would fade.
+    // A raise in implicit dynamics treats existing penetration as allowed overlap; with a ramp it
+    // would fade.
     const bool may_grow = !parameters_.scheme().has_matrix || !(pair.initial.ramp_time > 0.);
     return parameters_.scheme().has_inertia && !pair.penetration_tolerance && may_grow;
   };

@@ -114,7 +114,8 @@ public:
   }
 
 private:
-  /// Returns what the section does not allow of a tool's motion with friction, over the length at `x`.
+  /// Returns what the section does not allow of a tool's motion with friction, over the length at
+  /// `x`.
   double sideways(const Tensor<1, 3> &x) const {
     const Tensor<1, 3> &travel = placement_.translation;
     return section_.is_turned()
@@ -139,7 +140,8 @@ void for_each_face(const Triangulation<3> &mesh, const std::size_t body,
           visit(face);
 }
 
-/// Returns the undeformed vertices of a pair's faces on this rank, each once, and the centres of the faces.
+/// Returns the undeformed vertices of a pair's faces on this rank, each once, and the centres of
+/// the faces.
 std::vector<dealii::Point<3>> collect_points(const ContactPair &pair, const Triangulation<3> &mesh) {
   std::vector<bool> is_taken(mesh.n_vertices(), false);
   std::vector<dealii::Point<3>> points;
@@ -300,8 +302,8 @@ private:
                       {zero.data(), zero.data(), zero.data()}, force.data());
     return get_vector(force.data(), 0);
   }
-  /// Returns the moment of a load on a surface at rest: with J = I its force on the share p is m × p, and
-  /// Σ e × (m × e) = 2 m over the unit vectors e.
+  /// Returns the moment of a load on a surface at rest. With J = I its force on the share p is
+  /// m × p, and Σ e × (m × e) = 2 m over the unit vectors e.
   static Tensor<1, 3> moment_of(const SurfaceLoad &action, const std::vector<double> &values) {
     LoadedSurface surface;
     surface.area = 1.;

@@ -38,7 +38,8 @@ Tensor<2, 3> SectionGeometry::turn_to(const Tensor<1, 3> &x) const {
 
 std::vector<Tensor<1, 3>> SectionGeometry::places(const Tensor<1, 3> &x) const {
   constexpr unsigned int n = 8;
-  // Multiples of the golden angle come near to each other, or to parts of the circle, later than all others.
+  // Multiples of the golden angle come near to each other, or to parts of the circle, later than
+  // all others.
   const double golden = M_PI * (3. - std::sqrt(5.));
   std::vector<Tensor<1, 3>> result = {x};
   const double height = (x - origin_) * direction_;

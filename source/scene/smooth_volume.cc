@@ -14,7 +14,8 @@ namespace {
 /// Number of elements of the finer mesh that takes about a second.
 constexpr std::size_t max_elements = 30000;
 
-/// Most layers of a coarse mesh that replaces more; fewer may leave a bar that is bent to a ring no volume.
+/// Most layers of a coarse mesh that replaces more; fewer may leave a bar that is bent to a ring no
+/// volume.
 constexpr unsigned int max_coarse_layers = 8;
 
 double measure(const parameters::Body &body) {
@@ -23,7 +24,8 @@ double measure(const parameters::Body &body) {
   return dealii::GridTools::volume(mesh);
 }
 
-/// Returns the body with another number of refinements. Layers stay straight unless 'Positions' bend them.
+/// Returns the body with another number of refinements. Layers stay straight unless 'Positions'
+/// bend them.
 parameters::Body at_refinements(const parameters::Body &body, const unsigned int n) {
   parameters::Body other = body;
   other.mesh.refinements = n;

@@ -29,7 +29,8 @@ const DiagnosticKind support_moves_straight(
     "Hold radius and circumference in one support, which then turns its nodes about the axis, or turn by "
     "less");
 
-/// Returns an expression of x, y and z for the distance from the line of cylindrical axes: |a × (x − p)|.
+/// Returns an expression of x, y and z for the distance from the line of cylindrical axes:
+/// |a × (x − p)|.
 std::string radius_text(const Axes &axes) {
   const Tensor<1, 3> origin, a = axes.at(origin)[2], p = -axes.radius(origin) * axes.at(origin)[0];
   std::ostringstream text;
@@ -43,7 +44,8 @@ std::string radius_text(const Axes &axes) {
   return text.str() + ")";
 }
 
-/// Whether the constraint is the circumference of a support that does not hold the radius, and moves.
+/// Whether the constraint is the circumference of a support that does not hold the radius, and
+/// moves.
 bool may_move_straight(const Body &body, const Constraint &constraint) {
   return constraint.axes && constraint.axes->are_cylindrical() && constraint.component == 1 &&
          constraint.value != nullptr &&

@@ -25,7 +25,8 @@ void ConditionWatch::estimate(const Matrix &matrix, LinearSolver &solver) {
   constexpr unsigned int n_solutions = 2;
   const dealii::IndexSet owned = matrix.locally_owned_range_indices();
   Vector b(owned, matrix.get_mpi_communicator()), x(b);
-  for (std::size_t i = 0; i < owned.n_elements(); ++i) { // oscillating, whatever the number of ranks
+  for (std::size_t i = 0; i < owned.n_elements(); ++i) {
+    // The values oscillate in the same way on any number of ranks.
     const auto row = static_cast<std::uint64_t>(owned.nth_index_in_set(i)) + 1;
     b.begin()[i] = ((row * 0x9e3779b97f4a7c15ULL) >> 63) == 0 ? 1. : -1.;
   }

@@ -24,12 +24,14 @@ constexpr double notable_softness = 0.04;
 struct SpreadLimits {
   /// Square of the sum of pressures over n times the sum of squares, above which they are alike.
   static constexpr double alike = 0.9;
-  /// Minimum number of nodes that bear as much as the effective ones, for a contact that is not uniform.
+  /// Minimum number of nodes that bear as much as the effective ones, for a contact that is not
+  /// uniform.
   static constexpr double enough = 5.;
   /// Indentation, as part of the deformation, below which the number of nodes does not matter.
   static constexpr double counts = 0.05;
-  /// Force over its maximum so far, below which that maximum is past, and the part of all energy that the
-  /// deformation at the maximum has at least. Lesser maxima are those of waves before the impact's own.
+  /// Force over its maximum so far, below which that maximum is past. The second number is the part
+  /// of all energy that the deformation at the maximum has at least. Lesser maxima are those of
+  /// waves before the impact's own.
   static constexpr double past = 0.5, of_all_energy = 0.1;
   /// Part of the force on curves with coarse facets above which they are reported.
   static constexpr double much = 0.5;
@@ -120,7 +122,8 @@ ForceSpread ContactReview::spread_of(const Pair &pair, const std::vector<Contact
   additive.compress(dealii::VectorOperation::add);
   Vector sums = discretization_.make_owned_vector();
   sums = additive;
-  constexpr double coarse = dealii::numbers::PI / 10.; // facet size / radius: five facets on a quarter turn
+  // Facet size / radius: five facets on a quarter turn.
+  constexpr double coarse = dealii::numbers::PI / 10.;
   std::vector<double> own(7);
   double coarsest = 0.;
   for (const auto &node : reports) {
@@ -169,7 +172,8 @@ DiagnosticList ContactReview::add(const Solution &solution) {
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     Pair &pair = pairs_[p];
     const double force = sticking[p].pressure;
-    if (!pair.is_augmented) { // augmentation stiffens the springs; judge_paths() reports softness of both
+    if (!pair.is_augmented) {
+      // Augmentation stiffens the springs; judge_paths() reports softness of both.
       pair.max_friction.friction = std::max(pair.max_friction.friction, sticking[p].friction);
       pair.max_friction.lost = std::max(pair.max_friction.lost, sticking[p].lost);
     }

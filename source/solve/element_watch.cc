@@ -94,7 +94,8 @@ bool ElementWatch::counts(const std::size_t body) const {
 }
 
 double ElementWatch::factor_of(const std::size_t body) const {
-  // The deformation theory is an estimate once a body yields: there the stiffer of both references counts.
+  // The deformation theory is an estimate once a body yields: there the stiffer of both references
+  // counts.
   ElementEnergies energies = energies_[body];
   if (may_yield(*scene_.bodies()[body].law))
     energies.accurate = std::max(energies.accurate, energies.one_point);
@@ -152,7 +153,8 @@ DiagnosticList ElementWatch::judge_bending() const {
   for (std::size_t b = 0; b < energies_.size(); ++b) {
     const ElementEnergies &energies = energies_[b];
     const bool has_plasticity = scene_.bodies()[b].law->has_plasticity();
-    // An element without such modes, or whose comparison does not compute the dissipation, adds zeros.
+    // An element without such modes, or whose comparison does not compute the dissipation, adds
+    // zeros.
     const bool is_hourglass = energies.hourglass > of_hourglass_modes * energies.used &&
                               energies.plastic > of_yielding * energies.used;
     const bool is_between_points =

@@ -9,15 +9,16 @@ namespace billet {
 
 namespace {
 
-/// Constants of error control by energies; factors unless they say otherwise. See "Dynamics" under "Target
-/// error" in doc/theory.md.
+/// Constants of error control by energies; factors unless they say otherwise. See "Dynamics" under
+/// "Target error" in doc/theory.md.
 struct Factors {
   /// Part of all energy below which energies that are not carried count as zero.
   static constexpr double rounding = 1e-9;
-  /// Error by penetration over the energy E_c in springs: 2 E_c by the delay, and E_c that they store.
+  /// Error by penetration over the energy E_c in springs: 2 E_c by the delay, and E_c that they
+  /// store.
   static constexpr double late_and_stored = 3.;
-  /// Waves carry the delay on after the springs have unloaded: measurements on tubes and bars show the same
-  /// amount again.
+  /// Waves carry the delay on after the springs have unloaded: measurements on tubes and bars show
+  /// the same amount again.
   static constexpr double carried_on = 2.;
   /// Part of the tolerance above which drift by steps shortens them, ...
   static constexpr double matters = 0.2;

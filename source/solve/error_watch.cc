@@ -17,9 +17,9 @@ namespace billet {
 namespace {
 
 struct Limits {
-  /// A residual of the norm r sums up to a resultant of at most √N r over N nodes. Contact forces of the
-  /// norm f on N^⅔ nodes of a surface have a resultant of about √(N^⅔) f. Relative residuals of resultants
-  /// are thus those of nodal forces times N to this power, 1/2 − 1/3.
+  /// A residual of the norm r sums up to a resultant of at most √N r over N nodes. Contact forces
+  /// of the norm f on N^⅔ nodes of a surface have a resultant of about √(N^⅔) f. Relative residuals
+  /// of resultants are thus those of nodal forces times N to this power, 1/2 − 1/3.
   static constexpr double power_of_sums = 1. / 6.;
 };
 
@@ -41,8 +41,8 @@ bool has_path(const Scene &scene) {
   });
 }
 
-/// Whether the solution depends on the step length: by the path, or by tractions on a friction cone. Errors
-/// of tractions fade.
+/// Whether the solution depends on the step length: by the path, or by tractions on a friction
+/// cone. Errors of tractions fade.
 bool depends_on_steps(const Scene &scene) { return scene.capabilities().friction || has_path(scene); }
 
 ErrorControl::Tolerances tolerances_of(const Scene &scene) {

@@ -7,8 +7,8 @@ namespace {
 
 /// Limits of the extrapolation of forces.
 struct Limits {
-  /// Maximum growth of forces until the end by extrapolation, over the force now: the rate of the last step
-  /// may be that of a single event.
+  /// Maximum growth of forces until the end by extrapolation, over the force now. The rate of the
+  /// last step may be that of a single event.
   static constexpr double max_growth = 10.;
 };
 

@@ -53,7 +53,8 @@ void LoadWorks::evaluate_load(OfLoad &of_load, const double t, const NodalVector
 }
 
 bool LoadWorks::jumps_at(const double t) const {
-  constexpr double notable = 1e-3; // of the factor; a load that begins to fade changes by the time's rounding
+  // Change of the factor; a load that begins to fade changes by the time's rounding.
+  constexpr double notable = 1e-3;
   return std::any_of(of_loads_.begin(), of_loads_.end(), [t](const OfLoad &of_load) {
     const LoadTimes &times = of_load.load->times;
     return times.changes_at(t) && std::abs(times.factor(just_after(t)) - times.factor(t)) > notable;

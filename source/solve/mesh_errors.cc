@@ -27,12 +27,13 @@ constexpr std::size_t row_width = 2 * n_stresses + n_element_dofs + 1;
 
 /// Factors of (W4).
 struct Factors {
-  /// Part of J² h A over the secant modulus of the interval: what half as long elements save in an elastic
-  /// bar. Of rigid plasticity it is twice as much as they save, on the safe side.
+  /// Part of J² h A over the secant modulus of the interval: what half as long elements save in an
+  /// elastic bar. Of rigid plasticity it is twice as much as they save, on the safe side.
   static constexpr double of_jump = 1. / 12.;
   /// Part of the normal jump that counts.
   static constexpr double normal = 0.5;
-  /// Part of a face's jump with which an element is charged; its neighbour is charged with the other half.
+  /// Part of a face's jump with which an element is charged; its neighbour is charged with the
+  /// other half.
   static constexpr double own = 0.5;
   /// Part of the squared strain that may vary unseen, (W9).
   static constexpr double unseen = 0.1;
@@ -42,8 +43,8 @@ Tensor<1, 3> node_of(const ElementVectors &vectors, const unsigned int a) {
   return Tensor<1, 3>({vectors[3 * a], vectors[3 * a + 1], vectors[3 * a + 2]});
 }
 
-/// Returns the gradient at a point of an element, in its coordinates from −1 to 1, of its nodal vectors, and
-/// 8 times the Jacobian there; at the centre, that is its volume.
+/// Returns the gradient of an element's nodal vectors at a point in its coordinates from −1 to 1.
+/// Also returns 8 times the Jacobian there, which at the centre is its volume.
 std::pair<Tensor<2, 3>, double> gradient_at(const Tensor<1, 3> &place, const ElementVectors &positions,
                                             const ElementVectors &values) {
   Tensor<2, 3> jacobian, derivatives; // ∂x_i/∂ξ_j, ∂v_i/∂ξ_j
@@ -229,7 +230,8 @@ void MeshErrors::add(const Solution &solution, const bool ends_interval) {
 
 void MeshErrors::add_interval(const Solution &solution) {
   const std::vector<Interval> intervals = compare_all(solution);
-  // By body, the work that finer elements save and that outside; the work of elements, and squared strains.
+  // By body, the work that finer elements save and that outside; the work of elements, and squared
+  // strains.
   std::vector<double> sums(2 * elements_.size() + 3);
   for (std::size_t body = 0; body < elements_.size(); ++body)
     for (std::size_t e = 0; e < elements_[body].size(); ++e) {

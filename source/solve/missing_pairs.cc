@@ -25,8 +25,8 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Depths from which on a node counts as inside: in sizes of the facet above it, and in thicknesses of its
-  /// element.
+  /// Depths from which on a node counts as inside: in sizes of the facet above it, and in
+  /// thicknesses of its element.
   static constexpr double part_of_facet = 0.1, part_of_thickness = 0.2;
   /// Depth from which on a node counts as inside a tool [facet size].
   static constexpr double in_tool = 0.1;
@@ -81,7 +81,8 @@ std::vector<unsigned int> count_elements(const std::vector<ElementVectors> &elem
   return counts;
 }
 
-/// Returns the depth below this facet from which on a node counts as inside, the smaller of two lengths.
+/// Returns the depth below this facet from which on a node counts as inside, the smaller of two
+/// lengths.
 double allowed_penetration(const BoundaryFacet &facet) {
   return std::min(Limits::part_of_facet * std::sqrt(facet.area_vector().norm()),
                   Limits::part_of_thickness * facet.thickness);
@@ -336,7 +337,8 @@ std::optional<MissingPairs::Deepest> MissingPairs::find_overlap(const Couple &co
 std::optional<Tensor<1, 3>> MissingPairs::find_self_overlap(const Couple &couple,
                                                             const Vector *displacements) const {
   const MPI_Comm communicator = discretization_.communicator();
-  std::vector<TestedPoint> own; // centres of facets: in a body one element thick no node is within an element
+  // Centres of facets: in a body one element thick no node is within an element.
+  std::vector<TestedPoint> own;
   for (const BoundaryFacet &facet : facets_[couple.body]) {
     Tensor<1, 3> x;
     for (unsigned int v = 0; v < 4; ++v)

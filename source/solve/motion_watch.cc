@@ -13,9 +13,11 @@ namespace {
 
 /// Limits of what a step may pass over.
 struct Limits {
-  /// Path over chord above which a step misses the motion: an arc of 15 degrees is 1.00286 times its chord.
+  /// Path over chord above which a step misses the motion: an arc of 15 degrees is 1.00286 times
+  /// its chord.
   static constexpr double longer = 1.003;
-  /// Path below which a motion does not count, as part of the largest distance from its start in the run.
+  /// Path below which a motion does not count, as part of the largest distance from its start in
+  /// the run.
   static constexpr double trifle = 0.05;
   /// Number of times at which the motion of the whole run is looked at, and the minimum in a step.
   static constexpr unsigned int per_run = 200, minimum = 16;

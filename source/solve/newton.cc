@@ -18,8 +18,8 @@ struct Limits {
   static constexpr unsigned int window = 10;
   /// Maximum number of iterations to recover from round-off.
   static constexpr unsigned int max_in_round_off = 3;
-  /// Increment below which it cannot normalise corrections, as part of the largest displacement; as in a
-  /// scene at rest.
+  /// Increment below which it cannot normalise corrections, as part of the largest displacement; as
+  /// in a scene at rest.
   static constexpr double min_increment = 1e-3;
   /// Residual over the last one above which the iterations stagnate.
   static constexpr double slow = 0.1;
@@ -29,8 +29,8 @@ struct Limits {
   static constexpr double hardly_better = 0.7;
   /// Maximum number of iterations in a cycle.
   static constexpr std::size_t longest_cycle = 4;
-  /// Maximum difference of residuals that are alike, and minimum difference of the smallest and the largest
-  /// one of a cycle, as parts of them.
+  /// Maximum difference of residuals that are alike, and minimum difference of the smallest and the
+  /// largest one of a cycle, as parts of them.
   static constexpr double alike = 0.02, apart = 0.2;
 };
 
@@ -41,7 +41,8 @@ parameters::Solver tighten(parameters::Solver settings, const double accuracy) {
   return settings;
 }
 
-/// Convergence test by the four criteria (Q1) and the limit on iterations, with a record of the iterations.
+/// Convergence test by the four criteria (Q1) and the limit on iterations, with a record of the
+/// iterations.
 class Convergence {
 public:
   Convergence(const NonlinearProblem &problem, const parameters::Solver &settings, const double accuracy,
@@ -94,7 +95,8 @@ public:
     } else if (n >= settings_.max_iterations) {
       report_.failure = "Newton's method does not converge in " + std::to_string(n) + " iterations";
       verdict = NewtonVerdict::failed;
-    } else if (n >= 3 * Limits::window && has_stalled(n)) { // later, drift is small beside the way so far
+    } else if (n >= 3 * Limits::window && has_stalled(n)) {
+      // Later, drift is small beside the way so far.
       report_.failure =
           "the solver stops after " + std::to_string(n) + " iterations, since the residual no longer falls";
       verdict = NewtonVerdict::failed;
@@ -121,8 +123,8 @@ public:
   bool has_met_round_off() const { return n_in_round_off_ > 0; }
 
 private:
-  /// Returns a residual over the forces, or over those that round-off of displacements causes, if the forces
-  /// are smaller: then there are none to relate it to.
+  /// Returns a residual over the forces, or over those that round-off of displacements causes, if
+  /// the forces are smaller. Then there are none to relate it to.
   double relative(const double norm, const double scale) const {
     const double reference = std::max(scale, problem_.round_off_force());
     return reference > 0. ? norm / reference : 0.;
@@ -145,8 +147,8 @@ private:
     const double length = correction.l2_norm(), full_length = last->full.l2_norm();
     report_.iterations.push_back({relative(before.norm, before.scale), std::abs(before.residual * last->full),
                                   full_length > 0. ? length / full_length : 1.});
-    // The full correction counts, even if it was shortened: the shortened length does not measure the
-    // remaining distance.
+    // The full correction counts, even if it was shortened: the shortened length does not measure
+    // the remaining distance.
     const double max_correction = last->full.linfty_norm();
     const double max_increment =
         std::max(increment.linfty_norm(), Limits::min_increment * now.x.linfty_norm());
@@ -174,8 +176,8 @@ private:
         return true;
     return false;
   }
-  /// Whether, at the mean rate of the last iterations, the residual would miss its tolerance in the remaining
-  /// ones.
+  /// Whether, at the mean rate of the last iterations, the residual would miss its tolerance in the
+  /// remaining ones.
   bool is_hopeless(const unsigned int n) const {
     constexpr unsigned int window = Limits::window;
     if (n < 2 * window)

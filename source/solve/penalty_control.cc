@@ -16,11 +16,12 @@ namespace {
 
 /// Limits of penalties that rise.
 struct Limits {
-  /// Part of penetration in the deformation of a path above which penalties rise, the part that raises aim
-  /// at, and the part of all energy below which penetration is irrelevant, (L8).
+  /// Part of penetration in the deformation of a path above which penalties rise, (L8). Then follow
+  /// the part that raises aim at, and the part of all energy below which penetration is irrelevant.
   static constexpr double allowed = 0.004, aim = 0.003, counts = 0.002;
-  /// The same for sticking, (L9): the lost part of friction, the part that raises aim at, and the part of the
-  /// normal force below which lost friction is irrelevant. Friction lost before a raise stays lost.
+  /// The same for sticking, (L9). The lost part of friction, the part that raises aim at, and the
+  /// part of the normal force below which lost friction is irrelevant follow. Friction lost before
+  /// a raise stays lost.
   static constexpr double allowed_in_friction = 0.002, aim_in_friction = 0.0015, counts_in_friction = 2e-4;
   /// Maximum factor of a raise. Softness is measured anew after it.
   static constexpr double max_at_once = 4.;

@@ -13,12 +13,14 @@ namespace {
 
 /// Signs of penalties that are too low.
 struct Limits {
-  /// Penetration that is too deep [facet sizes]: deeper nodes are visible in field output and affect areas.
+  /// Penetration that is too deep [facet sizes]: deeper nodes are visible in field output and
+  /// affect areas.
   static constexpr double deep = 0.1;
-  /// Penetration over the largest displacement, or energy of springs over all work: a fifth of what bodies
-  /// would bear.
+  /// Penetration over the largest displacement, or energy of springs over all work: a fifth of what
+  /// bodies would bear.
   static constexpr double much_taken = 0.2;
-  /// Penetration below which these parts are irrelevant, in slow and in sudden motion [facet sizes].
+  /// Penetration below which these parts are irrelevant, in slow and in sudden motion [facet
+  /// sizes].
   static constexpr double min_in_slow_motion = 1e-6, min_in_sudden_motion = 2e-2;
   /// Part of all work in springs below which a short penetration in an impact is irrelevant.
   static constexpr double counts = 0.01;

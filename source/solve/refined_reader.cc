@@ -23,8 +23,8 @@ bool is_among(const std::vector<std::string> &names, const std::string &name) {
                      [&name](const std::string &start) { return name.rfind(start, 0) == 0; });
 }
 
-/// Entries of values at nodes, which the finite element interpolates. Here and below are the beginnings of
-/// names that end with a number.
+/// Entries of values at nodes, which the finite element interpolates. Here and below are the
+/// beginnings of names that end with a number.
 bool is_nodal(const std::string &name) {
   static const std::vector<std::string> names{
       "displacements", "increment", "velocities", "accelerations", "held ", "support start ", "positions"};
@@ -64,7 +64,8 @@ double sum_up(const std::vector<WeightedRow> &rows, const std::size_t place) {
   return sum;
 }
 
-/// Combines rows of FrictionHistory: the traction in space, in the frame of the nearest node that has one.
+/// Combines rows of FrictionHistory: the traction in space, in the frame of the nearest node that
+/// has one.
 void combine_friction(const std::vector<WeightedRow> &rows, const double *const nearest, double *const row) {
   FrictionHistory history, of_row;
   double active = 0.;
@@ -94,8 +95,8 @@ void combine_friction(const std::vector<WeightedRow> &rows, const double *const 
   std::copy(numbers.begin(), numbers.end(), row);
 }
 
-/// Combines the rows of one entry. `is_part`: whether the node is of a refined body, around which facets have
-/// a quarter of their area.
+/// Combines the rows of one entry. `is_part`: whether the node is of a refined body, around which
+/// facets have a quarter of their area.
 void combine_slaves(const std::string &name, const std::size_t width, const std::vector<WeightedRow> &rows,
                     const bool is_part, double *const row) {
   const double *const nearest =

@@ -16,8 +16,8 @@ namespace billet {
 
 namespace {
 
-/// Returns the number of elements, the volume, and Σ w centre. The weight in [0, 1) belongs to the element's
-/// key, so that a different numbering is detected.
+/// Returns the number of elements, the volume, and Σ w centre. The weight in [0, 1) belongs to the
+/// element's key, so that a different numbering is detected.
 std::vector<double> measure(const Discretization &discretization, const std::size_t body) {
   std::array<double, 5> own{};
   for (const auto &element : discretization.elements(body)) {
@@ -66,8 +66,8 @@ std::vector<StateField> read_fields(const StateReader &reader) {
   return fields;
 }
 
-/// Returns, for each number of a law's state, its place among the numbers of the same fields in another
-/// order; nothing if they are not the same fields.
+/// Returns, for each number of a law's state, its place among the numbers of the same fields in
+/// another order. Returns nothing if they are not the same fields.
 std::optional<std::vector<std::size_t>> find_places(const std::vector<StateField> &then,
                                                     const std::vector<StateField> &now) {
   std::vector<std::size_t> places;
@@ -137,7 +137,8 @@ parameters::MaterialTexts split_lines(const std::string &text) {
   return material;
 }
 
-/// Adds "'Yield stress' of body 'cube' (300, now 900)" for each parameter that is not as in the checkpoint.
+/// Adds "'Yield stress' of body 'cube' (300, now 900)" for each parameter that is not as in the
+/// checkpoint.
 void describe_changes(const std::vector<parameters::ChangedParameter> &parameters, const std::string &body,
                       std::vector<std::string> &changed) {
   for (const auto &[key, before, after] : parameters)

@@ -24,13 +24,14 @@ struct Limits {
   static constexpr double no_row = 1e-6;
   /// Remainder that counts as zero: of the sum of all rows, as part of it, and of an aim.
   static constexpr double no_rest = 1e-2;
-  /// Maximum number of sweeps of coordinate descent, and the decrease of the remainder in a sweep, as part of
-  /// it, below which the sweeps end.
+  /// Maximum number of sweeps of coordinate descent, and the decrease of the remainder in a sweep,
+  /// as part of it, below which the sweeps end.
   static constexpr unsigned int max_sweeps = 1000;
   static constexpr double settled = 1e-6;
   /// Eigenvalue of Σ r rᵀ that counts as zero, as part of the largest eigenvalue or diagonal entry.
   static constexpr double no_eigenvalue = 1e-10;
-  /// Length of the part of the bodies' motion that differs from other motions, below which it does not count.
+  /// Length of the part of the bodies' motion that differs from other motions, below which it does
+  /// not count.
   static constexpr double alike = 1e-3;
   /// Part of the slip of all spent points along the free motions below which it has no direction.
   static constexpr double no_slide = 1e-10;
@@ -44,10 +45,10 @@ double dot(const std::vector<double> &a, const std::vector<double> &b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
-/// Returns a combination of the orthonormal `basis` that none of the rows resists, r z >= 0 for all; none if
-/// only 0 satisfies that. Farkas' lemma: all motions are resisted if the rows span the basis and minus their
-/// sum is a combination Σ λ_i r_i with λ_i >= 0. Else the remainder is such a motion. The method is
-/// coordinate descent.
+/// Returns a combination of the orthonormal `basis` that none of the rows resists, r z >= 0 for
+/// all; none if only 0 satisfies that. Farkas' lemma: all motions are resisted if the rows span the
+/// basis and minus their sum is a combination Σ λ_i r_i with λ_i >= 0. Else the remainder is such a
+/// motion. The method is coordinate descent.
 std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows &all_rows) {
   const std::size_t n = basis.size();
   if (n == 0)
@@ -113,9 +114,9 @@ std::optional<std::vector<double>> find_unresisted(const Rows &basis, const Rows
   return combine(factors);
 }
 
-/// Returns the point of the cone r z >= 0 for all rows that is nearest to `aim`, whose length is at most 1;
-/// none if that is 0. By Moreau's decomposition it is the aim plus non-negative multiples of the rows. The
-/// method is coordinate descent.
+/// Returns the point nearest to `aim` of the cone of z with r z >= 0 for all rows. The length of
+/// `aim` is at most 1. Returns none if that point is 0. By Moreau's decomposition it is the aim
+/// plus non-negative multiples of the rows. The method is coordinate descent.
 std::optional<std::vector<double>> project_on_cone(const Rows &rows, std::vector<double> aim) {
   std::vector<double> weights(rows.size(), 0.);
   double before = std::sqrt(dot(aim, aim));
@@ -151,8 +152,8 @@ Rows components_along(const Rows &motions, const Rows &rows) {
   return parts;
 }
 
-/// Removes the direction of `motion` from the orthonormal `basis`, whose span contains it, and makes the rest
-/// orthonormal.
+/// Removes the direction of `motion` from the orthonormal `basis`, whose span contains it, and
+/// makes the rest orthonormal.
 void deflate(const std::vector<double> &motion, Rows &basis) {
   Rows left;
   std::vector<std::vector<double>> known{motion};

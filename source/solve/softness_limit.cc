@@ -13,17 +13,19 @@ namespace {
 struct Limits {
   /// Missing part of a force up to which nothing is augmented.
   static constexpr double allowed = 2e-3;
-  /// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the pressure.
+  /// Minimum force of a pair, as part of the largest one, and minimum friction, as part of the
+  /// pressure.
   static constexpr double min_of_max = 0.01, min_friction = 0.02;
-  /// Minimum of the friction that is still allowed, as part of the allowed one. Slip persists: the allowance
-  /// that one step uses is lost for the next ones.
+  /// Minimum of the friction that is still allowed, as part of the allowed one. Slip persists: the
+  /// allowance that one step uses is lost for the next ones.
   static constexpr double min_left = 0.1;
-  /// Part of the force above which springs hold so much that the state is unlike the one in which `counts`
-  /// was measured.
+  /// Part of the force above which springs hold so much that the state is unlike the one in which
+  /// `counts` was measured.
   static constexpr double unlike = 0.5;
   /// Maximum of ρ, the ratio of the geometric series of all further augmentations.
   static constexpr double max_ratio = 0.8;
-  /// Minimum part that springs hold for ρ to be measured. Smaller parts of a force are not significant.
+  /// Minimum part that springs hold for ρ to be measured. Smaller parts of a force are not
+  /// significant.
   static constexpr double min_held = 1e-4;
   /// The same for sheets, where less is not significant beside the residual.
   static constexpr double min_held_of_sheet = 0.01;

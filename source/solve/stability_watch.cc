@@ -31,8 +31,8 @@ Stretches principal_stretches(const dealii::Tensor<2, 3> &F) {
           std::sqrt(std::max(0., squares[2]))};
 }
 
-/// Returns what to do: the first elasticity with the same moduli that is stable there; empty if there is
-/// none.
+/// Returns what to do: the first elasticity with the same moduli that is stable there; empty if
+/// there is none.
 std::string advise(const PointLaw &law, const Stretches &stretches) {
   for (const ElasticityType &type : elasticity_types()) {
     const SharedLaw other = type.name != law.name() ? type.find_law(law.elastic()) : nullptr;

@@ -28,7 +28,8 @@ StartGapWatch::StartGapWatch(const Scene &scene) {
       double young_modulus = std::numeric_limits<double>::infinity();
       for (const std::size_t body : bodies_of(pairs[p]))
         young_modulus = std::min(young_modulus, scene.bodies()[body].young_modulus);
-      if (changes_gaps(pairs[p].overlap) && !pairs[p].is_raised) // a rising penalty adds to the gaps
+      // a rising penalty adds to the gaps.
+      if (changes_gaps(pairs[p].overlap) && !pairs[p].is_raised)
         pairs_.push_back({p, has_tool, pairs[p].name, young_modulus});
     }
   };

@@ -15,10 +15,11 @@ namespace {
 struct Rules {
   /// Part of a step by which round-off may misplace its end.
   static constexpr double slack = 1e-8;
-  /// Number of remaining steps below which two equal steps are taken, rather than a full step and a short
-  /// rest.
+  /// Number of remaining steps below which two equal steps are taken, rather than a full step and a
+  /// short rest.
   static constexpr double halves = 1.5;
-  /// Part of the step that an error of its time integration allows; the error falls with its third power.
+  /// Part of the step that an error of its time integration allows; the error falls with its third
+  /// power.
   static constexpr double safety = 0.8;
 };
 
@@ -29,7 +30,8 @@ StepControl::StepControl(const parameters::TimeStepping &parameters, const doubl
     : parameters_(parameters), interval_(interval), stops_(std::move(stops)), step_(parameters.initial_step) {
   stops_.insert(stops_.end(), parameters.stops.begin(), parameters.stops.end());
   std::sort(stops_.begin(), stops_.end());
-  // 0.7 + 0.1 differs from 0.8 in the last bit. A step of this length has no meaning; the later stop counts.
+  // 0.7 + 0.1 differs from 0.8 in the last bit. A step of this length has no meaning; the later
+  // stop counts.
   std::size_t n = 0;
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const double next = i + 1 < stops_.size() ? stops_[i + 1] : parameters.end_time;

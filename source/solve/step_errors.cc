@@ -22,26 +22,26 @@ double product(const ResultGroup &a, const ResultGroup &b) {
 struct Factors {
   /// Steps until the next measurement after an impossible one.
   static constexpr unsigned int soon = 1;
-  /// Growth of errors: they grow with the force in upsetting, and fade in stretching. This is the value for
-  /// upsetting.
+  /// Growth of errors: they grow with the force in upsetting, and fade in stretching. This is the
+  /// value for upsetting.
   static constexpr double growth_of_errors = 1.4;
   /// Sum of 1, 1/2, 1/4, ...: of errors that fade by half in each pair of steps.
   static constexpr double sum_of_halves = 2.;
-  /// Limits of the error rate, as factors of an even rate; the minimum also grows with (span / left)², since
-  /// errors late in the run add little to the integral. Forces may change until the end, so the allowance is
-  /// neither saved at any cost nor spent at once.
+  /// Limits of the error rate, as factors of an even rate. The minimum also grows with
+  /// (span / left)², since errors late in the run add little to the integral. Forces may change
+  /// until the end, so the allowance is neither saved at any cost nor spent at once.
   static constexpr double min_rate = 0.2, max_rate = 6.;
   /// Minimum and maximum factor of a change of the step.
   static constexpr double min_stretch = 0.5, max_stretch = 4.;
   /// Maximum growth of the slope between measurements; a larger one is a single event.
   static constexpr double max_sudden = 3.;
-  /// Part of the target from which on steps matter. Then they are at most `max_span` times the root of the
-  /// tolerance in spans of the run, so that slopes stay comparable between measurements. They are not cut
-  /// below `min_span` times the tolerance, so that rare events, which do not depend on the step, do not
-  /// decide.
+  /// Part of the target from which on steps matter. Then they are at most `max_span` times the root
+  /// of the tolerance in spans of the run, so that slopes stay comparable between measurements.
+  /// They are not cut below `min_span` times the tolerance, so that rare events, which do not
+  /// depend on the step, do not decide.
   static constexpr double matters = 0.05, max_span = 0.65, min_span = 3.;
-  /// Steps that are `shorter` than the last ones, but cause `as_much` error in the same time, are useless.
-  /// Then nodes touch, or begin to slip, one by one.
+  /// Steps that are `shorter` than the last ones, but cause `as_much` error in the same time, are
+  /// useless. Then nodes touch, or begin to slip, one by one.
   static constexpr double shorter = 0.75, as_much = 0.8;
   /// Minimum step after a measurement, over the maximum that `max_span` gives.
   static constexpr double min_of_max_span = 0.5;
@@ -49,13 +49,13 @@ struct Factors {
   static constexpr double cut = 0.5;
   /// Steps that are `longer` than the measured ones are measured anew.
   static constexpr double longer = 1.5;
-  /// Remaining steps below which the first comparison cannot wait: it takes two, and one more would be taken
-  /// before it.
+  /// Remaining steps below which the first comparison cannot wait: it takes two, and one more would
+  /// be taken before it.
   static constexpr double last_chance = 3.;
 };
 
-/// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h² and
-/// halves the earlier error: the sum of 1, ½, ¼, ...
+/// Returns the error of forces, in units of c, by steps of length h. Each pair of steps adds 2 c h²
+/// and halves the earlier error: the sum of 1, ½, ¼, ...
 double left_where_errors_fade(const double h) { return Factors::sum_of_halves * 2. * h * h; }
 
 } // namespace
@@ -68,7 +68,8 @@ void StepErrors::add_step(const double h) {
 }
 
 void StepErrors::accept(const double h, const std::size_t n_forces) {
-  if (n_measurements_ == 0 && !has_given_up() && rules_.tolerance > 0.) // the error of steps is not known yet
+  // The error of steps is not known yet.
+  if (n_measurements_ == 0 && !has_given_up() && rules_.tolerance > 0.)
     longest_step_ = std::min(longest_step_, h);
   if (slopes_.size() == n_forces)
     add_step(h);
@@ -92,7 +93,8 @@ double StepErrors::allowed_rate(const ForceCourse &course) const {
   //   ∫ e dt = I + e t' + ½ r t'²,   ∫ Σ|F| dt = W + S t',   t' what is left of the time.
   const double span = course.span(), left = course.end_time() - course.time(), scale = course.scale();
   const double even = 2. * rules_.tolerance * scale / span;
-  if (!(Factors::min_rate * span * span < Factors::max_rate * left * left)) // the minimum is the maximum
+  // Then the minimum is the maximum.
+  if (!(Factors::min_rate * span * span < Factors::max_rate * left * left))
     return Factors::max_rate * even;
   const double rate = 2. *
                       (rules_.tolerance * (course.work() + scale * left) - integral_ - last_error_ * left) /
@@ -119,7 +121,8 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
                                        const ResultGroup &of_one_step, const double difference,
                                        const double noise) const {
   const bool is_first = slopes_.size() != forces.size();
-  // The slope lies between the differences with and without noise: keep the last value if it is between them.
+  // The slope lies between the differences with and without noise: keep the last value if it is
+  // between them.
   const double min_slope = std::max(0., difference - noise) / (2. * h * h),
                max_slope = (difference + noise) / (2. * h * h);
   const double value = is_first ? min_slope : std::max(min_slope, std::min(last_slope_, max_slope)),
@@ -137,9 +140,9 @@ StepErrors::Slope StepErrors::slope_of(const double h, const ResultGroup &forces
 
 void StepErrors::take(const Slope &slope, const double h) {
   const ResultGroup &now = slope.now;
-  // Steps since the last measurement have counted with its c so far. The measured steps are known now; those
-  // before use the geometric mean. Thus a single event, such as a node that begins to slip, does not count
-  // for all.
+  // Steps since the last measurement have counted with its c so far. The measured steps are known
+  // now; those before use the geometric mean. Thus a single event, such as a node that begins to
+  // slip, does not count for all.
   const double between = !(slope.value > 0.)                        ? 0.
                          : rules_.stays && slope.last < slope.value ? 1.
                                                                     : std::sqrt(slope.last / slope.value);
@@ -154,8 +157,8 @@ void StepErrors::take(const Slope &slope, const double h) {
   const double error = size_of(errors_);
   integral_ += 0.5 * (error - last_error_) * unmeasured_span_;
   last_error_ = error;
-  // From here on the new slope counts, limited if it is much larger than the last one, for the same reason.
-  // Errors that change direction do not add up.
+  // From here on the new slope counts, limited if it is much larger than the last one, for the same
+  // reason. Errors that change direction do not add up.
   const double sudden = slope.value > Factors::max_sudden * slope.last && !rules_.stays
                             ? Factors::max_sudden * slope.last / slope.value
                             : 1.;
@@ -178,7 +181,8 @@ void StepErrors::schedule(const ForceCourse &course, const Slope &slope, const d
 
 void StepErrors::measure(const ForceCourse &course, const double h, const ResultGroup &forces,
                          const ResultGroup &of_one_step, const double residuals) {
-  const double force = course.size_of(forces); // 0 for a tool that has not moved yet, while others have
+  // 0 for a tool that has not moved yet, while others have.
+  const double force = course.size_of(forces);
   const double difference = distance_of(of_one_step, forces);
   const Slope slope = slope_of(h, forces, of_one_step, difference, residuals * force);
   take(slope, h);
@@ -217,8 +221,8 @@ void StepErrors::miss(const double h, const bool failed) {
   }
   n_failed_ = failed ? n_failed_ + 1 : 0;
   interval_.wait(Factors::soon);
-  // A first failure may be a single event, a second one is due to the length. If shorter steps fail as well,
-  // it is neither.
+  // A first failure may be a single event, a second one is due to the length. If shorter steps fail
+  // as well, it is neither.
   if (has_given_up()) {
     interval_.wait(MeasurementInterval::max);
     longest_step_ = std::numeric_limits<double>::infinity();

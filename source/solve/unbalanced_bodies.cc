@@ -74,7 +74,8 @@ void UnbalancedBodies::add(const Solution &solution) {
 }
 
 DiagnosticList UnbalancedBodies::judge() const {
-  constexpr double much = 0.02, along = 0.999; // `along`: cosine of the angle to the axis of a circle
+  // `along`: cosine of the angle to the axis of a circle.
+  constexpr double much = 0.02, along = 0.999;
   const double tolerance = scene_.parameters().solver.force_tolerance;
   DiagnosticList diagnostics;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {

@@ -11,8 +11,9 @@
 
 namespace billet {
 
-/// Makes a distributed sparse direct solver. The pattern is analysed once; later factorisations reuse the
-/// analysis. `matrix` must outlive the solver. Throws InputError if Trilinos was built without the method.
+/// Makes a distributed sparse direct solver. The pattern is analysed once; later factorisations
+/// reuse the analysis. `matrix` must outlive the solver. Throws InputError if Trilinos was built
+/// without the method.
 std::unique_ptr<LinearSolver> make_direct_solver(DirectMethod method, const Matrix &matrix,
                                                  MPI_Comm communicator);
 

@@ -8,7 +8,8 @@
 
 namespace billet {
 
-/// Returns the vector in the type that Trilinos' packages expect, with the same values. For algebra/ alone.
+/// Returns the vector in the type that Trilinos' packages expect, with the same values. For
+/// algebra/ alone.
 inline Epetra_Vector &as_epetra(Vector &vector) { return *vector.trilinos_vector()(0); }
 inline const Epetra_Vector &as_epetra(const Vector &vector) { return *vector.trilinos_vector()(0); }
 

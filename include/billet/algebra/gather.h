@@ -10,8 +10,9 @@
 
 namespace billet {
 
-/// Returns the objects of all ranks, in the order of these. deal.II's function of this name compresses each
-/// object, also on a single rank, which takes far longer than to send it. Collective.
+/// Returns the objects of all ranks, in the order of these. deal.II's function of this name
+/// compresses each object, also on a single rank. That takes far longer than to send it.
+/// Collective.
 template <class Object> std::vector<Object> all_gather(const MPI_Comm communicator, const Object &own) {
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   if (n_ranks == 1)

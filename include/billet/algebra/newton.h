@@ -8,18 +8,19 @@
 
 namespace billet {
 
-/// Nonlinear system R(x) = 0 with its tangent K = ∂R/∂x. All members are collective and return the same on
-/// all ranks; false means that the state is not admissible. Residuals and corrections are written in place:
-/// they have the layout of x, and keep it.
+/// Nonlinear system R(x) = 0 with its tangent K = ∂R/∂x. All members are collective and return the
+/// same on all ranks; false means that the state is not admissible. Residuals and corrections are
+/// written in place: they have the layout of x, and keep it.
 class NonlinearSystem {
 public:
   virtual ~NonlinearSystem() = default;
   virtual bool compute_residual(const Vector &x, Vector &residual) = 0;
   virtual bool compute_tangent(const Vector &x) = 0;
-  /// Computes dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| if the solver is
-  /// iterative.
+  /// Computes dx = K⁻¹ residual, so that |residual − K dx| <= relative_tolerance |residual| if the
+  /// solver is iterative.
   virtual bool solve_tangent(const Vector &residual, Vector &dx, double relative_tolerance) = 0;
-  /// Returns the largest part of a correction that may be taken from x; 0 if it must not be taken at all.
+  /// Returns the largest part of a correction that may be taken from x; 0 if it must not be taken
+  /// at all.
   virtual double max_step_length(const Vector & /*x*/, const Vector & /*direction*/) { return 1.; }
   /// Returns the reference value of the residual at the last x.
   virtual double residual_scale() const = 0;
@@ -40,17 +41,22 @@ struct NewtonCorrection {
 
 enum class NewtonVerdict { unconverged, converged, failed };
 
-/// Judges the iterations by the number of corrections so far, the present state, and the last correction,
-/// which is null at the start. Collective.
+/// Judges the iterations by the number of corrections so far, the present state, and the last
+/// correction, which is null at the start. Collective.
 using NewtonJudge =
     std::function<NewtonVerdict(unsigned int n, const NewtonState &now, const NewtonCorrection *last)>;
 
 struct NewtonOptions {
-  double residual_tolerance; ///< part of the scale; no linear solution is more accurate than half of that
-  double linear_tolerance;   ///< of linear solutions; with `adapts_tolerance` the smallest one
+  /// Part of the scale; no linear solution is more accurate than half of that.
+  double residual_tolerance;
+  /// Tolerance of linear solutions; with `adapts_tolerance` the smallest one.
+  double linear_tolerance;
   double max_linear_tolerance = 1e-2; ///< the loosest, with `adapts_tolerance`
-  bool adapts_tolerance = false;      ///< to the convergence of the iterations, after Eisenstat and Walker
-  bool searches_lines = false; ///< line search: shortens corrections at whose end the residual does more work
+  /// Whether linear tolerances follow the convergence of the iterations, after Eisenstat and
+  /// Walker.
+  bool adapts_tolerance = false;
+  /// Line search: whether it shortens corrections at whose end the residual does more work.
+  bool searches_lines = false;
 };
 
 enum class NewtonEnd {
@@ -59,8 +65,8 @@ enum class NewtonEnd {
   not_admissible_at_start
 };
 
-/// Solves by Newton's method, from x, and overwrites x by the last state; x is unchanged if no correction was
-/// found. Collective.
+/// Solves by Newton's method, from x, and overwrites x by the last state; x is unchanged if no
+/// correction was found. Collective.
 NewtonEnd solve_by_newton(NonlinearSystem &system, const NewtonOptions &options, const NewtonJudge &judge,
                           Vector &x);
 

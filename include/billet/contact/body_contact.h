@@ -15,8 +15,8 @@ class BodyExplicitContact;
 class BodyMatrixContact;
 class BodyMeasures;
 
-/// Contact pair of two bodies, or of one body with itself: FacetContact on the boundary facets and nodes of
-/// this rank.
+/// Contact pair of two bodies, or of one body with itself: FacetContact on the boundary facets and
+/// nodes of this rank.
 class BodyContact final : public ContactInterface {
 public:
   /// Makes a pair for schemes with a matrix. `nodes` must outlive this object. Collective.
@@ -38,8 +38,8 @@ public:
   void set_friction_account(double start_weight, const FrictionAccounting &accounting) override;
   void restart() override;
   void commit() override;
-  /// Records the initial penetration if the scene allows it, after update(). Closes initial gaps if the scene
-  /// requests it. Collective.
+  /// Records the initial penetration if the scene allows it, after update(). Closes initial gaps if
+  /// the scene requests it. Collective.
   void allow_overlap() { parts_.allow_overlap(); }
 
   /// Returns what is to be judged of the gaps at the start. Collective.

@@ -11,7 +11,8 @@ namespace billet {
 
 class FacetContact;
 
-/// State of contact between bodies, which BodyContact advances and its evaluations and measures read.
+/// State of contact between bodies, which BodyContact advances and its evaluations and measures
+/// read.
 struct BodyContactParts {
   BodyContactParts(const Scene &scene, const BodyPair &pair, const LocalNodes &nodes);
   ~BodyContactParts();
@@ -30,8 +31,8 @@ struct BodyContactParts {
 
   /// Computes contact at `positions` in a step of this duration [time]. Collective.
   void evaluate(double step_duration);
-  /// Records the initial penetration if the scene allows it, after evaluate(). Closes initial gaps if the
-  /// scene requests it. Collective.
+  /// Records the initial penetration if the scene allows it, after evaluate(). Closes initial gaps
+  /// if the scene requests it. Collective.
   void allow_overlap();
 
 private:

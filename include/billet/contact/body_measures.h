@@ -11,7 +11,8 @@ namespace billet {
 struct BodySurfaces;
 class FacetContact;
 
-/// Measures of contact between bodies: those of FacetContact, for bodies of the scene and dofs of the mesh.
+/// Measures of contact between bodies: those of FacetContact, for bodies of the scene and dofs of
+/// the mesh.
 class BodyMeasures final : public ContactMeasures {
 public:
   /// `surfaces` are those of `contact`. All must outlive this object.

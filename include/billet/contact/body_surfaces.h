@@ -14,12 +14,13 @@
 
 namespace billet {
 
-/// The undeformed faces of this rank that may touch, of a pair of bodies or of one body with itself.
+/// The undeformed faces of this rank that may touch, of a pair of bodies or of one body with
+/// itself.
 struct BodySurfaces {
   BodySurfaces(const BodyPair &pair, const LocalNodes &nodes, const NodeKeys &keys);
 
-  /// Size of a facet of the unrefined body over that of its parts, for each of the two bodies. Penalties of a
-  /// refined body remain, so that its pressures continue.
+  /// Size of a facet of the unrefined body over that of its parts, for each of the two bodies.
+  /// Penalties of a refined body remain, so that its pressures continue.
   std::array<double, 2> coarse;
 
   // For each surface node.

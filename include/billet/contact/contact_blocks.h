@@ -13,21 +13,21 @@
 
 namespace billet {
 
-/// Contribution of contact between bodies to the matrix: the coupled entries, and the tangents with the
-/// constraints of nodes of all ranks.
+/// Contribution of contact between bodies to the matrix: the coupled entries, and the tangents with
+/// the constraints of nodes of all ranks.
 ///
-/// A constrained node moves by u = Σ_p C_p v_p + value, where each part v_p consists of three dofs. Most
-/// nodes have one part, their own dofs, to which supports refer. Hanging nodes have one part for each node on
-/// which they depend.
+/// A constrained node moves by u = Σ_p C_p v_p + value, where each part v_p consists of three dofs.
+/// Most nodes have one part, their own dofs, to which supports refer. Hanging nodes have one part
+/// for each node on which they depend.
 class ContactBlocks {
 public:
   using NodeDofs = std::array<DofIndex, 3>;
 
   /// `local_nodes` are the surface nodes of `contact`. Collective.
   ContactBlocks(FacetContact &contact, const LocalNodes &nodes, const std::vector<unsigned int> &local_nodes);
-  /// `dofs` are those of the surface nodes of `contact`, which must outlive this object. `links` are the
-  /// closed constraints that may name dofs of other nodes. Those of add_tangent() may also name other dofs of
-  /// the same node, or of the nodes that `links` name. Collective.
+  /// `dofs` are those of the surface nodes of `contact`, which must outlive this object. `links`
+  /// are the closed constraints that may name dofs of other nodes. Those of add_tangent() may also
+  /// name other dofs of the same node, or of the nodes that `links` name. Collective.
   ContactBlocks(FacetContact &contact, const std::vector<NodeDofs> &dofs, const Constraints &links,
                 MPI_Comm communicator);
 
@@ -40,15 +40,16 @@ public:
   /// Adds −∂F_c/∂u [force/length]. Collective.
   void add_tangent(ContactTangent tangent, const TangentSystem &system) const;
 
-  /// Saves the result of the last find(). `of` are any numbers that identify what the blocks depend on.
+  /// Saves the result of the last find(). `of` are any numbers that identify what the blocks depend
+  /// on.
   void save(StateWriter &writer, const std::vector<std::uint64_t> &keys, const std::vector<double> &of) const;
-  /// Loads a saved result in place of find(). Returns false, on all ranks, if other ranks saved it or `of`
-  /// differs.
+  /// Loads a saved result in place of find(). Returns false, on all ranks, if other ranks saved it
+  /// or `of` differs.
   bool load(const StateReader &reader, const std::vector<std::uint64_t> &keys, const std::vector<double> &of);
 
 private:
-  /// Dofs of the p-th part of each surface node, and of its ghosts where exchanged; no_part() if it has
-  /// fewer.
+  /// Dofs of the p-th part of each surface node, and of its ghosts where exchanged; no_part() if it
+  /// has fewer.
   using Parts = std::vector<std::vector<NodeDofs>>;
   static constexpr NodeDofs no_part() { return {no_dof, no_dof, no_dof}; }
   static constexpr DofIndex no_dof = dealii::numbers::invalid_dof_index;

@@ -8,7 +8,8 @@
 
 namespace billet {
 
-/// Checks of a contact pair, and the messages about what they find. Collective unless documented otherwise.
+/// Checks of a contact pair, and the messages about what they find. Collective unless documented
+/// otherwise.
 class ContactChecks {
 public:
   virtual ~ContactChecks() = default;

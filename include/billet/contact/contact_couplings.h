@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Couplings of a contact pair, which the matrix contains in addition to those of elements. Contact with a
-/// rigid tool has none, which are these; contact between bodies has BodyCouplings.
+/// Couplings of a contact pair, which the matrix contains in addition to those of elements. Contact
+/// with a rigid tool has none, which are these; contact between bodies has BodyCouplings.
 class ContactCouplings {
 public:
   ContactCouplings() = default;
@@ -18,7 +18,8 @@ public:
   ContactCouplings(const ContactCouplings &) = delete;
   ContactCouplings &operator=(const ContactCouplings &) = delete;
 
-  /// Whether MatrixContact::add_tangent() has entries of this rank that the last find() did not include.
+  /// Whether MatrixContact::add_tangent() has entries of this rank that the last find() did not
+  /// include.
   virtual bool has_new() const { return false; }
   /// Finds the nodes that add_tangent() may couple, after update(). Collective.
   virtual void find() {}
@@ -29,8 +30,8 @@ public:
 
   /// Saves the result of the last find(): another matrix pattern would change the bits of a run.
   virtual void save(StateWriter & /*writer*/) const {}
-  /// Loads a saved result in place of find(). Returns false, on all ranks, if other ranks saved it or it
-  /// belongs to another tangent.
+  /// Loads a saved result in place of find(). Returns false, on all ranks, if other ranks saved it
+  /// or it belongs to another tangent.
   virtual bool load(const StateReader & /*reader*/) { return true; }
 };
 

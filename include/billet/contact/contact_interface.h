@@ -22,10 +22,11 @@ struct FrictionAccounting;
 
 /// A contact pair: a body and a rigid tool, two bodies, or a body with itself.
 ///
-/// A step calls start_step(), then update() at any displacements and queries about the last update(), then
-/// commit(). This class advances the pair, and its roles have the rest: the forces of a scheme, with_matrix()
-/// or without_matrix(), of which a pair has one; and penalties(), measures() and checks(), of the last
-/// update() like the forces. Virtual functions are called once per pair, never per node.
+/// A step calls start_step(), then update() at any displacements and queries about the last
+/// update(), then commit(). This class advances the pair, and its roles have the rest. A pair has
+/// one of the forces of a scheme, with_matrix() or without_matrix(). It also has penalties(),
+/// measures() and checks(), which like the forces are those of the last update(). Virtual functions
+/// are called once per pair, never per node.
 ///
 /// Functions are local to this rank unless documented otherwise.
 class ContactInterface {
@@ -73,10 +74,11 @@ public:
   std::size_t group_index() const { return group_index_; }
   virtual void save(StateWriter &writer, const NodeKeys &keys) const = 0;
   virtual void load(const StateReader &reader, const NodeKeys &keys) = 0;
-  /// After load(): sets how gaps of a coarser mesh fade. New nodes of a finer mesh lie on chords of its
-  /// faces, inside a curved tool. They keep the gaps that the coarser mesh had, and come out of the tool
-  /// from `begin` to `end` [time]. Pairs of bodies, and implicit dynamics, have the gaps of the finer mesh at
-  /// once. `is_finer`: whether the mesh is finer than the one that load() reads, after begin().
+  /// After load(): sets how gaps of a coarser mesh fade. New nodes of a finer mesh lie on chords of
+  /// its faces, inside a curved tool. They keep the gaps that the coarser mesh had, and come out of
+  /// the tool from `begin` to `end` [time]. Pairs of bodies, and implicit dynamics, have the gaps
+  /// of the finer mesh at once. `is_finer`: whether the mesh is finer than the one that load()
+  /// reads, after begin().
   virtual void fade_gaps(const double /*begin*/, const double /*end*/, const bool /*is_finer*/) {}
 
 protected:

@@ -15,14 +15,16 @@ namespace billet {
 /// Load, energies and area of a contact pair.
 struct ContactLoad {
   dealii::Tensor<1, 3> force; ///< on the body, by the tool or the second body [force]
-  dealii::Tensor<1, 3>
-      moment;       ///< about the tool's moved centre; for two bodies, about the origin [force length]
-  double area = 0.; ///< current area in contact [length²]
+  /// Moment about the tool's moved centre; for two bodies, about the origin [force length].
+  dealii::Tensor<1, 3> moment;
+  double area = 0.;          ///< current area in contact [length²]
   double stored_energy = 0.; ///< in the penalty springs [energy]
   double dissipation = 0.;   ///< by friction in this step [energy]
-  double damping = 0.;       ///< by the tangential springs in this step, see FrictionAccount [energy]
-  double ramp_work = 0.;     ///< on the springs, by gap offsets that fade in this explicit step [energy]
-  double deepest = 0.;       ///< maximum penetration [length]
+  /// Work of the tangential springs in this step, see FrictionAccount [energy].
+  double damping = 0.;
+  /// Work on the springs by gap offsets that fade in this explicit step [energy].
+  double ramp_work = 0.;
+  double deepest = 0.; ///< maximum penetration [length]
 
   ContactLoad &operator+=(const ContactLoad &other);
 };
@@ -41,8 +43,8 @@ struct Penetration {
   }
 };
 
-/// Magnitudes of the nodal forces of a contact, summed, and the part that its springs carry: the part that
-/// augmentation has not transferred to multipliers.
+/// Magnitudes of the nodal forces of a contact, summed, and the part that its springs carry: the
+/// part that augmentation has not transferred to multipliers.
 struct ContactSprings {
   struct Direction {
     double force = 0., held = 0.;               ///< [force]
@@ -65,8 +67,9 @@ struct ContactSprings {
   }
 };
 
-/// Nodes that cross a surface, into contact or out of it, in the last step or in the next two. With d_i the
-/// displacement along the normal in a step, the energy error in such a step is at most ⅛ Σ k A d_i².
+/// Nodes that cross a surface, into contact or out of it, in the last step or in the next two. With
+/// d_i the displacement along the normal in a step, the energy error in such a step is at most ⅛ Σ
+/// k A d_i².
 struct Crossings {
   double springs = 0.; ///< Σ k A d_i² [energy]
   double way = 0.;     ///< maximum d_i [length]
@@ -81,8 +84,8 @@ struct Crossings {
   }
 };
 
-/// All forces on a node of a contact surface (C13): its own, and the reactions to other nodes that touch its
-/// facets. With two passes, pressure and traction of a slave are only its own part.
+/// All forces on a node of a contact surface (C13): its own, and the reactions to other nodes that
+/// touch its facets. With two passes, pressure and traction of a slave are only its own part.
 struct SurfaceForce {
   dealii::Tensor<1, 3> force; ///< on the body [force]
   double of_pressures = 0.;   ///< sum of the forces along their normals, > 0 in compression [force]
@@ -99,11 +102,15 @@ struct ContactNodeReport {
   double pressure, gap, slip;
   double area; ///< this rank's share
   dealii::Tensor<1, 3> traction;
-  double penetration = 0.;          ///< where it presses: into the surface itself, regardless of augmentation
-  double facet_size = 0.;           ///< of the facets around it
-  double tangential_stiffness = 0.; ///< of the spring that it sticks to; 0 without friction [force/length³]
-  double curvature = 0.; ///< change of the tool's normal along a facet there, over its size [1/length]
-  /// This rank's parts of all forces, of surfaces whose nodes are slaves and whose facets are touched, too.
+  /// Penetration where it presses: into the surface itself, regardless of augmentation.
+  double penetration = 0.;
+  double facet_size = 0.; ///< of the facets around it
+  /// Stiffness of the spring that it sticks to; 0 without friction [force/length³].
+  double tangential_stiffness = 0.;
+  /// Change of the tool's normal along a facet there, over its size [1/length].
+  double curvature = 0.;
+  /// This rank's parts of all forces, of surfaces whose nodes are slaves and whose facets are
+  /// touched, too.
   std::optional<SurfaceForce> total = {};
 };
 

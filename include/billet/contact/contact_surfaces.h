@@ -13,13 +13,14 @@
 
 namespace billet {
 
-/// The surfaces of a contact pair at the start of the step and now. They consist of own facets and nearby
-/// facets of other ranks, with the search for facets near slave nodes.
+/// The surfaces of a contact pair at the start of the step and now. They consist of own facets and
+/// nearby facets of other ranks, with the search for facets near slave nodes.
 class ContactSurfaces {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// `node_keys` and `facets` are as for SurfaceExchange; `margin` > 0 is that of the search [length].
+  /// `node_keys` and `facets` are as for SurfaceExchange; `margin` > 0 is that of the search
+  /// [length].
   ContactSurfaces(MPI_Comm communicator, FacetSearch::Partners partners, double margin,
                   std::vector<std::uint64_t> node_keys, std::vector<SurfaceFacet> facets);
   ContactSurfaces(const ContactSurfaces &) = delete;
@@ -27,8 +28,8 @@ public:
 
   /// Moves this rank's nodes, and ghosts. Returns whether rebuild() must follow. Collective.
   bool update(const Positions &positions_n, const Positions &positions);
-  /// Rebuilds the lists of nearby facets; indices of ghosts change. With `penetration` [facet reaches], whole
-  /// facets at that distance count, not only nodes within the reach. Collective.
+  /// Rebuilds the lists of nearby facets; indices of ghosts change. With `penetration` [facet
+  /// reaches], whole facets at that distance count, not only nodes within the reach. Collective.
   void rebuild(const std::vector<SlaveNode> &slaves, const std::optional<double> &penetration);
   /// Whether the last update() required a rebuild().
   bool is_rebuilt() const { return is_rebuilt_; }
@@ -41,7 +42,8 @@ public:
   const SurfaceFacet &facet(const unsigned int f) const { return search_.facets()[f]; }
   /// Whether the facet is this rank's.
   bool owns(const unsigned int f) const { return f < exchange_.n_own_facets(); }
-  /// Returns the positions with ghosts at the start of the step; positions() returns the current ones.
+  /// Returns the positions with ghosts at the start of the step; positions() returns the current
+  /// ones.
   const Positions &positions_n() const { return positions_n_; }
   const Positions &positions() const { return positions_; }
 

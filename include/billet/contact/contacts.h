@@ -14,8 +14,8 @@
 
 namespace billet {
 
-/// All contact pairs of a scene: first those with tools, then those between bodies, each in the scene's
-/// order.
+/// All contact pairs of a scene: first those with tools, then those between bodies, each in the
+/// scene's order.
 class Contacts {
 public:
   /// Constructs the pairs for schemes with a matrix.

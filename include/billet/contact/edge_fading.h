@@ -9,12 +9,13 @@
 
 namespace billet {
 
-/// Width w of the zone beyond the edge of a tool's surface in which its pressure fades [facet sizes].
+/// Width w of the zone beyond the edge of a tool's surface in which its pressure fades [facet
+/// sizes].
 constexpr double fading_width = 0.05;
 
 /// Contact of a node beyond the edge of a tool's surface, where the pressure fades, (T3), (T4) of
-/// doc/theory.md. The energy per area is s(d) e(−g), with s = (1 − d²/w²)² and e that of the spring. The
-/// members are the terms in addition to a pressure p = −s ∂e/∂g along the normal.
+/// doc/theory.md. The energy per area is s(d) e(−g), with s = (1 − d²/w²)² and e that of the
+/// spring. The members are the terms in addition to a pressure p = −s ∂e/∂g along the normal.
 struct EdgeFading {
   double share;                        ///< s, of the normal penalty
   dealii::Tensor<1, 3> push;           ///< [stress]
@@ -24,8 +25,8 @@ struct EdgeFading {
   double stiffness; ///< bound of the norm of `tangent` [stress/length]
 };
 
-/// Returns the fading at the position `edge_point`, for a `gap` to the surface and a `width` w of the zone in
-/// which the pressure fades [length]. Requires border.beyond < width.
+/// Returns the fading at the position `edge_point`, for a `gap` to the surface. The pressure fades
+/// in a zone of the `width` w [length]. Requires border.beyond < width.
 EdgeFading compute_edge_fading(const RigidSurface::EdgePoint &edge_point, double width,
                                const HardeningSpring &penalty, double gap);
 

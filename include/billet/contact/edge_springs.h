@@ -20,8 +20,9 @@ class EdgeSprings {
 public:
   using Positions = FacetSearch::Positions;
 
-  /// Constructs the springs. `stiffness` are the full penalties of this rank's nodes; each spring takes the
-  /// mean of its four nodes, times the stiffening factor of `penalties`. The latter must outlive this object.
+  /// Constructs the springs. `stiffness` are the full penalties of this rank's nodes; each spring
+  /// takes the mean of its four nodes, times the stiffening factor of `penalties`. The latter must
+  /// outlive this object.
   EdgeSprings(const FacetContactSettings &settings, const std::vector<ContactStiffness> &stiffness,
               const SlavePenalties &penalties);
 

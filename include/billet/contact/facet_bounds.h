@@ -15,10 +15,12 @@ public:
   /// The parts must outlive this object.
   explicit FacetBounds(const FacetContactParts &parts) : parts_(parts) {}
 
-  /// Adds the sum Σ_j |K_ij| of the contact stiffness, which bounds the time step, to each of this rank's
-  /// nodes [force/length]. It is 2 k A for a slave and 2 w_I k A for a facet's corner. With the same sum of
-  /// the elements, ω² <= max_i Σ_j |K_ij|/m_i. A slave directly in front of a candidate counts as touching. A
-  /// step that is reduced only after the entry of a node is too long for that entry. Collective.
+  /// Adds the sum Σ_j |K_ij| of the contact stiffness, which bounds the time step, to each of this
+  /// rank's nodes [force/length]. It is 2 k A for a slave and 2 w_I k A for a facet's corner. With
+  /// the same sum of the elements, ω² <= max_i Σ_j |K_ij|/m_i.
+  ///
+  /// A slave directly in front of a candidate counts as touching. A step that is reduced only after
+  /// the entry of a node is too long for that entry. Collective.
   void add_row_sums(std::vector<double> &row_sums);
   /// Adds the crossings with this rank's areas, before the step ends.
   void add_crossings(Crossings &crossings) const;

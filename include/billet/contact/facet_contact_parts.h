@@ -17,7 +17,8 @@
 
 namespace billet {
 
-/// State of contact between surfaces, which FacetContact advances and its evaluations and measures read.
+/// State of contact between surfaces, which FacetContact advances and its evaluations and measures
+/// read.
 struct FacetContactParts {
   /// Constructs the parts from the arguments of FacetContact.
   FacetContactParts(MPI_Comm communicator, const FacetContactSettings &settings,
@@ -37,8 +38,8 @@ struct FacetContactParts {
   std::optional<SlaveOverlaps> overlaps; ///< only with FacetMethod::overlap
   std::optional<SlaveFriction> friction; ///< none without friction
   std::optional<EdgeSprings> edges;      ///< none unless the settings enable them
-  /// Forces on this rank's nodes and ghosts at the last evaluation. Those of other ranks' facets on a node
-  /// are on one of the ranks that have it.
+  /// Forces on this rank's nodes and ghosts at the last evaluation. Those of other ranks' facets on
+  /// a node are on one of the ranks that have it.
   ContactSurfaces::Positions nodal_forces;
 };
 

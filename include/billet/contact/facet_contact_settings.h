@@ -37,22 +37,22 @@ struct FacetContactSettings {
   FacetMethod method = FacetMethod::planed;
   FrictionPointer friction; ///< null: none
   FacetSearch::Partners partners = FacetSearch::Partners::other_surfaces;
-  /// Whether nodes of all surfaces are slaves, with half the penalty each, so that a pair of surfaces is as
-  /// stiff as in one pass. Otherwise only nodes of surface 0 are slaves.
+  /// Whether nodes of all surfaces are slaves, with half the penalty each, so that a pair of
+  /// surfaces is as stiff as in one pass. Otherwise only nodes of surface 0 are slaves.
   bool two_pass = true;
   ContactLimits limits;
   double search_margin; ///< of FacetSearch, > 0 [length]
-  /// Whether edge-to-edge contact keeps crossing edges apart, except flat ones. It has no friction; its
-  /// penalty is the mean full penalty of the ends of both edges. It costs nothing if disabled.
+  /// Whether edge-to-edge contact keeps crossing edges apart, except flat ones. It has no friction;
+  /// its penalty is the mean full penalty of the ends of both edges. It costs nothing if disabled.
   bool edges = false;
   double flat_edge = 0.99;      ///< maximum alignment of normals for EdgeContact
   double edge_penetration = 5.; ///< its maximum penetration, relative to the facets' reach
-  /// Maximum gap [facet sizes], now and at the start of the step, at which a node counts as touching a facet
-  /// without pressure. The stiffness of such nodes may be the only constraint of a body at rest. If < 0, no
-  /// node does.
+  /// Maximum gap [facet sizes], now and at the start of the step, at which a node counts as
+  /// touching a facet without pressure. The stiffness of such nodes may be the only constraint of a
+  /// body at rest. If < 0, no node does.
   double touching_gap = -1.;
-  /// Maximum number of changes of facet or status of a node in one step's iterations. A node that exceeds it
-  /// stays with its facet as long as it touches that. 0: no limit, and no counting.
+  /// Maximum number of changes of facet or status of a node in one step's iterations. A node that
+  /// exceeds it stays with its facet as long as it touches that. 0: no limit, and no counting.
   unsigned int max_changes = 0;
   double penetration_tolerance = 0.;       ///< of ContactPenalties; 0: none [facet sizes]
   ContactPenalties::Limits max_stiffening; ///< of the given penalties

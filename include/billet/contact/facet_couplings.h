@@ -16,8 +16,8 @@ public:
   /// The parts must outlive this object.
   explicit FacetCouplings(const FacetContactParts &parts) : parts_(parts) {}
 
-  /// Calls add(nodes) with the nodes of each block that SlaveTangents may add until coupling facets change,
-  /// and records the blocks.
+  /// Calls add(nodes) with the nodes of each block that SlaveTangents may add until coupling facets
+  /// change, and records the blocks.
   void find(ContactTangent kind, const std::function<void(const std::vector<unsigned int> &)> &add);
   /// Whether SlaveTangents has blocks of this rank that the last find() did not include.
   bool has_new() const;

@@ -8,16 +8,18 @@
 
 namespace billet {
 
-/// Finds the number of parts into which facets must be divided so that a tool cannot enter undetected between
-/// the corners of the parts of (T10).
+/// Finds the number of parts into which facets must be divided so that no tool enters undetected
+/// between the parts' corners, (T10).
 ///
-/// Each sample of the tool's surface, a point x with a normal n, meets a square of side s in its tangent
-/// plane, with x in the middle. The square is tested along the tool's axes of the sample and turned by 45
-/// degrees. The square moves by L/8 along −n, L the facet's length, or by a half, a quarter or an eighth of
-/// that. At least one of its corners must then be inside the tool, where the tool's normal is within 60
-/// degrees of n. Thus a sphere of radius R needs about s² ≤ R L/2, a cylinder s² ≤ R L, an edge of 90 degrees
-/// s ≤ L/4, and a fin of width t about s ≤ t. For a plane, or a sphere of R ≥ 2.1 L, the corners of the facet
-/// suffice.
+/// Each sample of the tool's surface is a point x with a normal n. It meets a square of side s in
+/// its tangent plane, with x in the middle. The square is tested along the tool's axes of the
+/// sample and turned by 45 degrees. The square moves by L/8 along −n, L the facet's length, or by a
+/// half, a quarter or an eighth of that. At least one of its corners must then be inside the tool,
+/// where the tool's normal is within 60 degrees of n.
+///
+/// Thus the side is about s² ≤ R L/2 for a sphere of radius R, and s² ≤ R L for a cylinder. It is
+/// s ≤ L/4 for an edge of 90 degrees, and about s ≤ t for a fin of width t. For a plane, or a
+/// sphere of R ≥ 2.1 L, the corners of the facet suffice.
 ///
 /// At convex edges, normals between those of both sides are samples, too.
 class FacetDivision {
@@ -28,8 +30,8 @@ public:
   /// Samples the surface's triangulation of a region.
   FacetDivision(const RigidSurface &surface, const OutputRegion &region);
 
-  /// Returns the number of parts along a side of this length: 1, 4, 8 or 16. `is_enough` is false where even
-  /// the maximum number is too small.
+  /// Returns the number of parts along a side of this length: 1, 4, 8 or 16. `is_enough` is false
+  /// where even the maximum number is too small.
   struct Parts {
     unsigned int n;
     bool is_enough;

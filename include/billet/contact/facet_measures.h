@@ -24,8 +24,8 @@ public:
   Penetration penetration() const;
   /// Returns the maximum penetration relative to the reach of the touched facets.
   double excessive_penetration() const;
-  /// Returns the maximum closing in the step of a node that presses at its end but not at its start [facet
-  /// sizes].
+  /// Returns the maximum closing in the step of a node that presses at its end but not at its start
+  /// [facet sizes].
   double closing_of_new_contacts() const;
   /// See ContactMeasures.
   double max_sliding(double expected) const;
@@ -45,21 +45,24 @@ public:
   };
   /// Reports each of this rank's nodes.
   std::vector<NodeReport> report() const;
-  /// Returns what is to be judged of the gaps at the start, by the undeformed positions of this rank's nodes.
-  /// Collective.
+  /// Returns what is to be judged of the gaps at the start, by the undeformed positions of this
+  /// rank's nodes. Collective.
   StartGaps start_gaps(const ContactSurfaces::Positions &undeformed) const;
 
-  /// Returns the nodes that have exceeded the maximum number of changes of facet or status since restart().
+  /// Returns the nodes that have exceeded the maximum number of changes of facet or status since
+  /// restart().
   std::vector<RestlessNode> find_restless() const;
 
-  /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that touches now.
+  /// Calls visit(position, normal of the facet, surfaces of node and facet) for each slave that
+  /// touches now.
   template <class Visit> void visit_touching(const Visit &visit) const {
     for (std::size_t s = 0; s < parts_.touching.size(); ++s)
       if (const SlaveState &state = parts_.touching[s]; state.presses())
         visit(parts_.surfaces.positions()[parts_.slaves.node(s)], state.contact.normal,
               parts_.slaves.surface(s), parts_.surfaces.facet(state.touched.facet).surface);
   }
-  /// Calls visit(SupportingPoint, surface of the point, touched surface) for slaves and crossing edges.
+  /// Calls visit(SupportingPoint, surface of the point, touched surface) for slaves and crossing
+  /// edges.
   template <class Visit> void visit_supporting(const Visit &visit) const {
     choose_friction(parts_.settings.friction, [&](const auto &law) {
       for (std::size_t s = 0; s < parts_.touching.size(); ++s)

@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Penetration of a tool into facets between their nodes, beyond that of the nodes, see *Facets between
-/// nodes* in doc/theory.md.
+/// Penetration of a tool into facets between their nodes, beyond that of the nodes, see *Facets
+/// between nodes* in doc/theory.md.
 struct FacetPenetration {
   double length = 0.;            ///< maximum [length]
   double of_facet = 0.;          ///< maximum relative to the distance of the nodes around it, ...
@@ -28,7 +28,8 @@ struct FacetPenetration {
 
 struct RigidContactParts;
 
-/// Measures it at the last update() of a pair. Samples are the middles of sides and of facets. Collective.
+/// Measures it at the last update() of a pair. Samples are the middles of sides and of facets.
+/// Collective.
 FacetPenetration find_facet_penetration(const RigidContactParts &parts);
 
 } // namespace billet

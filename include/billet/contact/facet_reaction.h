@@ -8,9 +8,9 @@ namespace billet {
 
 /// Forces on a facet's corners that balance a force F on a node at x, and its moment:
 ///   F_I = −w_I F + ω × r_I,   Σ_I (r_I·r_I 1 − r_I⊗r_I) ω = −(x − Σ w_I x_I) × F
-/// with r_I = x_I − ¼ Σ x_J. The weights alone balance a force along x − Σ w_I x_I, such as a pressure. The
-/// second term balances the moment of friction across the gap; it has no resultant and the least norm. The
-/// facet must have an area, and the weights must sum to 1.
+/// with r_I = x_I − ¼ Σ x_J. The weights alone balance a force along x − Σ w_I x_I, such as a
+/// pressure. The second term balances the moment of friction across the gap; it has no resultant
+/// and the least norm. The facet must have an area, and the weights must sum to 1.
 template <class Number> class FacetReactionOf {
 public:
   explicit FacetReactionOf(const facet::ExpansionOf<Number> &surface);

@@ -16,16 +16,16 @@ struct SurfaceFacet {
   std::array<unsigned int, 4> nodes; ///< in the order of FacetCorners
   unsigned int surface;              ///< index of its body
   std::uint64_t key;                 ///< the same on any number of ranks
-  /// Maximum penetration of a node that has not touched the facet before [length]. It is a fraction of the
-  /// facet's size, and less than the thickness of the wall below.
+  /// Maximum penetration of a node that has not touched the facet before [length]. It is a fraction
+  /// of the facet's size, and less than the thickness of the wall below.
   double reach;
   FacetBulge bulge{}; ///< of the smooth surface that the facet represents; 0 if there is none
   /// Undeformed thickness of the element below, where known [length].
   double wall = std::numeric_limits<double>::infinity();
 };
 
-/// Returns the projection onto the smooth surface that a facet represents, from the projection onto the
-/// facet.
+/// Returns the projection onto the smooth surface that a facet represents, from the projection onto
+/// the facet.
 template <class Projection> Projection raised(Projection projection, const SurfaceFacet &facet) {
   if (projection.exists && facet::has_height(facet.bulge))
     projection.gap -= facet::height(facet.bulge, projection.parameters);
@@ -48,14 +48,17 @@ struct SlaveNode {
 
 /// Finds the facets near slave nodes while all of them move.
 ///
-/// Each slave has a list of candidates. It contains every facet within its reach of the node, now or on the
-/// straight paths of both since the start of the step. A list contains facets within reach + margin, so that
-/// it remains valid until nodes have moved by more than the margin relative to each other. Only then are the
-/// lists rebuilt. The displacements since then lie in a box. No relative displacement exceeds its diagonal,
-/// and no common motion enlarges it.
+/// Each slave has a list of candidates. It contains every facet within its reach of the node, now
+/// or on the straight paths of both since the start of the step. A list contains facets within
+/// reach + margin, so that it remains valid until nodes have moved by more than the margin relative
+/// to each other. Only then are the lists rebuilt.
 ///
-/// A facet is never a candidate of its own nodes, nor of the nodes of facets that share a node with it.
-/// Building the lists takes O(n log n), with a tree of the facets' boxes; a look-up costs nothing.
+/// The displacements since then lie in a box. No relative displacement exceeds its diagonal, and no
+/// common motion enlarges it.
+///
+/// A facet is never a candidate of its own nodes, nor of the nodes of facets that share a node with
+/// it. Building the lists takes O(n log n), with a tree of the facets' boxes; a look-up costs
+/// nothing.
 class FacetSearch {
 public:
   enum class Partners {
@@ -71,20 +74,21 @@ public:
   /// Sets a new surface: rebuild() must follow before the lists are used.
   void set_surface(std::vector<SurfaceFacet> facets, std::vector<SlaveNode> slaves);
 
-  /// Whether there are no lists, or they are no longer valid at these positions. `join` extends the box of
-  /// this rank's displacements to all ranks; it is not called if there are no lists.
+  /// Whether there are no lists, or they are no longer valid at these positions. `join` extends the
+  /// box of this rank's displacements to all ranks; it is not called if there are no lists.
   template <class Join> bool is_outdated(const Positions &positions, const Join &join) const {
     return !has_lists_ || exceeds_margin(join(compute_motion(positions)));
   }
 
-  /// Builds the lists. `positions_n` are those at the start of the step, of every node of facets and slaves.
+  /// Builds the lists. `positions_n` are those at the start of the step, of every node of facets
+  /// and slaves.
   void rebuild(const Positions &positions_n, const Positions &positions);
 
   const std::vector<SurfaceFacet> &facets() const { return facets_; }
   const std::vector<SlaveNode> &slaves() const { return slaves_; }
 
-  /// Calls visit(facet) for each candidate of a slave, by ascending keys. Both are indices of the lists
-  /// above.
+  /// Calls visit(facet) for each candidate of a slave, by ascending keys. Both are indices of the
+  /// lists above.
   template <class Visit> void visit_candidates(const std::size_t slave, const Visit &visit) const {
     for (std::size_t i = first_candidate_[slave]; i < first_candidate_[slave + 1]; ++i)
       visit(candidates_[i]);

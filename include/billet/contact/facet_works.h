@@ -22,8 +22,8 @@ public:
   StepWorks compute_step_works(double weight) const;
 
 private:
-  /// Whether slaves that leave transfer their load to slaves that enter, see FrictionAccount. With friction;
-  /// collective.
+  /// Whether slaves that leave transfer their load to slaves that enter, see FrictionAccount. With
+  /// friction; collective.
   bool hands_over() const;
   /// Returns which dissipation of a slave counts. With friction; collective.
   double FrictionWorks::*counted_dissipation() const {

@@ -10,18 +10,22 @@ struct FrictionAccount;
 struct FrictionStep;
 struct FrictionRule;
 
-/// Rule by which the works of friction in a step are counted: one of those below, chosen by the scheme.
+/// Rule by which the works of friction in a step are counted: one of those below, chosen by the
+/// scheme.
 struct FrictionAccounting {
   FrictionAccount (*compute)(const FrictionStep &, const FrictionRule &);
-  /// Whether a load that nodes which leave hand over to others counts by FrictionAccount::handed_over().
+  /// Whether a load that nodes which leave hand over to others counts by
+  /// FrictionAccount::handed_over().
   bool counts_hand_over;
 
-  static const FrictionAccounting of_motion; ///< by the rule with which an integrator computes works
-  /// For the path between two equilibria, whose works no integrator uses.
+  /// Accounting by the rule with which an integrator computes works.
+  static const FrictionAccounting of_motion;
+  /// Accounting for the path between two equilibria, whose works no integrator uses.
   static const FrictionAccounting of_equilibria;
 };
 
-/// Weights of the tractions at the ends of a step in its works, and storage in a node's tangential springs.
+/// Weights of the tractions at the ends of a step in its works, and storage in a node's tangential
+/// springs.
 struct FrictionRule {
   double stiffness;          ///< k_t [stress/length]
   double start_weight = 0.5; ///< θ: ½ is the trapezoidal rule, 0 the value at the end of the step
@@ -34,30 +38,35 @@ struct FrictionRule {
 struct FrictionStep {
   std::array<double, 2> traction_n; ///< 0 where the node did not touch
   std::array<double, 2> traction;   ///< 0 where it does not touch any longer
-  std::array<double, 2> motion;     ///< Δg_t of the whole step, relative to the touched or left surface
-  bool touches;                     ///< at the end
+  /// Δg_t of the whole step, relative to the touched or left surface.
+  std::array<double, 2> motion;
+  bool touches; ///< at the end
   // Only of_equilibria uses these:
   double part_in_contact = 1.; ///< φ: part of the step, if it enters or leaves in it
   /// τ_n: friction limit at the start, |t| p_n/p; 0 where the node does not slip in the step.
   double limit_n = 0.;
 };
 
-/// Work of a node's friction in a step, eq. (E4) of doc/theory.md, with A the area of the node and Ψ =
-/// |t|²/(2 k_t):
+/// Work of a node's friction in a step, eq. (E4) of doc/theory.md, with A the area of the node and
+/// Ψ = |t|²/(2 k_t):
 ///   W = −(θ A_n t_n + (1 − θ) A t)·Δg_t = D + L + A Ψ − A_n Ψ_n.
-/// For θ = ½, L = 0: work that is not stored is dissipated. For θ = 0, D = −A t·γ is the dissipation of the
-/// return map over the slip γ = Δg_t + (t − t_n)/k_t. L = A |t − t_n|²/(2 k_t) is the additional loss of the
-/// end value; a node that leaves dissipates the energy of its spring. If springs store nothing, L = 0.
+/// For θ = ½, L = 0: work that is not stored is dissipated. For θ = 0, D = −A t·γ is the
+/// dissipation of the return map over the slip γ = Δg_t + (t − t_n)/k_t. L = A |t − t_n|²/(2 k_t)
+/// is the additional loss of the end value; a node that leaves dissipates the energy of its spring.
+/// If springs store nothing, L = 0.
 ///
-/// In statics dissipation never decreases, (I6): D = ½ A_n max(−t_n·γ, τ_n |γ|) + ½ A <−t·γ>, with φ Δg_t in
-/// γ. A node that sticks at the start slips once it bears τ_n, and not with t_n. In steady sliding this
-/// equals W above, except for the change of stored energy by a change of area. A node that leaves has D = A_n
-/// <Ψ_n − ½ φ t_n·Δg_t>. `beyond` is the work of mean forces on the rest of the motion of nodes that enter or
-/// leave. `missed` is the friction work that mean forces omit for nodes that begin to slip.
+/// In statics dissipation never decreases, (I6): D = ½ A_n max(−t_n·γ, τ_n |γ|) + ½ A <−t·γ>, with
+/// φ Δg_t in γ. A node that sticks at the start slips once it bears τ_n, and not with t_n. In
+/// steady sliding this equals W above, except for the change of stored energy by a change of area.
 ///
-/// Where a pair presses at both ends of a step, nodes that leave transfer its load to nodes that enter. The
-/// gaps do not show the time of the transfer: they are small compared with the slip, and stiff penalties
-/// leave no penetration. The transfer is then linear, with φ = 1: the sum is correct for any time.
+/// A node that leaves has D = A_n <Ψ_n − ½ φ t_n·Δg_t>. `beyond` is the work of mean forces on the
+/// rest of the motion of nodes that enter or leave. `missed` is the friction work that mean forces
+/// omit for nodes that begin to slip.
+///
+/// Where a pair presses at both ends of a step, nodes that leave transfer its load to nodes that
+/// enter. The gaps do not show the time of the transfer: they are small compared with the slip, and
+/// stiff penalties leave no penetration. The transfer is then linear, with φ = 1: the sum is
+/// correct for any time.
 struct FrictionAccount {
   // Parts of D and L per area at the start and at the end of the step [energy/length²].
   double dissipation_n = 0., dissipation = 0.;
@@ -77,7 +86,8 @@ struct FrictionAccount {
   FrictionAccount handed_over() const;
 };
 
-/// Returns φ of a node with the penetration `penetration` that has since moved by `opening` along the normal.
+/// Returns φ of a node with the penetration `penetration` that has since moved by `opening` along
+/// the normal.
 inline double part_before_leaving(const double penetration, const double opening) {
   return opening > penetration ? penetration / opening : 1.;
 }

@@ -10,8 +10,9 @@
 
 namespace billet {
 
-/// Multiplier offsets a = λ/k of slave nodes in the augmented Lagrangian, by Uzawa's method [length]. The
-/// pressure is p = k <a − g>, and each augmentation transfers the spring's elongation to a.
+/// Multiplier offsets a = λ/k of slave nodes in the augmented Lagrangian, by Uzawa's method
+/// [length]. The pressure is p = k <a − g>, and each augmentation transfers the spring's elongation
+/// to a.
 class MultiplierOffsets {
 public:
   /// Whether no slave of this rank has an offset now; was_empty(): at the start of the step.
@@ -22,9 +23,10 @@ public:
   double operator[](const std::size_t s) const { return offsets_.empty() ? 0. : offsets_[s]; }
   double at_start(const std::size_t s) const { return offsets_n_.empty() ? 0. : offsets_n_[s]; }
 
-  /// Updates the offsets of `n` slaves by their gaps. `gap_of(s)` is the distance less the offset, or nothing
-  /// where the slave does not press. Where the last augmentation has closed a part of the gap, the update is
-  /// that of the secant method, at most fourfold. Where little area touches, the same offset closes less.
+  /// Updates the offsets of `n` slaves by their gaps. `gap_of(s)` is the distance less the offset,
+  /// or nothing where the slave does not press. Where the last augmentation has closed a part of
+  /// the gap, the update is that of the secant method, at most fourfold. Where little area touches,
+  /// the same offset closes less.
   template <class GapOf> void augment(const std::size_t n, const GapOf &gap_of) {
     start_augmentation(n);
     for (std::size_t s = 0; s < n; ++s)
@@ -59,8 +61,8 @@ private:
   HeldMemory memory_{Capability::augmentation};
 };
 
-/// Allowed initial penetrations of slave nodes, and gaps that count as closed (negative values), permanently
-/// or until a ramp ends [length].
+/// Allowed initial penetrations of slave nodes, and gaps that count as closed (negative values),
+/// permanently or until a ramp ends [length].
 class InitialPenetrations {
 public:
   bool is_empty() const { return penetrations_.empty(); }

@@ -12,8 +12,9 @@ namespace billet {
 ///
 /// It has a potential and no history. An infinite d_0 makes it exactly linear.
 struct HardeningSpring {
-  double stiffness;                                             ///< k [stress/length]
-  double penetration = std::numeric_limits<double>::infinity(); ///< d_0, at which its secant doubles [length]
+  double stiffness; ///< k [stress/length]
+  /// d_0, at which its secant doubles [length].
+  double penetration = std::numeric_limits<double>::infinity();
 
   double secant(const double d) const { return stiffness * (1. + square(d / penetration)); }
   double slope(const double d) const { return stiffness * (1. + 3. * square(d / penetration)); }

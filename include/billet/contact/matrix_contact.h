@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Forces of a contact pair in schemes with a matrix, and their tangents. Displacements are distributed
-/// vectors.
+/// Forces of a contact pair in schemes with a matrix, and their tangents. Displacements are
+/// distributed vectors.
 class MatrixContact {
 public:
   virtual ~MatrixContact() = default;
@@ -25,10 +25,11 @@ public:
   virtual void set_tangent(ContactTangent tangent) = 0;
   /// Adds −∂F_c/∂u [force/length]. Collective.
   virtual void add_tangent(const TangentSystem &system) const = 0;
-  /// Returns the part of a motion during which no node goes through a surface (C12). A node that would soon
-  /// come out on another side counts as through. Collective.
+  /// Returns the part of a motion during which no node goes through a surface (C12). A node that
+  /// would soon come out on another side counts as through. Collective.
   virtual double find_free_part(const ContactPath &path) const = 0;
-  /// Starts a pair that is new at the start of a step, as if it had existed without contact. Collective.
+  /// Starts a pair that is new at the start of a step, as if it had existed without contact.
+  /// Collective.
   virtual void begin(const ContactStep &step, const Vector &displacements) = 0;
 
   /// Returns no couplings, unless contact is between bodies.

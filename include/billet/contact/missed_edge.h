@@ -9,11 +9,11 @@
 
 namespace billet {
 
-/// Nodes that have missed the edge of a tool's surface, in schemes with inertia: they are beyond it and
-/// deeper than w below the surface. A node that moves back in meets the back of the surface, which has no
-/// contact, until it comes out in front again. Otherwise it would jump to its full penetration in a step or
-/// two and create energy. The rule does not apply where another tool is near, nor to a part of the surface
-/// that the node approaches from the front.
+/// Nodes that have missed the edge of a tool's surface, in schemes with inertia: they are beyond it
+/// and deeper than w below the surface. A node that moves back in meets the back of the surface,
+/// which has no contact, until it comes out in front again. Otherwise it would jump to its full
+/// penetration in a step or two and create energy. The rule does not apply where another tool is
+/// near, nor to a part of the surface that the node approaches from the front.
 class MissedEdge {
 public:
   /// Both arguments must outlive this object.

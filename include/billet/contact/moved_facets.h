@@ -27,8 +27,9 @@ inline std::array<double, 4> corners_of(const SurfaceFacet &facet, const std::ve
   return {numbers[facet.nodes[0]], numbers[facet.nodes[1]], numbers[facet.nodes[2]], numbers[facet.nodes[3]]};
 }
 
-/// Facets of a search at the current positions of their nodes. The data of a facet is computed on first use
-/// and cached. Several nodes use the same facet, and few facets of a large surface are used.
+/// Facets of a search at the current positions of their nodes. The data of a facet is computed on
+/// first use and cached. Several nodes use the same facet, and few facets of a large surface are
+/// used.
 class MovedFacets {
 public:
   using Positions = FacetSearch::Positions;
@@ -61,7 +62,8 @@ public:
     return *kept.reaction;
   }
 
-  /// Returns the projection of x onto a facet of type Facet: PlanedFacet, MeanGapFacet or BilinearFacet.
+  /// Returns the projection of x onto a facet of type Facet: PlanedFacet, MeanGapFacet or
+  /// BilinearFacet.
   template <class Facet>
   FacetProjection project(const unsigned int facet, const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> &start = {}) const {

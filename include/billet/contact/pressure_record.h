@@ -45,7 +45,8 @@ private:
   bool is_known_ = false;
 };
 
-/// Returns the penetration of a node that presses, otherwise 0 [length]. Multipliers are no penetration.
+/// Returns the penetration of a node that presses, otherwise 0 [length]. Multipliers are no
+/// penetration.
 inline double pressed_depth(const ToolContactState &state, const ContactPoint &node) {
   return state.pressure > 0. ? std::max(0., -(state.gap + node.multiplier_offset)) : 0.;
 }

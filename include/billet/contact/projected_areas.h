@@ -21,8 +21,9 @@ inline bool any_touches(const CornerStates &states) {
                      [](const ToolContactState *state) { return state->status != ContactStatus::open; });
 }
 
-/// Area shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet, ν its outward area vector
-/// and n_a the normal of the tool at corner a. The share of a corner without contact is 0.
+/// Area shares of a facet's corners, ∫ N_a <−ν·n_a> dξdη over the current facet. ν is its outward
+/// area vector, and n_a the normal of the tool at corner a. The share of a corner without contact
+/// is 0.
 struct ProjectedAreas {
   std::array<double, 4> areas; ///< [length²]
   /// ∂A_a/∂x_b at fixed normals
@@ -34,8 +35,8 @@ struct ProjectedAreas {
 /// Integrates by 2 × 2 Gauss points. Derivatives are 0 unless `with_derivatives`.
 ProjectedAreas compute_projected_areas(const CornerStates &states, bool with_derivatives);
 
-/// Returns the area shares of the corners by 2 × 2 Gauss points, whether they touch or not, along the normals
-/// normal_of(corner).
+/// Returns the area shares of the corners by 2 × 2 Gauss points, whether they touch or not, along
+/// the normals normal_of(corner).
 template <class NormalOf>
 std::array<double, 4> projected_shares(const CornerStates &states, const NormalOf &normal_of) {
   std::array<double, 4> shares{};

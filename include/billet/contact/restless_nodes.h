@@ -14,14 +14,15 @@ public:
   /// Changes in the iterations of an implicit step above which a node is restless.
   static constexpr unsigned int max_changes = 8;
 
-  /// Constructs the counter. A node with more changes than `max_changes` is restless; 0 disables counting.
+  /// Constructs the counter. A node with more changes than `max_changes` is restless; 0 disables
+  /// counting.
   explicit RestlessNodes(const unsigned int max_changes) : max_changes_(max_changes) {}
 
   bool is_counting() const { return max_changes_ > 0; }
   /// Restarts the step.
   void restart();
-  /// Compares each node's state with the previous one, and stores it. The numbers that encode states are
-  /// arbitrary.
+  /// Compares each node's state with the previous one, and stores it. The numbers that encode
+  /// states are arbitrary.
   void count(std::vector<std::uint64_t> states);
   bool is_restless(const std::size_t i) const {
     return i < n_changes_.size() && n_changes_[i] > max_changes_;

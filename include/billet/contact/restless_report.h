@@ -17,8 +17,8 @@ struct RestlessNode {
   unsigned int n_changes;
 };
 
-/// Returns a clause on the restless nodes of a pair on all ranks, and the most restless one; empty if there
-/// are none. `changing`: what they change, such as "facet or status". Collective.
+/// Returns a clause on the restless nodes of a pair on all ranks, and the most restless one; empty
+/// if there are none. `changing`: what they change, such as "facet or status". Collective.
 std::string describe_restless_nodes(const std::vector<RestlessNode> &nodes, const std::string &pair,
                                     const std::string &changing, MPI_Comm communicator);
 

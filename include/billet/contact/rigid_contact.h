@@ -16,30 +16,32 @@
 
 namespace billet {
 
-/// Contact of boundary faces of a deformable body with a rigid tool. It uses nodal quadrature on current
-/// areas, penalty pressure, and friction by return map in the contact frame of each slave node.
+/// Contact of boundary faces of a deformable body with a rigid tool. It uses nodal quadrature on
+/// current areas, penalty pressure, and friction by return map in the contact frame of each slave
+/// node.
 ///
-/// Each facet's share of a node's area is ∫ N_a <−ν·n> dξdη over the current facet, ν its outward area vector
-/// and n the tool's normal. It is the facet's area projected along the tool's normal, weighted by the shape
-/// function. On a flat contact this is one quarter of a parallelogram, as in the paper. On a general
-/// quadrilateral it turns a uniform pressure into a uniform stress. A facet that does not face the tool (the
-/// side of a billet, before it folds onto the die) has no share.
+/// Each facet's share of a node's area is ∫ N_a <−ν·n> dξdη over the current facet, ν its outward
+/// area vector and n the tool's normal. It is the facet's area projected along the tool's normal,
+/// weighted by the shape function. On a flat contact this is one quarter of a parallelogram, as in
+/// the paper. On a general quadrilateral it turns a uniform pressure into a uniform stress. A facet
+/// that does not face the tool (the side of a billet, before it folds onto the die) has no share.
 ///
-/// The pressure fades beyond the edge of the tool's surface, (T3), (T4). A node beyond the edge by d keeps
-/// the part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it. The gradient of the
-/// energy ½ k s g² per area pushes it outwards by −½ k g² s′ e, where e points away from the edge. With
-/// inertia, nodes may miss the edge (MissedEdge).
+/// The pressure fades beyond the edge of the tool's surface, (T3), (T4). A node beyond the edge by
+/// d keeps the part s(d) of its penalty, s = (1 − d²/w²)², w = 1/20 of the facets around it. The
+/// gradient of the energy ½ k s g² per area pushes the node outwards by −½ k g² s′ e. Here e points
+/// away from the edge. With inertia, nodes may miss the edge (MissedEdge).
 ///
-/// Facets between whose nodes the tool could enter undetected (FacetDivision) are divided, (T10): each into n
-/// × m bilinear facets, whose interior corners are contact points like nodes. A point's position is Σ N_a x_a
-/// of the facet's nodes, which take its force and its stiffness by the same N_a. All of the above applies to
-/// the parts and their corners as it does to facets and nodes.
+/// Facets are divided if the tool could enter undetected between their nodes (FacetDivision),
+/// (T10). Each is divided into n × m bilinear facets, whose interior corners are contact points
+/// like nodes. A point's position is Σ N_a x_a of the facet's nodes, which take its force and its
+/// stiffness by the same N_a. All of the above applies to the parts and their corners as it does to
+/// facets and nodes.
 ///
-/// Every rank that owns a facet at a node stores and computes the same state of the node. Points inside
-/// facets belong to one facet each, also those on its sides.
+/// Every rank that owns a facet at a node stores and computes the same state of the node. Points
+/// inside facets belong to one facet each, also those on its sides.
 ///
-/// This class advances the state, which RigidContactParts contain. Its roles evaluate it, and read the state
-/// of the last update().
+/// This class advances the state, which RigidContactParts contain. Its roles evaluate it, and read
+/// the state of the last update().
 class RigidContact final : public ContactInterface {
 public:
   /// Makes a pair for schemes with a matrix.

@@ -25,7 +25,8 @@ struct BoundNodes {
   }
 };
 
-/// State of contact with a rigid tool, which RigidContact advances and its evaluations and measures read.
+/// State of contact with a rigid tool, which RigidContact advances and its evaluations and measures
+/// read.
 struct RigidContactParts {
   RigidContactParts(const Scene &scene, const ContactPair &pair, const Discretization &discretization);
   RigidContactParts(const RigidContactParts &) = delete;
@@ -47,7 +48,8 @@ struct RigidContactParts {
   PressureRecord pressures;                           ///< not known in explicit schemes
   std::optional<ToolFriction> friction;               ///< none without friction
   std::optional<ThinToolWatch> thin_tool;             ///< none unless the tool is thin on any rank
-  std::optional<FadingGaps> fading_gaps;              ///< none unless a mesh became finer in contact
+  /// None unless a mesh became finer in contact.
+  std::optional<FadingGaps> fading_gaps;
   double tool_reach = 0.; ///< maximum radius of curvature, at most the tool's size [length]
   HeldMemory memory{Capability::contact};
 
@@ -84,8 +86,8 @@ private:
   void keep_gaps();
   /// Takes from a node that is open the depth that it does not need any more.
   void leave_depth(std::size_t i);
-  /// Sets the gaps of nodes at their positions, and those that the pair changes at the start. Returns the
-  /// projections of the nodes. Collective.
+  /// Sets the gaps of nodes at their positions, and those that the pair changes at the start.
+  /// Returns the projections of the nodes. Collective.
   std::vector<RigidSurface::Projection> start_gaps();
   /// Whether an initial gap counts as closed, or an initial penetration as allowed.
   bool allows(const RigidSurface::Projection &projection) const;

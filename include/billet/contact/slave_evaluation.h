@@ -8,16 +8,16 @@
 
 namespace billet {
 
-/// Loop over slave nodes that finds the touched facets and computes tractions and forces. Method and friction
-/// are fixed at construction, so that no node tests for them.
+/// Loop over slave nodes that finds the touched facets and computes tractions and forces. Method
+/// and friction are fixed at construction, so that no node tests for them.
 class SlaveEvaluation {
 public:
   virtual ~SlaveEvaluation() = default;
   SlaveEvaluation(const SlaveEvaluation &) = delete;
   SlaveEvaluation &operator=(const SlaveEvaluation &) = delete;
 
-  /// Sets the states of all slaves at the end of a step of this duration [time], and adds the forces on
-  /// nodes, including ghosts.
+  /// Sets the states of all slaves at the end of a step of this duration [time], and adds the
+  /// forces on nodes, including ghosts.
   virtual void run(double duration, FacetSearch::Positions &forces) = 0;
 
 protected:

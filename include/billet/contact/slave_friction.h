@@ -49,7 +49,8 @@ public:
   double slip(const std::size_t s) const { return history_[s].slip; }
   /// Returns the initial state of this step's traction: that at its start, or augmented.
   const SlaveHistory &base(const std::size_t s) const { return base_[s]; }
-  /// Returns the elastic slip of a sticking slave in this step, or since its last augmentation [length].
+  /// Returns the elastic slip of a sticking slave in this step, or since its last augmentation
+  /// [length].
   double elastic_slip(std::size_t s) const;
 
   /// Makes the current tractions of slaves that press the initial ones.
@@ -63,11 +64,11 @@ public:
   void load(const StateReader &reader, const std::vector<std::uint64_t> &keys);
 
 private:
-  /// Records the works of friction. For a node that several ranks have, each rank takes the part of its
-  /// facets.
+  /// Records the works of friction. For a node that several ranks have, each rank takes the part of
+  /// its facets.
   void account_for(std::size_t s, const SlaveTraction &traction, const SlaveMotion &motion);
-  /// Whether the slave touched at the start of the step. If it came in within the step, its friction is not
-  /// augmented.
+  /// Whether the slave touched at the start of the step. If it came in within the step, its
+  /// friction is not augmented.
   bool was_touching(std::size_t s) const;
   void augment_one(std::size_t s);
 

@@ -12,8 +12,8 @@ namespace billet {
 /// Nodes of this rank that may touch facets, and the sizes of the undeformed facets around them.
 class SlaveNodes {
 public:
-  /// Lists the nodes of all `facets` of this rank, in their order; with one pass, only those of surface 0.
-  /// `sizes` [length] has an entry for each of the rank's nodes.
+  /// Lists the nodes of all `facets` of this rank, in their order; with one pass, only those of
+  /// surface 0. `sizes` [length] has an entry for each of the rank's nodes.
   SlaveNodes(const std::vector<SurfaceFacet> &facets, bool two_pass, const std::vector<double> &sizes);
 
   std::size_t size() const { return list_.size(); }
@@ -24,8 +24,8 @@ public:
   double facet_size(const std::size_t s) const { return sizes_[s]; }
   /// Returns the maximum gap at which facets count as flush [length].
   double flush_gap(const std::size_t s) const { return 1e-9 * sizes_[s]; }
-  /// Returns the maximum penetration that counts as none: small compared with those at stiff penalties
-  /// [length].
+  /// Returns the maximum penetration that counts as none: small compared with those at stiff
+  /// penalties [length].
   double penetration_rounding(const std::size_t s) const { return 1e-12 * sizes_[s]; }
 
 private:
@@ -36,8 +36,8 @@ private:
 /// Penalties of slave nodes in one of the passes, and their factors on the given ones.
 class SlavePenalties {
 public:
-  /// Constructs the penalties. `stiffness` of each of the rank's nodes applies to one pass; two passes share
-  /// it. Without friction, tangential penalties are 0.
+  /// Constructs the penalties. `stiffness` of each of the rank's nodes applies to one pass; two
+  /// passes share it. Without friction, tangential penalties are 0.
   SlavePenalties(const SlaveNodes &slaves, const std::vector<ContactStiffness> &stiffness, bool two_pass,
                  bool has_friction);
 

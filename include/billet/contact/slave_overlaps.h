@@ -20,8 +20,8 @@ public:
   void update(const ContactSurfaces &surfaces, const SlaveNodes &slaves, const GapOffsets &offsets);
 
   const FacetOverlaps &pairs() const { return overlaps_; }
-  /// Returns the allowed penetrations of nodes, including ghosts; augmentation() returns their multiplier
-  /// offsets. Both are empty if there are none.
+  /// Returns the allowed penetrations of nodes, including ghosts; augmentation() returns their
+  /// multiplier offsets. Both are empty if there are none.
   const std::vector<double> &gap_offsets() const { return gap_offsets_; }
   const std::vector<double> &augmentation() const { return augmentation_; }
 

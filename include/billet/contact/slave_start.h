@@ -33,8 +33,8 @@ public:
   void commit() { has_started_ = true; }
   void set(std::size_t s, const TouchedFacet &touched, const std::vector<SurfaceFacet> &facets,
            const Pressure &pressed);
-  /// Finds the touched facets by their keys after their indices have changed. A facet that is no longer near
-  /// is not touched.
+  /// Finds the touched facets by their keys after their indices have changed. A facet that is no
+  /// longer near is not touched.
   void find_facets(const std::vector<SurfaceFacet> &facets);
   /// Divides the depth of a slave whose penalty was multiplied by `factor` at the same pressure.
   void divide_penetration(const std::size_t s, const double factor) { pressed_[s].penetration /= factor; }

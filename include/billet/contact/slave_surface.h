@@ -23,20 +23,25 @@ struct ContactPoint {
   dealii::Point<3> reference;
   ContactStiffness stiffness, given; ///< now, and at the start
   double size;                       ///< of the facets around it
-  double reach; ///< acceptable penetration, from the size of these facets and of the elements below [length]
-  double spacing;          ///< size of the parts of facets around it; equal to `size` where none is divided
+  /// Acceptable penetration, from the size of these facets and of the elements below [length].
+  double reach;
+  /// Size of the parts of facets around it; equal to `size` where none is divided.
+  double spacing;
   bool is_divided = false; ///< whether a facet around it is divided
   bool is_fixed = false;   ///< supports prescribe all its motion: it cannot leave the tool
   double hardening_penetration = std::numeric_limits<double>::infinity(); ///< of its normal spring
   HardeningSpring spring() const { return {stiffness.normal, hardening_penetration}; }
-  double touching_gap;    ///< of nodes that start on the tool; far below stiff-penalty penetrations
-  double gap_n = 0.;      ///< at the start of the step
-  unsigned int patch = 0; ///< of the tool's surface, where the search for the next contact point starts
+  double touching_gap; ///< of nodes that start on the tool; far below stiff-penalty penetrations
+  double gap_n = 0.;   ///< at the start of the step
+  /// Patch of the tool's surface where the search for the next contact point starts.
+  unsigned int patch = 0;
   /// λ/k of augmentation, now and at the start of the step [length]
   double multiplier_offset = 0., multiplier_offset_n = 0.;
-  double initial_penetration = 0.; ///< allowed initial penetration; < 0: a gap that counts as closed
-  bool is_behind = false;          ///< at the start of the step: it has missed the tool's surface, ...
-  dealii::Tensor<1, 3> behind_at;  ///< ... and was here, in the tool's coordinates
+  /// Allowed initial penetration; < 0: a gap that counts as closed.
+  double initial_penetration = 0.;
+  /// Whether it had missed the tool's surface at the start of the step.
+  bool is_behind = false;
+  dealii::Tensor<1, 3> behind_at; ///< its place then, in the tool's coordinates
 
   /// Returns the displacement of a node of the mesh.
   dealii::Tensor<1, 3> displacement_in(const Vector &displacements) const {
@@ -47,13 +52,14 @@ struct ContactPoint {
   }
 };
 
-/// A facet of the mesh, or a part of one; nodes ordered so that the area vector points out of the body.
+/// A facet of the mesh, or a part of one; nodes ordered so that the area vector points out of the
+/// body.
 struct ContactFacet {
   std::array<unsigned int, 4> nodes;
   std::uint64_t key;
   std::array<double, 4> friction_areas; ///< of corners that touch, at the start of the step
-  /// Only in explicit scenes: each corner's area in the last step in which its node was not deep, or in its
-  /// first one. It is SpringEnergy::no_area where the corner does not touch.
+  /// Only in explicit scenes: each corner's area in the last step in which its node was not deep,
+  /// or in its first one. It is SpringEnergy::no_area where the corner does not touch.
   std::array<double, 4> shallow_areas;
 };
 
@@ -72,10 +78,11 @@ struct DividedFacet {
   bool may_touch; ///< whether a point inside touched at the last update(), or its status is unknown
 };
 
-/// Boundary faces of a body that may touch a tool. Contains their nodes with sizes and penalties, and the
-/// points inside facets between whose nodes the tool could enter (T10).
+/// Boundary faces of a body that may touch a tool. Contains their nodes with sizes and penalties,
+/// and the points inside facets between whose nodes the tool could enter (T10).
 struct SlaveSurface {
-  /// Collects the surface. `touching_gap` is that of nodes that start on the tool [facet sizes]. Collective.
+  /// Collects the surface. `touching_gap` is that of nodes that start on the tool [facet sizes].
+  /// Collective.
   SlaveSurface(const ContactPair &pair, const Tool &tool, const Discretization &discretization,
                double young_modulus, double touching_gap);
 
@@ -92,11 +99,12 @@ struct SlaveSurface {
   double max_stiffening = std::numeric_limits<double>::infinity(),
          max_tangential_stiffening = std::numeric_limits<double>::infinity();
 
-  /// Returns the sums of the area vectors of facets around each node or point, at these positions [length²].
-  /// Collective.
+  /// Returns the sums of the area vectors of facets around each node or point, at these positions
+  /// [length²]. Collective.
   std::vector<dealii::Tensor<1, 3>> sum_normals(const std::vector<dealii::Tensor<1, 3>> &positions,
                                                 const Discretization &discretization) const;
-  /// Makes springs at divided facets harden with penetration (T11), for a tool of this thickness [length].
+  /// Makes springs at divided facets harden with penetration (T11), for a tool of this thickness
+  /// [length].
   void harden_springs(double tool_thickness);
   /// Calls add(node of the mesh, weight) for the parents of a node or point.
   template <class Add> void for_each_parent(const std::size_t i, const Add &add) const {
@@ -131,8 +139,8 @@ struct SlaveSurface {
                const std::vector<double> &rows) const {
       writer.write_rows(prefix + name, width, keys, rows);
     }
-    /// Calls set(index, its row) for the rows that the state contains. With another tool or mesh before the
-    /// restart, the points inside facets may have been different.
+    /// Calls set(index, its row) for the rows that the state contains. With another tool or mesh
+    /// before the restart, the points inside facets may have been different.
     template <class Set>
     void read(const StateReader &reader, const std::string &name, const std::size_t width,
               const Set &set) const {

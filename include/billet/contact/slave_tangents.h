@@ -13,20 +13,21 @@
 
 namespace billet {
 
-/// Tangents of slave nodes. Method and friction are fixed at construction, so that no node tests for them.
+/// Tangents of slave nodes. Method and friction are fixed at construction, so that no node tests
+/// for them.
 class SlaveTangents {
 public:
-  /// Function that receives nodes i, j, ... of this rank and ghosts, and the matrix −∂F_c,i/∂x_j, with three
-  /// rows and columns per node [force/length].
+  /// Function that receives nodes i, j, ... of this rank and ghosts, and the matrix −∂F_c,i/∂x_j,
+  /// with three rows and columns per node [force/length].
   using Add = std::function<void(const std::vector<unsigned int> &, const dealii::FullMatrix<double> &)>;
 
   virtual ~SlaveTangents() = default;
   SlaveTangents(const SlaveTangents &) = delete;
   SlaveTangents &operator=(const SlaveTangents &) = delete;
 
-  /// Adds the tangent of the last evaluation: for each slave that touches, the part of this rank's area.
-  /// Kinds are those of compute_traction(); all except the exact and the numerical ones fix normals, areas
-  /// and weights.
+  /// Adds the tangent of the last evaluation: for each slave that touches, the part of this rank's
+  /// area. Kinds are those of compute_traction(); all except the exact and the numerical ones fix
+  /// normals, areas and weights.
   virtual void visit(ContactTangent kind, const Add &add) const = 0;
 
 protected:

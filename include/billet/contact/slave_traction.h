@@ -13,25 +13,29 @@
 
 namespace billet {
 
-/// Friction history of a slave node. It belongs to the node: sliding from one facet to the next does not
-/// change it. A node out of contact has a new one.
+/// Friction history of a slave node. It belongs to the node: sliding from one facet to the next
+/// does not change it. A node out of contact has a new one.
 struct SlaveHistory : FrictionHistory {
   double area = 0.; ///< of the traction [length²]
 };
 
 /// Motion of a slave node and of the facet that it touches over a step.
 template <class Number> struct SlaveMotionOf {
-  /// Displacement of the node relative to the facet's material point that is now below it, for an observer
-  /// who rotates with the facet: (x − x̂) − R (x_n − x̂_n), x̂ = Σ w_I x_I. 0 if both move as one rigid body.
+  /// Displacement of the node relative to the facet's material point that is now below it, for an
+  /// observer who rotates with the facet: (x − x̂) − R (x_n − x̂_n), x̂ = Σ w_I x_I. 0 if both move
+  /// as one rigid body.
   dealii::Tensor<1, 3, Number> displacement;
   dealii::Tensor<2, 3, Number> rotation; ///< R, rotation of the facet
   double duration;                       ///< [time]; 0 in a step without duration
-  double multiplier_offset = 0.;         ///< multiplier offset: the gap is the distance less this [length]
-  double flush = 0.; ///< maximum distance from the facet at which a node counts as touching [length]
+  /// Multiplier offset: the gap is the distance less this [length].
+  double multiplier_offset = 0.;
+  /// Maximum distance from the facet at which a node counts as touching [length].
+  double flush = 0.;
 };
 using SlaveMotion = SlaveMotionOf<double>;
 
-/// Computes the motion. `_n` marks the start of the step; the weights are those of the projection at its end.
+/// Computes the motion. `_n` marks the start of the step; the weights are those of the projection
+/// at its end.
 template <class Number>
 SlaveMotionOf<Number>
 compute_slave_motion(const FacetCorners &corners_n, const FacetCornersOf<Number> &corners,
@@ -63,8 +67,8 @@ SlaveTractionOf<Number> compute_slave_traction(const Frictionless & /*law*/, con
   return result;
 }
 
-/// Returns −∂t/∂x of the traction t on a node at fixed normal and facet, from the tangent in its frame
-/// [stress/length].
+/// Returns −∂t/∂x of the traction t on a node at fixed normal and facet, from the tangent in its
+/// frame [stress/length].
 template <class Number>
 dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction &traction) {
   const std::array<dealii::Tensor<1, 3>, 3> axes{frame.q, frame.r, frame.n};
@@ -75,8 +79,9 @@ dealii::Tensor<2, 3> to_space(const FrameOf<Number> &frame, const FrameTraction 
   return tangent;
 }
 
-/// Returns the part φ = g/(g − g_n) of the step in which a node was behind a facet that it came through
-/// within the step. g is the distance now. Returns 1 if the node touched the facet at the start.
+/// Returns the part φ = g/(g − g_n) of the step in which a node was behind a facet. The node came
+/// through the facet within the step. g is the distance now. Returns 1 if the node touched the
+/// facet at the start.
 template <class Number>
 Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number> &normal,
                        const SlaveMotionOf<Number> &motion) {
@@ -86,14 +91,16 @@ Number part_in_contact(const Number &distance, const dealii::Tensor<1, 3, Number
   return distance < 0. ? Number(distance / (distance - distance_n)) : Number(0.);
 }
 
-/// Computes friction in the contact frame, eqs. (4), (5), (32)-(40) of Bittencourt & Creus (1998) as in
-/// contact/traction.h. The frame at the end of the last step follows the facet's rotation and is then rotated
-/// onto the new normal. A pair that sticks and rotates thus keeps its traction components and creates none. A
-/// node that has come through the facet within the step slides only for its part_in_contact(). `gap` < 0;
-/// `history` becomes the state at the end of the step, and may alias `history_n`.
+/// Computes friction in the contact frame, eqs. (4), (5), (32)-(40) of Bittencourt & Creus (1998)
+/// as in contact/traction.h. The frame at the end of the last step follows the facet's rotation and
+/// is then rotated onto the new normal. A pair that sticks and rotates thus keeps its traction
+/// components and creates none. A node that has come through the facet within the step slides only
+/// for its part_in_contact(). `gap` < 0; `history` becomes the state at the end of the step, and
+/// may alias `history_n`.
 ///
-/// With Derivative as Number, the traction has its exact derivatives; the other results, and `history`, have
-/// values only. `tangent`, unless null, becomes −∂t/∂x of this kind of tangent, as in to_space().
+/// With Derivative as Number, the traction has its exact derivatives; the other results, and
+/// `history`, have values only. `tangent`, unless null, becomes −∂t/∂x of this kind of tangent, as
+/// in to_space().
 template <class Number>
 SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const ContactStiffness &stiffness,
                                                const dealii::Tensor<1, 3, Number> &normal, const Number &gap,
@@ -117,7 +124,8 @@ SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const Con
   SlaveTractionOf<Number> result;
   result.status = t.status;
   result.pressure = t.pressure;
-  // The differences are 0 in value; they carry the derivatives of the arguments through the return map.
+  // The differences are 0 in value; they carry the derivatives of the arguments through the return
+  // map.
   const std::array<Number, 3> change{slid[0] - increment.value[0], slid[1] - increment.value[1],
                                      gap - value_of(gap)};
   std::array<Number, 3> components{t.tangential[0], t.tangential[1], t.pressure};
@@ -139,8 +147,8 @@ SlaveTractionOf<Number> compute_slave_traction(const FrictionLaw &law, const Con
   return result;
 }
 
-/// Computes the account between the states of a slave node at both ends of a step; a node out of contact has
-/// no traction. The last two arguments are those of FrictionStep.
+/// Computes the account between the states of a slave node at both ends of a step; a node out of
+/// contact has no traction. The last two arguments are those of FrictionStep.
 FrictionAccount compute_friction_account(const SlaveHistory &history_n, const SlaveHistory &history,
                                          const SlaveMotion &motion, const FrictionRule &rule,
                                          double part_in_contact = 1., double limit_n = 0.);

@@ -7,9 +7,9 @@
 
 namespace billet {
 
-/// Energy per area in the penalty springs of a node [energy/length²], and the areas on which it acts. The
-/// excess over a limit acts on the area of the last step in which the node was below that limit. Forces at
-/// any penetration then have the potential on_areas(), (T7) of doc/theory.md.
+/// Energy per area in the penalty springs of a node [energy/length²], and the areas on which it
+/// acts. The excess over a limit acts on the area of the last step in which the node was below that
+/// limit. Forces at any penetration then have the potential on_areas(), (T7) of doc/theory.md.
 struct SpringEnergy {
   /// Marks a missing area from before the node was deep.
   static constexpr double no_area = -1.;

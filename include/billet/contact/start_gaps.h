@@ -7,15 +7,17 @@
 
 namespace billet {
 
-/// Sums over the nodes of a pair on this rank, to judge the gaps that it changes at the start, (C15).
+/// Sums over the nodes of a pair on this rank, to judge the gaps that it changes at the start,
+/// (C15).
 struct StartGaps {
-  double force = 0., area = 0.;   ///< of the nodes that press
-  double slide = 0., facets = 0.; ///< slide of the partner, and facet size, each weighted by the force
+  double force = 0., area = 0.; ///< of the nodes that press
+  /// Slide of the partner, and facet size, each weighted by the force.
+  double slide = 0., facets = 0.;
   /// Least and largest penetration that counts as none; a gap that counts as closed is negative.
   double least = std::numeric_limits<double>::infinity(), largest = -least;
 
-  /// Adds a node with its force; `moved`: distance by which the partner has slid along the face there since
-  /// the start [length].
+  /// Adds a node with its force; `moved`: distance by which the partner has slid along the face
+  /// there since the start [length].
   void add(const double of_force, const double of_area, const double moved, const double facet_size,
            const double penetration) {
     if (of_force > 0.) {

@@ -18,7 +18,8 @@ struct SlaveForce {
 
 /// Changes of contact status between two states, and the related changes of forces.
 struct StatusChanges {
-  double n = 0.;             ///< slave nodes whose status changed; a shared node counts on each of its ranks
+  /// Slave nodes whose status changed; a shared node counts on each of its ranks.
+  double n = 0.;
   double force = 0.;         ///< Σ |Δf| of these nodes [force]
   double contact_force = 0.; ///< Σ |f| of all slave nodes at the second state [force]
 

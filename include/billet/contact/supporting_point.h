@@ -32,8 +32,8 @@ struct SupportingPoint {
   }
 };
 
-/// Makes the point at `position` with this traction on the body. Without tangential traction the slip has no
-/// direction: such a point counts as frictionless.
+/// Makes the point at `position` with this traction on the body. Without tangential traction the
+/// slip has no direction: such a point counts as frictionless.
 inline SupportingPoint make_supporting_point(const dealii::Tensor<1, 3> &position,
                                              const dealii::Tensor<1, 3> &normal, const FrictionLaw &friction,
                                              const ContactStatus status,

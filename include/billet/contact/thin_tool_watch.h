@@ -11,12 +11,12 @@
 
 namespace billet {
 
-/// Detects nodes that pass through a tool thinner than two facets, from the start of a step to its end. All
-/// positions are in the tool's coordinates.
+/// Detects nodes that pass through a tool thinner than two facets, from the start of a step to its
+/// end. All positions are in the tool's coordinates.
 class ThinToolWatch {
 public:
-  /// Returns a watch if the surface is thin compared with facets up to this size [length]. Keeps a reference
-  /// to the surface.
+  /// Returns a watch if the surface is thin compared with facets up to this size [length]. Keeps a
+  /// reference to the surface.
   static std::optional<ThinToolWatch> make(const RigidSurface &surface, double max_facet_size);
 
   /// Returns the smallest extent of the tool [length].

@@ -13,8 +13,8 @@ public:
   /// The parts must outlive this object.
   explicit ToolBounds(const RigidContactParts &parts) : parts_(parts) {}
 
-  /// Returns the maximum stiffness of a node's normal spring at the end of the next step, if that has the
-  /// same duration [force/length³].
+  /// Returns the maximum stiffness of a node's normal spring at the end of the next step, if that
+  /// has the same duration [force/length³].
   double stiffness_ahead(std::size_t i) const;
   /// Adds the stiffness of owned nodes that do not touch, but may soon do so [force/length].
   void add_near(NodalVectors &bounds) const;
@@ -26,7 +26,8 @@ public:
   double stiffness_against_tool() const;
 
 private:
-  /// Calls add(index of the slave node, area) for owned nodes that do not touch, but may soon do so.
+  /// Calls add(index of the slave node, area) for owned nodes that do not touch, but may soon do
+  /// so.
   template <class Add> void visit_near(const Add &add) const;
 
   const RigidContactParts &parts_;

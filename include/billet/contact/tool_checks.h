@@ -25,7 +25,8 @@ public:
   std::string describe_obstacle() const override;
   bool has_restless() const override { return parts_.restless.has_any(); }
   Explanation describe_restless() const override;
-  /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at `position`.
+  /// Whether the edge of the tool's surface is within a tenth of a facet of this rank's node at
+  /// `position`.
   bool has_node_on_edge(const dealii::Tensor<1, 3> &position) const;
 
 private:

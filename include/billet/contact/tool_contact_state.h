@@ -29,9 +29,9 @@ struct ToolContactState {
   bool is_passed = false;        ///< ... and is in front of the surface now
 };
 
-/// Whether the nearest point is on a concave edge, or on a fillet smaller than the penetration: the normal
-/// turns with the node, by (T2) with g tr H = 1, and two faces press. `gap` and `turning` are those of the
-/// surface.
+/// Whether the nearest point is on a concave edge, or on a fillet smaller than the penetration. The
+/// normal then turns with the node, by (T2) with g tr H = 1, and two faces press. `gap` and
+/// `turning` are those of the surface.
 inline bool is_in_concave_edge(const double gap, const dealii::Tensor<2, 3> &turning) {
   constexpr double turns = 0.5;
   return gap < 0. && gap * dealii::trace(turning) > turns;

@@ -8,12 +8,12 @@
 
 namespace billet {
 
-/// Limits of nodes that are about to touch a tool: nearer than this part of their facets' size, or this many
-/// steps away.
+/// Limits of nodes that are about to touch a tool: nearer than this part of their facets' size, or
+/// this many steps away.
 constexpr double near_gap = 0.25, near_steps = 20.;
 
-/// Loop over nodes that finds the touched points of a tool and computes tractions. Friction, scheme and kind
-/// of tangents are fixed at construction, so that no node tests for them.
+/// Loop over nodes that finds the touched points of a tool and computes tractions. Friction, scheme
+/// and kind of tangents are fixed at construction, so that no node tests for them.
 class ToolEvaluation {
 public:
   virtual ~ToolEvaluation() = default;

@@ -18,7 +18,8 @@ public:
   ToolExplicitContact(RigidContactParts &parts, const LocalNodes &nodes);
 
   void update(const NodalVectors &displacements) override { evaluation_->run(displacements); }
-  /// Without friction F_c = −∂Π/∂u, Π the stored energy, including the forces due to changes of area.
+  /// Without friction F_c = −∂Π/∂u, Π the stored energy, including the forces due to changes of
+  /// area.
   ContactLoad add_forces(NodalVectors &forces, NodalVectors &bounds) override {
     return forces_.add(forces, bounds);
   }

@@ -7,18 +7,18 @@
 
 namespace billet {
 
-/// Forces of contact with a tool in explicit scenes, at the last update(). They include the resistance of
-/// springs to changes of their areas, F_b = −Σ_a ê_a ∂A_a/∂x_b (T7), with ê the part of the stored energy e
-/// that acts on current areas. Normal forces at any penetration then have the potential
-/// Σ A_a ê_a + A_a0 (e_a − ê_a).
+/// Forces of contact with a tool in explicit scenes, at the last update(). They include the
+/// resistance of springs to changes of their areas, F_b = −Σ_a ê_a ∂A_a/∂x_b (T7). ê is the part of
+/// the stored energy e that acts on current areas. Normal forces at any penetration then have the
+/// potential Σ A_a ê_a + A_a0 (e_a − ê_a).
 class ToolForces {
 public:
   /// The parts must outlive this object.
   explicit ToolForces(RigidContactParts &parts)
       : parts_(parts), springs_(parts), works_(parts), bounds_(parts) {}
 
-  /// Adds forces and bounds as ExplicitContact::add_forces() does, and records the areas of nodes that go
-  /// deep. Returns the load of this rank's facets.
+  /// Adds forces and bounds as ExplicitContact::add_forces() does, and records the areas of nodes
+  /// that go deep. Returns the load of this rank's facets.
   ContactLoad add(NodalVectors &forces, NodalVectors &bounds);
 
 private:

@@ -12,8 +12,8 @@
 
 namespace billet {
 
-/// Friction of nodes on a tool: histories, tractions by return map in a contact frame that each node carries
-/// along, and the account of their works. Exists only with friction.
+/// Friction of nodes on a tool. It has the histories, the tractions by return map in a contact
+/// frame that each node carries along, and the account of their works. Exists only with friction.
 class ToolFriction {
 public:
   /// History of a node.
@@ -21,7 +21,8 @@ public:
     dealii::Tensor<1, 3> tool_position; ///< of the slave node, in the tool's coordinates
   };
 
-  /// `stores` is whether springs store energy, see FrictionRule. The references must outlive this object.
+  /// `stores` is whether springs store energy, see FrictionRule. The references must outlive this
+  /// object.
   ToolFriction(const FrictionLaw &law, bool stores, std::size_t n_nodes, const ToolStep &step,
                const PressureRecord &pressures);
 
@@ -36,8 +37,8 @@ public:
   History &operator[](const std::size_t i) { return now_[i]; }
   const History &operator[](const std::size_t i) const { return now_[i]; }
 
-  /// Computes traction and tangent of node i, which touches the tool, and its history. `fading` is null
-  /// except beyond the edge of the surface. `is_exact` is whether the kind of tangents is
+  /// Computes traction and tangent of node i, which touches the tool, and its history. `fading` is
+  /// null except beyond the edge of the surface. `is_exact` is whether the kind of tangents is
   /// ContactTangent::exact.
   template <bool is_exact>
   void press(std::size_t i, const ContactPoint &node, const FrictionTangent &kind, const EdgeFading *fading,
@@ -47,7 +48,8 @@ public:
   void release(std::size_t i, const ContactPoint &node, const dealii::Tensor<1, 3> &normal,
                ToolContactState &state, History &history) const;
 
-  /// Returns the elastic slip of a sticking node in this step, or since its last augmentation [length].
+  /// Returns the elastic slip of a sticking node in this step, or since its last augmentation
+  /// [length].
   double elastic_slip(std::size_t i, const ContactPoint &node, const ToolContactState &state) const;
 
   /// Makes the current tractions of nodes that touched at the start of the step the initial ones.
@@ -81,8 +83,9 @@ private:
   const bool stores_;
   const ToolStep &step_;
   const PressureRecord &pressures_;
-  std::vector<History> n_, now_;            ///< at the start of the step, and at its end
-  std::vector<std::array<double, 2>> base_; ///< augmented initial tractions of this step; empty: those of n_
+  std::vector<History> n_, now_; ///< at the start of the step, and at its end
+  /// Augmented initial tractions of this step; empty: those of n_.
+  std::vector<std::array<double, 2>> base_;
   double start_weight_ = 0.5;
   const FrictionAccounting *accounting_ = &FrictionAccounting::of_motion;
   HeldMemory memory_{Capability::friction};

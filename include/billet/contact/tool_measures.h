@@ -16,8 +16,8 @@ public:
 
   Penetration penetration() const override;
   FacetPenetration penetration_between_nodes() const override { return find_facet_penetration(parts_); }
-  /// Returns the penetration relative to the acceptable one: a fifth of a facet, and 0.4 of the element
-  /// behind the node.
+  /// Returns the penetration relative to the acceptable one: a fifth of a facet, and 0.4 of the
+  /// element behind the node.
   double excessive_penetration() const override;
   double closing_of_new_contacts() const override;
   double max_sliding(double expected) const override;
@@ -27,8 +27,9 @@ public:
     return works_.compute_step_works(weight);
   }
   std::vector<SlaveForce> slave_forces() const override;
-  /// Reports every node at a facet of this rank; `area` is this rank's share. At divided facets, pressure,
-  /// traction and status are means over all points that push the node, weighted by its share of their areas.
+  /// Reports every node at a facet of this rank; `area` is this rank's share. At divided facets,
+  /// pressure, traction and status are means over all points that push the node, weighted by its
+  /// share of their areas.
   std::vector<ContactNodeReport> report() const override;
   std::size_t history_size() const override;
   double surface_reach() const override { return parts_.tool_reach; }
@@ -44,8 +45,8 @@ private:
   std::vector<ContactNodeReport> report_nodes() const;
   template <bool is_explicit>
   void add_areas(const ToolSprings<is_explicit> &springs, std::vector<ContactNodeReport> &reports) const;
-  /// Raises curvatures to those along the sides of facets: there the tool's normal may change more than over
-  /// the root of their area.
+  /// Raises curvatures to those along the sides of facets: there the tool's normal may change more
+  /// than over the root of their area.
   void follow_sides(std::vector<ContactNodeReport> &reports) const;
   template <bool is_explicit>
   void average_over_points(const ToolSprings<is_explicit> &springs,

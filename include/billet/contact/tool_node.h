@@ -8,8 +8,9 @@
 
 namespace billet {
 
-/// Evaluation of single nodes on a tool, (T1)-(T4), with a friction law or Frictionless. Without inertia no
-/// node misses the surface's edge. `is_exact` is whether the kind of tangents is ContactTangent::exact.
+/// Evaluation of single nodes on a tool, (T1)-(T4), with a friction law or Frictionless. Without
+/// inertia no node misses the surface's edge. `is_exact` is whether the kind of tangents is
+/// ContactTangent::exact.
 template <class Law, bool has_inertia, bool is_exact> class ToolNode {
 public:
   static constexpr bool has_friction = !std::is_same_v<Law, Frictionless>;
@@ -18,7 +19,8 @@ public:
   ToolNode(const RigidContactParts &parts, const ContactTangent kind)
       : parts_(parts), kind_(FrictionTangent::of(kind)) {}
 
-  /// Computes the state of node i at `position` and, with friction, its history, which otherwise is null.
+  /// Computes the state of node i at `position` and, with friction, its history, which otherwise is
+  /// null.
   ToolContactState evaluate(std::size_t i, const dealii::Tensor<1, 3> &position,
                             ToolFriction::History *history) const;
 
@@ -27,8 +29,8 @@ private:
   const FrictionTangent kind_;
 };
 
-/// Calls visit(ToolNode) with the evaluation of the pair's friction law and scheme, for this kind of
-/// tangents.
+/// Calls visit(ToolNode) with the evaluation of the pair's friction law and scheme, for this kind
+/// of tangents.
 template <class Visit>
 void visit_tool_node(const RigidContactParts &parts, const ContactTangent kind, const Visit &visit) {
   choose_friction(parts.pair.friction, [&](const auto &law) {

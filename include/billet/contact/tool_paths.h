@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Returns the part of a motion of body and tool during which no node goes through the tool's surface, as
-/// MatrixContact::find_free_part() does.
+/// Returns the part of a motion of body and tool during which no node goes through the tool's
+/// surface, as MatrixContact::find_free_part() does.
 double find_free_part_of_nodes(const RigidContactParts &parts, const ContactPath &path);
 
 } // namespace billet

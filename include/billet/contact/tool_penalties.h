@@ -7,8 +7,9 @@
 
 namespace billet {
 
-/// Penalties of contact with a tool, and its augmented Lagrangian by Uzawa's method: a multiplier acts as an
-/// offset λ/k of its node's gap. The spring of a sticking node starts from its augmented traction.
+/// Penalties of contact with a tool, and its augmented Lagrangian by Uzawa's method: a multiplier
+/// acts as an offset λ/k of its node's gap. The spring of a sticking node starts from its augmented
+/// traction.
 class ToolPenalties final : public ContactPenalties {
 public:
   /// The parts must outlive this object.

@@ -30,16 +30,17 @@ template <class Add> void visit_areas(const RigidContactParts &parts, const Add 
   });
 }
 
-/// Returns the maximum penetration up to which the spring energy acts on current areas in explicit scenes.
-/// The excess acts on a fixed area: that of the last step in which the node was not so deep. The limit is 0
-/// for hardening springs, so that energy is conserved where the normal jumps, as at an edge of the tool.
+/// Returns the maximum penetration up to which the spring energy acts on current areas in explicit
+/// scenes. The excess acts on a fixed area: that of the last step in which the node was not so
+/// deep. The limit is 0 for hardening springs, so that energy is conserved where the normal jumps,
+/// as at an edge of the tool.
 inline double penetration_on_current_areas(const ContactPoint &node) {
   constexpr double part_of_spacing = 0.1;
   return std::isinf(node.hardening_penetration) ? part_of_spacing * node.spacing : 0.;
 }
 
-/// Energies in the penalty springs of nodes on a tool, and the areas on which they act: those of the last
-/// update(), and in explicit scenes also earlier ones (T7).
+/// Energies in the penalty springs of nodes on a tool, and the areas on which they act. These are
+/// those of the last update(), and in explicit scenes also earlier ones (T7).
 template <bool is_explicit> class ToolSprings {
 public:
   /// The parts must outlive this object.
@@ -50,7 +51,8 @@ public:
   double stored_energy(const std::size_t i) const {
     // Multipliers do not stretch springs.
     const ContactPoint &node = parts_.slaves.nodes[i];
-    const double gap = parts_.states[i].gap + node.multiplier_offset; // except the allowed penetration
+    // The allowed penetration does not count.
+    const double gap = parts_.states[i].gap + node.multiplier_offset;
     return parts_.states[i].share * node.spring().energy(gap) +
            (stores_tangentially_ ? parts_.states[i].tangential_energy : 0.);
   }
@@ -63,7 +65,8 @@ public:
   }
   SpringEnergy of(const std::size_t i) const { return of(i, stored_energy(i)); }
 
-  /// Calls add(index of the slave node, area) with the area that multiplies tractions to give the force.
+  /// Calls add(index of the slave node, area) with the area that multiplies tractions to give the
+  /// force.
   template <class Add> void visit_counted_areas(const Add &add) const {
     visit_touching(parts_, [&](const ContactFacet &facet, const unsigned int corner, const double area) {
       const double counted = of(facet.nodes[corner]).counted_area(area, facet.shallow_areas[corner]);

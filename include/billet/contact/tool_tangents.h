@@ -11,8 +11,8 @@
 
 namespace billet {
 
-/// Tangents of facets on a tool. The kind of tangents, friction and scheme are fixed at construction, so that
-/// no facet and no node tests for them.
+/// Tangents of facets on a tool. The kind of tangents, friction and scheme are fixed at
+/// construction, so that no facet and no node tests for them.
 class ToolTangents {
 public:
   virtual ~ToolTangents() = default;
@@ -24,8 +24,8 @@ public:
   /// Visits those of the facets begin, ..., end − 1 that touch.
   virtual void visit(std::size_t begin, std::size_t end, const Visit &visit) const = 0;
 
-  /// Adds −∂F_c/∂u of the nodes of the mesh. The forces on points inside a divided facet are those of its
-  /// corners.
+  /// Adds −∂F_c/∂u of the nodes of the mesh. The forces on points inside a divided facet are those
+  /// of its corners.
   void add(const TangentSystem &system) const;
 
 protected:

@@ -19,8 +19,8 @@ public:
   /// Computes the works as ContactMeasures::compute_step_works() does. Collective.
   StepWorks compute_step_works(double weight) const;
 
-  /// Adds the contribution of a corner whose node touches, with its area at the facet. Returns the force on
-  /// the body.
+  /// Adds the contribution of a corner whose node touches, with its area at the facet. Returns the
+  /// force on the body.
   template <bool is_explicit>
   dealii::Tensor<1, 3> add_corner(const ToolSprings<is_explicit> &springs, const ContactFacet &facet,
                                   unsigned int corner, double area, ContactLoad &load) const;
@@ -34,7 +34,8 @@ private:
   template <class Visit> void visit_friction(bool hands_over, const Visit &visit) const;
   /// Whether any node presses at the start of the step, and any at the last update(). Collective.
   bool presses_at_both_ends() const;
-  /// Whether a node has entered or left within the step, or the allowed part of its penetration changes.
+  /// Whether a node has entered or left within the step, or the allowed part of its penetration
+  /// changes.
   bool has_moved() const;
   void add_pressure_works(double weight, StepWorks &works) const;
   /// Returns the area of each node from the facets of this rank, projected along these normals.

@@ -19,8 +19,8 @@ namespace billet {
 struct SlaveState {
   TouchedFacet touched;
   bool is_near = false; ///< touches nothing yet, but may soon
-  /// Normal and gap, less the offset, of the touched or near facets, and these facets, by index into the
-  /// shares.
+  /// Normal and gap, less the offset, of the touched or near facets, and these facets, by index
+  /// into the shares.
   SharedGap contact{dealii::Tensor<1, 3>(), 0.};
   std::size_t first_share = 0, end_of_shares = 0;
   SlaveTraction traction;
@@ -33,16 +33,16 @@ struct SlaveState {
   bool has_pressure() const { return presses() && traction.pressure > 0.; }
 };
 
-/// States of all slave nodes at the last evaluation, and results that follow from them alone: areas, motions,
-/// forces on nodes and facets.
+/// States of all slave nodes at the last evaluation, and results that follow from them alone:
+/// areas, motions, forces on nodes and facets.
 class TouchingSlaves {
 public:
   /// All arguments must outlive this object.
   TouchingSlaves(const ContactSurfaces &surfaces, const SlaveNodes &slaves, const GapOffsets &offsets,
                  const SlaveStart &start);
 
-  /// Begins an evaluation at the end of a step of this duration [time]. SlaveFinder then sets the states in
-  /// order.
+  /// Begins an evaluation at the end of a step of this duration [time]. SlaveFinder then sets the
+  /// states in order.
   void start_evaluation(const double duration) {
     duration_ = duration;
     shares_.clear();
@@ -55,7 +55,8 @@ public:
   std::vector<FacetShare> &shares() { return shares_; }
   const std::vector<FacetShare> &shares() const { return shares_; }
 
-  /// Returns the point of a slave that touches a share's facet: the node itself, or a point of its own facet.
+  /// Returns the point of a slave that touches a share's facet: the node itself, or a point of its
+  /// own facet.
   dealii::Tensor<1, 3> point_of(const std::size_t s, const FacetShare &share,
                                 const ContactSurfaces::Positions &positions) const {
     return share.slave_facet == FacetShare::none
@@ -76,18 +77,21 @@ public:
   }
   /// Returns the fraction of the facets around a slave that this rank owns, by number.
   double own_part(std::size_t s) const;
-  /// Returns the distance of a slave that presses to the surface itself, regardless of augmentation [length].
+  /// Returns the distance of a slave that presses to the surface itself, regardless of augmentation
+  /// [length].
   double penetration_of(const std::size_t s) const {
     return std::abs(states_[s].contact.gap + offsets_.augmentation[s]);
   }
 
-  /// Computes the motion, over the step, of a slave that presses relative to the surface that it touches now.
+  /// Computes the motion, over the step, of a slave that presses relative to the surface that it
+  /// touches now.
   SlaveMotion motion_of(std::size_t s) const;
-  /// Computes the motion of a slave that does not press relative to the facet that it touched at the start of
-  /// the step.
+  /// Computes the motion of a slave that does not press relative to the facet that it touched at
+  /// the start of the step.
   SlaveMotion motion_after_contact(std::size_t s) const;
 
-  /// Calls visit(share, force on the slave, reaction on the corners) for each facet that a slave touches.
+  /// Calls visit(share, force on the slave, reaction on the corners) for each facet that a slave
+  /// touches.
   template <class Visit> void visit_forces(const std::size_t s, const Visit &visit) const {
     const SlaveState &state = states_[s];
     if (!state.presses() || !(state.own_area > 0.))

@@ -17,14 +17,14 @@ using parameters::ContactTangent;
 
 enum class ContactStatus { open = 0, stick = 1, slip = 2 };
 
-/// Maximum penalty, relative to E/h, to which augmentation raises penalties: each augmentation then leaves
-/// little penetration.
+/// Maximum penalty, relative to E/h, to which augmentation raises penalties: each augmentation then
+/// leaves little penetration.
 constexpr double enough_penalty = 10.;
 /// Maximum factor by which the program may raise penalties beyond that.
 constexpr double max_raise = 100.;
 
-/// Returns the largest power of 2 not above a factor of penalties. Products of such powers are exact in any
-/// order, so that a restarted run has bitwise identical penalties.
+/// Returns the largest power of 2 not above a factor of penalties. Products of such powers are
+/// exact in any order, so that a restarted run has bitwise identical penalties.
 inline double whole_octaves(const double factor) { return std::exp2(std::floor(std::log2(factor))); }
 
 /// Penalties of a node [force/length³].
@@ -33,8 +33,8 @@ struct ContactStiffness {
   double tangential;
 };
 
-/// Traction of a slave node in its contact frame, t = (t_q, t_r, p), and its derivative, both per current
-/// area.
+/// Traction of a slave node in its contact frame, t = (t_q, t_r, p), and its derivative, both per
+/// current area.
 struct FrameTraction {
   ContactStatus status;
   double pressure;                      ///< p = k_n <−g> >= 0 [stress], eq. (9)
@@ -48,11 +48,11 @@ struct FrameTraction {
 /// The relative tangential motion of a node over a step, on the current q and r.
 struct TangentialIncrement {
   std::array<double, 2> value; ///< Δg [length]
-  /// ∂Δg/∂(u_q, u_r, u_n): (1 0 0; 0 1 0) on a plane. The rotation of the frame and, where a node enters
-  /// contact within the step, its entry contribute. Only exact tangents set it.
+  /// ∂Δg/∂(u_q, u_r, u_n): (1 0 0; 0 1 0) on a plane. The rotation of the frame and, where a node
+  /// enters contact within the step, its entry contribute. Only exact tangents set it.
   std::array<std::array<double, 3>, 2> gradient{{{1., 0., 0.}, {0., 1., 0.}}};
-  /// The slip rate is slip × this [1/time]. In a step without duration this is 0, and `rate` is the slip
-  /// rate.
+  /// The slip rate is slip × this [1/time]. In a step without duration this is 0, and `rate` is the
+  /// slip rate.
   double per_time = 0.;
   double rate = 0.;
 };
@@ -65,8 +65,8 @@ enum class TangentForm {
 };
 TangentForm form_of(ContactTangent kind);
 
-/// Terms of the derivative of friction that a kind of tangents keeps, see compute_traction(). They are chosen
-/// once, outside loops over nodes.
+/// Terms of the derivative of friction that a kind of tangents keeps, see compute_traction(). They
+/// are chosen once, outside loops over nodes.
 struct FrictionTangent {
   double min_beta = 0.; ///< lower bound of β
   double upper = 1.;    ///< factor of the coupling t̂⊗n
@@ -75,8 +75,9 @@ struct FrictionTangent {
   static FrictionTangent of(ContactTangent kind);
 };
 
-/// Computes friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40)); the
-/// slave's normal points against n. With L(p, γ/Δt) the friction law's limit, μ p for Coulomb's law:
+/// Computes friction by return map, with elastic stick (Bittencourt & Creus 1998, eqs. (21)-(40));
+/// the slave's normal points against n. With L(p, γ/Δt) the friction law's limit, μ p for Coulomb's
+/// law:
 /// - trial: t* = t_n − k_t Δg;
 /// - stick, if |t*| ≤ L(p, 0): t = t*;
 /// - slip otherwise: |t*| − k_t γ = L(p, γ/Δt), t = L t*/|t*|.

@@ -24,7 +24,8 @@ inline ConstraintFilter holding_at(const double t) {
   return [t](const Constraint &constraint) { return constraint.times.acts_at(t); };
 }
 
-/// Supports and symmetry planes that hold nodes now. It changes between steps only, on all ranks alike.
+/// Supports and symmetry planes that hold nodes now. It changes between steps only, on all ranks
+/// alike.
 class ActingConstraints {
 public:
   /// Begins with those that `acts` chooses.
@@ -38,11 +39,13 @@ public:
   bool may_change() const { return may_change_; }
   /// Whether `acts` chooses others than act now.
   bool differ(const ConstraintFilter &acts) const;
-  /// Returns the times over which forces fade, in ascending order, of those that act and that `acts` omits.
+  /// Returns the times over which forces fade, in ascending order, of those that act and that
+  /// `acts` omits.
   std::vector<double> fade_times(const ConstraintFilter &acts) const;
   /// Lets those of them go whose forces fade over this time.
   void release(const ConstraintFilter &acts, double fade_time);
-  /// Adds those that `acts` chooses. Returns the times later than 0 at which those begin that did not act.
+  /// Adds those that `acts` chooses. Returns the times later than 0 at which those begin that did
+  /// not act.
   std::set<double> take(const ConstraintFilter &acts);
   /// Makes those act that `acts` chooses, as by release() and take().
   void change_to(const ConstraintFilter &acts);

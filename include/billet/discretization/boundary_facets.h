@@ -12,15 +12,16 @@
 
 namespace billet {
 
-/// Boundary face of an owned element. Its corners are in lexicographic order, (−1,−1), (1,−1), (−1,1), (1,1),
-/// oriented so that ∂x/∂ξ × ∂x/∂η points out of the body.
+/// Boundary face of an owned element. Its corners are in lexicographic order, (−1,−1), (1,−1),
+/// (−1,1), (1,1), oriented so that ∂x/∂ξ × ∂x/∂η points out of the body.
 struct BoundaryFacet {
   std::array<std::array<DofIndex, 3>, 4> dofs;
   std::array<dealii::Point<3>, 4> corners; ///< undeformed
   double thickness;                        ///< of its element: volume over the facet's area
   std::uint64_t key;                       ///< unique, the same on any number of ranks
 
-  /// Returns the area vector of the undeformed facet, half the cross product of its diagonals [length²].
+  /// Returns the area vector of the undeformed facet, half the cross product of its diagonals
+  /// [length²].
   dealii::Tensor<1, 3> area_vector() const {
     return 0.5 * dealii::cross_product_3d(corners[3] - corners[0], corners[2] - corners[1]);
   }
@@ -41,8 +42,8 @@ struct FacetSize {
   double thickness = 0.; ///< of their elements: sum of volumes over sum of areas
 };
 
-/// Returns the facet size at each node of these facets, by its first dof, including facets of other ranks.
-/// Collective.
+/// Returns the facet size at each node of these facets, by its first dof, including facets of other
+/// ranks. Collective.
 std::map<DofIndex, FacetSize> compute_facet_sizes(const Discretization &discretization,
                                                   const std::vector<BoundaryFacet> &facets);
 

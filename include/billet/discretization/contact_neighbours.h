@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// Adds couplings between active cells that face each other at the faces of a pair of bodies. With these
-/// neighbours, METIS rarely cuts between bodies in contact. Each face couples with the nearest face by
-/// midpoints, if their distance does not exceed the size of the faces.
+/// Adds couplings between active cells that face each other at the faces of a pair of bodies. With
+/// these neighbours, METIS rarely cuts between bodies in contact. Each face couples with the
+/// nearest face by midpoints, if their distance does not exceed the size of the faces.
 void add_contact_neighbours(const Scene &scene, const dealii::Triangulation<3> &mesh,
                             dealii::DynamicSparsityPattern &pattern);
 

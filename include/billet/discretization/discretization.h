@@ -25,8 +25,8 @@ struct Element {
   std::array<DofIndex, n_element_dofs> dofs; ///< node by node
 };
 
-/// Mesh of all bodies, partitioned by METIS, and the displacement's degrees of freedom on it. Each rank holds
-/// its own cells and one layer around them. Cell material ids are body indices.
+/// Mesh of all bodies, partitioned by METIS, and the displacement's degrees of freedom on it. Each
+/// rank holds its own cells and one layer around them. Cell material ids are body indices.
 class Discretization {
 public:
   /// Builds the mesh on the first rank, with bodies refined to `levels`, and distributes it. Throws
@@ -52,8 +52,8 @@ public:
   const dealii::Tensor<1, 3> &centre() const { return centre_; }
   double radius() const { return radius_; }
 
-  /// Vector of owned entries; of relevant entries to read from; of entries to which every rank that shares a
-  /// dof can add.
+  /// Vector of owned entries; of relevant entries to read from; of entries to which every rank that
+  /// shares a dof can add.
   Vector make_owned_vector() const { return Vector(owned_, communicator_); }
   Vector make_ghosted_vector() const { return Vector(owned_, relevant_, communicator_); }
   Vector make_additive_vector() const {

@@ -8,14 +8,14 @@
 
 namespace billet {
 
-/// Unique number of an element, refined or not, the same on any number of ranks. It is the number of the
-/// coarse cell plus 2^32 times the element's place in the octree of that cell. The place is 0 for the cell
-/// itself, 1 to 8 for its children, 9 to 72 for theirs, and so on. In a mesh without refinement, keys equal
-/// cell numbers.
+/// Unique number of an element, refined or not, the same on any number of ranks. It is the number
+/// of the coarse cell plus 2^32 times the element's place in the octree of that cell. The place is
+/// 0 for the cell itself, 1 to 8 for its children, 9 to 72 for theirs, and so on. In a mesh without
+/// refinement, keys equal cell numbers.
 using ElementKey = std::uint64_t;
 
-/// Maximum refinement level that keys can represent. Keys of nodes, facets and points inside facets multiply
-/// element keys, for which 14 of the 64 bits are reserved.
+/// Maximum refinement level that keys can represent. Keys of nodes, facets and points inside facets
+/// multiply element keys, for which 14 of the 64 bits are reserved.
 constexpr unsigned int max_refinement_level = 5;
 
 /// Returns the key of a cell of at most max_refinement_level refinements.

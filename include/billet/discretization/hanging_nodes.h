@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Throws InputError on all ranks if any rank's part of the mesh has hanging nodes. `method`, which does not
-/// support them, begins the message. Collective.
+/// Throws InputError on all ranks if any rank's part of the mesh has hanging nodes. `method`, which
+/// does not support them, begins the message. Collective.
 void require_no_hanging_nodes(const dealii::DoFHandler<3> &dof_handler, const std::string &method);
 
 } // namespace billet

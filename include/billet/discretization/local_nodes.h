@@ -15,9 +15,9 @@ namespace billet {
 /// Vectors at the local nodes, `nodal_stride` numbers apart.
 using NodalVectors = dealii::AlignedVector<double>;
 
-/// Nodes of the elements that a rank owns, for schemes without a matrix, numbered from 0 in the order of the
-/// elements. Each rank has its own copy of a shared node. All ranks sum the contributions to it in the same
-/// order, in sum_shared(), so that results are bitwise equal.
+/// Nodes of the elements that a rank owns, for schemes without a matrix, numbered from 0 in the
+/// order of the elements. Each rank has its own copy of a shared node. All ranks sum the
+/// contributions to it in the same order, in sum_shared(), so that results are bitwise equal.
 class LocalNodes {
 public:
   explicit LocalNodes(const Discretization &discretization);
@@ -58,8 +58,8 @@ private:
     std::vector<unsigned int> nodes;    ///< shared nodes, in the order of their dofs
     std::vector<double> sent, received; ///< buffers, so that a sum allocates nothing
   };
-  /// Contributions to the sum of a shared node, in the order of the ranks: the neighbour and the entry in its
-  /// buffer. This rank itself is own_part.
+  /// Contributions to the sum of a shared node, in the order of the ranks: the neighbour and the
+  /// entry in its buffer. This rank itself is own_part.
   struct SharedNode {
     unsigned int node;
     std::vector<std::pair<unsigned int, unsigned int>> parts;

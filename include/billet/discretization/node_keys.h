@@ -12,8 +12,9 @@ namespace billet {
 
 inline ElementKey element_key(const CellIterator &cell) { return element_key(cell->id()); }
 
-/// Keys of nodes, the same on any number of ranks: 8 times the key of the first element of the whole mesh
-/// that has the node, plus the node's place in it. On one rank they ascend as dofs do.
+/// Keys of nodes, the same on any number of ranks. A key is 8 times that of the first element of
+/// the whole mesh that has the node, plus the node's place in it. On one rank they ascend as dofs
+/// do.
 class NodeKeys {
 public:
   explicit NodeKeys(const Discretization &discretization);

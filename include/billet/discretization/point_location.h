@@ -25,9 +25,9 @@ struct PointRequest {
   std::string allowed;      ///< for messages: what is allowed instead of a point outside the body
 };
 
-/// Finds points in a body, each on one rank: in the element with the least key, or at the node that is
-/// nearest. Throws InputError if a point is outside the body, or farther from it than a tenth of the scene's
-/// radius. Collective.
+/// Finds points in a body, each on one rank: in the element with the least key, or at the node that
+/// is nearest. Throws InputError if a point is outside the body, or farther from it than a tenth of
+/// the scene's radius. Collective.
 std::vector<std::optional<LocatedPoint>> locate_points(const Discretization &discretization, std::size_t body,
                                                        const PointRequest &request);
 

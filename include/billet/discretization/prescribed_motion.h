@@ -10,8 +10,9 @@
 
 namespace billet {
 
-/// Constraints by supports, prescribed displacements and symmetry planes for schemes without a matrix. At a
-/// constrained node they prescribe the velocity's components along their normals; the others stay free.
+/// Constraints by supports, prescribed displacements and symmetry planes for schemes without a
+/// matrix. At a constrained node they prescribe the velocity's components along their normals; the
+/// others stay free.
 class PrescribedMotion {
 public:
   PrescribedMotion(const Scene &scene, const LocalNodes &nodes);
@@ -21,7 +22,8 @@ public:
   const ActingConstraints &acting() const { return acting_; }
   /// Lets those supports go that do not hold at t.
   void release(double t);
-  /// Takes the supports that hold at t. Those that begin hold the nodes where these `displacements` put them.
+  /// Takes the supports that hold at t. Those that begin hold the nodes where these `displacements`
+  /// put them.
   void take(double t, const NodalVectors &displacements);
   /// Returns the displacements at the times at which supports that act began, if later than 0.
   const std::map<double, NodalVectors> &starts() const { return starts_; }
@@ -34,8 +36,9 @@ public:
   /// Sets the constrained displacements to their values at time t.
   void set_displacements(double t, NodalVectors &displacements) const;
 
-  /// Sets the constrained `velocities` so that `displacements` at time t reach their prescribed values at t +
-  /// dt. Adds the impulses of the constraints to `impulses` [force time]. `masses`: one entry for each node.
+  /// Sets the constrained `velocities` so that `displacements` at time t reach their prescribed
+  /// values at t + dt. Adds the impulses of the constraints to `impulses` [force time]. `masses`:
+  /// one entry for each node.
   void constrain(double t, double dt, const NodalVectors &displacements, const std::vector<double> &masses,
                  NodalVectors &velocities, NodalVectors &impulses) const;
 

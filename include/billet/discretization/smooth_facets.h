@@ -21,13 +21,13 @@ struct SmoothFacet {
   double curvature = 0.; ///< maximum of 8 b/L² over the edges [1/length]; > 0: convex
 };
 
-/// Returns the mean distance between a facet and its smooth surface, if that stays on one side. In (C8) each
-/// height has a function of mean 1/3, so that this is a third of Σ|b_i| [length].
+/// Returns the mean distance between a facet and its smooth surface, if that stays on one side. In
+/// (C8) each height has a function of mean 1/3, so that this is a third of Σ|b_i| [length].
 double mean_distance(const FacetBulge &bulge);
 
-/// Returns the smooth facets of all ranks, made of those that each rank gives: first its own, in their order,
-/// then those of others. Facets that meet at more than 50 degrees do not share a normal. Undeformed or with
-/// these (ghosted) displacements. Collective.
+/// Returns the smooth facets of all ranks, made of those that each rank gives: first its own, in
+/// their order, then those of others. Facets that meet at more than 50 degrees do not share a
+/// normal. Undeformed or with these (ghosted) displacements. Collective.
 std::vector<SmoothFacet> make_smooth_facets(const Discretization &discretization,
                                             const std::vector<BoundaryFacet> &own_facets,
                                             const Vector *displacements = nullptr);

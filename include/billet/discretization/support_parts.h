@@ -11,7 +11,8 @@
 
 namespace billet {
 
-/// Constraint of a support or symmetry plane at a node. Of the residual R it takes (dual · R) normal.
+/// Constraint of a support or symmetry plane at a node. Of the residual R it takes (dual · R)
+/// normal.
 struct SupportPart {
   std::size_t support; ///< index in named_supports()
   dealii::Tensor<1, 3> normal, dual;
@@ -28,13 +29,15 @@ struct SupportedNode {
   std::vector<SupportPart> parts;
 };
 
-/// Returns the indices in named_supports() of the constraints of a body; `first` is that of its first one.
+/// Returns the indices in named_supports() of the constraints of a body; `first` is that of its
+/// first one.
 std::vector<std::size_t> support_indices(const Body &body, std::size_t first);
 /// Returns the same for all constraints of the scene.
 std::map<const Constraint *, std::size_t> support_indices(const Scene &scene);
 
-/// Returns the nodes that the constraints hold that act, of own and ghost elements; `support_of`: those of
-/// support_indices(). Where normals depend on each other, the constraint that stands first takes the force.
+/// Returns the nodes that the constraints hold that act, of own and ghost elements; `support_of`:
+/// those of support_indices(). Where normals depend on each other, the constraint that stands first
+/// takes the force.
 std::vector<SupportedNode>
 collect_supported_nodes(const Scene &scene, const Discretization &discretization,
                         const ActingConstraints &acting,

@@ -25,15 +25,15 @@ struct NamedSupport {
   std::string name; ///< as Constraint::name: "support NAME" or "symmetry plane TEXT"
 };
 
-/// Returns the symmetry planes and supports of all bodies, body by body in the order of Body::constraints.
-/// The components of a support are one entry.
+/// Returns the symmetry planes and supports of all bodies, body by body in the order of
+/// Body::constraints. The components of a support are one entry.
 std::vector<NamedSupport> named_supports(const Scene &scene);
 
-/// Forces of supports and symmetry planes on the bodies, from the residual of all other forces: R_a = Σ λ n +
-/// free residual at a node a. Each constraint n · u = value takes a force along n alone. Where normals depend
-/// on each other, the constraint that stands first in Body::constraints takes the force: symmetry planes
-/// before supports, and these in the order of the scene. The sum of all reactions is therefore that of the
-/// node.
+/// Forces of supports and symmetry planes on the bodies, from the residual of all other forces:
+/// R_a = Σ λ n + free residual at a node a. Each constraint n · u = value takes a force along n
+/// alone. Where normals depend on each other, the constraint that stands first in Body::constraints
+/// takes the force. Symmetry planes stand before supports, and these are in the order of the scene.
+/// The sum of all reactions is therefore that of the node.
 class SupportReactions {
 public:
   /// For the supports and symmetry planes that act.
@@ -47,11 +47,11 @@ public:
     std::vector<Resultant> of_supports; ///< in the order of named_supports()
     dealii::Tensor<1, 3> free;          ///< sum of the residual that no constraint takes
   };
-  /// Returns the reactions of this residual (owned, without constraints) at these displacements. Forces at
-  /// hanging nodes count at the nodes on which these depend. Collective.
+  /// Returns the reactions of this residual (owned, without constraints) at these displacements.
+  /// Forces at hanging nodes count at the nodes on which these depend. Collective.
   Forces compute(Vector residual, const Vector &displacements) const;
-  /// Returns the reactions of forces of the constraints at the nodes, the same on all ranks that have a node;
-  /// the free residual is that of constrained nodes. Collective.
+  /// Returns the reactions of forces of the constraints at the nodes. They are the same on all
+  /// ranks that have a node. The free residual is that of constrained nodes. Collective.
   Forces compute(const LocalNodes &nodes, const NodalVectors &forces,
                  const NodalVectors &displacements) const;
 

@@ -14,8 +14,8 @@
 
 namespace billet {
 
-/// Target of the assembly of a tangent. If `lift` is given, the constraints' values enter the right-hand side
-/// of the linear system.
+/// Target of the assembly of a tangent. If `lift` is given, the constraints' values enter the
+/// right-hand side of the linear system.
 struct TangentSystem {
   const Constraints &constraints;
   Matrix &matrix;
@@ -32,7 +32,8 @@ struct ConstrainedNode {
   dealii::Point<3> position; ///< undeformed
 };
 
-/// Returns all nodes of owned cells and their ghosts that these constraints hold, by their first dof.
+/// Returns all nodes of owned cells and their ghosts that these constraints hold, by their first
+/// dof.
 std::map<DofIndex, ConstrainedNode> collect_constrained_nodes(const Scene &scene,
                                                               const Discretization &discretization,
                                                               const ConstraintFilter &acts);
@@ -44,16 +45,17 @@ std::set<DofIndex> collect_fixed_nodes(const Scene &scene, const Discretization 
 struct ConstraintRow {
   dealii::Tensor<1, 3> n;      ///< sum of the weights times the normals; 0 without a pivot
   std::vector<double> weights; ///< of the constraints
-  int pivot = -1;              ///< component of n that is 1; -1 if the constraint depends on those before it
+  /// Component of n that is 1; -1 if the constraint depends on those before it.
+  int pivot = -1;
 };
 /// Returns a row for each constraint of a node, solved for their pivots (Gauss-Jordan).
 std::vector<ConstraintRow> solve_for_pivots(const ConstrainedNode &node);
 /// Returns the names of the constraints in a row: "'symmetry plane x = 0' and 'support top'".
 std::string names_in(const ConstraintRow &row, const ConstrainedNode &node);
 
-/// Refuses supports that act at the same time and prescribe displacements that contradict each other, or are
-/// not finite. It looks at 17 times between any two at which supports begin or end. Throws InputError.
-/// Collective.
+/// Refuses supports that act at the same time and prescribe displacements that contradict each
+/// other, or are not finite. It looks at 17 times between any two at which supports begin or end.
+/// Throws InputError. Collective.
 void check_agreement(const Scene &scene, const Discretization &discretization);
 
 /// Prescribed displacements of a constrained node, as far as they change with time.
@@ -72,44 +74,46 @@ private:
   dealii::Point<3> position_;
 };
 
-/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal displacements, after
-/// those of hanging nodes. The normals of the planes n · u = value that meet at a node are arbitrary; at most
-/// three of them are independent.
+/// Supports, prescribed displacements and symmetry planes as linear constraints on nodal
+/// displacements, after those of hanging nodes. The normals of the planes n · u = value that meet
+/// at a node are arbitrary; at most three of them are independent.
 class Supports {
 public:
   Supports(const Scene &scene, const Discretization &discretization);
 
-  /// Returns the constraints with right-hand sides 0, for assembly and Newton's corrections. Their pattern
-  /// changes when supports begin or end, and at no other time.
+  /// Returns the constraints with right-hand sides 0, for assembly and Newton's corrections. Their
+  /// pattern changes when supports begin or end, and at no other time.
   const Constraints &homogeneous() const { return homogeneous_; }
 
-  /// Returns the constraints with the values at time t. Throws SolutionFailure if constraints at a node
-  /// contradict each other.
+  /// Returns the constraints with the values at time t. Throws SolutionFailure if constraints at a
+  /// node contradict each other.
   Constraints at_time(double t) const;
 
-  /// Returns the constraints with the change of the values from t_n to t, for linear steps. Sets `moves`, on
-  /// all ranks alike, to whether any value changes.
+  /// Returns the constraints with the change of the values from t_n to t, for linear steps. Sets
+  /// `moves`, on all ranks alike, to whether any value changes.
   Constraints change(double t_n, double t, bool &moves) const;
 
-  /// Transfers forces on constrained dofs to the dofs on which these depend, and sets them to 0. Collective.
+  /// Transfers forces on constrained dofs to the dofs on which these depend, and sets them to 0.
+  /// Collective.
   void condense(Vector &forces) const;
 
   /// Returns the constraints that act.
   const ActingConstraints &acting() const { return acting_; }
-  /// Lets those supports go that no step after t knows, and whose forces fade over this time. Collective.
+  /// Lets those supports go that no step after t knows, and whose forces fade over this time.
+  /// Collective.
   void release(double t, double fade_time);
-  /// Takes the supports that act after t. Those that begin hold the nodes where these `displacements`
-  /// (relevant dofs) put them. Collective.
+  /// Takes the supports that act after t. Those that begin hold the nodes where these
+  /// `displacements` (relevant dofs) put them. Collective.
   void take(double t, const Vector &displacements);
 
-  /// Returns the displacements of relevant dofs at the times at which supports that act began, if later
-  /// than 0.
+  /// Returns the displacements of relevant dofs at the times at which supports that act began, if
+  /// later than 0.
   const std::map<double, Vector> &starts() const { return starts_; }
   /// Takes the supports that act after t, with their starts(). Collective.
   void resume(double t, std::map<double, Vector> starts);
 
-  /// Returns the tracks of some of this rank's nodes with moving supports, evenly sampled. It knows those
-  /// that begin later, too.
+  /// Returns the tracks of some of this rank's nodes with moving supports, evenly sampled. It knows
+  /// those that begin later, too.
   std::vector<SupportTrack> moving_nodes() const;
 
 private:
@@ -121,7 +125,8 @@ private:
   struct Prescription {
     std::vector<Term> terms;
     dealii::Point<3> position;
-    double start; ///< of supports that began within the run: their part that does not depend on time
+    /// Part that does not depend on time, of supports that began within the run.
+    double start;
     double value(double t) const;
   };
   /// Redundant constraint: Σ weight value(t) must vanish.
@@ -142,7 +147,8 @@ private:
   const Scene &scene_;
   const Discretization &discretization_;
   ActingConstraints acting_;
-  std::map<double, Vector> starts_; ///< displacements of relevant dofs at the times when supports began
+  /// Displacements of relevant dofs at the times when supports began.
+  std::map<double, Vector> starts_;
   std::vector<ConstraintLine> links_, lines_;
   std::vector<Prescription> prescriptions_; ///< of lines_
   std::vector<Redundancy> redundancies_;

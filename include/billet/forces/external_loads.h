@@ -13,12 +13,12 @@
 
 namespace billet {
 
-/// Loads of all bodies on the elements, faces and nodes of a rank, in the order: body loads, loads on
-/// deformed faces, nodal loads, loads on surfaces, loads on points.
+/// Loads of all bodies on the elements, faces and nodes of a rank. Their order is body loads, loads
+/// on deformed faces, nodal loads, loads on surfaces, loads on points.
 class ExternalLoads {
 public:
-  /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads act. Throws
-  /// InputError. Collective.
+  /// Places the loads. `masses` are this rank's shares of the nodal masses, on which body loads
+  /// act. Throws InputError. Collective.
   ExternalLoads(const Scene &scene, const LocalNodes &nodes, std::vector<double> masses);
   ~ExternalLoads();
 
@@ -39,8 +39,8 @@ public:
   void add_tangent(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                    double damping_factor, const TangentSystem &system) const;
 
-  /// Adds to the bounds at the nodes: component 0 bounds the stiffness [force/length], component 1 the
-  /// damping [force time/length].
+  /// Adds to the bounds at the nodes: component 0 bounds the stiffness [force/length], component 1
+  /// the damping [force time/length].
   void add_bounds(NodalVectors &bounds) const;
 
 private:

@@ -13,8 +13,8 @@ namespace billet {
 /// Mass matrix of all bodies, element by element, without constraints.
 class Inertia {
 public:
-  /// Computes the element masses. If `is_lumped`, row sums replace the consistent matrix. Elements must not
-  /// be inverted.
+  /// Computes the element masses. If `is_lumped`, row sums replace the consistent matrix. Elements
+  /// must not be inverted.
   Inertia(const Scene &scene, const Discretization &discretization, bool is_lumped);
 
   /// Returns M x of a ghosted vector x, as an owned vector. Collective.

@@ -10,8 +10,9 @@
 
 namespace billet {
 
-/// Returns what a user's law says of its last, failed update, of the lowest rank with one; empty if none
-/// failed. Throws SolutionFailure, on all ranks, if a law cannot go on, as after a crash. Collective.
+/// Returns what a user's law says of its last, failed update, of the lowest rank with one; empty if
+/// none failed. Throws SolutionFailure, on all ranks, if a law cannot go on, as after a crash.
+/// Collective.
 std::string find_law_refusal(const parameters::Scene &scene, MPI_Comm communicator);
 
 /// Returns what a user's law says of its last, failed update; empty for others.

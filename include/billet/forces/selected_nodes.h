@@ -15,7 +15,8 @@ struct SelectedNode {
   dealii::Point<3> position; ///< undeformed
 };
 
-/// Returns the nodes of this rank's elements that a load selects, each once; none unless it has 'Nodes'.
+/// Returns the nodes of this rank's elements that a load selects, each once; none unless it has
+/// 'Nodes'.
 std::vector<SelectedNode> collect_selected_nodes(const AppliedLoad &load,
                                                  const Discretization &discretization, std::size_t body);
 

@@ -24,8 +24,8 @@ public:
 
   /// Adds the factors of a node.
   void add(const std::array<DofIndex, 3> &dofs, const SurfaceLoad::Coupling &coupling);
-  /// Adds the matrix. Values of the constraints do not enter a lift: the steps that ask for one are guesses.
-  /// Collective.
+  /// Adds the matrix. Values of the constraints do not enter a lift: the steps that ask for one are
+  /// guesses. Collective.
   void add_to(const TangentSystem &system);
 
 private:

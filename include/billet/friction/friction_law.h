@@ -17,8 +17,8 @@ public:
 
   /// Describes the law, for example "mu = 0.1 up to 50".
   virtual std::string description() const = 0;
-  /// Returns a typical ratio of limit to pressure at rest, for checks of plausibility and of the stiffness of
-  /// tangential springs.
+  /// Returns a typical ratio of limit to pressure at rest, for checks of plausibility and of the
+  /// stiffness of tangential springs.
   virtual double coefficient() const = 0;
   /// Returns the limit at a pressure >= 0 [stress] and a slip rate >= 0 [length/time].
   virtual FrictionLimit limit(double pressure, double slip_rate) const = 0;
@@ -27,8 +27,8 @@ public:
 /// Null without friction; then there is no history.
 using FrictionPointer = std::shared_ptr<const FrictionLaw>;
 
-/// Friction laws that a scene file can name. To add one, add a file in source/friction/ with a function that
-/// returns its type, and its name in the table of friction_law.cc.
+/// Friction laws that a scene file can name. To add one, add a file in source/friction/ with a
+/// function that returns its type, and its name in the table of friction_law.cc.
 struct FrictionLawType : RegisteredType<FrictionPointer> {
   std::string vanishes_with =
       {}; ///< parameter that is 0 without friction; empty: the law is never frictionless

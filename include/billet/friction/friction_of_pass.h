@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Law of one of two passes, which bears half of the pressure and half of the friction, (C14) of doc/theory.
-/// For Coulomb's law it is the law itself.
+/// Law of one of two passes, which bears half of the pressure and half of the friction, (C14) of
+/// doc/theory. For Coulomb's law it is the law itself.
 class FrictionOfPass final : public FrictionLaw {
 public:
   explicit FrictionOfPass(FrictionPointer law) : law_(std::move(law)) {}

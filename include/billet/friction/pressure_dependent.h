@@ -8,7 +8,8 @@
 
 namespace billet {
 
-/// Friction coefficient that decreases with pressure, as for lubricated sheets (Filzek & Groche 2000):
+/// Friction coefficient that decreases with pressure, as for lubricated sheets (Filzek & Groche
+/// 2000):
 ///   μ = μ_0 (p/p_0)^(e − 1),   so that the limit μ p grows as p^e.
 class PressureDependent final : public FrictionLaw {
 public:

@@ -6,7 +6,8 @@
 
 namespace billet {
 
-/// Coulomb's law up to the shear strength of the material below the surface (Orowan 1943): min(μ p, τ_max).
+/// Coulomb's law up to the shear strength of the material below the surface (Orowan 1943): min(μ p,
+/// τ_max).
 class ShearLimited final : public FrictionLaw {
 public:
   /// μ > 0, τ_max > 0 [stress]

@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Friction coefficient that decreases from its static to its kinetic value with the slip rate (Oden &
-/// Martins 1985):
+/// Friction coefficient that decreases from its static to its kinetic value with the slip rate
+/// (Oden & Martins 1985):
 ///   μ = μ_k + (μ_s − μ_k) exp(−c v),   v the slip rate.
 class StaticKinetic final : public FrictionLaw {
 public:

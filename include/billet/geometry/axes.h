@@ -12,8 +12,9 @@
 
 namespace billet {
 
-/// Axes of the components of a vector at an undeformed position, such as a prescribed displacement: those of
-/// space, a fixed triad, or the radial, circumferential and axial directions about a line.
+/// Axes of the components of a vector at an undeformed position, such as a prescribed displacement.
+/// They are those of space, a fixed triad, or the radial, circumferential and axial directions
+/// about a line.
 class Axes {
 public:
   static std::vector<TypeParameter> parameters();

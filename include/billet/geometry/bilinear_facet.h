@@ -6,24 +6,25 @@
 
 namespace billet {
 
-/// Facet as the bilinear surface X(ξ, η) = Σ N_I x_I through its corners. The node's gap is its distance to
-/// the closest point; the normal is that of the surface there (Bittencourt & Creus 1998, eqs. (10)-(12), for
-/// a facet). The gap has the gradients n at the node and −w_I n at the corners: without friction and at a
-/// fixed area, penalty forces have a potential.
+/// Facet as the bilinear surface X(ξ, η) = Σ N_I x_I through its corners. The node's gap is its
+/// distance to the closest point. The normal is that of the surface there (Bittencourt & Creus
+/// 1998, eqs. (10)-(12), for a facet). The gap has the gradients n at the node and −w_I n at the
+/// corners. Hence, without friction and at a fixed area, penalty forces have a potential.
 ///
-/// A node beyond an edge projects onto the extended surface, up to the tolerance. Farther out there is no
-/// projection; the result is the closest point on the facet's edges.
+/// A node beyond an edge projects onto the extended surface, up to the tolerance. Farther out there
+/// is no projection; the result is the closest point on the facet's edges.
 class BilinearFacet {
 public:
   explicit BilinearFacet(const facet::Expansion &surface)
       : surface_(surface), has_area_(surface.has_area()) {}
 
-  /// Projects x by Newton's method from `start`: the parameters of the last projection, or the middle.
+  /// Projects x by Newton's method from `start`: the parameters of the last projection, or the
+  /// middle.
   FacetProjection project(const dealii::Tensor<1, 3> &x, const FacetLimits &limits,
                           const std::array<double, 2> &start = {}) const;
 
-  /// Returns the projection that `found` becomes after a small motion of corners and node. It makes one more
-  /// iteration, which gives exact derivatives if Number is Derivative.
+  /// Returns the projection that `found` becomes after a small motion of corners and node. It makes
+  /// one more iteration, which gives exact derivatives if Number is Derivative.
   template <class Number>
   static FacetProjectionOf<Number> follow(const facet::ExpansionOf<Number> &surface,
                                           const dealii::Tensor<1, 3, Number> &x, const FacetLimits &limits,

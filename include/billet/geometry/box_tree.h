@@ -15,8 +15,8 @@ public:
   /// Boxes with infinite sides are kept outside the tree.
   explicit BoxTree(const std::vector<BoundingBox> &boxes);
 
-  /// Calls visit(index) for the boxes whose squared distance from x is at most `max_square`, near ones
-  /// first. visit() may lower `max_square`.
+  /// Calls visit(index) for the boxes whose squared distance from x is at most `max_square`, near
+  /// ones first. visit() may lower `max_square`.
   template <class Visit>
   void visit_near(const dealii::Tensor<1, 3> &x, const double &max_square, const Visit &visit) const {
     for (const Entry &entry : unbounded_)

@@ -17,11 +17,12 @@ struct CadFileReport {
   std::size_t n_faces = 0; ///< faces bounded by curves that it defines
 };
 
-/// Checks a STEP file (ISO 10303-21): its end, that each entity that is named is defined once, and what
-/// find_faulty_entity() finds.
+/// Checks a STEP file (ISO 10303-21): its end, that each entity that is named is defined once, and
+/// what find_faulty_entity() finds.
 CadFileReport check_step_file(const std::string &text);
 
-/// Checks an IGES file of fixed line length: the numbers of lines of its sections, which its last line tells.
+/// Checks an IGES file of fixed line length: the numbers of lines of its sections, which its last
+/// line tells.
 CadFileReport check_iges_file(const std::string &text);
 
 /// Face of a CAD file.
@@ -31,8 +32,8 @@ struct CadFace {
   std::vector<std::size_t> neighbours;     ///< numbers of the faces beside it, in ascending order
 };
 
-/// Returns the faces of a file, the first of which has number 1 in scenes. Throws InputError for a file that
-/// a tool could not have, or without OpenCASCADE.
+/// Returns the faces of a file, the first of which has number 1 in scenes. Throws InputError for a
+/// file that a tool could not have, or without OpenCASCADE.
 std::vector<CadFace> list_cad_faces(const std::string &file_name);
 
 } // namespace billet

@@ -11,8 +11,9 @@
 
 namespace billet {
 
-/// Bilinearly blended surface spanned by four curves (Coons, MIT report MAC-TR-41, 1967): with c_0, c_1 at v
-/// = 0, 1 and d_0, d_1 at u = 0, 1, which meet in the corners P_ij at u = i, v = j,
+/// Bilinearly blended surface spanned by four curves (Coons, MIT report MAC-TR-41, 1967). The
+/// curves c_0, c_1 are at v = 0, 1, and d_0, d_1 at u = 0, 1. They meet in the corners P_ij at
+/// u = i, v = j:
 ///   X(u, v) = (1 − v) c_0(u) + v c_1(u) + (1 − u) d_0(v) + u d_1(v)
 ///             − (1 − u)(1 − v) P_00 − u (1 − v) P_10 − (1 − u) v P_01 − u v P_11.
 /// It contains the curves; its normal is along X_u × X_v.
@@ -20,10 +21,11 @@ class CoonsPatch final : public SurfacePatch {
 public:
   using Point = dealii::Tensor<1, 3>;
 
-  /// Makes a patch from curves that run around it, each starting at the end of the previous one: c_0, d_1,
-  /// reversed c_1, reversed d_0. The order is counter-clockwise when seen against the normal. A side may
-  /// degenerate to a point, but not two adjacent ones. Throws std::invalid_argument, with the reason, if the
-  /// curves do not meet or the patch folds over, intersects itself or has no area.
+  /// Makes a patch from curves that run around it, each starting at the end of the previous one:
+  /// c_0, d_1, reversed c_1, reversed d_0. The order is counter-clockwise when seen against the
+  /// normal. A side may degenerate to a point, but not two adjacent ones. Throws
+  /// std::invalid_argument, with the reason, if the curves do not meet or the patch folds over,
+  /// intersects itself or has no area.
   explicit CoonsPatch(const std::array<CurveSketch, 4> &round);
 
   ClosestPoint closest_point(const Point &x) const override;
@@ -36,8 +38,8 @@ public:
   };
   Jet at(double u, double v) const;
 
-  /// Returns the unit normal at u, v, where `jet` was evaluated. Where X_u × X_v vanishes, as on a side that
-  /// is a point, it is the limit from the middle of the patch; 0 if there is none.
+  /// Returns the unit normal at u, v, where `jet` was evaluated. Where X_u × X_v vanishes, as on a
+  /// side that is a point, it is the limit from the middle of the patch. It is 0 if there is none.
   Point normal(const Jet &jet, double u, double v) const;
 
 private:
@@ -52,9 +54,11 @@ private:
     Jet middle;
     std::array<Point, 4> arms; ///< from the middle to the corners
     Point slack; ///< maximum deviation of the cell from its corners' bilinear surface, by component
-    /// Upper bounds of |X_uu| + |X_uv| and |X_vv| + |X_uv|, in lengths instead of u and v. [1/length]
+    /// Upper bounds of |X_uu| + |X_uv| and |X_vv| + |X_uv|, in lengths instead of u and v.
+    /// [1/length]
     double bend_u, bend_v;
-    /// Upper bounds of the third derivatives |X_uuu|, |X_uuv|, |X_uvv|, |X_vvv|, likewise. [1/length²]
+    /// Upper bounds of the third derivatives |X_uuu|, |X_uuv|, |X_uvv|, |X_vvv|, likewise.
+    /// [1/length²]
     double uuu, uuv, uvv, vvv;
   };
   struct Ball {
@@ -98,8 +102,9 @@ private:
   BoundingBox box_;
 };
 
-/// Reads the patches of a text file, one a line, which messages call `name`. Throws std::invalid_argument if
-/// it has none, a line is none, or adjacent patches have opposite orientations.
+/// Reads the patches of a text file, one a line, which messages call `name`. Throws
+/// std::invalid_argument if it has none, a line is none, or adjacent patches have opposite
+/// orientations.
 SurfacePatches read_coons_patches(std::istream &stream, const std::string &name);
 
 } // namespace billet

@@ -14,29 +14,34 @@ struct CurveSketch {
   enum class Kind { point, line, arc, spline };
 
   Kind kind;
-  /// Points that define the curve [length]: point 1; line 2 (start, end); arc 3 (start, on the arc, end);
-  /// spline at least 3.
+  /// Points that define the curve [length]: point 1; line 2 (start, end); arc 3 (start, on the arc,
+  /// end); spline at least 3.
   std::vector<dealii::Tensor<1, 3>> points;
 
   CurveSketch reversed() const;
 };
 
-/// Reads 'point: x, y, z', 'line: x, y, z to x, y, z', 'arc: x, y, z via x, y, z to x, y, z' or 'spline: x,
-/// y, z via x, y, z via ... to x, y, z'. Throws std::invalid_argument with the allowed forms.
+/// Reads one of these forms:
+/// - 'point: x, y, z';
+/// - 'line: x, y, z to x, y, z';
+/// - 'arc: x, y, z via x, y, z to x, y, z';
+/// - 'spline: x, y, z via x, y, z via ... to x, y, z'.
+///
+/// Throws std::invalid_argument with the allowed forms.
 CurveSketch read_curve(const std::string &text);
 
 /// Returns "(x, y, z)", for messages.
 std::string print(const dealii::Tensor<1, 3> &point);
 
-/// Curve over t in [0, 1]. Lines and arcs have constant speed. A spline is cubic, with two continuous
-/// derivatives, natural ends (zero second derivative) and knots spaced as its points. A point is constant
-/// over t.
+/// Curve over t in [0, 1]. Lines and arcs have constant speed. A spline is cubic, with two
+/// continuous derivatives, natural ends (zero second derivative) and knots spaced as its points. A
+/// point is constant over t.
 class Curve {
 public:
   using Point = dealii::Tensor<1, 3>;
 
-  /// Throws std::invalid_argument, with the reason, if two neighbouring points coincide or the points of an
-  /// arc are collinear.
+  /// Throws std::invalid_argument, with the reason, if two neighbouring points coincide or the
+  /// points of an arc are collinear.
   explicit Curve(const CurveSketch &sketch);
 
   struct Jet {
@@ -44,7 +49,8 @@ public:
   };
   Jet at(double t) const;
 
-  /// Returns upper bounds of the absolute components of the second derivative between t = `from` and `to`.
+  /// Returns upper bounds of the absolute components of the second derivative between t = `from`
+  /// and `to`.
   Point max_second(double from, double to) const;
   /// Returns an upper bound of the norm of the third derivative between t = `from` and `to`.
   double max_third(double from, double to) const;

@@ -8,13 +8,16 @@
 
 namespace billet {
 
-/// Triangle over three corners P_i whose edges are parabolas: the quadratic patch of Nagata (2005), plus a
-/// term that rotates the normals along the edges without moving the edges. On u, v, w = 1 − u − v ≥ 0
+/// Triangle over three corners P_i whose edges are parabolas. It is the quadratic patch of Nagata
+/// (2005), plus a term that rotates the normals along the edges without moving the edges. On u, v,
+/// w = 1 − u − v ≥ 0
 ///   p = w P_0 + u P_1 + v P_2 − w u c_01 − u v c_12 − v w c_20 + F a,
-///   F = w u v (w u l_01 + u v l_12 + v w l_20)/(w u + u v + v w),   a = (P_1 − P_0) × (P_2 − P_0),
-/// where c_ij, the bend of the edge between P_i and P_j, is half of its second derivative, and l_ij = α + β
-/// (λ_j − λ_i) is linear, with the weights λ of the corners. F is 0 on the edges; its derivative across an
-/// edge, towards the opposite corner, is λ_i λ_j l_ij there and does not depend on the other two.
+///   F = w u v (w u l_01 + u v l_12 + v w l_20)/(w u + u v + v w),   a = (P_1 − P_0) × (P_2 − P_0).
+/// Here c_ij, the bend of the edge between P_i and P_j, is half of its second derivative. The
+/// function l_ij = α + β (λ_j − λ_i) is linear, with the weights λ of the corners.
+///
+/// F is 0 on the edges. Its derivative across an edge, towards the opposite corner, is λ_i λ_j l_ij
+/// there and does not depend on the other two.
 class CurvedTriangle {
 public:
   using Point = dealii::Tensor<1, 3>;
@@ -25,8 +28,9 @@ public:
   };
   /// Bounds for a triangle that the search for closest points needs.
   struct Shape {
-    /// Minimum of p,i·p,j − (x − p)·p,ij over the triangle for an x at the centroid, relative to the metric
-    /// there. It measures how far the squared distance is from having several minima. 1 if flat.
+    /// Minimum of p,i·p,j − (x − p)·p,ij over the triangle for an x at the centroid, relative to
+    /// the metric there. It measures how far the squared distance is from having several minima. 1
+    /// if flat.
     float convexity = 0.F;
     /// Maximum second derivative of F, relative to this metric.
     float roughness = 0.F;
@@ -44,12 +48,13 @@ public:
 
   Shape shape() const;
 
-  /// Returns the closest point. `shape` is the result of shape(). If it does not guarantee a single minimum
-  /// of the distance, the result is the nearest minimum found from a grid of starting points.
+  /// Returns the closest point. `shape` is the result of shape(). If it does not guarantee a single
+  /// minimum of the distance, the result is the nearest minimum found from a grid of starting
+  /// points.
   ClosestPoint closest_point(const Point &x, const Shape &shape) const;
 
-  /// Whether the control points, and so the triangle, are farther from x than the root of `square`, measured
-  /// along the direction to the centroid.
+  /// Whether the control points, and so the triangle, are farther from x than the root of `square`,
+  /// measured along the direction to the centroid.
   bool is_farther(const Point &x, double square) const;
 
   /// Returns a box around the control points, and so around the triangle.
@@ -72,8 +77,9 @@ private:
   };
   struct Step {
     double u = 0., v = 0.;
-    double slope = 0.;       ///< slope of half the squared distance, negative
-    unsigned int along = 3;  ///< the step is along the edge opposite to this corner; 3: not along an edge
+    double slope = 0.; ///< slope of half the squared distance, negative
+    /// The step is along the edge opposite to this corner; 3: not along an edge.
+    unsigned int along = 3;
     bool is_newton = true;   ///< otherwise the curvature is neglected
     bool is_possible = true; ///< otherwise the iterate is a corner that is a minimum
   };
@@ -96,7 +102,8 @@ private:
     return {a * point.p_uu, a * point.p_uv, a * point.p_vv};
   }
 
-  Point origin_, u_, v_, uu_, uv_, vv_; ///< p = origin + u_ u + v_ v + uu_ u² + uv_ u v + vv_ v² + F up_
+  /// p = origin + u_ u + v_ v + uu_ u² + uv_ u v + vv_ v² + F up_.
+  Point origin_, u_, v_, uu_, uv_, vv_;
   Point up_;
   std::array<Seam, 3> seams_;
   bool has_seams_ = false;

@@ -9,23 +9,27 @@
 
 namespace billet {
 
-/// Surface of curved triangles that interpolate normals at their corners. The triangles share points and
-/// edges, so the surface has no gaps for any normals; where it is smooth they share normals, too.
+/// Surface of curved triangles that interpolate normals at their corners. The triangles share
+/// points and edges, so the surface has no gaps for any normals; where it is smooth they share
+/// normals, too.
 ///
-/// *Edges* are Nagata's (2005) parabolas, orthogonal to the normals at their ends. In the plane of the chord
-/// d and the mean normal ν = (n_0 + n_1)/2, with m_0 = n_0·d and m_1 = −n_1·d,
-///   c = 2 m_0 m_1/((m_0 + m_1) ν·ν) ν + (m_0 − m_1)/(m_0 + m_1) d,
-/// which, unlike the minimum-norm solution, stays finite as the normals become parallel. It is 0 if m_0 and
-/// m_1 differ in sign, since a parabola has no inflection; the part along d is at most d/2. At a sharp edge
-/// the tangents at the ends are orthogonal to the normals of both sides: n_a × n_b.
+/// *Edges* are Nagata's (2005) parabolas, orthogonal to the normals at their ends. They lie in the
+/// plane of the chord d and the mean normal ν = (n_0 + n_1)/2. With m_0 = n_0·d and m_1 = −n_1·d
+/// their bend is
+///   c = 2 m_0 m_1/((m_0 + m_1) ν·ν) ν + (m_0 − m_1)/(m_0 + m_1) d.
+/// Unlike the minimum-norm solution, it stays finite as the normals become parallel. It is 0 if m_0
+/// and m_1 differ in sign, since a parabola has no inflection; the part along d is at most d/2.
 ///
-/// *Seams.* Along a smooth edge the terms F rotate both triangles until they are orthogonal to n(t) −
-/// (n·x')x'/x'², n(t) linear between n_0 and n_1 and x' the edge's tangent. F is fitted at two points of the
-/// edge. Between them the normals differ by O(h⁵); without F, by O(h³).
+/// At a sharp edge the tangents at the ends are orthogonal to the normals of both sides: n_a × n_b.
+///
+/// *Seams.* Along a smooth edge the terms F rotate both triangles until they are orthogonal to
+/// n(t) − (n·x')x'/x'². Here n(t) is linear between n_0 and n_1, and x' is the edge's tangent. F is
+/// fitted at two points of the edge. Between them the normals differ by O(h⁵); without F, by O(h³).
 class CurvedTriangles {
 public:
-  /// Makes the triangles. Facets whose normals differ by more than `sharp_angle` [radians] meet in a sharp
-  /// edge. Without `is_smoothed` all triangles are flat. `mesh` must be welded and have facets with an area.
+  /// Makes the triangles. Facets whose normals differ by more than `sharp_angle` [radians] meet in
+  /// a sharp edge. Without `is_smoothed` all triangles are flat. `mesh` must be welded and have
+  /// facets with an area.
   CurvedTriangles(const TriangleMesh &mesh, const TriangleEdges &edges, double sharp_angle, bool is_smoothed);
 
   /// Returns a patch for each facet that has an area.
@@ -38,7 +42,8 @@ public:
             {bends_[edges[0]], bends_[edges[1]], bends_[edges[2]]},
             seams_[facet]};
   }
-  /// Returns the maximum distance between the triangles on both sides of slivers, which are omitted [length].
+  /// Returns the maximum distance between the triangles on both sides of slivers, which are omitted
+  /// [length].
   double edge_accuracy() const { return facets_.sliver_height; }
   const CurvedTriangle::Shape &shape(const unsigned int facet) const { return shapes_[facet]; }
 

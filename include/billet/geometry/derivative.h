@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// Number with its derivatives by at most this many variables (forward automatic differentiation, Sacado).
-/// Results of a template have derivatives that are exact to round-off; the code takes the same branches as
-/// with doubles.
+/// Number with its derivatives by at most this many variables (forward automatic differentiation,
+/// Sacado). Results of a template have derivatives that are exact to round-off; the code takes the
+/// same branches as with doubles.
 constexpr int max_variables = 192;
 using Derivative = Sacado::Fad::Exp::SLFad<double, max_variables>;
 

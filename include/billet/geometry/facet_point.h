@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Shape functions and their derivatives at one of the four Gauss points of a facet, (±1/√3, ±1/√3) with
-/// weights 1.
+/// Shape functions and their derivatives at one of the four Gauss points of a facet, (±1/√3, ±1/√3)
+/// with weights 1.
 struct FacetPoint {
   std::array<double, 4> N, N_xi, N_eta;
 

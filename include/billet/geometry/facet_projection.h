@@ -10,7 +10,7 @@
 
 namespace billet {
 
-/// Corners of a facet at (ξ, η) = (−1, −1), (1, −1), (−1, 1), (1, 1), deal.II's order, such that the area
+/// Corners of a facet at (ξ, η) = (−1, −1), (1, −1), (−1, 1), (1, 1), deal.II's order. The area
 /// vector ∂x/∂ξ × ∂x/∂η points out of the body.
 template <class Number> using FacetCornersOf = std::array<dealii::Tensor<1, 3, Number>, 4>;
 using FacetCorners = FacetCornersOf<double>;
@@ -35,8 +35,8 @@ inline std::array<double, 4> weights(const std::array<double, 2> &parameters) {
   return weights<double>(parameters);
 }
 
-/// Distance from the tip of a triangle, relative to its size, within which a point counts as on it. Round-off
-/// in the parameters leaves 1e-8 there, where two roots coincide.
+/// Distance from the tip of a triangle, relative to its size, within which a point counts as on it.
+/// Round-off in the parameters leaves 1e-8 there, where two roots coincide.
 inline constexpr double tip = 1e-6;
 
 /// Returns Σ w_I x_I.
@@ -52,18 +52,19 @@ template <class Number> struct ExpansionOf {
       : e_0(0.25 * (x[0] + x[1] + x[2] + x[3])), e_1(0.25 * ((x[3] - x[0]) - (x[2] - x[1]))),
         e_2(0.25 * ((x[3] - x[0]) + (x[2] - x[1]))), e_3(0.25 * ((x[0] - x[1]) + (x[3] - x[2]))) {}
 
-  /// Returns the mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the diagonals.
+  /// Returns the mean of the area vectors ∂X/∂ξ × ∂X/∂η, an eighth of the cross product of the
+  /// diagonals.
   dealii::Tensor<1, 3, Number> mean_area_vector() const { return dealii::cross_product_3d(e_1, e_2); }
-  /// Returns which parameters are undefined at this point, as at the tip of a triangle, whose two corners
-  /// coincide. In the middle they share forces equally between these corners. Anything else would be decided
-  /// by round-off.
+  /// Returns which parameters are undefined at this point, as at the tip of a triangle, whose two
+  /// corners coincide. In the middle they share forces equally between these corners. Anything else
+  /// would be decided by round-off.
   std::array<bool, 2> undefined_at(const std::array<double, 2> &at) const {
     const Number no_length = tip * tip * (e_1.norm_square() + e_2.norm_square());
     return {!((e_1 + at[1] * e_3).norm_square() > no_length),
             !((e_2 + at[0] * e_3).norm_square() > no_length)};
   }
-  /// Returns the area vector at this point. At the tip of a triangle it vanishes, and beyond it turns over:
-  /// there it is the mean.
+  /// Returns the area vector at this point. At the tip of a triangle it vanishes, and beyond it
+  /// turns over: there it is the mean.
   dealii::Tensor<1, 3, Number> area_vector(const std::array<Number, 2> &at) const {
     const dealii::Tensor<1, 3, Number> here = dealii::cross_product_3d(e_1 + at[1] * e_3, e_2 + at[0] * e_3),
                                        mean = mean_area_vector();
@@ -81,41 +82,46 @@ template <class Number> struct ExpansionOf {
 };
 using Expansion = ExpansionOf<double>;
 
-/// Returns one edge's factor of FacetProjection::share; `distance` from the edge is positive inside.
+/// Returns one edge's factor of FacetProjection::share; `distance` from the edge is positive
+/// inside.
 template <class Number> Number share_at(const Number &distance, const double zone) {
   const Number share = 0.5 * (distance / zone + 1.), positive = share > 0. ? share : Number(0.);
-  return positive < 1. ? positive
-                       : Number(1.); // so written it is continuous; a jump would disturb nodes on a seam
+  // So written it is continuous; a jump would disturb nodes on a seam.
+  return positive < 1. ? positive : Number(1.);
 }
 
 } // namespace facet
 
 /// Limits of the distance from a facet within which a node belongs to it.
 struct FacetLimits {
-  /// Maximum distance of the projection beyond an edge, relative to the facet's extent across that edge. It
-  /// prevents the loss of nodes in the seam of two facets whose planes, or normals, do not match.
+  /// Maximum distance of the projection beyond an edge, relative to the facet's extent across that
+  /// edge. It prevents the loss of nodes in the seam of two facets whose planes, or normals, do not
+  /// match.
   double tolerance = 0.02;
-  /// Distance from an edge, on both sides and relative to the same extent, within which facets share a node;
-  /// > 0.
+  /// Distance from an edge, on both sides and relative to the same extent, within which facets
+  /// share a node; > 0.
   double zone = 0.1;
 };
 
 /// Projection of a node x in front of a facet or behind it.
 template <class Number> struct FacetProjectionOf {
-  /// Whether the node is directly above or below the facet, within its limits. Otherwise the weights may be
-  /// unset; if the facet has no area, everything is unset.
+  /// Whether the node is directly above or below the facet, within its limits. Otherwise the
+  /// weights may be unset; if the facet has no area, everything is unset.
   bool exists = false;
   dealii::Tensor<1, 3, Number> normal; ///< unit vector, out of the body
-  Number gap = 0.;                     ///< along the normal, negative where the node has penetrated [length]
-  /// Weights of the facet's corners; their sum is 1. If `exists`, x − Σ w_I x_I is parallel to the normal. A
-  /// normal force at x and −w_I times that force at the corners then balance, and so do their moments.
+  /// Gap along the normal, negative where the node has penetrated [length].
+  Number gap = 0.;
+  /// Weights of the facet's corners; their sum is 1. If `exists`, x − Σ w_I x_I is parallel to the
+  /// normal. A normal force at x and −w_I times that force at the corners then balance, and so do
+  /// their moments.
   std::array<Number, 4> weights{};
   std::array<Number, 2> parameters{}; ///< (ξ, η), where a search for the next projection starts
-  /// Distance of the projection beyond the edges, in the measure of FacetLimits::tolerance; 0 inside.
+  /// Distance of the projection beyond the edges, in the measure of FacetLimits::tolerance; 0
+  /// inside.
   double excess = std::numeric_limits<double>::infinity();
-  /// Share of the facet, not normalised, in a node that adjacent facets share: the product over its edges of
-  /// (distance + zone)/(2 zone), clipped to [0, 1]. It is 1 well inside; on a regular grid the shares sum to
-  /// 1.
+  /// Share of the facet, not normalised, in a node that adjacent facets share. It is the product
+  /// over its edges of (distance + zone)/(2 zone), clipped to [0, 1]. It is 1 well inside; on a
+  /// regular grid the shares sum to 1.
   Number share = 0.;
 };
 using FacetProjection = FacetProjectionOf<double>;

@@ -6,9 +6,9 @@
 
 namespace billet {
 
-/// Returns the rotation of a facet whose corners moved from `from` to `to`. It maps the old mean normal (18)
-/// onto the new one; about the normal it fits the corners by least squares. It is exact for rigid motions by
-/// any angle, and the identity if either of the two has no area.
+/// Returns the rotation of a facet whose corners moved from `from` to `to`. It maps the old mean
+/// normal (18) onto the new one; about the normal it fits the corners by least squares. It is exact
+/// for rigid motions by any angle, and the identity if either of the two has no area.
 ///
 /// Number: double, or Derivative.
 template <class Number>

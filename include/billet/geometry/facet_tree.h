@@ -18,8 +18,8 @@ public:
     double square = std::numeric_limits<double>::infinity(); ///< square of the distance
   };
   Foot nearest(const dealii::Tensor<1, 3> &x) const;
-  /// Calls visit(foot) with the nearest point of each facet whose squared distance from x is at most
-  /// `max_square`, and of some others. visit() may lower `max_square`.
+  /// Calls visit(foot) with the nearest point of each facet whose squared distance from x is at
+  /// most `max_square`. Also calls it for some other facets. visit() may lower `max_square`.
   template <class Visit>
   void visit_near(const dealii::Tensor<1, 3> &x, const double &max_square, const Visit &visit) const {
     tree_.visit_near(x, max_square, [&](const unsigned int facet) { visit(nearest_on(facet, x)); });

@@ -40,11 +40,12 @@ template <class Number> struct FrameOf {
     return frame;
   }
 
-  /// Returns this frame, rotated with the tool and then onto the new normal `n_new` (Bittencourt & Creus
-  /// 1998, eqs. (4), (5), with the sign of (5) corrected and the spin of the tool added):
+  /// Returns this frame, rotated with the tool and then onto the new normal `n_new`. These are eqs.
+  /// (4), (5) of Bittencourt & Creus (1998), with the sign of (5) corrected and the spin of the
+  /// tool added:
   ///   q* = R q,  r = n × q* / |n × q*|,  q = r × n.
-  /// If the normal has rotated onto q*, the frame follows r instead. With δr across r in the plane of δn ×
-  /// q*,
+  /// If the normal has rotated onto q*, the frame follows r instead. With δr across r in the plane
+  /// of δn × q*,
   ///   spin = −(q*·n)/(q*·q) r,  or, following r* = R r,  (r*·n)/(r*·r) q.
   template <class Result>
   FrameOf<Result> transported(const dealii::Tensor<2, 3, Result> &rotation,

@@ -19,12 +19,12 @@ class SampledCurve {
 public:
   using Curve = std::function<CurvePoint(double)>;
 
-  /// Makes the curve from the first to the last of the ascending parameters, between which its direction
-  /// changes little.
+  /// Makes the curve from the first to the last of the ascending parameters, between which its
+  /// direction changes little.
   SampledCurve(Curve curve, std::vector<double> parameters);
 
-  /// Returns the parameter of the point nearest to x, by Newton's method from each part of the polyline that
-  /// is nearer than its neighbours.
+  /// Returns the parameter of the point nearest to x, by Newton's method from each part of the
+  /// polyline that is nearer than its neighbours.
   double nearest(const dealii::Tensor<1, 3> &x) const;
 
 private:

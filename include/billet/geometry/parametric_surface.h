@@ -15,8 +15,9 @@ struct SurfacePoint {
   dealii::Tensor<1, 3> p, p_u, p_v, p_uu, p_uv, p_vv;
 };
 
-/// Returns the contact data of x whose foot is `foot`. The normal is along side p,u × p,v, with `side` 1 or
-/// −1. With the fundamental forms g and b, b positive where the surface is convex, and J = (p,u p,v)
+/// Returns the contact data of x whose foot is `foot`. The normal is along side p,u × p,v, with
+/// `side` 1 or −1. g and b are the fundamental forms, b positive where the surface is convex. With
+/// J = (p,u p,v)
 ///   ∂n/∂x = J (g + gap b)⁻¹ b g⁻¹ Jᵀ,
 /// which is set to zero at a centre of curvature. The caller decides whether x is beyond the edge.
 ClosestPoint at_foot(const SurfacePoint &foot, const dealii::Tensor<1, 3> &x, double side);
@@ -35,8 +36,8 @@ struct SurfaceFoot {
   bool is_at_bound; ///< x is beyond an end of the range
 };
 
-/// Finds a local minimum by Newton's method with line search from (u, v). The iterate follows bounds where it
-/// meets them; past a bound of a closed surface it continues at the other one.
+/// Finds a local minimum by Newton's method with line search from (u, v). The iterate follows
+/// bounds where it meets them; past a bound of a closed surface it continues at the other one.
 SurfaceFoot descend_to_foot(const std::function<SurfacePoint(double, double)> &surface,
                             const std::array<ParameterRange, 2> &ranges, const dealii::Tensor<1, 3> &x,
                             double u, double v);
@@ -50,10 +51,10 @@ public:
   SampledSurface(Surface surface, const std::array<ParameterRange, 2> &ranges, TriangleMesh mesh,
                  std::vector<std::array<double, 2>> parameters);
 
-  /// Returns the nearest foot of x that `accept` admits and that is nearer than the edge; none if there is no
-  /// such foot. `edge_distance` is called only if the foot on the nearest facet is not accepted. Newton's
-  /// method starts at the nearest facet, and at others that may be as near but are far from earlier starting
-  /// points.
+  /// Returns the nearest foot of x that `accept` admits and that is nearer than the edge; none if
+  /// there is no such foot. `edge_distance` is called only if the foot on the nearest facet is not
+  /// accepted. Newton's method starts at the nearest facet, and at others that may be as near but
+  /// are far from earlier starting points.
   std::optional<SurfacePoint> nearest(const dealii::Tensor<1, 3> &x,
                                       const std::function<bool(const SurfaceFoot &)> &accept,
                                       const std::function<double()> &edge_distance) const;

@@ -7,7 +7,8 @@
 
 namespace billet {
 
-/// Placement of a rigid body: rotation by `rotation` about `centre`, then translation by `translation`, x = c
+/// Placement of a rigid body: rotation by `rotation` about `centre`, then translation by
+/// `translation`, x = c
 /// + d + R (X − c).
 struct Placement {
   dealii::Tensor<2, 3> rotation = dealii::unit_symmetric_tensor<3>();

@@ -8,25 +8,26 @@
 
 namespace billet {
 
-/// Planed contact element (PCE): facet as the plane through the mean of its corners (Bittencourt & Creus
-/// 1998, eqs. (16)-(20)). Projections need no iteration.
+/// Planed contact element (PCE): facet as the plane through the mean of its corners (Bittencourt &
+/// Creus 1998, eqs. (16)-(20)). Projections need no iteration.
 ///
 ///   n̄ = Σ m_I × p_I/|Σ m_I × p_I| = d_0 × d_1/|d_0 × d_1|                                    (18)
-///   ḡ = ¼ Σ (x − x_I)·n̄                                                                    (16)(17)
-/// with the edges m_I, p_I that leave corner I, and the diagonals d_0 = x_3 − x_0, d_1 = x_2 − x_1. The
-/// projection x − ḡ n̄ is inside if it is on the inner side of each edge, in the plane. This is (20), which
-/// requires it of both edges at each corner.
+///   ḡ = ¼ Σ (x − x_I)·n̄                                                                  (16)(17)
+/// with the edges m_I, p_I that leave corner I, and the diagonals d_0 = x_3 − x_0, d_1 = x_2 − x_1.
+/// The projection x − ḡ n̄ is inside if it is on the inner side of each edge, in the plane. This is
+/// (20), which requires it of both edges at each corner.
 ///
 /// The gap is not the mean gap but that to the warped surface above the same projection,
-///   g = (x − Σ w_I x_I)·n̄ = ḡ − h Σ ±w_I                                                       (C1)
-/// with the corners ±h from the plane. Then ∂g/∂x_I = −w_I n̄ to first order in the warp, consistent with the
-/// reaction, and neighbours agree on their common edge. The mean gap ignores the warping that its reaction
-/// drives, and can generate energy: see MeanGapFacet.
+///   g = (x − Σ w_I x_I)·n̄ = ḡ − h Σ ±w_I                                                     (C1)
+/// with the corners ±h from the plane. Then ∂g/∂x_I = −w_I n̄ to first order in the warp,
+/// consistent with the reaction, and neighbours agree on their common edge. The mean gap ignores
+/// the warping that its reaction drives, and can generate energy: see MeanGapFacet.
 ///
-/// Weights are the bilinear shape functions at the projection, for the corners projected onto the plane.
-/// Outside, ξ and η have the nearest values in range. There, and where the corners form no convex
-/// quadrilateral, the diagonals correct the weights so that they reproduce the projection exactly: w_3 += α,
-/// w_0 −= α, w_2 += β, w_1 −= β with α d_0 + β d_1 = x_P − Σ w_I x_I. They may then be negative.
+/// Weights are the bilinear shape functions at the projection, for the corners projected onto the
+/// plane. Outside, ξ and η have the nearest values in range. There, and where the corners form no
+/// convex quadrilateral, the diagonals correct the weights so that they reproduce the projection
+/// exactly. The corrections are w_3 += α, w_0 −= α, w_2 += β, w_1 −= β with α d_0 + β d_1 = x_P − Σ
+/// w_I x_I. They may then be negative.
 ///
 /// A facet with two coincident corners is a triangle; one without area has no projection.
 ///
@@ -44,13 +45,14 @@ public:
   /// Returns the radius of a circle around the corners [length].
   double radius() const { return std::sqrt(square_of_radius_); }
 
-  /// Whether the whole surface between the corners, however warped and extended by `tolerance` beyond its
-  /// edges, is behind the point. This check is cheaper than a projection, as is is_aside().
+  /// Whether the whole surface between the corners, however warped and extended by `tolerance`
+  /// beyond its edges, is behind the point. This check is cheaper than a projection, as is
+  /// is_aside().
   bool is_before(const Vector &x, const double tolerance) const {
     return (x - centre_) * normal_ > std::abs(warp_) * (1. + 2. * tolerance) * (1. + 2. * tolerance);
   }
-  /// Whether the point is neither above nor below that surface nor within `tolerance` of its edges, for any
-  /// direction of its normals.
+  /// Whether the point is neither above nor below that surface nor within `tolerance` of its edges,
+  /// for any direction of its normals.
   bool is_aside(const Vector &x, double tolerance) const;
 
   /// Returns the projection; `start` is unused, since there is no iteration.
@@ -73,14 +75,15 @@ private:
     return {xi * e_1_[0] + eta * e_2_[0] + xi * eta * e_3_[0],
             xi * e_1_[1] + eta * e_2_[1] + xi * eta * e_3_[1]};
   }
-  /// Projects x; `warp` is the assumed height of corners 0 and 3 above the plane, and of the others below it
-  /// [length].
+  /// Projects x; `warp` is the assumed height of corners 0 and 3 above the plane, and of the others
+  /// below it [length].
   FacetProjectionOf<Number> project(const Vector &x, const FacetLimits &limits, const Number &warp) const;
   /// Computes excess and share of the projection.
   void locate(const InPlane &x, double zone, FacetProjectionOf<Number> &projection) const;
   std::array<Number, 2> compute_parameters(const InPlane &x) const;
 
-  /// Distance from an edge, relative to the facet's extent across it, is along·x + offset; positive inside.
+  /// Distance from an edge, relative to the facet's extent across it, is along·x + offset; positive
+  /// inside.
   struct Border {
     InPlane along;
     Number offset;
@@ -96,9 +99,10 @@ private:
 };
 using PlanedFacet = PlanedFacetOf<double>;
 
-/// Planed contact element as published: the gap is ḡ, the weights are those of the bilinear surface. If nodes
-/// of both sides lie on the same seams of a curved surface, it can feed energy into the warping of facets. In
-/// one test case the energy grows by a factor e every 5 µs until the run stops.
+/// Planed contact element as published: the gap is ḡ, the weights are those of the bilinear
+/// surface. If nodes of both sides lie on the same seams of a curved surface, it can feed energy
+/// into the warping of facets. In one test case the energy grows by a factor e every 5 µs until the
+/// run stops.
 template <class Number> class MeanGapFacetOf : public PlanedFacetOf<Number> {
 public:
   using PlanedFacetOf<Number>::PlanedFacetOf;

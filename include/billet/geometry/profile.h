@@ -17,8 +17,8 @@ public:
   /// Side of the chain, seen along its direction, that is outside the tool.
   enum class Outside { left, right };
 
-  /// Line from `start` to `end`, or arc about `centre` from the angle `from` [radians] over `sweep`, positive
-  /// counter-clockwise.
+  /// Line from `start` to `end`, or arc about `centre` from the angle `from` [radians] over
+  /// `sweep`, positive counter-clockwise.
   struct Segment {
     Point start, end;
     bool is_endless = false; ///< infinite line through start and end
@@ -41,9 +41,9 @@ public:
     bool contains(const Point &point, double slack) const;
   };
 
-  /// Makes a profile of segments, each beginning at the end of the previous one. With `closed_start` or
-  /// `closed_end` the surface continues beyond that end as its own mirror image, as on an axis of revolution;
-  /// that end is no edge.
+  /// Makes a profile of segments, each beginning at the end of the previous one. With
+  /// `closed_start` or `closed_end` the surface continues beyond that end as its own mirror image,
+  /// as on an axis of revolution. That end is no edge.
   Profile(std::vector<Segment> segments, Outside outside, bool closed_start = false, bool closed_end = false);
 
   /// Nearest point, in the plane.
@@ -58,8 +58,8 @@ public:
   /// Returns the maximum of p · `direction` over the points p of the profile; may be infinite.
   double support(const Point &direction) const;
 
-  /// Returns points along the profile, at most `angle` [radians] of an arc apart. Infinite lines are cut at
-  /// `radius` from `centre`.
+  /// Returns points along the profile, at most `angle` [radians] of an arc apart. Infinite lines
+  /// are cut at `radius` from `centre`.
   std::vector<Point> polyline(double angle, const Point &centre, double radius) const;
 
   const std::vector<Segment> &segments() const { return segments_; }
@@ -87,9 +87,9 @@ struct ProfileCorner {
 
 /// Returns the segments between the corners, in their order, with fillets inserted. Throws
 /// std::invalid_argument, with the reason, if corners coincide or a fillet does not fit between its
-/// neighbours. It also throws if the `via` point of an arc is collinear with its ends but not between them.
-/// The same holds if the profile crosses, touches or folds back on itself (arcs as chords of at most 3
-/// degrees).
+/// neighbours. It also throws if the `via` point of an arc is collinear with its ends but not
+/// between them. The same holds if the profile crosses, touches or folds back on itself (arcs as
+/// chords of at most 3 degrees).
 std::vector<Profile::Segment> connect(const std::vector<ProfileCorner> &corners);
 
 } // namespace billet

@@ -11,9 +11,10 @@ namespace billet {
 /// Maximum gap at which a node touches a tool, relative to the size of the facets around it.
 constexpr double touching_gap = 1e-9;
 
-/// Surface of a rigid tool in the tool's own coordinates: a set of patches, of which the nearest determines
-/// contact. The surface continues where patches meet. Smooth seams have no effect. In a concave edge the gap
-/// is the distance to the edge. Beyond a free edge, which no other patch shares, there is no surface.
+/// Surface of a rigid tool in the tool's own coordinates: a set of patches, of which the nearest
+/// determines contact. The surface continues where patches meet. Smooth seams have no effect. In a
+/// concave edge the gap is the distance to the edge. Beyond a free edge, which no other patch
+/// shares, there is no surface.
 class RigidSurface {
 public:
   explicit RigidSurface(SurfacePatches patches);
@@ -24,28 +25,30 @@ public:
     double gap; ///< (x − x_P)·n, positive outside; without contact point, the distance [length]
     dealii::Tensor<2, 3> turning; ///< ∂n/∂x [1/length]
     unsigned int patch;           ///< nearest patch, the first guess for the next search
-    /// If the projection does not exist: distance of the point beyond the edge, along the tangent plane there
-    /// [length].
+    /// If the projection does not exist: distance of the point beyond the edge, along the tangent
+    /// plane there [length].
     double beyond = 0.;
     bool is_behind = false; ///< likewise: whether the point is on the inner side of that plane
   };
 
-  /// Returns the contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). `first_patch`, a guess of
-  /// the nearest patch, affects the cost but not the result.
+  /// Returns the contact point of `x` (Bittencourt & Creus 1998, eqs. (7)-(15)). `first_patch`, a
+  /// guess of the nearest patch, affects the cost but not the result.
   Projection project(const dealii::Tensor<1, 3> &x, unsigned int first_patch = 0) const;
 
-  /// Geometry of the surface's edge near a point beyond it: the nearest point x_b of the edge, and the
-  /// surface's normal n there.
+  /// Geometry of the surface's edge near a point beyond it: the nearest point x_b of the edge, and
+  /// the surface's normal n there.
   struct EdgePoint {
-    dealii::Tensor<1, 3> normal;    ///< n
-    double gap;                     ///< g = (x − x_b)·n [length]
-    dealii::Tensor<2, 3> turning;   ///< ∂n/∂x, along the edge [1/length]
-    double beyond;                  ///< d = |x − x_b − g n| > 0 [length]
-    dealii::Tensor<1, 3> outward;   ///< e = ∂d/∂x
-    dealii::Tensor<2, 3> spreading; ///< ∂e/∂x: 0 at a straight edge, 1/d in the fan of a corner [1/length]
+    dealii::Tensor<1, 3> normal;  ///< n
+    double gap;                   ///< g = (x − x_b)·n [length]
+    dealii::Tensor<2, 3> turning; ///< ∂n/∂x, along the edge [1/length]
+    double beyond;                ///< d = |x − x_b − g n| > 0 [length]
+    dealii::Tensor<1, 3> outward; ///< e = ∂d/∂x
+    /// ∂e/∂x: 0 at a straight edge, 1/d in the fan of a corner [1/length].
+    dealii::Tensor<2, 3> spreading;
   };
-  /// Returns the edge data of a point whose projection does not exist. `patch` is that of the projection,
-  /// `width` the maximum relevant distance beyond the edge [length]. The torsion of edges is neglected.
+  /// Returns the edge data of a point whose projection does not exist. `patch` is that of the
+  /// projection, `width` the maximum relevant distance beyond the edge [length]. The torsion of
+  /// edges is neglected.
   EdgePoint edge_point(const dealii::Tensor<1, 3> &x, unsigned int patch, double width) const;
 
   const BoundingBox &bounding_box() const { return box_; }

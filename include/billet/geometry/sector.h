@@ -10,8 +10,8 @@ namespace billet {
 /// Appends 'Start' and 'Sector' to `parameters`: the angular range of a surface of revolution.
 std::vector<TypeParameter> with_sector(std::vector<TypeParameter> parameters);
 
-/// Revolves a profile of points (radius, height) about `axis` (unit vector) through `origin` over the sector
-/// in `input`. Rejects invalid sectors.
+/// Revolves a profile of points (radius, height) about `axis` (unit vector) through `origin` over
+/// the sector in `input`. Rejects invalid sectors.
 SurfacePatches revolve(const TypeInput &input, const Profile &profile, const dealii::Tensor<1, 3> &origin,
                        const dealii::Tensor<1, 3> &axis);
 

@@ -59,7 +59,8 @@ struct BoundingBox {
   }
 };
 
-/// Triangles and quadrilaterals that represent a surface in field output, in the tool's own coordinates.
+/// Triangles and quadrilaterals that represent a surface in field output, in the tool's own
+/// coordinates.
 struct SurfaceMesh {
   std::vector<dealii::Tensor<1, 3>> points;
   std::vector<std::vector<unsigned int>> facets;
@@ -71,9 +72,9 @@ struct OutputRegion {
   double radius;
 };
 
-/// Returns κ/(1 + κ gap), the rotation of the normal with x along a principal direction of curvature κ
-/// [1/length]. It is zero at the centre of curvature, such as the middle of a sphere: there the normal is
-/// arbitrary and kept fixed.
+/// Returns κ/(1 + κ gap), the rotation of the normal with x along a principal direction of
+/// curvature κ [1/length]. It is zero at the centre of curvature, such as the middle of a sphere:
+/// there the normal is arbitrary and kept fixed.
 inline double turned(const double curvature, const double gap) {
   const double part = 1. + curvature * gap;
   return std::abs(part) > 1e-9 ? curvature / part : 0.;
@@ -84,33 +85,33 @@ struct ClosestPoint {
   dealii::Tensor<1, 3> position;
   dealii::Tensor<1, 3> normal; ///< unit vector, out of the tool
   double gap;                  ///< (x − position)·normal [length]
-  /// ∂n/∂x, the second derivative of the gap: with the principal curvatures κ of the surface, positive where
-  /// it is convex, Σ κ/(1 + κ gap) e⊗e. On the surface itself it is the curvature tensor [1/length]. It is
-  /// always finite; see turned().
+  /// ∂n/∂x, the second derivative of the gap: with the principal curvatures κ of the surface,
+  /// positive where it is convex, Σ κ/(1 + κ gap) e⊗e. On the surface itself it is the curvature
+  /// tensor [1/length]. It is always finite; see turned().
   dealii::Tensor<2, 3> turning;
   /// Whether x is not directly above the surface, but beyond its edge; the gap is then no distance.
   bool is_beyond_edge = false;
 };
 
-/// Piece of a rigid surface in the tool's own coordinates, trimmed to its range. It has no mesh and no
-/// motion.
+/// Piece of a rigid surface in the tool's own coordinates, trimmed to its range. It has no mesh and
+/// no motion.
 class SurfacePatch {
 public:
   virtual ~SurfacePatch() = default;
 
-  /// Returns the globally closest point, for any distance of `x`. If several are equally near (centre of a
-  /// sphere, axis of a torus), the result is always the same one.
+  /// Returns the globally closest point, for any distance of `x`. If several are equally near
+  /// (centre of a sphere, axis of a torus), the result is always the same one.
   virtual ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const = 0;
 
-  /// Whether the whole patch is certainly farther from x than the root of `square`. This quick check saves a
-  /// closest-point search; it returns false if the answer is expensive.
+  /// Whether the whole patch is certainly farther from x than the root of `square`. This quick
+  /// check saves a closest-point search; it returns false if the answer is expensive.
   virtual bool is_farther(const dealii::Tensor<1, 3> & /*x*/, const double /*square*/) const { return false; }
 
   /// Returns a box that contains the surface.
   virtual BoundingBox bounding_box() const = 0;
 
-  /// Returns the maximum distance between its edge and that of an adjacent patch, due to round-off or the
-  /// tolerance of its file [length].
+  /// Returns the maximum distance between its edge and that of an adjacent patch, due to round-off
+  /// or the tolerance of its file [length].
   virtual double edge_accuracy() const { return 0.; }
 
   /// Adds facets to `surface_mesh`.

@@ -11,7 +11,8 @@ namespace billet {
 struct ProfileAxes {
   dealii::Tensor<1, 3> origin, x, y, z;
 
-  /// Makes axes with z along `axis` (unit vector), x as close to `towards` as possible, and y = z × x.
+  /// Makes axes with z along `axis` (unit vector), x as close to `towards` as possible, and
+  /// y = z × x.
   ProfileAxes(const dealii::Tensor<1, 3> &origin, const dealii::Tensor<1, 3> &axis,
               const dealii::Tensor<1, 3> &towards);
   /// Makes axes with z along `axis` and an arbitrary x orthogonal to it.
@@ -26,8 +27,9 @@ struct ProfileAxes {
 ///   ∂²g/∂x² = ∂²g/∂(ρ, z)² + (1/ρ ∂g/∂ρ) e_φ⊗e_φ.
 class RevolvedProfile final : public SurfacePatch {
 public:
-  /// Revolves the profile from the angle `from`, measured from the x axis, over `sweep` > 0 [radians]; 2π or
-  /// more is a full revolution. No point of the profile may have a negative radius.
+  /// Revolves the profile from the angle `from`, measured from the x axis, over `sweep` > 0
+  /// [radians]; 2π or more is a full revolution. No point of the profile may have a negative
+  /// radius.
   RevolvedProfile(Profile profile, const ProfileAxes &axes, double from = 0., double sweep = 2. * M_PI);
 
   ClosestPoint closest_point(const dealii::Tensor<1, 3> &x) const override;

@@ -25,14 +25,14 @@ struct TriangleMesh {
   double six_volumes() const;
 };
 
-/// Reads the facets of all solids of an STL file, ASCII or binary; each facet has three points of its own.
-/// Throws std::invalid_argument with the reason (in an ASCII file, with the line) if the file is no STL file,
-/// is truncated, has no facet or has a non-finite number. It also throws if most normals in the file
-/// contradict the order of the corners.
+/// Reads the facets of all solids of an STL file, ASCII or binary; each facet has three points of
+/// its own. Throws std::invalid_argument if the file is no STL file, is truncated, has no facet or
+/// has a non-finite number. The message has the reason, and for an ASCII file the line. It also
+/// throws if most normals in the file contradict the order of the corners.
 TriangleMesh read_stl(const std::string &file_name);
 
-/// Returns the mesh with points merged that are nearer than `tolerance` [length] to each other. Facets of
-/// which two corners are merged are removed: their other two edges merge as well.
+/// Returns the mesh with points merged that are nearer than `tolerance` [length] to each other.
+/// Facets of which two corners are merged are removed: their other two edges merge as well.
 TriangleMesh weld(const TriangleMesh &mesh, double tolerance);
 
 /// Edges of a mesh.
@@ -40,19 +40,20 @@ struct TriangleEdges {
   static constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
   struct Edge {
-    std::array<unsigned int, 2> points;  ///< in the direction of the first facet
-    std::array<unsigned int, 2> facets;  ///< the second is `none` at a free edge
-    std::array<unsigned int, 2> corners; ///< per facet, corner where the edge begins for it: 0, 1 or 2
+    std::array<unsigned int, 2> points; ///< in the direction of the first facet
+    std::array<unsigned int, 2> facets; ///< the second is `none` at a free edge
+    /// Corner where the edge begins for each facet: 0, 1 or 2.
+    std::array<unsigned int, 2> corners;
   };
   std::vector<Edge> edges;
   std::vector<std::array<unsigned int, 3>> of_facet; ///< edge from corner i to the next one
 
-  /// Finds the edges. Throws std::invalid_argument with number and example if an edge has more than two
-  /// facets, or two with the same direction along it.
+  /// Finds the edges. Throws std::invalid_argument with number and example if an edge has more than
+  /// two facets, or two with the same direction along it.
   explicit TriangleEdges(const TriangleMesh &mesh);
 
-  /// Returns a message such as "12 edges have a facet on one side only, such as that from (0, 0, 0) to (1, 0,
-  /// 0)"; empty if there is no free edge.
+  /// Returns a message such as "12 edges have a facet on one side only, such as that from (0, 0, 0)
+  /// to (1, 0, 0)". It is empty if there is no free edge.
   std::string describe_open_edges(const TriangleMesh &mesh) const;
 };
 

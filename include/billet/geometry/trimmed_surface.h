@@ -15,15 +15,17 @@ public:
 
   struct Edge {
     TrimmingLoops::Curve on_surface; ///< in the plane of the parameters
-    std::vector<double> samples;     ///< ascending, from end to end, with small changes of direction
-    bool is_seam;                    ///< where a closed surface meets itself: no free edge
-    bool is_pole;                    ///< a point; the next two are empty
+    /// Ascending parameters from end to end, with small changes of direction.
+    std::vector<double> samples;
+    bool is_seam; ///< where a closed surface meets itself: no free edge
+    bool is_pole; ///< a point; the next two are empty
     std::function<double(const dealii::Tensor<1, 3> &)> nearest; ///< parameter of the nearest point
     std::function<dealii::Tensor<1, 3>(double)> position;
   };
   struct Description {
     SampledSurface surface;
-    /// Returns the parameters of the nearest point of the untrimmed surface, if there is a closed form.
+    /// Returns the parameters of the nearest point of the untrimmed surface, if there is a closed
+    /// form.
     std::function<Parameters(const dealii::Tensor<1, 3> &)> closed_form;
     std::array<double, 2> periods;   ///< periods of the parameters, 0: none
     std::array<double, 2> low, high; ///< bounds of the parameters

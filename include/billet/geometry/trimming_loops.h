@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Closed curves in a plane that bound a region: a point is inside if a ray from it crosses them an odd
-/// number of times.
+/// Closed curves in a plane that bound a region: a point is inside if a ray from it crosses them an
+/// odd number of times.
 class TrimmingLoops {
 public:
   using Point = std::array<double, 2>;
@@ -18,8 +18,8 @@ public:
   /// End points of curves that are nearer than `tolerance` to each other are merged.
   explicit TrimmingLoops(const double tolerance) : tolerance_(tolerance) {}
 
-  /// Adds a part of a loop through the points at these ascending parameters, between which the curve's
-  /// direction changes little. The parts may have any order and direction.
+  /// Adds a part of a loop through the points at these ascending parameters, between which the
+  /// curve's direction changes little. The parts may have any order and direction.
   void add(const Curve &curve, const std::vector<double> &parameters);
 
   bool contains(const Point &point) const;

@@ -12,16 +12,16 @@ using TimeIntegratorType = RegisteredType<TimeIntegrator>;
 
 TypeTable<TimeIntegrator> &time_integrator_types();
 
-/// Returns the method of Newmark (1959). β > 0; second order for γ = ½, unconditionally stable for 2β ≥ γ ≥
-/// ½.
+/// Returns the method of Newmark (1959). β > 0; second order for γ = ½, unconditionally stable for
+/// 2β ≥ γ ≥ ½.
 TimeIntegrator newmark(double beta, double gamma);
 
-/// Returns the method of Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α; α_f = −α
-/// here.
+/// Returns the method of Hilber, Hughes & Taylor (1977): −⅓ ≤ α ≤ 0, β = (1 − α)²/4, γ = ½ − α;
+/// α_f = −α here.
 TimeIntegrator hilber_hughes_taylor(double alpha);
 
-/// Returns the generalised-α method of Chung & Hulbert (1993): 0 ≤ ρ ≤ 1, the spectral radius at infinite
-/// frequency.
+/// Returns the generalised-α method of Chung & Hulbert (1993): 0 ≤ ρ ≤ 1, the spectral radius at
+/// infinite frequency.
 TimeIntegrator generalised_alpha(double spectral_radius);
 
 } // namespace billet

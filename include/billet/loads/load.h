@@ -87,8 +87,8 @@ struct LoadedFace {
   }
 };
 
-/// Corner of a face under a load. A node has one for each of its faces; under a load without a tangent, one
-/// for each Gauss point of a face.
+/// Corner of a face under a load. A node has one for each of its faces; under a load without a
+/// tangent, one for each Gauss point of a face.
 struct LoadedNode {
   unsigned int node;
   double area;                 ///< share of the undeformed face, the integral of N_a [length²]
@@ -100,8 +100,8 @@ struct LoadedNode {
 /// Derivatives of the forces by displacements and velocities.
 enum class LoadTangent { none, symmetric, unsymmetric };
 
-/// Properties that every kind of load states: what its forces depend on, and how far they limit explicit
-/// steps.
+/// Properties that every kind of load states: what its forces depend on, and how far they limit
+/// explicit steps.
 class LoadAction {
 public:
   virtual ~LoadAction() = default;
@@ -114,7 +114,8 @@ public:
   };
   /// Returns the bounds for faces of this surface.
   virtual Bound bound(const LoadedSurface &surface) const = 0;
-  /// Returns the directions in which it supports a node of a face with this normal: those of springs.
+  /// Returns the directions in which it supports a node of a face with this normal: those of
+  /// springs.
   virtual std::vector<dealii::Tensor<1, 3>> supports(const dealii::Tensor<1, 3> &normal) const = 0;
 };
 
@@ -141,8 +142,8 @@ class PointLoad : public DeadLoad<LoadAction> {
 public:
   /// Returns the undeformed position; none if it acts on selected nodes, in equal parts.
   virtual std::optional<dealii::Point<3>> position() const = 0;
-  /// Whether it acts on the node nearest to it; otherwise on the nodes of its element, by their shape
-  /// functions there.
+  /// Whether it acts on the node nearest to it; otherwise on the nodes of its element, by their
+  /// shape functions there.
   virtual bool takes_nearest_node() const = 0;
   /// Returns the force.
   virtual dealii::Tensor<1, 3> force(const double *values) const = 0;
@@ -151,31 +152,33 @@ public:
 /// Load on the deformed faces of a body.
 class FaceLoad : public LoadAction {
 public:
-  /// Adds the forces on all faces [force]. `values` of a face are those at its facet_points(), one set of
-  /// expressions after the other.
+  /// Adds the forces on all faces [force]. `values` of a face are those at its facet_points(), one
+  /// set of expressions after the other.
   virtual void add_forces(const std::vector<LoadedFace> &faces, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
-  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one face, 12 × 12, three rows for each corner [force/length]. It
-  /// is called unless tangent() is none.
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one face, 12 × 12, three rows for each corner
+  /// [force/length]. It is called unless tangent() is none.
   virtual void add_tangent(const LoadedFace & /*face*/, const double * /*values*/,
                            const NodalMotion & /*motion*/, double /*damping_factor*/,
                            dealii::FullMatrix<double> & /*matrix*/) const {}
 };
 
-/// Load on the nodes of a body's faces, by their undeformed areas. A force depends on its own node alone.
+/// Load on the nodes of a body's faces, by their undeformed areas. A force depends on its own node
+/// alone.
 class NodalLoad : public LoadAction {
 public:
   /// Adds the forces on all nodes [force].
   virtual void add_forces(const std::vector<LoadedNode> &nodes, const LoadValues &values,
                           const NodalMotion &motion, double *forces) const = 0;
-  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one node, 3 × 3 [force/length]. It is called unless tangent() is
-  /// none.
+  /// Adds −∂F/∂u − `damping_factor` ∂F/∂v of one node, 3 × 3 [force/length]. It is called unless
+  /// tangent() is none.
   virtual void add_tangent(const LoadedNode & /*node*/, const double * /*values*/,
                            const NodalMotion & /*motion*/, double /*damping_factor*/,
                            dealii::FullMatrix<double> & /*matrix*/) const {}
 };
 
-/// Measures motion and shares of a surface with these faces on this rank; `sum` adds numbers over all ranks.
+/// Measures motion and shares of a surface with these faces on this rank; `sum` adds numbers over
+/// all ranks.
 void measure_motion(const std::vector<LoadedFace> &faces, const NodalMotion &motion, LoadedSurface &surface,
                     const std::function<void(std::vector<double> &)> &sum);
 
@@ -225,8 +228,8 @@ struct Load {
   bool is_viscous() const;
 };
 
-/// Loads that a scene file can name. A new one is a file in source/loads/ with a function that returns its
-/// type, and its name in the table of load_types.cc.
+/// Loads that a scene file can name. A new one is a file in source/loads/ with a function that
+/// returns its type, and its name in the table of load_types.cc.
 using LoadType = RegisteredType<Load>;
 TypeTable<Load> &load_types();
 
@@ -236,7 +239,8 @@ void add_vector_expressions(const TypeInput &input, const std::string &key, bool
 /// Adds the parameters of Axes.
 std::vector<TypeParameter> with_axes(std::vector<TypeParameter> parameters);
 
-/// Returns the parameter that selects the faces; every load on faces has it, and the scene reads it.
+/// Returns the parameter that selects the faces; every load on faces has it, and the scene reads
+/// it.
 TypeParameter loaded_faces();
 
 } // namespace billet

@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Returns a selected node as a site of a load on a surface: all of its corners are this node, and its area,
-/// the part of the node in the load, is that of the first one.
+/// Returns a selected node as a site of a load on a surface. All of its corners are this node. Its
+/// area is that of the first corner, the part of the node in the load.
 inline LoadedFace make_node_site(const unsigned int node, const dealii::Point<3> &position,
                                  const LoadedSurface *surface, const double part) {
   return {{node, node, node, node}, position, surface, {part, 0., 0., 0.}};

@@ -40,8 +40,8 @@ struct Certificate {
   bool has_passed() const;
 };
 
-/// The same material, with the numbers of its parameters in other units. Factors: numbers in these units over
-/// those in the first ones.
+/// The same material, with the numbers of its parameters in other units. Factors: numbers in these
+/// units over those in the first ones.
 struct OtherUnits {
   std::shared_ptr<const PointLaw> law; ///< null if it is not known
   std::string why_not;                 ///< then
@@ -56,18 +56,19 @@ struct CertificationSettings {
   std::optional<OtherUnits> other_units = {};
 };
 
-/// Drives a law through what a run demands of it, and judges it:
+/// Drives a law through what a run demands of it, and judges it. It takes some seconds. The checks
+/// are:
 ///   objectivity        rotations of the body turn the stress
-///   tangent            moduli against differences along random paths: loading, unloading, reversal, shear
+///   tangent            moduli against differences along random paths: loading, unloading,
+///                      reversal, shear
 ///   symmetry           of the moduli, if the law says so
 ///   dissipation        the work less the stored energy does not fall; energies and work balance
 ///   steps              from 1e-6 to 0.5 of strain: a finite stress that converges with the step
 ///   repeated stretches no drift of the stress in elastic cycles
-///   units              the stress does not depend on the units of its parameters, if these are known
+///   units              if its parameters' units are known, the stress does not depend on them
 ///   checkpoint         the state of a point has all that the next steps need
 ///   ellipticity        ranges of stretches, (U8)
 ///   cost               an update beside Hencky's law with J2 plasticity
-/// It takes some seconds.
 Certificate certify(const PointLaw &law, const CertificationSettings &settings);
 
 } // namespace billet

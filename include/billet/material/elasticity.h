@@ -16,7 +16,8 @@ using SharedFlow = std::shared_ptr<const FlowStress>;
 
 struct FlowRule;
 
-/// Elastic part of a material, with its constants. It makes the law of a body with or without plasticity.
+/// Elastic part of a material, with its constants. It makes the law of a body with or without
+/// plasticity.
 class Elasticity {
 public:
   virtual ~Elasticity() = default;
@@ -29,19 +30,21 @@ public:
   virtual SharedLaw make_elastic_law() const = 0;
   /// Returns null if this elasticity does not support plasticity.
   virtual SharedLaw make_plastic_law(SharedFlow flow) const = 0;
-  /// Returns the law with a flow rule that is not plain; null if this elasticity does not support any.
+  /// Returns the law with a flow rule that is not plain; null if this elasticity does not support
+  /// any.
   virtual SharedLaw make_law_with_rule(SharedFlow /*flow*/, const FlowRule & /*rule*/) const {
     return nullptr;
   }
 };
 
-/// Elasticities that a scene file can name. A new one is a file in source/material/ with a function that
-/// returns its type, and its name in the table of elasticity.cc.
+/// Elasticities that a scene file can name. A new one is a file in source/material/ with a function
+/// that returns its type, and its name in the table of elasticity.cc.
 struct ElasticityType : RegisteredType<std::shared_ptr<const Elasticity>> {
-  /// Makes the law with two moduli, elastic if the flow stress is null. It returns null if this elasticity
-  /// does not support plasticity. A null pointer: two moduli do not determine the law.
+  /// Makes the law with two moduli, elastic if the flow stress is null. It returns null if this
+  /// elasticity does not support plasticity. A null pointer: two moduli do not determine the law.
   SharedLaw (*make_law)(const ElasticModuli &, SharedFlow) = nullptr;
-  bool has_flow_rules = false; ///< whether its plastic law takes a FlowRule; messages and the manual name it
+  /// Whether its plastic law takes a FlowRule; messages and the manual name it.
+  bool has_flow_rules = false;
   bool has_volumetric_law = false; ///< whether a scene can choose its volumetric law
 
   /// Returns the law with these moduli; null if there is none.
@@ -51,13 +54,14 @@ struct ElasticityType : RegisteredType<std::shared_ptr<const Elasticity>> {
 };
 TypeTable<std::shared_ptr<const Elasticity>, ElasticityType> &elasticity_types();
 
-// Laws that two moduli determine: Hencky, neo-Hookean, hypoelastic. Without `flow` they are elastic.
+// Laws that two moduli determine: Hencky, neo-Hookean, hypoelastic. Without `flow` they are
+// elastic.
 SharedLaw make_hencky_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_neo_hookean_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 SharedLaw make_hypoelastic_law(const ElasticModuli &elastic, SharedFlow flow = nullptr);
 
-/// Returns the type of such a law; its parameters are Young's modulus and Poisson's ratio. `make_with_rule`:
-/// null if it does not support flow rules.
+/// Returns the type of such a law; its parameters are Young's modulus and Poisson's ratio.
+/// `make_with_rule`: null if it does not support flow rules.
 ElasticityType isotropic_elasticity_type(std::string name, std::string meaning,
                                          SharedLaw (*make)(const ElasticModuli &, SharedFlow),
                                          SharedLaw (*make_with_rule)(const ElasticModuli &, SharedFlow,

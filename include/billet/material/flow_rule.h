@@ -12,8 +12,8 @@
 
 namespace billet {
 
-/// Term of kinematic hardening in tension, dX = C dε_p − g X dα (Armstrong & Frederick 1966; Chaboche 1986).
-/// With g = 0 it is Prager's.
+/// Term of kinematic hardening in tension, dX = C dε_p − g X dα (Armstrong & Frederick 1966;
+/// Chaboche 1986). With g = 0 it is Prager's.
 struct BackstressTerm {
   double modulus; ///< C [stress]
   double rate;    ///< g
@@ -26,7 +26,8 @@ struct FlowRule {
   std::vector<BackstressTerm> backstress;
   std::shared_ptr<const Anisotropy> anisotropy; ///< null: von Mises
   std::shared_ptr<const ThermalFactor> thermal; ///< null: no dependence on temperature
-  double heating = 0.; ///< rise of the temperature by dissipated energy per volume [temperature/stress]
+  /// Rise of the temperature by dissipated energy per volume [temperature/stress].
+  double heating = 0.;
 
   bool is_plain() const { return backstress.empty() && anisotropy == nullptr && thermal == nullptr; }
   /// Returns a description that follows that of the flow stress, or nothing.
@@ -35,8 +36,8 @@ struct FlowRule {
   /// Returns the parameters of 'backstress' in scene files, and reads them.
   static std::vector<TypeParameter> backstress_parameters();
   static std::vector<BackstressTerm> read_backstress(const TypeInput &input);
-  /// Returns the parameters of 'heating' in scene files, and reads them. `density` may be 0 without heating
-  /// [mass/length^3].
+  /// Returns the parameters of 'heating' in scene files, and reads them. `density` may be 0 without
+  /// heating [mass/length^3].
   static std::vector<TypeParameter> heating_parameters();
   static double read_heating(const TypeInput &input, double density);
 };

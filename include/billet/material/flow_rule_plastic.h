@@ -14,22 +14,26 @@
 namespace billet {
 
 /// Multiplicative plasticity with Hencky elasticity, F = F_e F_p, and a flow rule with directions:
-/// backstress, Hill's yield function or both (doc/theory.md, "Flow rules"). With V_e the
-/// elastic stretch and C_j⁻¹ the Lagrangian metrics of the history, a step solves
-///   ½ ln(V_e⁻¹ F C_p⁻¹ Fᵀ V_e⁻¹) = Δα H ξ/Q,   Q = √(ξ : H : ξ) = σ_y(α + Δα),                        (H5)
-///   ξ = 2G dev ln V_e − Σ ⅔ C_j κ_j,                                                                  (H3)
+/// backstress, Hill's yield function or both (doc/theory.md, "Flow rules"). V_e is the elastic
+/// stretch, and C_j⁻¹ are the Lagrangian metrics of the history. A step solves
+///   ½ ln(V_e⁻¹ F C_p⁻¹ Fᵀ V_e⁻¹) = Δα H ξ/Q,   Q = √(ξ : H : ξ) = σ_y(α + Δα),                (H5)
+///   ξ = 2G dev ln V_e − Σ ⅔ C_j κ_j,                                                          (H3)
 /// for ln V_e and Δα, by Newton's method to round-off. Without backstress and anisotropy it is
-/// HenckyPlasticity. `has_directions`: whether the moduli are unsymmetric; `is_thermal`: whether the flow
-/// rule has a thermal factor.
+/// HenckyPlasticity. `has_directions`: whether the moduli are unsymmetric; `is_thermal`: whether
+/// the flow rule has a thermal factor.
 template <bool has_directions, bool is_thermal> class FlowRulePlasticity {
 public:
   struct History {
-    dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>(); ///< C_p⁻¹
-    double equivalent_plastic_strain = 0.;                                                     ///< α
+    /// C_p⁻¹.
+    dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>();
+    /// α.
+    double equivalent_plastic_strain = 0.;
     FlowStress::State flow{};
-    double dissipated = 0.;       ///< energy beyond the flow stress' work without a thermal factor [stress]
+    /// Energy beyond the flow stress' work without a thermal factor [stress].
+    double dissipated = 0.;
     double temperature_rise = 0.; ///< by dissipation [temperature]
-    dealii::SymmetricTensor<2, 3> backstress; ///< Kirchhoff's, in space, at the end of the step [stress]
+    /// Kirchhoff's, in space, at the end of the step [stress].
+    dealii::SymmetricTensor<2, 3> backstress;
     /// Metrics C_j⁻¹ of the terms.
     std::array<dealii::SymmetricTensor<2, 3>, FlowRule::max_terms> inverse_metrics = undeformed_metrics();
 
@@ -46,7 +50,8 @@ public:
   /// Throws std::invalid_argument if there are more than FlowRule::max_terms terms.
   FlowRulePlasticity(const ElasticModuli &elastic, SharedFlow flow, FlowRule rule);
 
-  /// Updates as HenckyPlasticity::update() does. It also returns false if the iteration does not converge.
+  /// Updates as HenckyPlasticity::update() does. It also returns false if the iteration does not
+  /// converge.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const PointStep &step = {}) const;
 
@@ -54,8 +59,8 @@ public:
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                        double equivalent_plastic_strain) const;
 
-  /// Returns what PointLaw::memory() says: state of the flow stress, dissipation, temperature rise, and κ_j
-  /// in space.
+  /// Returns what PointLaw::memory() says: state of the flow stress, dissipation, temperature rise,
+  /// and κ_j in space.
   std::vector<double> memory(const dealii::Tensor<2, 3> &F, const History &history) const;
   void remember(const dealii::Tensor<2, 3> &F, const std::vector<double> &memory, History &history) const;
 

@@ -19,9 +19,9 @@ struct PlasticIncrement {
   double slope = 0.;  ///< derivative of the flow stress by Δα there [stress]
 };
 
-/// Solves q − m Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0. Newton's
-/// method is safeguarded by a shrinking bracket, so it converges for hardening laws with kinks or steep
-/// starts. It stops at round-off. `law` has stress(α) and slope(α).
+/// Solves q − m Δα − σ_y(α_n + Δα) = 0 for Δα > 0, given that the left side is positive at Δα = 0.
+/// Newton's method is safeguarded by a shrinking bracket, so it converges for hardening laws with
+/// kinks or steep starts. It stops at round-off. `law` has stress(α) and slope(α).
 template <class Law>
 double solve_consistency(const Law &law, const double q, const double m, const double alpha_n) {
   double low = 0., high = q / m;
@@ -42,9 +42,9 @@ double solve_consistency(const Law &law, const double q, const double m, const d
   return delta;
 }
 
-/// Flow stress of J2 plasticity, in the sense of von Mises [stress]. A point stores the equivalent plastic
-/// strain α. If the flow stress depends on more than α, it also stores n_state() more numbers, initially
-/// zero.
+/// Flow stress of J2 plasticity, in the sense of von Mises [stress]. A point stores the equivalent
+/// plastic strain α. If the flow stress depends on more than α, it also stores n_state() more
+/// numbers, initially zero.
 class FlowStress {
 public:
   static constexpr std::size_t max_state = max_flow_state;
@@ -58,8 +58,8 @@ public:
   /// Returns the stress at which a point begins to yield.
   virtual double stress(double alpha) const = 0;
 
-  /// Returns the Δα with q − m Δα = flow stress at the end of a step of dt [time]; zero, with the slope at
-  /// α_n, where q does not exceed stress(α_n).
+  /// Returns the Δα with q − m Δα = flow stress at the end of a step of dt [time]. Where q does not
+  /// exceed stress(α_n), it is zero, with the slope at α_n.
   virtual PlasticIncrement solve(double q, double m, double alpha_n, double dt) const = 0;
 
   virtual std::size_t n_state() const { return 0; }
@@ -81,8 +81,8 @@ public:
   /// Whether the flow stress stays below a limit for any plastic strain.
   virtual bool is_bounded() const = 0;
 
-  /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
-  /// time. With a rate factor that kernels have, the state is the plastic work alone.
+  /// Returns the form in which kernels compute it for several elements at once; by default one lane
+  /// at a time. With a rate factor that kernels have, the state is the plastic work alone.
   virtual LaneHardening lane_form() const { return {}; }
 
   /// Returns the derivative of stress(), from the right where it has a kink [stress].

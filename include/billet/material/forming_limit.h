@@ -10,8 +10,8 @@
 
 namespace billet {
 
-/// Forming limit curve of a sheet: the major logarithmic strain at which it necks, over the minor one. It is
-/// linear between its points, and constant beyond them.
+/// Forming limit curve of a sheet: the major logarithmic strain at which it necks, over the minor
+/// one. It is linear between its points, and constant beyond them.
 class FormingLimit {
 public:
   /// `points`: minor and major strains; minor ones increase strictly, major ones are positive.

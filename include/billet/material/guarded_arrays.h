@@ -8,19 +8,20 @@
 
 namespace billet {
 
-/// Arrays for a subroutine, in one piece of memory: guard numbers before, between and behind them show that
-/// it writes outside of an array.
+/// Arrays for a subroutine, in one piece of memory: guard numbers before, between and behind them
+/// show that it writes outside of an array.
 class GuardedArrays {
 public:
-  /// Makes arrays of zeros. `sizes`: counts of their numbers; `n_behind`: count of guards behind the last.
+  /// Makes arrays of zeros. `sizes`: counts of their numbers; `n_behind`: count of guards behind
+  /// the last.
   GuardedArrays(const std::vector<std::size_t> &sizes, std::size_t n_behind);
 
   double *operator[](const std::size_t array) { return numbers_.data() + starts_[array]; }
   const double *operator[](const std::size_t array) const { return numbers_.data() + starts_[array]; }
   std::size_t size(const std::size_t array) const { return sizes_[array]; }
 
-  /// Returns the array beyond whose end the first change of a guard is, array 0 also for one before it;
-  /// nothing if all guards are unchanged. Restores the guards.
+  /// Returns the array beyond whose end the first change of a guard is, also array 0 for one before
+  /// it. Returns nothing if all guards are unchanged. Restores the guards.
   std::optional<std::size_t> find_overrun();
 
   /// Guards before and between arrays.

@@ -21,10 +21,11 @@ struct CallResult {
   std::string describe() const;
 };
 
-/// Calls `function(data)`, which is code of a user's library, and returns when it returns, leaves or crashes
-/// by SIGSEGV, SIGBUS, SIGFPE, SIGILL or SIGABRT. Objects with destructors in the interrupted code leak, and
-/// its data may be damaged: do not call it again. `name` stands in the message if the code ends the whole
-/// program, as STOP in Fortran does; it must live as long as the call. Not for several threads.
+/// Calls `function(data)`, which is code of a user's library, and returns when it returns, leaves
+/// or crashes by SIGSEGV, SIGBUS, SIGFPE, SIGILL or SIGABRT. Objects with destructors in the
+/// interrupted code leak, and its data may be damaged: do not call it again. `name` stands in the
+/// message if the code ends the whole program, as STOP in Fortran does; it must live as long as the
+/// call. Not for several threads.
 CallResult call_guarded(void (*function)(void *), void *data, const char *name);
 
 /// Ends the guarded call from within. Returns if there is none.

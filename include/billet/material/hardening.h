@@ -104,8 +104,8 @@ struct PowerLawHardening {
   LaneHardening lane_form() const;
 };
 
-/// Ludwik's σ_y + B a^n, that of Johnson and Cook. Its slope is infinite at a = 0, so that up to a_0 it is
-/// the secant: the stress differs from the curve by at most B a_0^n there.
+/// Ludwik's σ_y + B a^n, that of Johnson and Cook. Its slope is infinite at a = 0, so that up to
+/// a_0 it is the secant. The stress differs from the curve by at most B a_0^n there.
 struct LudwikHardening {
   static constexpr double a_0 = 1e-6;
 
@@ -134,8 +134,8 @@ private:
   double initial_slope() const { return coefficient * std::pow(a_0, exponent - 1.); }
 };
 
-/// Piecewise linear curve through (strain, stress) points, constant beyond the last one. The strains start at
-/// 0 and increase strictly.
+/// Piecewise linear curve through (strain, stress) points, constant beyond the last one. The
+/// strains start at 0 and increase strictly.
 class TabulatedHardening {
 public:
   TabulatedHardening(std::vector<double> strains, std::vector<double> stresses);
@@ -153,8 +153,8 @@ private:
   std::vector<double> strains_, stresses_, works_;
 };
 
-/// Hardening laws that a scene file can name. A new one is a file in source/material/ with a function that
-/// returns its type, and its name in the table of hardening.cc.
+/// Hardening laws that a scene file can name. A new one is a file in source/material/ with a
+/// function that returns its type, and its name in the table of hardening.cc.
 using HardeningType = RegisteredType<std::shared_ptr<const HardeningLaw>>;
 TypeTable<std::shared_ptr<const HardeningLaw>> &hardening_types();
 

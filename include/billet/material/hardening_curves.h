@@ -12,9 +12,9 @@
 
 namespace billet {
 
-/// Measured curves of hardening, each at another value of a quantity such as the temperature, as a factor
-/// over the first curve, (H19) of doc/theory.md. Stresses are linear between points and between values, and
-/// constant beyond both ends.
+/// Measured curves of hardening, each at another value of a quantity such as the temperature, as a
+/// factor over the first curve, (H19) of doc/theory.md. Stresses are linear between points and
+/// between values, and constant beyond both ends.
 class HardeningCurves {
 public:
   /// `stresses[i][k]`: at strain i and value k. Strains and values increase strictly.
@@ -24,11 +24,13 @@ public:
   std::size_t size() const { return values_.size(); }
   /// Returns the factor at a plastic strain and a value.
   double factor(double alpha, double value) const;
-  /// Returns its derivatives by the value and by the plastic strain; from the right where it has a kink.
+  /// Returns its derivatives by the value and by the plastic strain; from the right where it has a
+  /// kink.
   std::pair<double, double> slopes(double alpha, double value) const;
 
 private:
-  /// Place between two numbers; at the ends, and beyond them, both are the same and the length is 0.
+  /// Place between two numbers; at the ends, and beyond them, both are the same and the length
+  /// is 0.
   struct Place {
     std::size_t i, next;
     double part, length;
@@ -53,8 +55,8 @@ struct CurvesInput {
 
   /// `meaning`: of the values; the unit follows.
   std::vector<TypeParameter> parameters(const std::string &meaning) const;
-  /// Returns the curves over `values`, which increase strictly. `check` may refuse the stresses at a plastic
-  /// strain, given with words for this strain. Throws as TypeInput::reject().
+  /// Returns the curves over `values`, which increase strictly. `check` may refuse the stresses at
+  /// a plastic strain, given with words for this strain. Throws as TypeInput::reject().
   HardeningCurves read(const TypeInput &input, std::vector<double> values,
                        const std::function<void(const std::vector<double> &stresses, const std::string &at)>
                            &check = {}) const;

@@ -20,7 +20,8 @@ struct HyperelasticState {
   IsochoricResponse response; ///< with the deviator of t_A for t_A
 };
 
-/// Hyperelastic law W(λ̄) + U(J) with a symmetric tangent and no history. Prony's series stands on it.
+/// Hyperelastic law W(λ̄) + U(J) with a symmetric tangent and no history. Prony's series stands on
+/// it.
 class HyperelasticLaw : public SpatialLaw {
 public:
   HyperelasticLaw(std::string name, SharedEnergy isochoric, const VolumetricEnergy &volumetric)

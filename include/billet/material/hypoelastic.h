@@ -6,15 +6,16 @@
 
 namespace billet {
 
-/// Increment of a step from F_n to F: ΔL = (F − F_n) F_m⁻¹ with F_m at mid-step, and the rotation R = (1 −
-/// W/2)⁻¹ (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
+/// Increment of a step from F_n to F: ΔL = (F − F_n) F_m⁻¹ with F_m at mid-step, and the rotation
+/// R = (1 − W/2)⁻¹ (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
 struct MidpointIncrement {
   dealii::Tensor<2, 3> gradient; ///< ΔL
   dealii::Tensor<1, 3> spin;     ///< axial vector of W
   dealii::Tensor<2, 3> rotation; ///< R
 };
 
-/// Computes the increment. Returns false if F is not finite or the configuration at mid-step is inverted.
+/// Computes the increment. Returns false if F is not finite or the configuration at mid-step is
+/// inverted.
 bool compute_increment(const dealii::Tensor<2, 3> &F_n, const dealii::Tensor<2, 3> &F,
                        MidpointIncrement &increment);
 
@@ -22,15 +23,16 @@ bool compute_increment(const dealii::Tensor<2, 3> &F_n, const dealii::Tensor<2, 
 dealii::SymmetricTensor<2, 3> compute_trial_deviator(const MidpointIncrement &increment, double shear,
                                                      const dealii::SymmetricTensor<2, 3> &deviator_n);
 
-/// Returns the derivative of the trial deviator with respect to L. It uses ΔL' = (1 − ΔL/2) L (1 + ΔL/2); R'
-/// Rᵀ is the cross product with (w' + ½ w × w')/(1 + w²/4), w the spin.
+/// Returns the derivative of the trial deviator with respect to L. It uses ΔL' = (1 − ΔL/2) L (1 +
+/// ΔL/2); R' Rᵀ is the cross product with (w' + ½ w × w')/(1 + w²/4), w the spin.
 GradientModuli compute_trial_moduli(const MidpointIncrement &increment, double shear,
                                     const dealii::SymmetricTensor<2, 3> &deviator_n);
 
-/// Hypoelastic law of the paper, without plasticity: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, with the total
-/// pressure κ ln J. (The paper's law also returns the deviator radially to the yield surface.) A rigid
-/// rotation in a step rotates the stress exactly, whatever its angle. Otherwise the stress depends on the
-/// step size, since it follows from rates. In a strict sense no stored energy exists.
+/// Hypoelastic law of the paper, without plasticity: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, with the
+/// total pressure κ ln J. (The paper's law also returns the deviator radially to the yield
+/// surface.) A rigid rotation in a step rotates the stress exactly, whatever its angle. Otherwise
+/// the stress depends on the step size, since it follows from rates. In a strict sense no stored
+/// energy exists.
 class HypoelasticElasticity {
 public:
   struct History {
@@ -44,8 +46,9 @@ public:
 
   explicit HypoelasticElasticity(const ElasticModuli &elastic) : elastic_(elastic) {}
 
-  /// Updates as HenckyPlasticity::update() does, but with a given volume ratio J for the pressure κ ln J: in
-  /// an element with mean dilatation, J is not det F. The rows of `moduli` are those of dev τ alone.
+  /// Updates as HenckyPlasticity::update() does, but with a given volume ratio J for the pressure κ
+  /// ln J. In an element with mean dilatation, J is not det F. The rows of `moduli` are those of
+  /// dev τ alone.
   bool update(const dealii::Tensor<2, 3> &F, const double J, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const PointStep & = {}) const {
     MidpointIncrement increment;
@@ -104,8 +107,8 @@ private:
   ElasticModuli elastic_;
 };
 
-/// Hypoelastic law with J2 plasticity: q − 3 G Δα = σ_y(α + Δα), and the deviator is scaled by β = σ_y/q. The
-/// yield condition is in Kirchhoff stress.
+/// Hypoelastic law with J2 plasticity: q − 3 G Δα = σ_y(α + Δα), and the deviator is scaled by
+/// β = σ_y/q. The yield condition is in Kirchhoff stress.
 class HypoelasticPlasticity {
 public:
   struct History : HypoelasticElasticity::History {
@@ -120,8 +123,8 @@ public:
   HypoelasticPlasticity(const ElasticModuli &elastic, std::shared_ptr<const FlowStress> flow)
       : elastic_law_(elastic), elastic_(elastic), flow_(std::move(flow)) {}
 
-  /// Updates as HypoelasticElasticity::update() does. With s the trial deviator, dev τ = β s: the moduli are
-  /// β A + s ⊗ (k − β)/q ∂q, k = σ_y'/(3 G + σ_y'), ∂q = 3/2 s : A/q.
+  /// Updates as HypoelasticElasticity::update() does. With s the trial deviator, dev τ = β s: the
+  /// moduli are β A + s ⊗ (k − β)/q ∂q, k = σ_y'/(3 G + σ_y'), ∂q = 3/2 s : A/q.
   bool update(const dealii::Tensor<2, 3> &F, double J, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, GradientModuli *moduli, const PointStep &step = {}) const;
 

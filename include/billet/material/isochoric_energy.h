@@ -35,8 +35,8 @@ public:
   /// Returns W per reference volume [stress]; 0 at e = 0.
   virtual double energy(const IsochoricStrains &e) const = 0;
   virtual IsochoricResponse respond(const IsochoricStrains &e) const = 0;
-  /// Returns a, for which the largest slope is about 2 G + a (t_max − t_min) at most. It bounds explicit
-  /// steps.
+  /// Returns a, for which the largest slope is about 2 G + a (t_max − t_min) at most. It bounds
+  /// explicit steps.
   virtual double growth() const = 0;
 };
 using SharedEnergy = std::shared_ptr<const IsochoricEnergy>;
@@ -47,16 +47,16 @@ double expm1_minus(double x);
 /// Returns W = G Σ e_A², Hencky's.
 SharedEnergy make_hencky_energy(double shear);
 
-/// Returns W = Σ_p μ_p/α_p (Σ_A λ̄_A^{α_p} − 3), (V3) (Ogden 1972). With exponents 2 and −2 it is Mooney and
-/// Rivlin's. Moduli in stress; both lists have the same size.
+/// Returns W = Σ_p μ_p/α_p (Σ_A λ̄_A^{α_p} − 3), (V3) (Ogden 1972). With exponents 2 and −2 it is
+/// Mooney and Rivlin's. Moduli in stress; both lists have the same size.
 SharedEnergy make_ogden_energy(std::vector<double> moduli, std::vector<double> exponents);
 
 /// Returns W = Σ_i c_i (I_1 − 3)^i, i from 1, (V4), with I_1 = Σ λ̄_A² [stress].
 SharedEnergy make_invariant_energy(std::vector<double> coefficients);
 
-/// Returns the type of a hyperelastic law with any volumetric law. Bulk modulus and Prony's series are added
-/// to the parameters of the isochoric energy. The law is refused if its initial shear modulus is not
-/// positive; the message names the parameter `main_key`.
+/// Returns the type of a hyperelastic law with any volumetric law. Bulk modulus and Prony's series
+/// are added to the parameters of the isochoric energy. The law is refused if its initial shear
+/// modulus is not positive; the message names the parameter `main_key`.
 ElasticityType hyperelastic_type(std::string name, std::string meaning, std::vector<TypeParameter> parameters,
                                  std::string main_key, SharedEnergy (*make)(const TypeInput &));
 

@@ -4,19 +4,21 @@
 
 namespace billet {
 
-/// Hardening laws that the explicit kernels compute for several elements at once. They evaluate `other`
-/// through a callback, one lane at a time, but a rate factor of it at once. σ_y(α) is concave except for
-/// `other`.
+/// Hardening laws that the explicit kernels compute for several elements at once. They evaluate
+/// `other` through a callback, one lane at a time, but a rate factor of it at once. σ_y(α) is
+/// concave except for `other`.
 enum class HardeningKind { linear, voce, power_law, other };
 
-/// Rate factors that the explicit kernels compute for several elements at once: 1, and 1 + (ε̇/D)^{1/p}.
-/// Kernels evaluate a flow stress with an `other` through a callback, one lane at a time.
+/// Rate factors that the explicit kernels compute for several elements at once: 1, and 1 +
+/// (ε̇/D)^{1/p}. Kernels evaluate a flow stress with an `other` through a callback, one lane at a
+/// time.
 enum class RateKind { none, power_law, other };
 
 /// Maximum count of numbers that a flow stress stores at a point beside α.
 constexpr unsigned int max_flow_state = 4;
 
-/// Laws that the explicit kernels compute for several elements at once. The last one determines the count.
+/// Laws that the explicit kernels compute for several elements at once. The last one determines the
+/// count.
 enum class LaneLaw { hencky, neo_hookean, hypoelastic };
 constexpr unsigned int n_lane_laws = static_cast<unsigned int>(LaneLaw::hypoelastic) + 1;
 

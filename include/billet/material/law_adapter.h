@@ -42,20 +42,20 @@ template <class L> constexpr bool finds_temperature(long) { return false; }
 
 } // namespace adapter
 
-/// PointLaw made from a value type such as HenckyElasticity, which has
+/// PointLaw made from a value type such as HenckyElasticity. It has
 ///   Moduli, has_plasticity, is_rate_form, has_symmetric_moduli, has_exact_dissipation
-///   History                        its state, with default values of the undeformed point
-///   fields(), store(), restore()   names of that state, and the state as numbers; none if History is empty
+///   History                       its state, with default values of the undeformed point
+///   fields(), store(), restore()  names of that state, and it as numbers; none if it is empty
 ///   update(), elastic_energy(), plastic_work(), equivalent_plastic_strain(), elastic()
-///   find_history()                 unless History is empty
-///   memory(), remember()           if the history has more than stress and equivalent plastic strain
-///   min_wave_stiffness()         of laws without plasticity
-///   lane_law                       if the explicit kernels have the law
-///   depends_on_temperature         true, if it reads PointStep::temperature
-///   flow_slope()                   if the law may soften
-///   bound_stiffness(tau)           if PointLaw's is not the law's; without it, moduli bound elastic laws
-///   flow_stress()                  with plasticity
-///   directions()                   what summary() adds about directions of the material, if it has any
+///   find_history()                unless History is empty
+///   memory(), remember()          if History has more than stress and equivalent plastic strain
+///   min_wave_stiffness()          of laws without plasticity
+///   lane_law                      if the explicit kernels have the law
+///   depends_on_temperature        true, if it reads PointStep::temperature
+///   flow_slope()                  if the law may soften
+///   bound_stiffness(tau)          if PointLaw's is not the law's; else moduli bound elastic laws
+///   flow_stress()                 with plasticity
+///   directions()                  what summary() adds about the material's directions, if any
 template <class Law> class LawAdapter final : public LawWithModuli<typename Law::Moduli> {
 public:
   using History = typename Law::History;

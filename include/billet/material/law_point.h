@@ -10,8 +10,8 @@
 
 namespace billet {
 
-/// Derivatives of all of the Kirchhoff stress by the velocity gradient: rows are 11, 22, 33, 12, 13, 23,
-/// columns L11, L12, L13, L21, ... L33 [stress].
+/// Derivatives of all of the Kirchhoff stress by the velocity gradient: rows are 11, 22, 33, 12,
+/// 13, 23, columns L11, L12, L13, L21, ... L33 [stress].
 using StressRates = std::array<std::array<double, 9>, 6>;
 
 /// Point of any law that is driven through deformation gradients, for checks of laws.
@@ -20,13 +20,14 @@ public:
   /// `centre`: for laws whose material axes depend on it.
   explicit LawPoint(const PointLaw &law, double temperature = 0., const dealii::Tensor<1, 3> &centre = {});
 
-  /// Returns the Kirchhoff stress at F, at the end of a step of length dt from the committed state; nothing
-  /// if the law refuses. Overwrites `rates`, unless it is null, with what the law's moduli promise.
+  /// Returns the Kirchhoff stress at F, at the end of a step of length dt from the committed state;
+  /// nothing if the law refuses. Overwrites `rates`, unless it is null, with what the law's moduli
+  /// promise.
   std::optional<dealii::SymmetricTensor<2, 3>> evaluate(const dealii::Tensor<2, 3> &F, double dt,
                                                         StressRates *rates = nullptr);
-  /// Returns central differences of the stress at F, with relative changes of F of `h`. Returns nothing if
-  /// the law refuses, or at a kink: one-sided differences disagree by more than `kink` of the norm. The state
-  /// of the last evaluation remains.
+  /// Returns central differences of the stress at F, with relative changes of F of `h`. Returns
+  /// nothing if the law refuses, or at a kink: one-sided differences disagree by more than `kink`
+  /// of the norm. The state of the last evaluation remains.
   std::optional<StressRates> differentiate(const dealii::Tensor<2, 3> &F, double dt, double h, double kink);
 
   /// Makes the state of the last evaluation the start of the next step.
@@ -48,9 +49,10 @@ private:
   std::vector<double> state_n_, state_;
 };
 
-/// Returns the norm of the difference of `a` and `b` over that of `b`; for symmetric velocity gradients alone
-/// if `is_symmetric`. The deviators of the stress by isochoric velocity gradients count by their own norm, so
-/// that a large bulk modulus hides no error of theirs: the result is the larger of both.
+/// Returns the norm of the difference of `a` and `b` over that of `b`; for symmetric velocity
+/// gradients alone if `is_symmetric`. The deviators of the stress by isochoric velocity gradients
+/// count by their own norm, so that a large bulk modulus hides no error of theirs. The result is
+/// the larger of both.
 double relative_difference(const StressRates &a, const StressRates &b, bool is_symmetric);
 
 /// Largest difference between the moduli of a law and differences of its stress.
@@ -60,8 +62,9 @@ struct TangentError {
   double asymmetry = 0.; ///< largest UserSubroutine::lost_asymmetry()
 };
 
-/// Pulls points of the law along straight paths up to a strain of 1 %, in steps of length dt, and compares
-/// the moduli at the ends of the steps for symmetric velocity gradients. It takes a few hundred updates.
+/// Pulls points of the law along straight paths up to a strain of 1 %, in steps of length dt.
+/// Compares the moduli at the ends of the steps for symmetric velocity gradients. It takes a few
+/// hundred updates.
 TangentError find_tangent_error(const PointLaw &law, double dt, double temperature);
 
 } // namespace billet

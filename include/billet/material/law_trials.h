@@ -17,7 +17,8 @@ public:
   }
   /// Returns a number whose logarithm is uniform.
   double logarithmic(double low, double high);
-  /// Returns a tensor of norm 1 in a random direction, nearly without a trace: real loads on metals are.
+  /// Returns a tensor of norm 1 in a random direction, nearly without a trace: real loads on metals
+  /// are.
   dealii::SymmetricTensor<2, 3> strain();
   /// Returns a rotation by up to `angle`.
   dealii::Tensor<2, 3> rotation(double angle);
@@ -26,7 +27,8 @@ private:
   std::mt19937 engine_;
 };
 
-// The trials of certify(), one function for each. They find nothing if the law refuses all of their steps.
+// The trials of certify(), one function for each. They find nothing if the law refuses all of their
+// steps.
 
 std::vector<Finding> try_objectivity(const PointLaw &law, const CertificationSettings &settings);
 /// Tangent and symmetry.
@@ -40,10 +42,11 @@ std::vector<Finding> try_checkpoint(const PointLaw &law, const CertificationSett
 std::vector<Finding> try_cost(const PointLaw &law, const CertificationSettings &settings);
 
 /// Returns the smallest eigenvalue, over directions n and amplitudes m, of the acoustic tensor
-///   Q m = δτ(m ⊗ n) n − (m · n) τ n                                                                 (U8)
+///   Q m = δτ(m ⊗ n) n − (m · n) τ n                                                           (U8)
 /// [stress]. For moduli of the Lie derivative it is (M7).
 double min_acoustic_eigenvalue(const StressRates &rates, const dealii::SymmetricTensor<2, 3> &tau);
-/// Ranges of the stretch in tension, equibiaxial tension, plane strain, simple shear and change of volume.
+/// Ranges of the stretch in tension, equibiaxial tension, plane strain, simple shear and change of
+/// volume.
 std::vector<SafeRange> find_safe_ranges(const PointLaw &law, const CertificationSettings &settings);
 
 } // namespace billet

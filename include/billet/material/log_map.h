@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Vector and matrix of symmetric tensors in Kelvin's notation: 11, 22, 33, √2 12, √2 13, √2 23. Products and
-/// norms are those of the tensors.
+/// Vector and matrix of symmetric tensors in Kelvin's notation: 11, 22, 33, √2 12, √2 13, √2 23.
+/// Products and norms are those of the tensors.
 using Vector6 = std::array<double, 6>;
 using Matrix6 = std::array<std::array<double, 6>, 6>;
 
@@ -50,8 +50,8 @@ struct Eigensystem {
   bool compute(const dealii::SymmetricTensor<2, 3> &A);
   /// Returns Σ values_A n_A ⊗ n_A for these values.
   dealii::SymmetricTensor<2, 3> compose(const std::array<double, 3> &values) const;
-  /// Returns the derivative of an isotropic function along `rate`; `ratios` are its divided differences
-  /// (f(λ_A) − f(λ_B))/(λ_A − λ_B) (Daleckii & Krein 1965).
+  /// Returns the derivative of an isotropic function along `rate`; `ratios` are its divided
+  /// differences (f(λ_A) − f(λ_B))/(λ_A − λ_B) (Daleckii & Krein 1965).
   dealii::SymmetricTensor<2, 3> differentiate(const std::array<std::array<double, 3>, 3> &ratios,
                                               const dealii::SymmetricTensor<2, 3> &rate) const;
 };
@@ -64,8 +64,8 @@ struct InverseStretch {
   bool compute(const dealii::SymmetricTensor<2, 3> &strain);
 };
 
-/// Deviator of ½ ln(Y M Y): the logarithmic strain that M has beside the elastic stretch Y⁻¹, (H2) of
-/// doc/theory.md.
+/// Deviator of ½ ln(Y M Y): the logarithmic strain that M has beside the elastic stretch Y⁻¹, (H2)
+/// of doc/theory.md.
 class RelativeStrain {
 public:
   /// Returns false if M is not positive definite or not finite.

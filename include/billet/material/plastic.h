@@ -18,8 +18,10 @@ namespace billet {
 class MultiplicativePlasticity {
 public:
   struct History {
-    dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>(); ///< C_p⁻¹
-    double equivalent_plastic_strain = 0.;                                                     ///< α
+    /// C_p⁻¹.
+    dealii::SymmetricTensor<2, 3> inverse_plastic_metric = dealii::unit_symmetric_tensor<3>();
+    /// α.
+    double equivalent_plastic_strain = 0.;
     FlowStress::State flow{};
   };
   using Moduli = SpatialModuli;
@@ -79,10 +81,10 @@ protected:
   }
 };
 
-/// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the elastic
-/// logarithmic strain. The yield condition |τ| = σ_y(α) is von Mises' in *Kirchhoff* stress; associated flow
-/// is integrated by the exponential map. The return map is radial in logarithmic principal space and exact
-/// (Simo & Hughes 1998, box 9.1; Eterovic & Bathe 1990).
+/// Multiplicative J2 plasticity with Hencky elasticity: F = F_e F_p, Kirchhoff stress linear in the
+/// elastic logarithmic strain. The yield condition |τ| = σ_y(α) is von Mises' in *Kirchhoff*
+/// stress; associated flow is integrated by the exponential map. The return map is radial in
+/// logarithmic principal space and exact (Simo & Hughes 1998, box 9.1; Eterovic & Bathe 1990).
 class HenckyPlasticity : public MultiplicativePlasticity {
 public:
   static constexpr bool has_symmetric_moduli = true, has_exact_dissipation = true;
@@ -91,18 +93,18 @@ public:
   HenckyPlasticity(const ElasticModuli &elastic, std::shared_ptr<const FlowStress> flow)
       : MultiplicativePlasticity(elastic, std::move(flow)) {}
 
-  /// Computes the Kirchhoff stress `tau` [stress], the history at the end of the step and, if `moduli` is
-  /// given, the consistent tangent. F is the deformation gradient at the end of the step, `history_n` the
-  /// history at its start. `history_n` and `history` must not be the same object. Returns false if F is
-  /// inadmissible (not finite, singular): the step must be cut.
+  /// Computes the Kirchhoff stress `tau` [stress], the history at the end of the step and, if
+  /// `moduli` is given, the consistent tangent. F is the deformation gradient at the end of the
+  /// step, `history_n` the history at its start. `history_n` and `history` must not be the same
+  /// object. Returns false if F is inadmissible (not finite, singular): the step must be cut.
   bool update(const dealii::Tensor<2, 3> &F, const History &history_n, History &history,
               dealii::SymmetricTensor<2, 3> &tau, SpatialModuli *moduli, const PointStep &step = {}) const;
 
   /// Returns the stored energy per reference volume [stress] at F with a history that belongs to F.
   double elastic_energy(const dealii::Tensor<2, 3> &F, const History &history) const;
 
-  /// Returns the history for which `F` has a Kirchhoff stress with this deviator, which is below the yield
-  /// stress: b̄_e = exp(dev τ/G).
+  /// Returns the history for which `F` has a Kirchhoff stress with this deviator, which is below
+  /// the yield stress: b̄_e = exp(dev τ/G).
   History find_history(const dealii::Tensor<2, 3> &F, const dealii::SymmetricTensor<2, 3> &deviator,
                        double equivalent_plastic_strain) const;
 

@@ -15,8 +15,8 @@ class RateFactor {
 public:
   virtual ~RateFactor() = default;
 
-  /// Returns a description that follows that of the hardening law, such as "times Cowper and Symonds' factor
-  /// of the rate".
+  /// Returns a description that follows that of the hardening law, such as "times Cowper and
+  /// Symonds' factor of the rate".
   virtual std::string description() const = 0;
   /// Returns the factor, which is 1 at rest and does not decrease.
   virtual double value(double rate) const = 0;
@@ -28,18 +28,19 @@ public:
   virtual std::pair<double, double> slopes_at(double /*alpha*/, const double rate) const {
     return {slope(rate), 0.};
   }
-  /// Returns the form in which kernels compute it for several elements at once; by default one lane at a
-  /// time.
+  /// Returns the form in which kernels compute it for several elements at once; by default one lane
+  /// at a time.
   virtual LaneRate lane_form() const { return {}; }
 };
 
 /// Rate factors that a scene file can name; "none" makes a null pointer. A new one is a file in
-/// source/material/ with a function that returns its type, and its name in the table of rate_factor.cc.
+/// source/material/ with a function that returns its type, and its name in the table of
+/// rate_factor.cc.
 using RateFactorType = RegisteredType<std::shared_ptr<const RateFactor>>;
 TypeTable<std::shared_ptr<const RateFactor>> &rate_factor_types();
 
-/// Hardening times a factor of the rate: the flow stress of a step is σ_y(α_n + Δα) R(Δα/Δt), (M15) of
-/// doc/theory.md. Its state is the plastic work, with the factor at the end of the step.
+/// Hardening times a factor of the rate: the flow stress of a step is σ_y(α_n + Δα) R(Δα/Δt), (M15)
+/// of doc/theory.md. Its state is the plastic work, with the factor at the end of the step.
 class RateDependentFlow final : public FlowStress {
 public:
   RateDependentFlow(std::shared_ptr<const HardeningLaw> hardening, std::shared_ptr<const RateFactor> factor);

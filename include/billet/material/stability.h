@@ -13,12 +13,12 @@ namespace billet {
 
 using Stretches = std::array<double, 3>;
 
-/// Returns the minimum stiffness of plane waves, over the shear modulus, in an isotropic elastic law at these
-/// principal stretches: the minimum eigenvalue, over directions n, of
-///   Q_ik(n) = n_p n_q c_ipkq + δ_ik n_p τ_pq n_q                                                       (M7)
-/// (Legendre-Hadamard condition; Ogden 1997, ch. 6). If it is negative, such waves grow. The directions form
-/// a grid on an octant in the principal frame, 15 degrees apart; the other octants follow by symmetry.
-/// Returns −∞ if the law has no stress.
+/// Returns the minimum stiffness of plane waves, over the shear modulus, in an isotropic elastic
+/// law at these principal stretches. It is the minimum eigenvalue, over directions n, of
+///   Q_ik(n) = n_p n_q c_ipkq + δ_ik n_p τ_pq n_q                                              (M7)
+/// (Legendre-Hadamard condition; Ogden 1997, ch. 6). If it is negative, such waves grow. The
+/// directions form a grid on an octant in the principal frame, 15 degrees apart; the other octants
+/// follow by symmetry. Returns −∞ if the law has no stress.
 template <class Law>
 double min_wave_stiffness(const Law &law, const double shear, const Stretches &stretches) {
   constexpr unsigned int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
@@ -48,10 +48,10 @@ double min_wave_stiffness(const Law &law, const double shear, const Stretches &s
   return minimum / shear;
 }
 
-/// Returns the minimum stiffness of plane waves, over the shear modulus, in the hypoelastic law dev τ̊ = 2G
-/// dev d with the spin of the material, on a straight path. For shear waves it is G − (τ_max − τ_min)/2,
-/// τ_max − τ_min = 2G ln(λ_max/λ_min). For waves along a principal direction it is κ (1 − ln J) + 4/3 G − 2G
-/// dev ln λ (M8).
+/// Returns the minimum stiffness of plane waves, over the shear modulus, in the hypoelastic law dev
+/// τ̊ = 2G dev d. The law has the spin of the material, and the path is straight. For shear waves
+/// it is G − (τ_max − τ_min)/2, τ_max − τ_min = 2G ln(λ_max/λ_min). For waves along a principal
+/// direction it is κ (1 − ln J) + 4/3 G − 2G dev ln λ (M8).
 inline double min_wave_stiffness_of_rates(const ElasticModuli &elastic, const Stretches &stretches) {
   const auto [minimum, maximum] = std::minmax_element(stretches.begin(), stretches.end());
   if (!(*minimum > 0.))

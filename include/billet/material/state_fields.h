@@ -23,7 +23,8 @@ std::vector<StateField> stored_fields(const PointLaw &law);
 /// Returns names and numbers of components, such as "'deviator' (6), 'damage' (1)", for messages.
 std::string describe(const std::vector<StateField> &fields);
 
-/// Returns the place of the first number of a field; the count of all numbers if the law has no such field.
+/// Returns the place of the first number of a field; the count of all numbers if the law has no
+/// such field.
 std::size_t place_of_field(const PointLaw &law, const std::string &name);
 
 /// Averages of the states of several points.

@@ -10,7 +10,8 @@ namespace billet {
 
 /// Message that a material subroutine gives by STDB_ABQERR or XPLB_ABQERR of Abaqus.
 struct SubroutineMessage {
-  int level;          ///< LOP: 1 is a note, -1 a warning, -2 an error, -3 an error that ends the analysis
+  /// LOP: 1 is a note, -1 a warning, -2 an error, -3 an error that ends the analysis.
+  int level;
   std::string format; ///< as the subroutine gives it, with %I, %R and %S for values
   std::string text;   ///< with the values of the first time
   std::size_t n = 1;  ///< number of times

@@ -9,9 +9,9 @@
 
 namespace billet {
 
-/// Material subroutine UMAT of Abaqus/Standard, as Fortran's compilers call it; the last argument is the
-/// length of `cmname`. Tensors are 11, 22, 33, 12, 13, 23, strains with engineering shears, matrices by
-/// columns.
+/// Material subroutine UMAT of Abaqus/Standard, as Fortran's compilers call it; the last argument
+/// is the length of `cmname`. Tensors are 11, 22, 33, 12, 13, 23, strains with engineering shears,
+/// matrices by columns.
 using UmatFunction = void(double *stress, double *statev, double *ddsdde, double *sse, double *spd,
                           double *scd, double *rpl, double *ddsddt, double *drplde, double *drpldt,
                           double *stran, double *dstran, double *time, double *dtime, double *temp,
@@ -20,17 +20,20 @@ using UmatFunction = void(double *stress, double *statev, double *ddsdde, double
                           double *pnewdt, double *celent, double *dfgrd0, double *dfgrd1, int *noel, int *npt,
                           int *layer, int *kspt, int *jstep, int *kinc, std::size_t cmname_length);
 
-/// Law of a UMAT. The step is that of Abaqus/Standard with NLGEOM, (U1) to (U4) of doc/theory.md: stress and
-/// strain are turned by the increment of rotation of Hughes & Winget, DSTRAN is the strain increment about
-/// the configuration at mid-step, and DDSDDE is the Jaumann rate of Kirchhoff's stress over J. F and J are
-/// those of the element, so that elements that modify F (mean dilatation) do so for the UMAT, too.
+/// Law of a UMAT. The step is that of Abaqus/Standard with NLGEOM, (U1) to (U4) of doc/theory.md.
+/// Stress and strain are turned by the increment of rotation of Hughes & Winget. DSTRAN is the
+/// strain increment about the configuration at mid-step. DDSDDE is the Jaumann rate of Kirchhoff's
+/// stress over J.
 ///
-/// A shorter step follows if the UMAT asks for one (PNEWDT < 1). SSE is the stored energy, SPD + SCD the
-/// dissipated one.
+/// F and J are those of the element, so that elements that modify F (mean dilatation) do so for the
+/// UMAT, too.
+///
+/// A shorter step follows if the UMAT asks for one (PNEWDT < 1). SSE is the stored energy, SPD +
+/// SCD the dissipated one.
 class UmatLaw final : public UserLaw {
 public:
-  /// Calls the UMAT at the undeformed point, for the elastic moduli. Throws std::runtime_error with a clause
-  /// about the UMAT if it fails there, or if its tangent is no stiffness.
+  /// Calls the UMAT at the undeformed point, for the elastic moduli. Throws std::runtime_error with
+  /// a clause about the UMAT if it fails there, or if its tangent is no stiffness.
   UmatLaw(UmatFunction *function, UserLawSettings settings);
 
   bool update(const dealii::Tensor<2, 3> &F, double J, const PointStep &step, const double *state_n,

@@ -28,10 +28,12 @@ struct UserLawSettings {
 /// Writes the name of a material as Fortran has it, with spaces behind.
 void write_name(const std::string &name, char (&target)[80]);
 
-/// Base of the laws of material subroutines. The state of a point has the deformation gradient, the stress,
-/// the strain, energies, the work, the clock of the last step and a bound of the moduli, and then the state
-/// variables. Energies are (U5) of doc/theory.md. A shorter step follows if the subroutine returns numbers
-/// that are not finite. After a crash the law refuses every update: refusal() says so.
+/// Base of the laws of material subroutines. The state of a point has the deformation gradient, the
+/// stress, the strain, energies and the work. The clock of the last step, a bound of the moduli and
+/// the state variables follow. Energies are (U5) of doc/theory.md.
+///
+/// A shorter step follows if the subroutine returns numbers that are not finite. After a crash the
+/// law refuses every update: refusal() says so.
 class UserLaw : public SpatialLaw, public UserSubroutine {
 public:
   std::string name() const override { return kind_; }
@@ -51,11 +53,11 @@ public:
   std::size_t n_state() const override { return n_own_state + settings_.initial_state.size(); }
   void initialize(double *state) const override;
 
-  /// Returns what the subroutine computes. If it does not, nothing tells which part of the work is elastic:
-  /// returns all of it, less the dissipated energy [stress].
+  /// Returns what the subroutine computes. If it does not, nothing tells which part of the work is
+  /// elastic: returns all of it, less the dissipated energy [stress].
   double stored_energy(const dealii::Tensor<2, 3> &F, double J, const double *state) const override;
-  /// Returns what the subroutine computes, or the work of the stresses less the stored energy if it computes
-  /// that one alone [stress].
+  /// Returns what the subroutine computes, or the work of the stresses less the stored energy if it
+  /// computes that one alone [stress].
   double dissipated_energy(const double *state) const override;
   /// Returns the state variable with the name 'equivalent plastic strain'; 0 without one.
   double equivalent_plastic_strain(const double *state) const override;
@@ -74,7 +76,8 @@ public:
   double lost_asymmetry() const override { return lost_asymmetry_; }
   std::string idle_subroutines() const override { return settings_.idle_subroutines; }
 
-  /// Length of the step at whose end the initial moduli hold: any rate has its instantaneous response [time].
+  /// Length of the step at whose end the initial moduli hold: any rate has its instantaneous
+  /// response [time].
   static constexpr double probe_time = 1e-9;
   /// Strain by which the undeformed point is probed.
   static constexpr double probe_strain = 1e-6;
@@ -99,8 +102,8 @@ protected:
 
   const UserLawSettings &settings() const { return settings_; }
   const SpatialModuli &initial_moduli() const { return initial_; }
-  /// Returns the bound for the state of a point with these moduli: rubber stiffens, and metal has its initial
-  /// moduli again when it unloads.
+  /// Returns the bound for the state of a point with these moduli: rubber stiffens, and metal has
+  /// its initial moduli again when it unloads.
   double bound_moduli(const SpatialModuli &moduli, double J) const;
   /// Sets the moduli of the undeformed point. Throws std::runtime_error if they are no stiffness.
   void set_initial(const SpatialModuli &C, bool has_stored_energy);
@@ -114,7 +117,8 @@ protected:
   bool refuse(const std::string &what, bool is_final = false) const;
   /// Refuses numbers that are not finite, of which `name` is the argument.
   bool check(const double *numbers, std::size_t n, const std::string &what, const std::string &name) const;
-  /// Refuses for good if the subroutine has written outside of an array. `names`: one for each array.
+  /// Refuses for good if the subroutine has written outside of an array. `names`: one for each
+  /// array.
   bool check_guards(GuardedArrays &arrays, const char *const *names) const;
   void accept() const;
 

@@ -25,10 +25,11 @@ public:
   virtual std::string title() const = 0;
   /// Whether it computes its stored energy. Else all work of its stresses counts as stored.
   virtual bool computes_energies() const = 0;
-  /// Returns the norm of C - transposed C over that of C, for the last tangent C, if its symmetric part has
-  /// taken its place; else 0.
+  /// Returns the norm of C - transposed C over that of C, for the last tangent C. Returns 0 unless
+  /// its symmetric part has taken its place.
   virtual double lost_asymmetry() const = 0;
-  /// Returns the names of subroutines in its library that the program does not call; empty: there are none.
+  /// Returns the names of subroutines in its library that the program does not call; empty: there
+  /// are none.
   virtual std::string idle_subroutines() const = 0;
 };
 

@@ -10,8 +10,8 @@
 
 namespace billet {
 
-/// Prony's series of the isochoric stress, (V7) of doc/theory/rubber.md: the share g of the instantaneous
-/// stress that a term relaxes, and its relaxation time.
+/// Prony's series of the isochoric stress, (V7) of doc/theory/rubber.md: the share g of the
+/// instantaneous stress that a term relaxes, and its relaxation time.
 struct PronySeries {
   std::vector<double> moduli; ///< g_i > 0, whose sum is below 1
   std::vector<double> times;  ///< τ_i > 0 [time]
@@ -25,9 +25,10 @@ std::vector<TypeParameter> prony_parameters();
 PronySeries read_prony_series(const TypeInput &input);
 
 /// Finite linear viscoelasticity of the isochoric part of a hyperelastic law, (V7) to (V10) of
-/// doc/theory/rubber.md. The stress T that is conjugate to the logarithmic strain ½ ln C relaxes; the
-/// pressure does not. The recurrence is exact for a T that is linear in time, at any length of the step
-/// (Taylor, Pister & Goudreau 1970). Dissipation is never negative where Drucker's condition holds.
+/// doc/theory/rubber.md. The stress T that is conjugate to the logarithmic strain ½ ln C relaxes;
+/// the pressure does not. The recurrence is exact for a T that is linear in time, at any length of
+/// the step (Taylor, Pister & Goudreau 1970). Dissipation is never negative where Drucker's
+/// condition holds.
 class ViscoelasticLaw final : public SpatialLaw {
 public:
   ViscoelasticLaw(HyperelasticLaw elastic, PronySeries series)
@@ -64,7 +65,8 @@ public:
   }
 
 private:
-  // The state: T of the elastic law and the dissipated energy, then of each term its stress and compliance.
+  // The state: T of the elastic law and the dissipated energy, then of each term its stress and
+  // compliance.
   static constexpr std::size_t n_common = 7, n_term = 7;
 
   HyperelasticLaw elastic_;
@@ -74,8 +76,8 @@ private:
 /// Returns the law with this series; without one, the elastic law.
 SharedLaw make_hyperelastic_law(HyperelasticLaw elastic, PronySeries series);
 
-/// Adds Prony's series to a type of two moduli whose elastic law is the hyperelastic one of `make` and of a
-/// logarithmic volumetric energy. Without a series the type stays as it is.
+/// Adds Prony's series to a type of two moduli whose elastic law is the hyperelastic one of `make`
+/// and of a logarithmic volumetric energy. Without a series the type stays as it is.
 ElasticityType with_prony_series(ElasticityType type, SharedEnergy (*make)(double shear));
 
 } // namespace billet

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Volumetric part of a stored energy over the bulk modulus, u(J) = U/κ, (V5) of doc/theory/rubber.md: u = 0
-/// and J u' = 0 at J = 1, and the slope of J u' over ln J is 1 there.
+/// Volumetric part of a stored energy over the bulk modulus, u(J) = U/κ, (V5) of
+/// doc/theory/rubber.md. At J = 1, u = 0, J u' = 0, and the slope of J u' over ln J is 1.
 class VolumetricLaw {
 public:
   virtual ~VolumetricLaw() = default;
@@ -26,8 +26,8 @@ public:
 };
 using SharedVolumetricLaw = std::shared_ptr<const VolumetricLaw>;
 
-/// Volumetric laws that a scene file can name for rubber. A new one is a file in source/material/ with a
-/// function that returns its type, and its name in the table of volumetric_law.cc.
+/// Volumetric laws that a scene file can name for rubber. A new one is a file in source/material/
+/// with a function that returns its type, and its name in the table of volumetric_law.cc.
 using VolumetricLawType = RegisteredType<SharedVolumetricLaw>;
 TypeTable<SharedVolumetricLaw> &volumetric_law_types();
 inline constexpr const char *volumetric_law_key = "Volumetric law";

@@ -10,9 +10,10 @@
 
 namespace billet {
 
-/// Material subroutine VUMAT of Abaqus/Explicit, as Fortran's compilers call it; the last argument is the
-/// length of `cmname`. Arrays have one row for each point of the block, stored by columns. Tensors are 11,
-/// 22, 33, 12, 23, 31 with the shears of tensors; deformation gradients 11, 22, 33, 12, 23, 31, 21, 32, 13.
+/// Material subroutine VUMAT of Abaqus/Explicit, as Fortran's compilers call it; the last argument
+/// is the length of `cmname`. Arrays have one row for each point of the block, stored by columns.
+/// Tensors are 11, 22, 33, 12, 23, 31 with the shears of tensors; deformation gradients 11, 22, 33,
+/// 12, 23, 31, 21, 32, 13.
 using VumatFunction = void(int *nblock, int *ndir, int *nshr, int *nstatev, int *nfieldv, int *nprops,
                            int *lanneal, double *step_time, double *total_time, double *dt, char *cmname,
                            double *coord_mp, double *char_length, double *props, double *density,
@@ -23,15 +24,16 @@ using VumatFunction = void(int *nblock, int *ndir, int *nshr, int *nstatev, int 
                            double *state_new, double *ener_intern_new, double *ener_inelas_new,
                            std::size_t cmname_length);
 
-/// Law of a VUMAT. Stress, stretch and strain are those of the frame that turns with the material, F = R U,
-/// which has the rate of Green & Naghdi, (U6) and (U7) of doc/theory.md. The tangent, which implicit schemes
-/// and certifications need, is computed by central differences of the stress, in one block of 13 points.
-/// Internal less inelastic energy is the stored energy, the inelastic one the dissipated.
+/// Law of a VUMAT. Stress, stretch and strain are those of the frame that turns with the material,
+/// F = R U. It has the rate of Green & Naghdi, (U6) and (U7) of doc/theory.md. The tangent, which
+/// implicit schemes and certifications need, is computed by central differences of the stress, in
+/// one block of 13 points. Internal less inelastic energy is the stored energy, the inelastic one
+/// the dissipated.
 class VumatLaw final : public UserLaw {
 public:
-  /// Calls the VUMAT at the undeformed point, for the elastic moduli: at time 0, as Abaqus does. Throws
-  /// std::runtime_error with a clause about the VUMAT if it fails there, or if it has no stiffness.
-  /// `density`: of the undeformed body, > 0 [mass/length^3].
+  /// Calls the VUMAT at the undeformed point, for the elastic moduli: at time 0, as Abaqus does.
+  /// Throws std::runtime_error with a clause about the VUMAT if it fails there, or if it has no
+  /// stiffness. `density`: of the undeformed body, > 0 [mass/length^3].
   VumatLaw(VumatFunction *function, UserLawSettings settings, double density);
   ~VumatLaw() override;
 
@@ -50,8 +52,8 @@ private:
   static constexpr std::size_t n_differences = 13;
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_differences>;
 
-  /// Calls the VUMAT for the first points of `F`; returns false and sets the refusal if there is no result.
-  /// Overwrites Kirchhoff's stresses, and the state of the first point.
+  /// Calls the VUMAT for the first points of `F`; returns false and sets the refusal if there is no
+  /// result. Overwrites Kirchhoff's stresses, and the state of the first point.
   bool evaluate(Block &block, const std::array<dealii::Tensor<2, 3>, n_differences> &F, const PointStep &step,
                 double time, const double *state_n, double *state, Stresses &tau) const;
 

@@ -12,13 +12,13 @@
 
 namespace billet {
 
-/// Computes the constants of (B3) to (B5) for a brick with these edge lengths. `kept_through` is θ of the
-/// bending through the thickness.
+/// Computes the constants of (B3) to (B5) for a brick with these edge lengths. `kept_through` is θ
+/// of the bending through the thickness.
 strain_modes::Constants<double> compute_strain_constants(const ElasticModuli &elastic,
                                                          const std::array<double, 3> &lengths,
                                                          double kept_through = strain_modes::kept_shear);
-/// Value of θ for more than two points through the thickness, where the middle point would add the shear
-/// stress to the plastic moment.
+/// Value of θ for more than two points through the thickness, where the middle point would add the
+/// shear stress to the plastic moment.
 constexpr double kept_shear_of_layers = 0.2;
 
 // Additional data of bricks with more than two points through the thickness ("layers"):
@@ -34,13 +34,14 @@ struct LayersKinematics {
   double thinning;                       ///< X of (B8), which set_thinning() sets
 };
 
-/// Assumed strains, (B1) to (B6) of doc/theory.md: F_q = (det Y_q)^{−1/3} Y_q F̄ with the mean gradient F̄ and
-/// strains Y_q − 1 that vary through the brick without parasitic shear. The element bends accurately with one
-/// brick through a thickness, at any aspect ratio; all points share det F̄. Laws in rate form receive Y_q F̄.
+/// Assumed strains, (B1) to (B6) of doc/theory.md: F_q = (det Y_q)^{−1/3} Y_q F̄ with the mean
+/// gradient F̄ and strains Y_q − 1 that vary through the brick without parasitic shear. The element
+/// bends accurately with one brick through a thickness, at any aspect ratio; all points share det
+/// F̄. Laws in rate form receive Y_q F̄.
 ///
-/// `n_through` is 2, the same points in all directions, or 3, 5 or 7 points through the thickness. In the
-/// latter case the brick's thinning X is free, (B8) to (B10): the stresses determine it, since plastic flow
-/// thins more than elasticity.
+/// `n_through` is 2, the same points in all directions, or 3, 5 or 7 points through the thickness.
+/// In the latter case the brick's thinning X is free, (B8) to (B10): the stresses determine it,
+/// since plastic flow thins more than elasticity.
 template <unsigned int n_through = 2> class AssumedStrainElement {
 public:
   static constexpr unsigned int n_points = 4 * n_through;
@@ -51,11 +52,12 @@ public:
   using Stresses = std::array<dealii::SymmetricTensor<2, 3>, n_points>;
   template <class Moduli> using ModuliOf = std::array<Moduli, n_points>;
 
-  /// Undeformed brick. With layers its directions are those of turn_corners(), but its nodes keep their
-  /// order.
+  /// Undeformed brick. With layers its directions are those of turn_corners(), but its nodes keep
+  /// their order.
   struct Reference : std::conditional_t<is_layered, LayersReference, NoLayers> {
-    std::array<std::array<double, n_element_nodes>, n_vectors> of_nodes; ///< coefficients of nodal positions
-    dealii::Tensor<2, 3> jacobian, inverse_jacobian;                     ///< (a_1 a_2 a_3)_0
+    /// Coefficients of nodal positions.
+    std::array<std::array<double, n_element_nodes>, n_vectors> of_nodes;
+    dealii::Tensor<2, 3> jacobian, inverse_jacobian; ///< (a_1 a_2 a_3)_0
     double volume;
     strain_modes::Constants<double> constants;
   };
@@ -82,7 +84,8 @@ public:
   /// Returns false if the brick is degenerate or inverted.
   bool initialize(const ElementVectors &positions, Reference &reference,
                   const ThicknessAxis &axis = {}) const;
-  /// Returns false if the state is inadmissible. With layers, set_thinning() completes the kinematics.
+  /// Returns false if the state is inadmissible. With layers, set_thinning() completes the
+  /// kinematics.
   static bool compute(const Reference &reference, const ElementVectors &displacements,
                       Kinematics &kinematics);
 
@@ -106,8 +109,8 @@ public:
   /// Returns the residual (B10): the derivative of the power by X, which vanishes in equilibrium.
   static double thinning_residual(const Reference &reference, const Kinematics &kinematics,
                                   const Stresses &tau);
-  /// Returns the derivative of the residual for small strains, for an elastic brick; below, without any
-  /// stiffness of the law.
+  /// Returns the derivative of the residual for small strains, for an elastic brick; below, without
+  /// any stiffness of the law.
   double elastic_thinning_stiffness(const Reference &reference) const {
     return reference.volume / 3. * (4. / 3. * elastic_.shear + reference.modulus);
   }

@@ -6,8 +6,8 @@ namespace billet {
 
 #define BILLET_DUAL inline __attribute__((always_inline))
 
-/// Number with its derivatives along n directions (forward automatic differentiation): results have exact
-/// derivatives.
+/// Number with its derivatives along n directions (forward automatic differentiation): results have
+/// exact derivatives.
 template <class Value, unsigned int n> struct Dual {
   Value value = {};
   Value rate[n] = {};
@@ -66,8 +66,8 @@ BILLET_DUAL Dual<Value, n> square_root(const Dual<Value, n> &x, const Root &root
   return result;
 }
 
-/// Number after a step and its change in the step. Results have changes without cancellation error, however
-/// small the step. `Value` holds the lanes of an explicit kernel. `Stepped()` sets nothing.
+/// Number after a step and its change in the step. Results have changes without cancellation error,
+/// however small the step. `Value` holds the lanes of an explicit kernel. `Stepped()` sets nothing.
 template <class Value> struct Stepped {
   Value value; ///< value after the step
   Value change;

@@ -7,16 +7,16 @@
 
 namespace billet {
 
-// Elements in the form that LawBlock requires: the input of the law at each point, and the forces of its
-// stress.
+// Elements in the form that LawBlock requires: the input of the law at each point, and the forces
+// of its stress.
 
 /// Stresses at the eight points, and their moduli.
 using PointStresses = std::array<dealii::SymmetricTensor<2, 3>, n_element_points>;
 template <class Moduli> using PointModuli = std::array<Moduli, n_element_points>;
 
-/// Q1/P0 element, see MeanDilatationKinematics. Laws in rate form receive F, not F̄, and their dev τ is
-/// weighted with current volumes, J w/J̄, so that σ = τ/J̄ is Cauchy's stress. The explicit kernels have the
-/// same element.
+/// Q1/P0 element, see MeanDilatationKinematics. Laws in rate form receive F, not F̄, and their dev
+/// τ is weighted with current volumes, J w/J̄, so that σ = τ/J̄ is Cauchy's stress. The explicit
+/// kernels have the same element.
 class MeanDilatationElement {
 public:
   static constexpr unsigned int n_points = n_element_points;
@@ -94,8 +94,8 @@ private:
   static PointStresses weigh(const Reference &reference, const Kinematics &kinematics,
                              const PointStresses &tau);
 
-  /// Computes the tangent of a law in rate form. With s = (J/J̄) dev τ, δs = (J/J̄) (A : L + dev τ (tr L −
-  /// div̄)), Π = Σ w p, and κ = dp/d ln J̄:
+  /// Computes the tangent of a law in rate form. With s = (J/J̄) dev τ, δs = (J/J̄) (A : L + dev τ
+  /// (tr L − div̄)), Π = Σ w p, and κ = dp/d ln J̄:
   ///   K = Σ_q w {δs g_a − s Lᵀ g_a} + V κ δdiv̄ div̄
   ///       + Π {(1/v) Σ_q J w [tr δL tr L − tr(δL L)] − δdiv̄ div̄}.
   void compute_rate_tangent(const Reference &reference, const Kinematics &kinematics,

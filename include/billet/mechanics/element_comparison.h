@@ -17,18 +17,22 @@ struct LogarithmicStrains {
 
 /// Energies of the same nodal displacements under different elements [energy].
 struct ElementEnergies {
-  double used = 0.;           ///< the element of the body
-  double one_point = 0.;      ///< the one-point element
-  double accurate = 0.;       ///< AssumedStrainElement
-  double tapered = 0.;        ///< extra energy under the same forces if the bricks were not tapered, (L4)
-  double hourglass = 0.;      ///< part of `used`: stabilisation energy of a one-point element
-  double plastic = 0.;        ///< part of `used`: dissipated energy (one-point elements, assumed strains)
+  double used = 0.;      ///< the element of the body
+  double one_point = 0.; ///< the one-point element
+  double accurate = 0.;  ///< AssumedStrainElement
+  /// Extra energy under the same forces if the bricks were not tapered, (L4).
+  double tapered = 0.;
+  double hourglass = 0.; ///< part of `used`: stabilisation energy of a one-point element
+  /// Part of `used`: dissipated energy (one-point elements, assumed strains).
+  double plastic = 0.;
   double plastic_within = 0.; ///< same from strains between the points, (L3) (assumed strains)
-  double beyond_yield = 0.;   ///< part of `used` in elastic bricks whose faces are beyond yield, (L10)
-  double face_stress = 0.;    ///< largest stress at the faces of such bricks, per yield stress, (L10)
+  /// Part of `used` in elastic bricks whose faces are beyond yield, (L10).
+  double beyond_yield = 0.;
+  /// Largest stress at the faces of such bricks, per yield stress, (L10).
+  double face_stress = 0.;
 
-  /// Returns the factor by which the element is too stiff, (L1): a lower bound; an approximation for tapered
-  /// bricks.
+  /// Returns the factor by which the element is too stiff, (L1): a lower bound; an approximation
+  /// for tapered bricks.
   double factor() const { return accurate > 0. ? (used + tapered) / accurate : 1.; }
   ElementEnergies &operator+=(const ElementEnergies &other) {
     used += other.used;
@@ -59,21 +63,22 @@ struct ComparedBrick {
   const ElementEnergies &one_point; ///< OnePointElement: used, hourglass, plastic
 };
 
-/// Compares the element of a body with one that bends accurately, by the energy of given displacements; no
-/// equations are solved. The energy follows from total strains, (L2) of doc/theory.md: Hencky's
-/// hyperelasticity and, where the body yields, the deformation theory of plasticity. It does not depend on
-/// history.
+/// Compares the element of a body with one that bends accurately, by the energy of given
+/// displacements; no equations are solved. The energy follows from total strains, (L2) of
+/// doc/theory.md: Hencky's hyperelasticity and, where the body yields, the deformation theory of
+/// plasticity. It does not depend on history.
 class ElementComparison {
 public:
   /// Only the element of `formulation` is used.
   ElementComparison(std::shared_ptr<const PointLaw> law, const ElementFormulation &formulation);
 
-  /// Adds the energies of an element. Returns false, without changing `energies`, if the element is inverted.
+  /// Adds the energies of an element. Returns false, without changing `energies`, if the element is
+  /// inverted.
   bool compare(const ElementVectors &positions, const ElementVectors &displacements,
                ElementEnergies &energies) const;
 
-  /// Returns the energy per reference volume of a volumetric logarithmic strain and of the deviatoric energy
-  /// that an elastic body would store [stress].
+  /// Returns the energy per reference volume of a volumetric logarithmic strain and of the
+  /// deviatoric energy that an elastic body would store [stress].
   double energy(double volumetric_strain, double elastic_deviatoric_energy) const;
 
   double energy(const LogarithmicStrains &strains) const {
@@ -102,7 +107,8 @@ private:
   double equivalent_plastic_strain(double elastic_deviatoric_energy) const;
   /// Returns w_p of (L3), the dissipation per volume [stress].
   double dissipation(const Strains &strains) const;
-  /// Returns the mean dissipation over a brick, with F given at 2³ points and trilinear between them.
+  /// Returns the mean dissipation over a brick, with F given at 2³ points and trilinear between
+  /// them.
   double dissipation_between(const std::array<dealii::Tensor<2, 3>, n_element_points> &F) const;
   /// Adds to `used`, `hourglass` and `plastic`. Returns false if the element is inverted.
   bool add_one_point(const ElementVectors &positions, const ElementVectors &displacements,

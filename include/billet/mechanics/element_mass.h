@@ -12,8 +12,9 @@ using ElementMass = std::array<double, std::size_t{n_element_nodes} * n_element_
 /// Returns ∫ N_a dV of each node [length³]; the quadrature is exact.
 std::array<double, n_element_nodes> compute_nodal_volumes(const ReferenceElement &element);
 
-/// Returns the consistent mass matrix ρ ∫ N_a N_b dV of the undeformed element, by 2 × 2 × 2 points. It is
-/// exact for parallelepipeds; its row sums ρ ∫ N_a dV are exact for every trilinear hexahedron.
+/// Returns the consistent mass matrix ρ ∫ N_a N_b dV of the undeformed element, by 2 × 2 × 2
+/// points. It is exact for parallelepipeds; its row sums ρ ∫ N_a dV are exact for every trilinear
+/// hexahedron.
 ElementMass compute_element_mass(const ReferenceElement &element, double density);
 
 /// Lumps the mass matrix: replaces it with the row sums on the diagonal, as in explicit dynamics.

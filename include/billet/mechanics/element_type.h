@@ -25,20 +25,23 @@ struct ElementFormulation;
 /// Formulation of eight-node bricks: its factory and its properties.
 struct ElementKind {
   const char *name; ///< name in scene files
-  /// Makes all elements of one body on one rank, with any law; make_law_block() does so from a class.
+  /// Makes all elements of one body on one rank, with any law; make_law_block() does so from a
+  /// class.
   std::unique_ptr<ElementBlock> (*make_block)(const std::shared_ptr<const PointLaw> &,
                                               const ElementFormulation &);
   bool is_stabilised = false; ///< whether it has hourglass stabilisation, whose energy is reported
   bool has_layers = false;    ///< whether it supports more than two points through a thickness
   /// Element of the explicit kernels; without one, explicit scenes compute the elements one by one.
   std::optional<LaneElement> lanes = {};
-  /// Adds the energies of a brick for ElementComparison; compare_points() does so for an element with eight
-  /// points. Returns false if the brick is inverted. Null: the element counts as accurate.
+  /// Adds the energies of a brick for ElementComparison; compare_points() does so for an element
+  /// with eight points. Returns false if the brick is inverted. Null: the element counts as
+  /// accurate.
   bool (*compare)(const ElementComparison &, const ComparedBrick &, ElementEnergies &) = nullptr;
-  /// Whether rectangular bricks are too stiff in bending too, not only tapered ones: messages then recommend
-  /// 'assumed strain'.
+  /// Whether rectangular bricks are too stiff in bending too, not only tapered ones: messages then
+  /// recommend 'assumed strain'.
   bool may_lock_in_bending = false;
-  /// Whether it has modes with too little energy that nothing stabilises: messages then warn of them.
+  /// Whether it has modes with too little energy that nothing stabilises: messages then warn of
+  /// them.
   bool may_be_soft = false;
   /// Returns the factors of what varies along a direction, 0 to 2, of a brick with these undeformed
   /// positions. Null: plane_factors_of_displacements().
@@ -75,21 +78,24 @@ private:
 /// What a scene chooses of the elements of a body.
 struct ElementChoice {
   BrickElement type = BrickElement::assumed_strain;
-  unsigned int points_through = 2;              ///< through the thickness: one of all_points_through
+  /// Number through the thickness: one of all_points_through.
+  unsigned int points_through = 2;
   std::vector<std::string> thickness_direction; ///< expressions of x, y, z; empty with two points
   std::string points_origin, direction_origin;  ///< their places in the scene file, for messages
-  std::vector<double> constants;                ///< parameters of the element itself, in an order of its own
+  /// Parameters of the element itself, in an order of its own.
+  std::vector<double> constants;
 };
 
-/// Elements that a scene file can name. A new one is a file in source/mechanics/ with its class, its kind,
-/// its parameters and a function that returns its type, and its name in the table of element_type.cc.
+/// Elements that a scene file can name. A new one is a file in source/mechanics/ with its class,
+/// its kind, its parameters and a function that returns its type. The table of element_type.cc has
+/// its name.
 struct ElementType : RegisteredType<ElementChoice> {
   BrickElement element = BrickElement::assumed_strain;
 };
 TypeTable<ElementChoice, ElementType> &element_types();
 
-/// Returns the type of an element. `read` completes what a scene chooses from the parameters, if there are
-/// any.
+/// Returns the type of an element. `read` completes what a scene chooses from the parameters, if
+/// there are any.
 ElementType make_element_type(BrickElement element, std::string meaning,
                               std::vector<TypeParameter> parameters = {},
                               std::function<void(const TypeInput &, ElementChoice &)> read = nullptr);

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Returns the kernels. Throws std::invalid_argument if they were not compiled or this processor cannot run
-/// them.
+/// Returns the kernels. Throws std::invalid_argument if they were not compiled or this processor
+/// cannot run them.
 template <class Number>
 const explicit_kernels::KernelTable<Number> &find_kernels(InstructionSet instructions);
 template <> const explicit_kernels::KernelTable<double> &find_kernels<double>(InstructionSet instructions);

@@ -13,9 +13,9 @@ namespace billet {
 /// Index pairs of the six components of a symmetric tensor in kernels.
 constexpr unsigned int symmetric_pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
-/// Units of the kernels' numbers. In double they are the user's units. In float they are powers of two close
-/// to the elements' size, the modulus and the density. So no product leaves the range of a float, and
-/// rounding does not depend on the units.
+/// Units of the kernels' numbers. In double they are the user's units. In float they are powers of
+/// two close to the elements' size, the modulus and the density. So no product leaves the range of
+/// a float, and rounding does not depend on the units.
 struct KernelUnits {
   double length = 1., stress = 1., density = 1., time = 1.;
 
@@ -23,12 +23,12 @@ struct KernelUnits {
   double energy() const { return stress * length * length * length; }
 };
 
-/// Chooses units for floats. The ratio of density and stress is an even power of two, so that the unit of
-/// time is a power of two as well.
+/// Chooses units for floats. The ratio of density and stress is an even power of two, so that the
+/// unit of time is a power of two as well.
 KernelUnits choose_units(double length, double stress, double density);
 
-/// Numbers that a point stores beside its tensor. With plasticity these are α, σ_y(α) unless hardening is
-/// linear, and the state of the flow stress.
+/// Numbers that a point stores beside its tensor. With plasticity these are α, σ_y(α) unless
+/// hardening is linear, and the state of the flow stress.
 struct PlasticNumbers {
   bool has_alpha = false, has_yield_stress = false;
   std::size_t n_state = 0;
@@ -45,28 +45,29 @@ struct PointState {
   FlowStress::State flow = {{}}; ///< state of the flow stress
 };
 
-/// Storage of the numbers that kernels read and write, laid out in batches. `Number` is double or float.
+/// Storage of the numbers that kernels read and write, laid out in batches. `Number` is double or
+/// float.
 template <class Number> class ExplicitStorage {
 public:
   ExplicitStorage(unsigned int n_lanes, const ElasticModuli &elastic, LaneLaw law, LaneElement element,
                   const PlasticNumbers &plastic);
 
-  /// Initializes the storage, see ExplicitBlock::initialize(). `yield_stress` is the initial one, used if it
-  /// is stored. Numbers are stored in `units`, those of the kernels; all arguments and results are in the
-  /// user's units.
+  /// Initializes the storage, see ExplicitBlock::initialize(). `yield_stress` is the initial one,
+  /// used if it is stored. Numbers are stored in `units`, those of the kernels; all arguments and
+  /// results are in the user's units.
   bool initialize(const std::vector<std::array<unsigned int, n_element_nodes>> &elements,
                   const double *reference_positions, const KernelUnits &units, double density,
                   double yield_stress, std::size_t &offender);
 
-  /// Removes round-off, see ExplicitBlock::renew(). With `from_the_start`, this includes strains that
-  /// plasticity has not yet changed.
+  /// Removes round-off, see ExplicitBlock::renew(). With `from_the_start`, this includes strains
+  /// that plasticity has not yet changed.
   void renew(const double *displacements, bool from_the_start);
 
   std::size_t size() const { return n_elements_; }
   /// Returns the count of points of an element that have a history.
   std::size_t n_points() const { return (layout_.n_history - first_point_) / layout_.n_point_history; }
-  /// Returns the count of numbers that an element stores for its stabilisation. A one-point element stores ĥ,
-  /// the metric, two bounds, and in float the modes b and c; the others have none.
+  /// Returns the count of numbers that an element stores for its stabilisation. A one-point element
+  /// stores ĥ, the metric, two bounds, and in float the modes b and c; the others have none.
   std::size_t stabilisation_size() const {
     return element_ == LaneElement::one_point ? 12 + 6 + 2 + (is_single ? 12 : 0) : 0;
   }
@@ -83,16 +84,17 @@ public:
   /// Returns the size of a nodal vector over the nodes of the elements, at stride 4.
   std::size_t nodal_size() const { return reference_positions_.size(); }
 
-  /// Multiplies the density of one element. Returns the reference volume that corresponds to the added mass.
+  /// Multiplies the density of one element. Returns the reference volume that corresponds to the
+  /// added mass.
   double scale_mass(std::size_t element, double factor);
 
   void add_masses(double density, double *masses) const;
 
   /// Returns the states of the eight points, or of the one; empty if the element is inverted.
   std::vector<PointState> compute_states(std::size_t element, const double *displacements) const;
-  /// Sets the states, the inverse of compute_states(): it reads the tensor and plastic data of each state;
-  /// b_e has determinant 1. `yield_stress` holds one value per state, used if it is stored. A one-point
-  /// element with plasticity also resets the energy of its stabilisation.
+  /// Sets the states, the inverse of compute_states(): it reads the tensor and plastic data of each
+  /// state; b_e has determinant 1. `yield_stress` holds one value per state, used if it is stored.
+  /// A one-point element with plasticity also resets the energy of its stabilisation.
   void set_states(std::size_t element, const double *displacements, const std::vector<PointState> &states,
                   const std::vector<double> &yield_stress);
 
@@ -123,19 +125,22 @@ private:
   }
   /// Fills the lanes beyond the last element with copies of it.
   void repeat_last(std::size_t element);
-  /// Calls visit(position of its history, its reference volume, J̄ of eight points or J, ∂x/∂ξ up to a factor,
-  /// ∂ξ/∂X) for each point; for none if the element is inverted.
+  /// Calls visit() for each point, for none if the element is inverted. The arguments are the
+  /// position of its history, its reference volume, J̄ of eight points or J, ∂x/∂ξ up to a factor,
+  /// and ∂ξ/∂X.
   template <class Visit>
   void visit_points(std::size_t element, const double *displacements, const Visit &visit) const;
   ElementVectors gather(std::size_t element, const double *values) const;
   /// Returns ∂ξ/∂X, up to the same factor as in visit_points(), at a point of an undeformed brick.
   dealii::Tensor<2, 3> inverse_reference(const ElementVectors &positions, unsigned int point) const;
-  /// Sets the hourglass strains of a part of an element without those that displacements alone determine.
+  /// Sets the hourglass strains of a part of an element without those that displacements alone
+  /// determine.
   void set_parent_hourglass(std::size_t element, const ParentElement &parent);
   void resize(std::size_t n_elements);
   bool initialize_element(std::size_t element, double density, double yield_stress);
-  /// Initializes an element with the mean gradient: first the common data, then those of its kind. `lambda`
-  /// becomes a bound of stiffness over modulus. Returns false if the element is degenerate.
+  /// Initializes an element with the mean gradient: first the common data, then those of its kind.
+  /// `lambda` becomes a bound of stiffness over modulus. Returns false if the element is
+  /// degenerate.
   bool initialize_mean_gradient(std::size_t element, const ElementVectors &positions, double min_mass,
                                 double yield_stress, double &lambda);
   void initialize_one_point(std::size_t element, const ModalGeometry &geometry,
@@ -143,8 +148,8 @@ private:
   void initialize_assumed_strain(std::size_t element, const ModalGeometry &geometry,
                                  const dealii::Tensor<2, 3> &inverse);
   void set_modes(std::size_t element, std::size_t first, const ModalGeometry &geometry);
-  /// Sets the hourglass strains of a one-point element to those of the displacements, in float; or to zero if
-  /// `is_forgotten`.
+  /// Sets the hourglass strains of a one-point element to those of the displacements, in float; or
+  /// to zero if `is_forgotten`.
   void set_hourglass(std::size_t element, const double *displacements, const dealii::Tensor<2, 3> &jacobian,
                      bool is_forgotten);
   /// Set and get a number that floats store in two parts, and advance its place.

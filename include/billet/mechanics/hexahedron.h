@@ -15,12 +15,12 @@ class Hexahedron {
 public:
   explicit Hexahedron(const ElementVectors &corners);
 
-  /// Returns the reference coordinates of a point, in the unit cube; none if it is outside by more than
-  /// round-off.
+  /// Returns the reference coordinates of a point, in the unit cube; none if it is outside by more
+  /// than round-off.
   std::optional<dealii::Point<3>> find(const dealii::Tensor<1, 3> &point) const;
 
-  /// Returns a distance of a point outside that is not below the true one, and equal to it in front of a face
-  /// of a parallelepiped with right angles; infinity if there is none.
+  /// Returns a distance of a point outside that is not below the true one, infinity if there is
+  /// none. In front of a face of a parallelepiped with right angles both are equal.
   double distance(const dealii::Tensor<1, 3> &point) const;
 
 private:

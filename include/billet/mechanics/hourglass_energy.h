@@ -2,17 +2,17 @@
 #ifndef BILLET_MECHANICS_HOURGLASS_ENERGY_H
 #define BILLET_MECHANICS_HOURGLASS_ENERGY_H
 
-// Energy of the hourglass strains of a one-point brick, (X6) of doc/theory.md, and the conjugate stresses.
-// Implicit scenes and the lanes of explicit kernels share this code, which is inlined. `Real` is the type of
-// element data, `Number` that of constants. The strains are those of strain_modes.h without any shear. The
-// metric of the plane that they are in knows its normal.
+// Energy of the hourglass strains of a one-point brick, (X6) of doc/theory.md, and the conjugate
+// stresses. Implicit scenes and the lanes of explicit kernels share this code, which is inlined.
+// `Real` is the type of element data, `Number` that of constants. The strains are those of
+// strain_modes.h without any shear. The metric of the plane that they are in knows its normal.
 
 #define BILLET_HOURGLASS inline __attribute__((always_inline))
 
 namespace billet::hourglass {
 
-/// Moduli of plane stress, with the energy ½ bending (tr e)² − plane det e for strains e in a plane, and of
-/// the fourth mode.
+/// Moduli of plane stress, with the energy ½ bending (tr e)² − plane det e for strains e in a
+/// plane, and of the fourth mode.
 template <class Number> struct Moduli {
   Number bending, plane, fourth; ///< 2G/(3(1 − ν)), 2G/3, E/9
 
@@ -46,8 +46,8 @@ template <class Real> struct Metric {
   }
 };
 
-/// Computes the stresses s = ∂W/∂h, per volume, for the strains h of b_1, b_2, b_3, c in the element's own
-/// directions. Returns W.
+/// Computes the stresses s = ∂W/∂h, per volume, for the strains h of b_1, b_2, b_3, c in the
+/// element's own directions. Returns W.
 template <class Number, class Real>
 BILLET_HOURGLASS Real respond(const Moduli<Number> &moduli, const Metric<Real> &metric, const Real (*h)[3],
                               Real (*s)[3]) {

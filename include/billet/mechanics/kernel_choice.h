@@ -4,8 +4,8 @@
 
 namespace billet {
 
-/// Instruction set of a kernel, for 1, 2, 4 or 8 elements at once, in float 1, 4, 8 or 16. `automatic` is the
-/// widest that the processor supports.
+/// Instruction set of a kernel, for 1, 2, 4 or 8 elements at once, in float 1, 4, 8 or 16.
+/// `automatic` is the widest that the processor supports.
 enum class InstructionSet { automatic, scalar, sse2, avx2, avx512 };
 
 /// Type of the numbers in element computations; nodal vectors and all sums are double.

@@ -6,7 +6,8 @@
 
 namespace billet {
 
-/// Bricks that the explicit kernels compute for several elements at once. The last one determines the count.
+/// Bricks that the explicit kernels compute for several elements at once. The last one determines
+/// the count.
 enum class LaneElement { assumed_strain, mean_dilatation, one_point };
 constexpr unsigned int n_lane_elements = static_cast<unsigned int>(LaneElement::one_point) + 1;
 

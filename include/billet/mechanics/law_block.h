@@ -25,8 +25,8 @@ using UnsymmetricForm = LawForm<SpatialLaw, false>;
 using RateForm = LawForm<RateLaw, false>;
 
 /// ElementBlock of one element and any law of this form. Elements: AssumedStrainElement,
-/// MeanDilatationElement, OnePointElement. `has_flow`: whether a stabilised element yields with its point and
-/// keeps a history of its own.
+/// MeanDilatationElement, OnePointElement. `has_flow`: whether a stabilised element yields with its
+/// point and keeps a history of its own.
 template <class Element, class Form, bool has_flow> class LawBlock final : public ElementBlock {
 public:
   using Law = typename Form::Law;
@@ -395,15 +395,16 @@ private:
     return true;
   }
 
-  /// Solves (B10) for the thinning by a secant method; `update_all` computes `tau` at a thinning. The slope
-  /// is clipped to bounds, and the iterates stay in the bracket of the root. Returns false if a state is
-  /// inadmissible.
+  /// Solves (B10) for the thinning by a secant method; `update_all` computes `tau` at a thinning.
+  /// The slope is clipped to bounds, and the iterates stay in the bracket of the root. Returns
+  /// false if a state is inadmissible.
   template <class History, class Update>
   bool balance_thinning(const Reference &reference, const History &history_n, Kinematics &kinematics,
                         Stresses &tau, const Update &update_all) const {
     const double elastic = element_.elastic_thinning_stiffness(reference),
                  minimum = 0.5 * Element::min_thinning_stiffness(reference), maximum = 4. * elastic;
-    constexpr double tolerance = 1e-14, max_change = 0.3; // strains; the tolerance is close to round-off
+    // Both are strains; the tolerance is close to round-off.
+    constexpr double tolerance = 1e-14, max_change = 0.3;
     constexpr unsigned int max_iterations = 60;
     double X = Element::predict_thinning(reference, kinematics, history_n);
     double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -452,8 +453,9 @@ private:
   void (*compute_tangent_)(const Element &, const Reference &, const Kinematics &, const Stresses &,
                            const Moduli &, ElementMatrix &) = nullptr;
   std::vector<Reference> elements_;
-  std::vector<dealii::Tensor<1, 3>> centres_;       ///< of the undeformed elements
-  std::vector<ThicknessAxis> axes_;                 ///< with more than two points through the thickness
+  std::vector<dealii::Tensor<1, 3>> centres_; ///< of the undeformed elements
+  /// Axes of elements with more than two points through the thickness.
+  std::vector<ThicknessAxis> axes_;
   std::vector<double> state_n_, state_;             ///< states of the points
   std::vector<ElementHistory> history_n_, history_; ///< histories of the elements
   mutable std::vector<double> scratch_;             ///< discarded state

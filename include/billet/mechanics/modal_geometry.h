@@ -10,7 +10,8 @@ namespace billet {
 inline double corner(const unsigned int a, const unsigned int i) { return ((a >> i) & 1U) != 0U ? 1. : -1.; }
 
 constexpr unsigned int n_element_modes = 7; ///< a_1, a_2, a_3, b_1, b_2, b_3, c
-constexpr unsigned int n_linear_modes = 6;  ///< modes that contribute to the mean gradient: all but c
+/// Modes that contribute to the mean gradient: all but c.
+constexpr unsigned int n_linear_modes = 6;
 
 /// Directions of each mode, as the bits ξ, η, ζ.
 constexpr std::array<unsigned int, n_element_modes> mode_places = {1, 2, 4, 6, 5, 3, 7};
@@ -37,8 +38,8 @@ inline std::array<dealii::Tensor<1, 3>, n_element_modes> compute_modes(const Ele
   return modes;
 }
 
-/// Brick in terms of its modes, x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ, the
-/// one-point element's geometry: doc/theory.md, (X1), (X2).
+/// Brick in terms of its modes, x = a_0 + a_1 ξ + a_2 η + a_3 ζ + b_1 ηζ + b_2 ζξ + b_3 ξη + c ξηζ,
+/// the one-point element's geometry: doc/theory.md, (X1), (X2).
 struct ModalGeometry {
   std::array<dealii::Tensor<1, 3>, n_element_modes> modes;
   double volume = 0.;
@@ -62,8 +63,8 @@ struct ModalGeometry {
   }
 };
 
-/// Returns what a number of b_1, b_2, b_3 and c in an element's own directions is in one of the eight
-/// elements into which it is divided, (R5) of doc/theory: h has the modes in its rows.
+/// Returns what a number of b_1, b_2, b_3 and c in an element's own directions is in one of its
+/// parts, (R5) of doc/theory. The element is divided into eight. h has the modes in its rows.
 template <class HourglassVector>
 HourglassVector hourglass_of_child(const HourglassVector &h, const unsigned int child) {
   HourglassVector of_child = h;

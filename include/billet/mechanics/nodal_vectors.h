@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Stride of nodal vectors: x, y, z and one unused number, so that each node begins at a multiple of 32
-/// bytes.
+/// Stride of nodal vectors: x, y, z and one unused number, so that each node begins at a multiple
+/// of 32 bytes.
 constexpr unsigned int nodal_stride = 4;
 
 inline dealii::Tensor<1, 3> get_vector(const double *nodal_vectors, const unsigned int node) {

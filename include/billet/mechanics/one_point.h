@@ -10,9 +10,9 @@
 
 namespace billet {
 
-/// One-point brick of the explicit kernels, with its tangent. It stores the energy V ψ(F̄) of the mean
-/// gradient F̄, and that of the hourglass strains ĥ, which do not affect F̄, (X4), (X6) of doc/theory.md. In
-/// plastic bodies both yield together, (X7), and flow changes ĥ_0.
+/// One-point brick of the explicit kernels, with its tangent. It stores the energy V ψ(F̄) of the
+/// mean gradient F̄, and that of the hourglass strains ĥ, (X4), (X6) of doc/theory.md. ĥ does not
+/// affect F̄. In plastic bodies both yield together, (X7), and flow changes ĥ_0.
 class OnePointElement {
 public:
   static constexpr unsigned int n_points = 1;
@@ -85,8 +85,8 @@ public:
                         const dealii::SymmetricTensor<2, 3> &tau, const Stabilisation &stabilisation,
                         ElementVectors &force);
 
-  /// Computes the tangent. It is symmetric if the moduli are and the rate of the share is consistent with
-  /// them, as for Hencky's law.
+  /// Computes the tangent. It is symmetric if the moduli are and the rate of the share is
+  /// consistent with them, as for Hencky's law.
   template <class Moduli>
   void compute_tangent(const Reference &reference, const Kinematics &kinematics,
                        const dealii::SymmetricTensor<2, 3> &tau, const Moduli &moduli,

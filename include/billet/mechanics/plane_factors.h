@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Factors from the in-plane part of a deviator that varies along a direction of a brick to the plane stress
-/// that varies, (B19) of doc/theory.
+/// Factors from the in-plane part of a deviator that varies along a direction of a brick to the
+/// plane stress that varies, (B19) of doc/theory.
 struct PlaneFactors {
   double mean, rest; ///< of its trace, and of what is left
 };

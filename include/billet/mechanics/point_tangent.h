@@ -7,9 +7,9 @@
 
 namespace billet {
 
-// Tangent of the forces f_a = w τ g_a that a point with the Kirchhoff stress τ exerts on n nodes, or modes,
-// with gradients g_a = ∂N_a/∂x. It is added to the first 3 n rows and columns of a row-major matrix with rows
-// of `width` numbers.
+// Tangent of the forces f_a = w τ g_a that a point with the Kirchhoff stress τ exerts on n nodes,
+// or modes, with gradients g_a = ∂N_a/∂x. It is added to the first 3 n rows and columns of a
+// row-major matrix with rows of `width` numbers.
 
 template <std::size_t n> using Gradients = std::array<std::array<double, 3>, n>;
 
@@ -67,8 +67,8 @@ std::array<std::array<double, 3 * n>, 6> multiply_gradients(const GradientModuli
   return result;
 }
 
-/// Adds K_aibj = w {(δτ_bj g_a)_i − (τ g_b)_i g_aj}, with δτ_bj the derivative of the stress by displacement
-/// bj.
+/// Adds K_aibj = w {(δτ_bj g_a)_i − (τ g_b)_i g_aj}, with δτ_bj the derivative of the stress by
+/// displacement bj.
 template <std::size_t n>
 void add_point_tangent(const double w, const Gradients<n> &g, const dealii::SymmetricTensor<2, 3> &tau,
                        const std::array<std::array<double, 3 * n>, 6> &stress_rates, double *matrix,

@@ -22,8 +22,8 @@ struct ReferenceLimits {
 std::optional<dealii::Tensor<1, 3>> solve_linear(const dealii::Tensor<2, 3> &A,
                                                  const dealii::Tensor<1, 3> &b);
 
-/// Returns the reference coordinates of a point in the trilinear map of an element with these corners, or in
-/// its continuation; none if Newton's method does not find them.
+/// Returns the reference coordinates of a point in the trilinear map of an element with these
+/// corners, or in its continuation. Returns none if Newton's method does not find them.
 std::optional<dealii::Point<3>> find_reference_point(const ElementVectors &corners,
                                                      const dealii::Tensor<1, 3> &point,
                                                      const ReferenceLimits &limits = {});

@@ -2,15 +2,15 @@
 #ifndef BILLET_MECHANICS_STRAIN_MODES_H
 #define BILLET_MECHANICS_STRAIN_MODES_H
 
-// Assumed strains of a brick, (B1) to (B5) of doc/theory.md, and the conjugate forces. Implicit scenes, their
-// derivatives (Dual) and the lanes of explicit kernels share this code, which is inlined. `Real` is the type
-// of data that vary with the displacements, `Fixed` that of constants, `Number` that of literals. Symmetric
-// tensors have the order 11, 22, 33, 12, 13, 23. For vectors per direction of the brick, v[k][i] is component
-// i for direction k.
+// Assumed strains of a brick, (B1) to (B5) of doc/theory.md, and the conjugate forces. Implicit
+// scenes, their derivatives (Dual) and the lanes of explicit kernels share this code, which is
+// inlined. `Real` is the type of data that vary with the displacements, `Fixed` that of constants,
+// `Number` that of literals. Symmetric tensors have the order 11, 22, 33, 12, 13, 23. For vectors
+// per direction of the brick, v[k][i] is component i for direction k.
 //
-// Strains are represented by their products with the columns, h_ab = a_a·h a_b (B7). In this form most
-// vectors of (B3) to (B5) have only one or two components, and only scalars remain: the metric a_a·a_b and
-// a_a·b̂.
+// Strains are represented by their products with the columns, h_ab = a_a·h a_b (B7). In this form
+// most vectors of (B3) to (B5) have only one or two components, and only scalars remain: the metric
+// a_a·a_b and a_a·b̂.
 
 #include <type_traits>
 
@@ -18,17 +18,18 @@
 
 namespace billet::strain_modes {
 
-/// θ of (B4), (B5): the retained fraction of the parasitic shear. With 0, zero-energy modes exist in ideally
-/// plastic flow; with 1, bending in plastic flow is up to 2 % stiffer.
+/// θ of (B4), (B5): the retained fraction of the parasitic shear. With 0, zero-energy modes exist
+/// in ideally plastic flow; with 1, bending in plastic flow is up to 2 % stiffer.
 constexpr double kept_shear = 0.5;
 
 /// Index of a pair of directions.
 constexpr unsigned int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 constexpr unsigned int first_of[6] = {0, 1, 2, 0, 0, 1}, second_of[6] = {0, 1, 2, 1, 2, 2};
 
-/// Constants that follow from the elastic moduli and from the ratios l_j/l_k of the undeformed edge lengths,
-/// (B4). `share` is the part s of the bending of fibre j that remains bending; the rest is shear. `shear` is
-/// that shear per bending, s θ_jk. `thinning` is x_k of (B3), `fourth` the share of the fourth mode.
+/// Constants that follow from the elastic moduli and from the ratios l_j/l_k of the undeformed edge
+/// lengths, (B4). `share` is the part s of the bending of fibre j that remains bending; the rest is
+/// shear. `shear` is that shear per bending, s θ_jk. `thinning` is x_k of (B3), `fourth` the share
+/// of the fourth mode.
 template <class Fixed> struct Constants {
   Fixed share[3][3], shear[3][3]; ///< [j][k], j ≠ k
   Fixed thinning[3];
@@ -46,7 +47,8 @@ template <class Real> struct Frame {
   Real square_heights[3]; ///< 1/|a^k|²
   Real heights[3];        ///< heights of a_k above the plane of the others
   Real inverse_areas[3];  ///< 1/|a_i × a_j|²
-  Real slopes[3][3];      ///< [k][j], j ≠ k: d^j·a_k, the coefficient of a_j in the in-plane part of a_k
+  /// [k][j], j ≠ k: d^j·a_k, the coefficient of a_j in the in-plane part of a_k.
+  Real slopes[3][3];
 };
 
 /// Amplitudes of the strains that vary as ξ_k, and as the product of the two other coordinates.
@@ -63,8 +65,8 @@ template <class Real> struct FreeThinning {
 };
 template <class Thinning> constexpr bool is_free = !std::is_same_v<Thinning, GivenThinning>;
 
-/// Forces of the hourglass vectors, and of the columns, on which strains depend by their metric and by their
-/// products with the hourglass vectors.
+/// Forces of the hourglass vectors, and of the columns, on which strains depend by their metric and
+/// by their products with the hourglass vectors.
 template <class Real> struct Forces { Real hourglass[4][3], columns[3][3]; };
 
 template <class Real, class Other> BILLET_STRAIN auto dot(const Real *a, const Other *b) {
@@ -110,8 +112,8 @@ BILLET_STRAIN void multiply(const Frame<Real> &frame, const Real (*hourglass)[3]
       products.of[m][k] = dot(frame.columns[k], hourglass[m]);
 }
 
-/// Bending strains that vary along k, in the fibres i and j: η of (B2), e = η_jj/l_j², and h_k of (B3)
-/// without the thinning.
+/// Bending strains that vary along k, in the fibres i and j: η of (B2), e = η_jj/l_j², and h_k of
+/// (B3) without the thinning.
 template <class Real> struct Bending {
   Real eta_ii, eta_jj, eta_ij, e_i, e_j;
   Real less;               ///< Σ (s − 1) e of both
@@ -196,7 +198,8 @@ BILLET_STRAIN Real set_fourth(const Constants<Fixed> &constants, const Frame<Rea
 template <class Number, unsigned int j, unsigned int k, class Fixed, class Real>
 BILLET_STRAIN void add_shears(const Constants<Fixed> &constants, const Frame<Real> &frame, const Real &e,
                               const Real &fourth, Strains<Real> &strains) {
-  const Real slender = frame.inverse_lengths[j] * frame.heights[k]; // t_j ⊗ n_k = a_j ⊗ a^k times this
+  // t_j ⊗ n_k = a_j ⊗ a^k times this.
+  const Real slender = frame.inverse_lengths[j] * frame.heights[k];
   add_shear<Number, j, k>(frame, constants.shear[j][k] * (e * slender), strains.linear[j]);
   add_shear<Number, j, k>(frame, fourth * slender, strains.bilinear[k]);
 }
@@ -231,9 +234,9 @@ BILLET_STRAIN void compute_strains(const Constants<Fixed> &constants, const Fram
 /// Derivatives of a power by the metric, by ln l_j, by ln(height_k), and by the products.
 template <class Real> struct Derivatives { Real metric[6], length[3], height[3], products[4][3]; };
 
-/// Differentiates the power of a strain `factor` e sym(a_j ⊗ a^k) with stress T; l is the third direction.
-/// Returns the derivative by e, and adds the others to `derivatives`. `factor` is proportional to
-/// height_k/l_j.
+/// Differentiates the power of a strain `factor` e sym(a_j ⊗ a^k) with stress T; l is the third
+/// direction. Returns the derivative by e, and adds the others to `derivatives`. `factor` is
+/// proportional to height_k/l_j.
 template <class Number, unsigned int j, unsigned int k, class Real>
 BILLET_STRAIN Real differentiate_shear(const Frame<Real> &frame, const Real &factor, const Real &e,
                                        const Real *T, Derivatives<Real> &derivatives) {
@@ -282,7 +285,8 @@ BILLET_STRAIN void differentiate_fourth(const Constants<Fixed> &constants, const
   derivatives.products[3][j] = share * by_e;
 }
 
-/// Adds the derivatives for the bending along k. Call it last, when derivatives.height[k] is complete.
+/// Adds the derivatives for the bending along k. Call it last, when derivatives.height[k] is
+/// complete.
 template <class Number, unsigned int k, class Fixed, class Real, class Thinning>
 BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                          const Products<Real> &products, const Strains<Real> &stresses,
@@ -348,8 +352,9 @@ BILLET_STRAIN void differentiate_bending(const Constants<Fixed> &constants, cons
   derivatives.metric[pair[i][j]] -= pi_i * p_j + pi_j * p_i;
 }
 
-/// Computes the forces of the power Σ T_ab h_ab˙ of stresses, a ≤ b: shear stresses count twice. They are the
-/// derivatives of compute_strains(), and of P times compute_plane_stretch(). Those of the columns are added.
+/// Computes the forces of the power Σ T_ab h_ab˙ of stresses, a ≤ b: shear stresses count twice.
+/// They are the derivatives of compute_strains(), and of P times compute_plane_stretch(). Those of
+/// the columns are added.
 template <class Number, class Fixed, class Real, class Thinning = GivenThinning>
 BILLET_STRAIN void compute_forces(const Constants<Fixed> &constants, const Frame<Real> &frame,
                                   const Real (*hourglass)[3], const Products<Real> &products,

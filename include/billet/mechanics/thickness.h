@@ -22,8 +22,8 @@ struct GaussRule {
 /// Returns the rule with one of `all_points_through`.
 const GaussRule &gauss_rule(unsigned int n_through);
 
-/// Axis of a brick (0, 1, 2: ξ, η, ζ) through the thickness, and whether the thickness direction is opposite
-/// to it.
+/// Axis of a brick (0, 1, 2: ξ, η, ζ) through the thickness, and whether the thickness direction is
+/// opposite to it.
 struct ThicknessAxis {
   unsigned int axis = 2;
   bool is_reversed = false;
@@ -34,17 +34,18 @@ struct ThicknessAxis {
   bool operator==(const ThicknessAxis &other) const { return code() == other.code(); }
 };
 
-/// Returns the axis nearest to a direction; none if another axis is as near within 10 degrees, or if the
-/// direction is zero.
+/// Returns the axis nearest to a direction; none if another axis is as near within 10 degrees, or
+/// if the direction is zero.
 std::optional<ThicknessAxis> find_thickness_axis(const ElementVectors &positions,
                                                  const dealii::Tensor<1, 3> &direction);
 
-/// Returns the nodes (or corner points) of the brick in the order of rotated directions, of which the third
-/// is the thickness direction. Node a of the rotated brick is node turn_corners(axis)[a] of the brick.
+/// Returns the nodes (or corner points) of the brick in the order of rotated directions, of which
+/// the third is the thickness direction. Node a of the rotated brick is node turn_corners(axis)[a]
+/// of the brick.
 std::array<unsigned int, n_element_nodes> turn_corners(const ThicknessAxis &axis);
 
-/// State of a material point, independent of its kinematics and, without its memory, of its law; sufficient
-/// to continue with others.
+/// State of a material point, independent of its kinematics and, without its memory, of its law;
+/// sufficient to continue with others.
 struct PointStress {
   dealii::SymmetricTensor<2, 3> deviator; ///< deviator of the Kirchhoff stress [stress]
   double equivalent_plastic_strain = 0.;
@@ -54,9 +55,9 @@ struct PointStress {
   void add(double part, const PointStress &other);
 };
 
-/// States of the points of a brick. With two points through each direction they are in the order of the
-/// corners. With more they are in layers of four from inside to outside; within a layer they are in the order
-/// of turn_corners().
+/// States of the points of a brick. With two points through each direction they are in the order of
+/// the corners. With more they are in layers of four from inside to outside; within a layer they
+/// are in the order of turn_corners().
 class ElementStress {
 public:
   explicit ElementStress(unsigned int n_through = 2, const ThicknessAxis &axis = {})
@@ -70,9 +71,9 @@ public:
   std::vector<PointStress>::const_iterator begin() const { return points_.begin(); }
   std::vector<PointStress>::const_iterator end() const { return points_.end(); }
 
-  /// Returns the states on another number of layers, (B11) of doc/theory.md: means over the part of the
-  /// thickness that belongs to each point. The transfer preserves the mean of each column and never exceeds
-  /// the yield stress.
+  /// Returns the states on another number of layers, (B11) of doc/theory.md: means over the part of
+  /// the thickness that belongs to each point. The transfer preserves the mean of each column and
+  /// never exceeds the yield stress.
   ElementStress transfer(unsigned int n_through, const ThicknessAxis &axis = {}) const;
 
 private:

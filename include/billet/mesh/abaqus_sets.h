@@ -10,8 +10,8 @@
 
 namespace billet {
 
-/// Sets of nodes, or of elements, of an Abaqus deck. Names count in lower case. Members may be ranges or
-/// other sets, which may follow later.
+/// Sets of nodes, or of elements, of an Abaqus deck. Names count in lower case. Members may be
+/// ranges or other sets, which may follow later.
 class AbaqusSets {
 public:
   /// `member_word`: "node" or "element".
@@ -29,8 +29,8 @@ public:
   /// Returns the names as the file has them, in the order in which the sets were opened.
   const std::vector<std::string> &names() const { return names_; }
 
-  /// Returns the members of a set, sorted, each once. Throws std::invalid_argument if the set or a member is
-  /// missing, or if all sets have more than `max_members` in all.
+  /// Returns the members of a set, sorted, each once. Throws std::invalid_argument if the set or a
+  /// member is missing, or if all sets have more than `max_members` in all.
   const std::vector<long long> &members(const std::string &name, const std::function<bool(long long)> &exists,
                                         std::size_t n_existing, std::size_t max_members);
 

@@ -21,8 +21,8 @@ struct BoundaryNames {
 
 /// The same, and the names that do not tell which group is meant.
 struct GroupNames : BoundaryNames {
-  /// Names, in lower case, and numbers that groups of several kinds have with different faces, and the names
-  /// of these groups in `ids_of_name`, such as "surface top" and "nset top".
+  /// Names, in lower case, and numbers that groups of several kinds have with different faces. Each
+  /// has the names of these groups in `ids_of_name`, such as "surface top" and "nset top".
   std::map<std::string, std::vector<std::string>> ambiguous;
 };
 
@@ -30,18 +30,22 @@ struct GroupNames : BoundaryNames {
 constexpr unsigned int hexahedron_faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                                  {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
-/// Returns a name of a file as a scene can write it: with '_' for commas, semicolons, backslashes and the
-/// sign of comments, and with "name" in front of it if it is "all", or has no letter and is no boundary id.
+/// Returns a name of a file as a scene can write it. It has '_' for commas, semicolons, backslashes
+/// and the sign of comments. It has "name" in front of it if it is "all", or has no letter and is
+/// no boundary id.
 std::string writable_name(const std::string &name);
 
-/// Returns the boundary id that a scene means if it writes the name of a group; none if it is no such number.
+/// Returns the boundary id that a scene means if it writes the name of a group; none if it is no
+/// such number.
 std::optional<unsigned int> id_of_name(const std::string &name);
 
-/// Boundary ids of the exterior faces of a mesh. A face has one id but may be in several groups: faces that
-/// are in the same groups share an id, and a group stands for the ids of all its faces. A face in one group
-/// with a number has this number as its id; one in no group has id 0. Groups of different kinds may have one
-/// name: it stands for all of them if their faces are the same, and needs the kind in front of it if not. A
-/// name is the one of the file as writable_name() gives it, with '_' behind it if another group has it.
+/// Boundary ids of the exterior faces of a mesh. A face has one id but may be in several groups.
+/// Faces that are in the same groups share an id, and a group stands for the ids of all its faces.
+/// A face in one group with a number has this number as its id; one in no group has id 0.
+///
+/// Groups of different kinds may have one name. It stands for all of them if their faces are the
+/// same. Otherwise it needs the kind in front of it. A name is the one of the file as
+/// writable_name() gives it, with '_' behind it if another group has it.
 class BoundaryGroups {
 public:
   /// Nodes of a face in ascending order.

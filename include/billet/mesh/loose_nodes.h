@@ -16,8 +16,8 @@ struct LooseNodes {
   std::size_t n_nodes = 0;     ///< of the whole set
 };
 
-/// Returns the loose nodes of all node sets that have any, by the names that a scene may write, in lower
-/// case. A name that another group has, too, stands for that group and not for the set.
+/// Returns the loose nodes of all node sets that have any, by the names that a scene may write, in
+/// lower case. A name that another group has, too, stands for that group and not for the set.
 std::map<std::string, LooseNodes> find_loose_nodes(const MeshFile &mesh);
 
 } // namespace billet

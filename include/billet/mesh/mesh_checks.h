@@ -20,10 +20,10 @@ struct NearNodes {
   std::string examples = {}; ///< numbers of the nodes in the file
 };
 
-/// Removes nodes that no hexahedron uses. Merges nodes within `distance` of each other, if they are to be
-/// merged. Turns all hexahedra inside out if all are inverted. Throws std::invalid_argument that names
-/// collapsed, repeated and inverted elements and doubled nodes by their numbers in the file. Returns nodes
-/// that are probably doubled, unless doubled nodes are kept.
+/// Removes nodes that no hexahedron uses. Merges nodes within `distance` of each other, if they are
+/// to be merged. Turns all hexahedra inside out if all are inverted. Throws std::invalid_argument
+/// that names collapsed, repeated and inverted elements and doubled nodes by their numbers in the
+/// file. Returns nodes that are probably doubled, unless doubled nodes are kept.
 NearNodes mend_and_check(MeshFile &mesh, DoubledNodes doubled, double distance);
 
 } // namespace billet

@@ -33,8 +33,8 @@ struct CellShape {
   unsigned int n_nodes = 0; ///< 0: the type is unknown
 };
 
-/// Nodes, cells and groups of a file in the order in which it has them. Cells name nodes by their numbers in
-/// the file, which may follow later.
+/// Nodes, cells and groups of a file in the order in which it has them. Cells name nodes by their
+/// numbers in the file, which may follow later.
 class MeshCollector {
 public:
   /// `node_word`: "node", or words for a format that does not number its nodes.
@@ -50,7 +50,8 @@ public:
 
   /// Returns the index of the group with this name, number and kind; adds it if there is none.
   std::size_t group(const std::string &name, unsigned int number, const std::string &kind = "");
-  /// Returns the index of the group without a name and with this number. Throws if it is no boundary id.
+  /// Returns the index of the group without a name and with this number. Throws if it is no
+  /// boundary id.
   std::size_t numbered_group(long long number);
 
   /// Returns the index of the volume with this name and number; adds it if there is none.
@@ -67,8 +68,8 @@ public:
   unsigned int node_index(long long number, const char *named_by, long long name) const;
   MeshFile &mesh() { return mesh_; }
 
-  /// Resolves node numbers. Throws std::invalid_argument if a node is missing, if there are solid cells other
-  /// than hexahedra, or neither hexahedra nor quadrilaterals.
+  /// Resolves node numbers. Throws std::invalid_argument if a node is missing, if there are solid
+  /// cells other than hexahedra, or neither hexahedra nor quadrilaterals.
   MeshFile finish();
 
 private:

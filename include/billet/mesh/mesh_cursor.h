@@ -18,12 +18,12 @@ std::string_view trimmed(std::string_view text);
 /// Whether the text is a whole number, which it then assigns.
 bool is_integer(std::string_view text, long long &value);
 
-/// Whether the text is a finite number of at most 1e60, which it then assigns. Exponents of Fortran (1D-3)
-/// are numbers, too.
+/// Whether the text is a finite number of at most 1e60, which it then assigns. Exponents of Fortran
+/// (1D-3) are numbers, too.
 bool is_real(std::string_view text, double &value);
 
-/// Position in the content of a mesh file. All functions throw std::invalid_argument with the line, or in
-/// binary parts the byte, where the file has something else.
+/// Position in the content of a mesh file. All functions throw std::invalid_argument with the line,
+/// or in binary parts the byte, where the file has something else.
 class MeshCursor {
 public:
   explicit MeshCursor(std::string_view bytes) : bytes_(bytes) {}

@@ -11,9 +11,9 @@
 
 namespace billet {
 
-// Mesh files are read without trust: every count is compared with the size of the file before memory is
-// allocated, every index with what the file has. Readers throw std::invalid_argument, with a message that
-// continues "the file ..., where it ...".
+// Mesh files are read without trust. Every count is compared with the size of the file before
+// memory is allocated, every index with what the file has. Readers throw std::invalid_argument,
+// with a message that continues "the file ..., where it ...".
 
 /// Eight-node hexahedron of a file: corners 0 to 3 around the bottom, 4 to 7 above them.
 struct FileHexahedron {
@@ -28,8 +28,8 @@ struct FaceGroup {
 
   std::string name; ///< empty: a number only
   unsigned int number;
-  /// Kind of thing that has this name, such as "surface", in formats where others of another kind may have
-  /// it, too.
+  /// Kind of thing that has this name, such as "surface", in formats where others of another kind
+  /// may have it, too.
   std::string kind = {};
 };
 
@@ -39,8 +39,8 @@ struct GroupedFace {
   std::size_t group;
 };
 
-/// Set of nodes or of hexahedra, as indices. It stands for exterior faces: those with all nodes in the set,
-/// or all of these hexahedra.
+/// Set of nodes or of hexahedra, as indices. It stands for exterior faces: those with all nodes in
+/// the set, or all of these hexahedra.
 struct GroupedSet {
   std::vector<unsigned int> members;
   std::size_t group;
@@ -69,7 +69,8 @@ struct PlaneMesh {
 struct MeshVolume {
   std::string name;    ///< empty: a number only
   unsigned int number; ///< FaceGroup::no_number: a name only
-  bool is_part;        ///< whether the file gives it a material, or means it as a body in another way
+  /// Whether the file gives it a material, or means it as a body in another way.
+  bool is_part;
   std::vector<unsigned int> members = {};
 };
 
@@ -78,8 +79,8 @@ struct MeshFile {
   std::vector<long long> node_numbers; ///< in the file
   std::vector<std::array<double, 3>> positions;
   std::vector<FileHexahedron> hexahedra;
-  /// Place of each corner in deal.II's elements: which edges become which axes. Results depend on it in their
-  /// last digits, so each format keeps the order that deal.II gives it.
+  /// Place of each corner in deal.II's elements: which edges become which axes. Results depend on
+  /// it in their last digits, so each format keeps the order that deal.II gives it.
   std::array<unsigned int, 8> corners{0, 1, 5, 4, 2, 3, 7, 6};
   std::vector<FaceGroup> groups;
   std::vector<GroupedFace> faces;
@@ -101,8 +102,8 @@ struct MeshFormat {
   MeshFile (*read)(const std::string &bytes, const FileAccess &access);
 };
 
-/// Returns the table of all formats, in the order in which they are tried. A new format is one file with a
-/// function that returns its MeshFormat, and one line in the table.
+/// Returns the table of all formats, in the order in which they are tried. A new format is one file
+/// with a function that returns its MeshFormat, and one line in the table.
 std::vector<MeshFormat> &mesh_formats();
 
 MeshFormat gmsh_format();
@@ -110,7 +111,8 @@ MeshFormat vtk_format();
 MeshFormat abaqus_format();
 MeshFormat ucd_format();
 
-/// Reads a mesh of hexahedra from the content of a file. Its indices are sound and each number stands once.
+/// Reads a mesh of hexahedra from the content of a file. Its indices are sound and each number
+/// stands once.
 MeshFile parse_mesh(const std::string &bytes, const FileAccess &access);
 /// Reads a two-dimensional mesh, as extrude_plane() gives it.
 MeshFile parse_plane_mesh(const std::string &bytes, const FileAccess &access);

@@ -18,13 +18,14 @@ struct VolumeChoice {
 /// Returns the name with which a scene names a volume.
 std::string name_of(const MeshVolume &volume);
 
-/// Keeps the hexahedra of the volumes with these names, or all if there are no names. Faces between those
-/// and others become groups "interface" and "interface NAME", where NAME is a volume of the others; a group
-/// of the file with this name keeps it for itself. Throws std::invalid_argument for an unknown name.
+/// Keeps the hexahedra of the volumes with these names, or all if there are no names. Faces between
+/// those and others become groups "interface" and "interface NAME", where NAME is a volume of the
+/// others. A group of the file with this name keeps it for itself. Throws std::invalid_argument for
+/// an unknown name.
 VolumeChoice choose_volumes(MeshFile &mesh, const std::vector<std::string> &names);
 
-/// Returns names of volumes, at least two, that the file means as bodies and that have no hexahedron in
-/// common; none if there are no two.
+/// Returns names of at least two volumes that the file means as bodies and that have no hexahedron
+/// in common. Returns none if there are no two.
 std::vector<std::string> separate_parts(const VolumeChoice &choice);
 
 /// Hexahedra that no body takes.

@@ -10,9 +10,9 @@
 
 namespace billet {
 
-/// Writes capabilities.csv into the folder: calls of its loops, items in them and peak memory [bytes] of each
-/// capability. Items and memory are summed over ranks; calls are the maximum. Returns a message on the first
-/// rank if it cannot write. Collective.
+/// Writes capabilities.csv into the folder: calls of its loops, items in them and peak memory
+/// [bytes] of each capability. Items and memory are summed over ranks; calls are the maximum.
+/// Returns a message on the first rank if it cannot write. Collective.
 DiagnosticList write_capabilities(const std::string &folder, MPI_Comm communicator);
 
 } // namespace billet

@@ -14,11 +14,12 @@
 
 namespace billet {
 
-// A checkpoint is an HDF5 file after a header of 512 bytes of text: format, version of the program, length
-// and checksum of the rest. It is written as NAME.tmp and renamed once it is complete and on disk.
+// A checkpoint is an HDF5 file after a header of 512 bytes of text: format, version of the program,
+// length and checksum of the rest. It is written as NAME.tmp and renamed once it is complete and on
+// disk.
 //
-// The HDF5 library is called directly. deal.II's HDF5 classes check its return values in Debug builds only,
-// so that a full disk would go unnoticed.
+// The HDF5 library is called directly. deal.II's HDF5 classes check its return values in Debug
+// builds only, so that a full disk would go unnoticed.
 
 /// Version of the checkpoint's format. Any change of contents or layout increments it.
 constexpr unsigned int checkpoint_format = 15;
@@ -41,7 +42,8 @@ public:
 private:
   void enter(const std::string &name) override;
   void leave() override;
-  /// Records the first failure and returns whether there is none. Nothing is written after a failure.
+  /// Records the first failure and returns whether there is none. Nothing is written after a
+  /// failure.
   bool check(bool success, const std::string &what);
   /// Reserves disk space for this number of further bytes, before HDF5 can run out of it.
   bool reserve(std::size_t n_bytes);
@@ -60,8 +62,8 @@ private:
 /// Reads a checkpoint, on every rank independently.
 class CheckpointReader final : public StateReader {
 public:
-  /// Opens the file. Throws InputError, which begins with `origin`, if it is no checkpoint, is damaged, or
-  /// has another format or program version.
+  /// Opens the file. Throws InputError, which begins with `origin`, if it is no checkpoint, is
+  /// damaged, or has another format or program version.
   CheckpointReader(MPI_Comm communicator, const std::string &file_name, const std::string &origin);
   ~CheckpointReader() override;
 
@@ -76,8 +78,8 @@ public:
   unsigned int n_ranks() const override { return n_ranks_; }
 
   const std::string &file_name() const { return file_name_; }
-  /// Calls `load` inside a group. Extends its InputError by the file name and the statement that the
-  /// checkpoint does not fit the scene.
+  /// Calls `load` inside a group. Extends its InputError by the file name and the statement that
+  /// the checkpoint does not fit the scene.
   void load(const std::string &group, const std::function<void()> &load);
 
 private:
@@ -98,15 +100,15 @@ public:
   bool is_regular() const { return parameters_.checkpoint.is_regular(); }
   /// Whether a checkpoint is due after this number of steps, at this time.
   bool is_due(unsigned int step, double time) const;
-  /// Writes the next checkpoint with the state from `save`, and removes the oldest ones in excess. Returns
-  /// the cause of a failure, which keeps the last ones; empty on success.
+  /// Writes the next checkpoint with the state from `save`, and removes the oldest ones in excess.
+  /// Returns the cause of a failure, which keeps the last ones; empty on success.
   std::string write(double time, const std::function<void(StateWriter &)> &save);
   /// Returns the last checkpoint; empty if there is none.
   std::string last() const { return files_.empty() ? "" : files_.back(); }
   /// Saves the schedule. Called from within write().
   void save(StateWriter &writer) const;
-  /// Continues the schedule of the run that wrote the state. If the folder is the same, continues the numbers
-  /// of its files, too.
+  /// Continues the schedule of the run that wrote the state. If the folder is the same, continues
+  /// the numbers of its files, too.
   void load(const StateReader &reader, double time, bool is_same_folder);
 
 private:
@@ -116,8 +118,8 @@ private:
   std::vector<std::string> files_; ///< existing files, with their folder
 };
 
-/// Catches, during its lifetime, signals that request the end of the run (SIGTERM, SIGINT, SIGUSR1) or a
-/// checkpoint (SIGUSR2). A second SIGTERM or SIGINT has its default effect.
+/// Catches, during its lifetime, signals that request the end of the run (SIGTERM, SIGINT, SIGUSR1)
+/// or a checkpoint (SIGUSR2). A second SIGTERM or SIGINT has its default effect.
 class Signals {
 public:
   /// Installs the handlers. `seconds_between_checks`: interval of the checks [s]; 0: at each call.

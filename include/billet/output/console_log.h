@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Copies all that the program prints on std::cout and std::cerr into a file, line by line, without progress
-/// bars. What is printed before open() follows when the file is there. First rank only.
+/// Copies all that the program prints on std::cout and std::cerr into a file, line by line, without
+/// progress bars. What is printed before open() follows when the file is there. First rank only.
 class ConsoleLog {
 public:
   ConsoleLog();
@@ -18,8 +18,9 @@ public:
   ConsoleLog(const ConsoleLog &) = delete;
   ConsoleLog &operator=(const ConsoleLog &) = delete;
 
-  /// Opens the file, and locks it until the program ends: two runs must not write into one folder. Appends if
-  /// `continues`. Throws InputError if the file cannot be written or another run holds it.
+  /// Opens the file, and locks it until the program ends: two runs must not write into one folder.
+  /// Appends if `continues`. Throws InputError if the file cannot be written or another run holds
+  /// it.
   void open(const std::string &file_name, bool continues);
   /// Returns a stream into the file alone.
   std::ostream &file();

@@ -8,8 +8,9 @@
 
 namespace billet {
 
-/// Returns nodal contact fields, three in each ghosted vector of displacement dofs: pressure, gap and slip;
-/// status, area and pair; traction. Nodes without a contact pair have gap 0 and status −1. Collective.
+/// Returns nodal contact fields, three in each ghosted vector of displacement dofs: pressure, gap
+/// and slip; status, area and pair; traction. Nodes without a contact pair have gap 0 and status
+/// −1. Collective.
 std::array<Vector, 3> collect_contact_fields(const Discretization &discretization, const Solution &solution);
 
 } // namespace billet

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Returns the element quantities that the scene requests, for each body: fields with one value for each
-/// owned element, in the order of Discretization::elements(). All bodies have the same fields.
+/// Returns the element quantities that the scene requests, for each body: fields with one value for
+/// each owned element, in the order of Discretization::elements(). All bodies have the same fields.
 std::vector<std::vector<GridField>> collect_element_fields(const Scene &scene, const Solution &solution);
 
 /// Element field averaged to the nodes.
@@ -26,13 +26,15 @@ struct NodalAverage {
   }
 };
 
-/// Returns the averages of the fields of floating-point numbers. A node has the mean of the elements of its
-/// body around it, weighted by undeformed volume: exact for a linear field at nodes in the inside of a
-/// regular mesh. `fields`: see collect_element_fields(). Collective.
+/// Returns the averages of the fields of floating-point numbers. A node has the mean of the
+/// elements of its body around it, weighted by undeformed volume. The mean is exact for a linear
+/// field at nodes in the inside of a regular mesh. `fields`: see collect_element_fields().
+/// Collective.
 std::vector<NodalAverage> average_to_nodes(const Discretization &discretization,
                                            const std::vector<std::vector<GridField>> &fields);
 
-/// Returns the derivatives of trilinear positions x with respect to coordinates from 0 to 1, at such a point.
+/// Returns the derivatives of trilinear positions x with respect to coordinates from 0 to 1, at
+/// such a point.
 dealii::Tensor<2, 3> jacobian_at(const dealii::Point<3> &coordinates, const ElementVectors &x);
 
 /// Returns the mean over the undeformed element of the deformation gradient of nodal displacements.
@@ -42,7 +44,8 @@ dealii::Tensor<2, 3> mean_deformation_gradient(const ElementVectors &positions,
 /// Returns the components xx, yy, zz, xy, xz and yz.
 std::vector<double> list_components(const dealii::SymmetricTensor<2, 3> &tensor);
 
-/// Returns the components of the Cauchy stress, those `in_axes`, with von Mises' stress and the pressure.
+/// Returns the components of the Cauchy stress, those `in_axes`, with von Mises' stress and the
+/// pressure.
 std::vector<double> list_stress(const dealii::SymmetricTensor<2, 3> &stress,
                                 const dealii::SymmetricTensor<2, 3> &in_axes);
 

@@ -11,8 +11,9 @@
 
 namespace billet {
 
-/// Checks the energy balance of accepted steps in implicit dynamics; explicit runs have a check of their own.
-/// The stabilisation energy of one-point elements is that of bending: ElementWatch checks it.
+/// Checks the energy balance of accepted steps in implicit dynamics; explicit runs have a check of
+/// their own. The stabilisation energy of one-point elements is that of bending: ElementWatch
+/// checks it.
 class EnergyWatch {
 public:
   /// Reaction to an energy imbalance: none, a warning, or the end of the run.
@@ -36,8 +37,8 @@ public:
   explicit EnergyWatch(const Balance balance, const double allowed_drift = doubtful_drift)
       : balance_(balance), allowed_drift_(allowed_drift) {}
 
-  /// Returns messages about the energies at this time. In an imbalance, calls `find_cause` on all ranks for
-  /// the likely cause.
+  /// Returns messages about the energies at this time. In an imbalance, calls `find_cause` on all
+  /// ranks for the likely cause.
   DiagnosticList check(
       double time, const EnergyLedger &energies,
       const std::function<Cause()> &find_cause = [] { return Cause::steps; });

@@ -34,14 +34,14 @@ struct ErrorReport {
   bool knows_all() const;
   /// Returns the sum of the known errors.
   double total() const;
-  /// Returns the estimate and, if there is a target, whether it is unknown, or missed: with levels of the
-  /// mesh only missed() tells.
+  /// Returns the estimate and, if there is a target, whether it is unknown, or missed: with levels
+  /// of the mesh only missed() tells.
   DiagnosticList diagnostics() const;
-  /// Returns a warning if the sum of the known errors and that of the mesh, from its levels, exceeds both
-  /// targets together; nothing if not, or if there is no target.
+  /// Returns a warning if the sum of the known errors and that of the mesh, from its levels,
+  /// exceeds both targets together. Returns nothing if not, or if there is no target.
   DiagnosticList missed(double of_levels = 0.) const;
-  /// Writes error_estimate.csv into this folder: quantity, value. Throws SolutionFailure if it cannot be
-  /// written.
+  /// Writes error_estimate.csv into this folder: quantity, value. Throws SolutionFailure if it
+  /// cannot be written.
   void write(const std::string &folder) const;
 
 private:

@@ -18,17 +18,19 @@ struct ElementAverage {
   std::size_t body;
   dealii::SymmetricTensor<2, 3> cauchy_stress; ///< [stress]
   double equivalent_plastic_strain;
-  StateAverage state;                             ///< of the law; without numbers unless a quantity reads it
+  /// Averages of the law's state; without numbers unless a quantity reads it.
+  StateAverage state;
   dealii::Tensor<2, 3> deformation_gradient = {}; ///< mean over the undeformed element
   std::size_t material = 0;                       ///< number of the body's material
   double mesh_error = 0.;                         ///< from MeshErrors::of_element()
   SheetStrains sheet = {};                        ///< 0 unless the scene writes them
-  double forming_limit = 0.;                      ///< major strain at its minor one; 0: the material has none
+  /// Major strain at its minor one; 0: the material has none.
+  double forming_limit = 0.;
 };
 
-/// Quantity that is constant in an element: a scalar, or the components of a vector or tensor. Six components
-/// whose names end with _xx, _yy, _zz, _xy, _xz and _yz become one tensor in the files, see
-/// join_components().
+/// Quantity that is constant in an element: a scalar, or the components of a vector or tensor. Six
+/// components whose names end with _xx, _yy, _zz, _xy, _xz and _yz become one tensor in the files,
+/// see join_components().
 struct ElementQuantity {
   std::string name;                    ///< name in the manual
   std::string unit;                    ///< of all components; empty if they have none
@@ -38,7 +40,8 @@ struct ElementQuantity {
   /// Returns one value for each component.
   std::function<std::vector<double>(const ElementAverage &)> evaluate;
   bool reads_state = false; ///< whether it follows from ElementAverage::state
-  bool is_number = false;   ///< whether it numbers things: written as an integer, and never averaged
+  /// Whether it numbers things: written as an integer, and never averaged.
+  bool is_number = false;
 };
 
 /// Vector, or three scalars, at the nodes.
@@ -56,9 +59,9 @@ struct NodalQuantity {
   std::function<std::vector<NodalField>(const Scene &, const Discretization &, const Solution &)> evaluate;
 };
 
-/// Quantities of field output, in the order of the files. A new one is a file in source/output/fields/ with a
-/// function that returns it, and its name in the table of field_quantity.cc. Outside the library, it is one
-/// call of add() before fields are written.
+/// Quantities of field output, in the order of the files. A new one is a file in
+/// source/output/fields/ with a function that returns it, and its name in the table of
+/// field_quantity.cc. Outside the library, it is one call of add() before fields are written.
 class FieldQuantities {
 public:
   FieldQuantities(const std::vector<NodalQuantity> &nodal, const std::vector<ElementQuantity> &of_elements);

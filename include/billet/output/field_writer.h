@@ -11,24 +11,26 @@
 
 namespace billet {
 
-/// Field output for ParaView: the blocks of make_snapshot_grids(), as VTU or HDF5. An index file lists all
-/// snapshots. It is rewritten with each snapshot, so that results of an interrupted run remain readable. A
-/// script beside it shows them in ParaView.
+/// Field output for ParaView: the blocks of make_snapshot_grids(), as VTU or HDF5. An index file
+/// lists all snapshots. It is rewritten with each snapshot, so that results of an interrupted run
+/// remain readable. A script beside it shows them in ParaView.
 class FieldWriter {
 public:
   FieldWriter(const Scene &scene, MPI_Comm communicator, std::string folder);
 
   /// Writes a snapshot. Collective.
   void write(const Solution &solution);
-  /// Writes these blocks as a preview, which the script beside them shows with its groups. Collective.
+  /// Writes these blocks as a preview, which the script beside them shows with its groups.
+  /// Collective.
   void write_preview(const Solution &solution, const std::vector<Grid> &grids);
 
-  /// Saves and restores the list of snapshots, so that a resumed run continues the files in the same folder.
+  /// Saves and restores the list of snapshots, so that a resumed run continues the files in the
+  /// same folder.
   void save(StateWriter &writer) const;
   void load(const StateReader &reader);
 
-  /// Returns what to open in words, once a snapshot was written and if the results are then in this folder;
-  /// empty if the scene requests no fields.
+  /// Returns in words what to open, once a snapshot was written and if the results are then in this
+  /// folder. The text is empty if the scene requests no fields.
   std::string file_to_open(const std::string &folder) const;
 
 private:

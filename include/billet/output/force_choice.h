@@ -7,8 +7,8 @@
 
 namespace billet {
 
-/// Chooses the loads that a table has room for: those that were largest so far, and none without a force. A
-/// couple counts by its moment.
+/// Chooses the loads that a table has room for: those that were largest so far, and none without a
+/// force. A couple counts by its moment.
 class ForceChoice {
 public:
   /// Sizes of the force [force] and of the moment [force length] of a load.
@@ -23,8 +23,8 @@ public:
     bool operator==(const Shown &other) const { return load == other.load && is_moment == other.is_moment; }
   };
 
-  /// Shows the first loads until there are forces. `lever`: size of the model, by which moments are compared
-  /// with forces [length].
+  /// Shows the first loads until there are forces. `lever`: size of the model, by which moments are
+  /// compared with forces [length].
   ForceChoice(std::size_t n_loads, std::size_t max_shown, double lever);
 
   /// Takes the loads of a step. Returns whether the choice changes.

@@ -34,10 +34,11 @@ struct HistoryDifference {
   std::string of_what;
 };
 
-/// Returns the largest of the differences of these groups of columns, ∫Σ|a − b| dt/∫Σ|b| dt, both linear
-/// between their rows and from zero at time 0: forces of tools and pairs; reactions of supports and symmetry
-/// planes, which would dilute them; energies; travel of tools. With inertia, energies alone, from the first
-/// row on: forces of impacts are no functions of time that two meshes share.
+/// Returns the largest of the differences of these groups of columns, ∫Σ|a − b| dt/∫Σ|b| dt. Both
+/// are linear between their rows and from zero at time 0. The groups are forces of tools and pairs;
+/// reactions of supports and symmetry planes, which would dilute them; energies; travel of tools.
+/// With inertia, energies alone count, from the first row on. Forces of impacts are no functions of
+/// time that two meshes share.
 HistoryDifference compare_histories(const HistoryTable &first, const HistoryTable &second, bool has_inertia);
 
 } // namespace billet

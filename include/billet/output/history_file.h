@@ -11,8 +11,8 @@
 
 namespace billet {
 
-/// History file history.csv: a line for every accepted step or, in explicit scenes, for every interval of the
-/// history. Each line is flushed to disk. Written by the first rank.
+/// History file history.csv: a line for every accepted step or, in explicit scenes, for every
+/// interval of the history. Each line is flushed to disk. Written by the first rank.
 class HistoryFile {
 public:
   HistoryFile(const Scene &scene, const std::string &folder);
@@ -23,8 +23,8 @@ public:
     std::uintmax_t n_bytes = 0;
   };
   Mark mark();
-  /// Continues after the mark of a run in the same folder. If the file has other columns, or is shorter, it
-  /// is renamed with the `time` at which it ends, and a new one begins.
+  /// Continues after the mark of a run in the same folder. If the file has other columns, or is
+  /// shorter, it is renamed with the `time` at which it ends, and a new one begins.
   HistoryFile(const Scene &scene, const std::string &folder, const Mark &mark, double time);
 
   /// `probes`: values of probe_columns().

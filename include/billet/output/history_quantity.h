@@ -33,8 +33,8 @@ struct HistorySample {
   double geometry_error = 0.; ///< from MeshErrors::geometry_error()
 };
 
-/// Columns of the history by their names, in which NAME and the like stand for names of the scene, and what
-/// they have.
+/// Columns of the history by their names, in which NAME and the like stand for names of the scene,
+/// and what they have.
 struct HistoryColumns {
   std::string names; ///< separated by commas
   std::string meaning;
@@ -50,9 +50,9 @@ struct HistoryQuantity {
   std::function<std::vector<double>(const HistorySample &)> evaluate;
 };
 
-/// Quantities of the history, in the order of its columns. A new one is a file in source/output/history/ with
-/// a function that returns it, and its name in the table of history_quantity.cc. Outside the library, it is
-/// one call of add() before the history begins.
+/// Quantities of the history, in the order of its columns. A new one is a file in
+/// source/output/history/ with a function that returns it, and its name in the table of
+/// history_quantity.cc. Outside the library, it is one call of add() before the history begins.
 class HistoryQuantities {
 public:
   explicit HistoryQuantities(const std::vector<HistoryQuantity> &quantities);

@@ -26,9 +26,9 @@ struct ElementData {
   const ElementPoints *points; ///< null: only means are known
 };
 
-/// Evaluates stress and strains within the elements of a body, (B18) to (B20) of doc/theory. They vary along
-/// the three directions of a brick, as the stresses at its points do. The stress along a direction does not
-/// vary in it: the bending stress is plane. It does not exceed the yield stress.
+/// Evaluates stress and strains within the elements of a body, (B18) to (B20) of doc/theory. They
+/// vary along the three directions of a brick, as the stresses at its points do. The stress along a
+/// direction does not vary in it: the bending stress is plane. It does not exceed the yield stress.
 class LocalStates {
 public:
   LocalStates(std::shared_ptr<const PointLaw> law, const ElementFormulation &formulation)
@@ -38,7 +38,8 @@ public:
   LocalState evaluate(const ElementData &element, const dealii::Point<3> &coordinates) const;
 
 private:
-  /// Returns the part of `bending` that the yield stress at this plastic strain allows, from 0 to 1.
+  /// Returns the part of `bending` that the yield stress at this plastic strain allows, from 0
+  /// to 1.
   double find_share(const ElementData &element, double volume_ratio, double equivalent_plastic_strain,
                     const dealii::SymmetricTensor<2, 3> &bending) const;
 

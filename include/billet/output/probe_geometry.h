@@ -26,8 +26,8 @@ struct FacetCrossing {
   bool is_on_facet() const;
 };
 
-/// Returns where the line through x along the unit vector d meets the bilinear continuation of the facet;
-/// none if Newton's method does not find it.
+/// Returns where the line through x along the unit vector d meets the bilinear continuation of the
+/// facet. Returns none if Newton's method does not find it.
 std::optional<FacetCrossing> cross_facet(const FacetCorners &corners, const dealii::Tensor<1, 3> &x,
                                          const dealii::Tensor<1, 3> &d);
 

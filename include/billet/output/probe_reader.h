@@ -14,7 +14,8 @@
 
 namespace billet {
 
-/// Reads the probes of a scene. Material points, nodes and faces are found once, in the undeformed bodies.
+/// Reads the probes of a scene. Material points, nodes and faces are found once, in the undeformed
+/// bodies.
 class ProbeReader {
 public:
   /// Throws InputError on all ranks if a probe has a point outside its body. Collective.
@@ -24,7 +25,8 @@ public:
   ProbeReader &operator=(const ProbeReader &) = delete;
 
   bool empty() const { return probes_.empty(); }
-  /// Returns the values of probe_columns(), the same on all ranks. The state must be up to date. Collective.
+  /// Returns the values of probe_columns(), the same on all ranks. The state must be up to date.
+  /// Collective.
   std::vector<double> read(const Solution &solution) const;
 
 private:

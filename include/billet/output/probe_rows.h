@@ -24,8 +24,8 @@ public:
   };
   /// Treatment of the weights of rows of the same site.
   enum class Weights { of_owner, added };
-  /// Returns one row for each site of all ranks, in the order of sites. All ranks get the same, to the last
-  /// bit whatever the partition. Collective.
+  /// Returns one row for each site of all ranks, in the order of sites. All ranks get the same, to
+  /// the last bit whatever the partition. Collective.
   std::vector<Row> gather(MPI_Comm communicator, Weights weights = Weights::of_owner) const;
 
 private:

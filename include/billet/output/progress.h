@@ -14,8 +14,8 @@
 
 namespace billet {
 
-/// Console of a run: a line for every step and the remaining time, as a progress bar on a terminal, else as a
-/// line every half minute. First rank only.
+/// Console of a run, with a line for every step and the remaining time. That is a progress bar on a
+/// terminal, else a line every half minute. First rank only.
 class Progress {
 public:
   /// Lines of steps go to `stream`, warnings to `messages`, which may be the same.
@@ -36,8 +36,8 @@ public:
   void reject(const StepReport &report, double from, double to);
   /// Shows wall-clock and CPU time of the steps of an explicit scene, without output.
   void show_pace(unsigned int n_steps, std::size_t n_elements, double seconds, double processor_seconds);
-  /// Shows the last lines: counts of repeated messages, the number of warnings (in words, or empty), and the
-  /// file to open.
+  /// Shows the last lines: counts of repeated messages, the number of warnings (in words, or
+  /// empty), and the file to open.
   void finish(const std::vector<std::string> &repetitions, const std::string &warnings,
               const std::string &file_to_open);
 
@@ -60,8 +60,8 @@ private:
   void add_probes();
   /// Returns the sizes of a load, in the whole of a section; no moment there.
   ForceChoice::Load size_of(const Resultant &load) const;
-  /// Shows the headers where they are due: after 40 lines, or where other loads are the largest now.
-  /// `head`: that of the columns before.
+  /// Shows the headers where they are due: after 40 lines, or where other loads are the largest
+  /// now. `head`: that of the columns before.
   void show_headers(const std::string &head, const Solution &solution);
   void show_values(const Solution &solution) const;
   void show_iterations(const NewtonReport &newton);

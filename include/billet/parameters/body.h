@@ -38,7 +38,8 @@ struct Mesh {
   dealii::Tensor<1, 3> rotation_axis;
   double rotation_angle;
   dealii::Tensor<1, 3> translation;
-  /// New id, and muParser condition on x, y, z of the face's centre; the last condition that holds applies.
+  /// New id, and muParser condition on x, y, z of the face's centre; the last condition that holds
+  /// applies.
   Located<std::vector<std::pair<unsigned int, std::string>>> boundary_ids;
   std::vector<std::string>
       boundary_names; ///< one for each of these; then the scene chooses the id. Empty: none
@@ -118,8 +119,10 @@ struct Body {
   std::vector<Load> loads;
   Located<std::array<std::string, 3>> initial_velocity; ///< expressions of x, y, z
   Located<std::vector<SymmetryPlane>> symmetry_planes;
-  Located<bool> is_stabilised;                   ///< viscous forces stabilise it until contact supports it
-  Located<std::vector<double>> refinement_times; ///< > 0, ascending; each element is divided there [time]
+  /// Viscous forces stabilise it until contact supports it.
+  Located<bool> is_stabilised;
+  /// > 0, ascending; each element is divided there [time].
+  Located<std::vector<double>> refinement_times;
 
   static void declare(dealii::ParameterHandler &prm, const std::vector<std::string> &support_names,
                       const std::vector<std::string> &load_names);

@@ -42,14 +42,15 @@ struct TimeStepping {
   void parse(Reader &reader);
 };
 
-/// Properties of a scheme. Code that depends on the scheme reads this, not its name. A new scheme is a row
-/// of scheme_types() and a run in make_run().
+/// Properties of a scheme. Code that depends on the scheme reads this, not its name. A new scheme
+/// is a row of scheme_types() and a run in make_run().
 struct SchemeType {
   TimeStepping::Scheme scheme;
   std::string name;        ///< in scene files, checkpoints and messages
   std::string description; ///< in the summary of a scene
   bool has_inertia;        ///< bodies have densities, velocities and kinetic energy
-  bool has_matrix; ///< solves for the end of each step by iterations; else steps have a stability limit
+  /// Whether iterations solve for the end of each step; else steps have a stability limit.
+  bool has_matrix;
   bool lumps_mass; ///< always; else with inertia as the scene says
 };
 const std::vector<SchemeType> &scheme_types();
@@ -96,8 +97,8 @@ enum class MaterialTangent {
 struct Solver {
   enum class LineSearch { none, energy };
   enum class Predictor { tangent, extrapolation };
-  /// Above this number of unknowns, or if a direct solver would need half of the memory, the automatic choice
-  /// is an iterative solver.
+  /// Above this number of unknowns, or if a direct solver would need half of the memory, the
+  /// automatic choice is an iterative solver.
   static constexpr unsigned int max_direct_dofs = 10000;
   enum class Forcing { eisenstat_walker, fixed };
 
@@ -133,7 +134,8 @@ struct Output {
   double interval;
   double history_interval; ///< for explicit scenes; 0: 1/200 of the end time
   bool stress, plastic_strain, contact, strain, sheet_strains;
-  bool averages;                                  ///< whether element fields are also averaged to nodes
+  /// Whether element fields are also averaged to nodes.
+  bool averages;
   Located<std::vector<std::string>> state_fields; ///< names among PointLaw::fields()
   Verbosity verbosity;
 

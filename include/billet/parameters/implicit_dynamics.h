@@ -15,7 +15,8 @@ struct ImplicitDynamics {
   Mass mass;
   double error_tolerance;        ///< of a step, relative to the displacement; 0: none
   double reference_displacement; ///< 0: maximum so far
-  double max_drift;              ///< maximum, relative to the maximum energy; 0: the run never ends for it
+  /// Maximum drift relative to the maximum energy; 0: the run never ends for it.
+  double max_drift;
 
   static void declare(dealii::ParameterHandler &prm);
   /// Reads the subsection. `steps_are_fixed`: an error tolerance has no effect.

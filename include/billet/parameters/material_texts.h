@@ -21,12 +21,12 @@ struct ChangedParameter {
   std::string key, before, after;
 };
 
-/// Returns the parameters whose values differ. Numbers are compared as numbers, also in lists and tables, and
-/// a parameter that is not set has its default.
+/// Returns the parameters whose values differ. Numbers are compared as numbers, also in lists and
+/// tables, and a parameter that is not set has its default.
 std::vector<ChangedParameter> compare_materials(const MaterialTexts &before, const MaterialTexts &after);
 
-/// Returns the number of each body's material, from 0 in the order of the bodies. Bodies whose materials have
-/// the same parameters have the same number.
+/// Returns the number of each body's material, from 0 in the order of the bodies. Bodies whose
+/// materials have the same parameters have the same number.
 std::vector<std::size_t> number_materials(const Scene &scene);
 
 } // namespace billet::parameters

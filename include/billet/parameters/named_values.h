@@ -30,8 +30,8 @@ std::optional<Value> find_value(const NamedValues<Value> &values, const std::str
   return std::nullopt;
 }
 
-/// Returns the value with this name. Throws std::logic_error if there is none: the selection refuses such
-/// names before.
+/// Returns the value with this name. Throws std::logic_error if there is none: the selection
+/// refuses such names before.
 template <class Value> Value chosen(const NamedValues<Value> &values, const std::string &name) {
   if (const std::optional<Value> value = find_value(values, name))
     return *value;

@@ -6,8 +6,8 @@
 
 namespace billet::parameters {
 
-/// Returns how to write a text that should be a number, such as "; write 200000, without separators" for
-/// '200,000'. Returns "" if there is no such advice.
+/// Returns how to write a text that should be a number, such as "; write 200000, without
+/// separators" for '200,000'. Returns "" if there is no such advice.
 std::string number_remedy(const std::string &text);
 
 /// Whether an expression is the plain number 0; others that vanish are known only when evaluated.

@@ -16,10 +16,12 @@ using Settings = std::vector<SceneFile::Setting>;
 /// Reads the scene with more settings. Throws InputError.
 using SceneReader = std::function<Scene(const Settings &more)>;
 
-/// Returns the materials of all bodies with numbers in other units, by the unit at the end of each
-/// parameter's meaning, such as [stress] or [1/time]. Defaults are turned, too. `entries`: of the scene. A
-/// material has no law, but a reason, if a parameter has an unknown unit, is no list or table of numbers, or
-/// names a file of them.
+/// Returns the materials of all bodies with numbers in other units. The unit stands at the end of
+/// each parameter's meaning, such as [stress] or [1/time]. Defaults are turned, too. `entries`: of
+/// the scene.
+///
+/// A material may have no law, but a reason. This is so if a parameter has an unknown unit, is no
+/// list or table of numbers, or names a file of them.
 std::vector<OtherUnits> in_other_units(const Scene &scene, const std::vector<SceneFile::Entry> &entries,
                                        const SceneReader &read);
 

@@ -43,7 +43,8 @@ struct Primitive {
   std::vector<PrimitiveArgument> arguments;
   std::vector<Boundary> boundaries;
 
-  /// Returns "first corner : opposite corner [: boundary ids]", with optional arguments in brackets.
+  /// Returns "first corner : opposite corner [: boundary ids]", with optional arguments in
+  /// brackets.
   std::string usage() const;
 };
 
@@ -56,8 +57,8 @@ const Primitive *find_primitive(const std::string &name, unsigned int dimension)
 /// Returns the names of all primitives of this dimension.
 std::vector<std::string> primitive_names(unsigned int dimension);
 
-/// Returns all arguments of the primitive, separated by colons. Arguments that `text` omits at its end or
-/// leaves empty have their defaults, and 'name = value' sets an argument by its name. Throws
+/// Returns all arguments of the primitive, separated by colons. Arguments that `text` omits at its
+/// end or leaves empty have their defaults, and 'name = value' sets an argument by its name. Throws
 /// std::invalid_argument with what is allowed.
 std::string complete_arguments(const Primitive &primitive, const std::string &text);
 

@@ -22,13 +22,13 @@ struct Preset {
 /// Declares 'Profile', 'Target error' and what belongs to it at the top level.
 void declare_presets(dealii::ParameterHandler &prm);
 
-/// Gives the parameters in `prm` that `file` does not set the values of its profile or target error. Returns
-/// these parameters. Call it before prm is read. Throws InputError.
+/// Gives the parameters in `prm` that `file` does not set the values of its profile or target
+/// error. Returns these parameters. Call it before prm is read. Throws InputError.
 std::vector<Preset> apply_presets(dealii::ParameterHandler &prm, const SceneFile &file);
 
-/// Returns the part of 'Target error', such as '1 percent', '1 %' or '0.01', that is left to sources other
-/// than the mesh, as a fraction: all of it with the mesh as given, else a third; 0 if it is not set. Throws
-/// InputError.
+/// Returns the part of 'Target error' that is left to sources other than the mesh, as a fraction.
+/// The entry may be '1 percent', '1 %' or '0.01'. The part is all of it with the mesh as given,
+/// else a third. It is 0 if the entry is not set. Throws InputError.
 double read_target_error(const SceneFile &file);
 
 /// Part of the target error that is left to the mesh.

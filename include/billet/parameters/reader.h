@@ -21,8 +21,8 @@ template <class T> struct Located {
   std::string origin;
 };
 
-/// Boundary ids and names of boundaries of one body. The scene adds the ids of the names once it knows the
-/// mesh.
+/// Boundary ids and names of boundaries of one body. The scene adds the ids of the names once it
+/// knows the mesh.
 struct BoundaryIds : Located<std::vector<unsigned int>> {
   BoundaryIds() = default;
   BoundaryIds(Located<std::vector<unsigned int>> ids) : Located(std::move(ids)) {}
@@ -43,8 +43,8 @@ unsigned int parse_count(const std::string &text);
 /// Whether a text can be the name of a boundary: it has a letter, and no comma.
 bool is_boundary_name(const std::string &text);
 
-/// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter throws
-/// InputError with file, line, parameter, the value found and the allowed values.
+/// Reads typed values from a ParameterHandler and knows where each of them was set. Every getter
+/// throws InputError with file, line, parameter, the value found and the allowed values.
 class Reader : public TypeInput {
 public:
   Reader(dealii::ParameterHandler &prm, const SceneFile &file) : prm_(prm), file_(file) {}
@@ -60,8 +60,8 @@ public:
     }
     leave();
   }
-  /// Makes later calls of in() and note_errors() note errors instead of throwing them, and single numbers
-  /// that are not allowed as well: what is read with errors is not to be used.
+  /// Makes later calls of in() and note_errors() note errors instead of throwing them. They note
+  /// single numbers that are not allowed as well. What is read with errors is not to be used.
   void collect_errors() { collects_ = true; }
   /// Calls `read` and notes its errors if they are collected, so that those of other parts follow.
   template <class Function> void note_errors(const Function &read) {
@@ -92,7 +92,8 @@ public:
   dealii::Tensor<1, 3> direction(const std::string &key) const override;
   /// Returns the trimmed parts between separators, without empty ones.
   std::vector<std::string> parts(const std::string &key, char separator = ';') const override;
-  /// Returns the name of a file as a path from the working directory. Refuses a file that cannot be read.
+  /// Returns the name of a file as a path from the working directory. Refuses a file that cannot be
+  /// read.
   std::string file(const std::string &key) const override;
 
   template <class T> Located<T> located(const std::string &key, T value) const {
@@ -112,8 +113,8 @@ public:
 private:
   void enter(const std::string &name);
   void leave();
-  /// Returns a number that stands for one that is not allowed, whose error is noted, so that errors of other
-  /// parameters are found. Throws the error if errors are not collected.
+  /// Returns a number that stands for one that is not allowed, whose error is noted, so that errors
+  /// of other parameters are found. Throws the error if errors are not collected.
   double replace(const std::string &key, const std::string &allowed, double value) const;
   double number_within(const std::string &key, const std::string &allowed, double stand_in,
                        const std::function<bool(double)> &is_allowed) const;

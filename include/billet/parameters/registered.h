@@ -17,16 +17,16 @@ namespace billet::parameters {
 void declare_parameter(dealii::ParameterHandler &prm, const TypeParameter &parameter,
                        const std::string &meaning);
 
-/// Joins the parameters of all types. A meaning begins with the names of the types that use it, unless all
-/// do.
+/// Joins the parameters of all types. A meaning begins with the names of the types that use it,
+/// unless all do.
 class ParameterUnion {
 public:
   void add(const std::string &type, const std::vector<TypeParameter> &parameters);
   void declare(dealii::ParameterHandler &prm) const;
   /// Whether the user set one of the parameters.
   bool is_any_set(const std::function<bool(const std::string &)> &is_set) const;
-  /// Refuses each parameter that the user set and that is not in `used`. `reason` follows "no value: ";
-  /// `selector` is the parameter that selects the type, if `reason` does not quote it.
+  /// Refuses each parameter that the user set and that is not in `used`. `reason` follows "no
+  /// value: "; `selector` is the parameter that selects the type, if `reason` does not quote it.
   void reject_unused(const Reader &reader, const std::vector<TypeParameter> &used, const std::string &reason,
                      const std::string &selector = "") const;
 
@@ -47,7 +47,8 @@ template <class Table> ParameterUnion join_parameters(const Table &table) {
   return all;
 }
 
-/// Declares the entry `key`, which selects one type of the table, and the parameters of all its types.
+/// Declares the entry `key`, which selects one type of the table, and the parameters of all its
+/// types.
 template <class Table>
 void declare_selection(dealii::ParameterHandler &prm, const std::string &key, const std::string &default_name,
                        const Table &table, const std::string &meaning) {

@@ -8,12 +8,13 @@
 
 namespace billet {
 
-/// Parameter that had another name, or values with other names. Scenes may use the old ones until version
-/// 1.0.
+/// Parameter that had another name, or values with other names. Scenes may use the old ones until
+/// version 1.0.
 struct Rename {
   std::vector<std::string> path; ///< the subsections; "*" stands for a name of the user's choice
   std::string old_key, key;
-  std::vector<std::pair<std::string, std::string>> values; ///< old and new name of each value that changed
+  /// Old and new name of each value that changed.
+  std::vector<std::pair<std::string, std::string>> values;
 };
 
 /// Returns the table of all renamed parameters, the only place with old names.
@@ -24,7 +25,8 @@ struct CurrentNames {
   std::string key, value;
 };
 
-/// Returns the current names of a parameter and of its value. Names that are not old remain unchanged.
+/// Returns the current names of a parameter and of its value. Names that are not old remain
+/// unchanged.
 CurrentNames current_names(const std::vector<std::string> &path, const std::string &key,
                            const std::string &value);
 

@@ -44,8 +44,8 @@ struct Scene {
   Scene &operator=(Scene &&) noexcept;
   ~Scene();
 
-  /// Reads a scene file. `restart_file`, unless it is empty, replaces the scene's own; `settings` from the
-  /// command line override the file. Throws InputError.
+  /// Reads a scene file. `restart_file`, unless it is empty, replaces the scene's own; `settings`
+  /// from the command line override the file. Throws InputError.
   static Scene read(const std::string &file_name, const std::string &restart_file = "",
                     const std::vector<SceneFile::Setting> &settings = {});
   static Scene read(SceneFile file, const std::string &restart_file);
@@ -59,15 +59,15 @@ struct Scene {
   std::size_t body_index(const Probe &probe) const;
 };
 
-/// Refuses pairs that would apply contact forces twice between the same faces, or a face and a tool. Pairs
-/// with names count only if their ids are known.
+/// Refuses pairs that would apply contact forces twice between the same faces, or a face and a
+/// tool. Pairs with names count only if their ids are known.
 void check_repeated_pairs(const std::vector<ContactPair> &pairs, bool names_are_known);
 
 /// Prints every parameter with its default, range, unit and meaning.
 void print_all_parameters(std::ostream &stream);
 
-/// Prints all parameters as a JSON Schema (draft 7) of a scene written as JSON, with an object for each
-/// subsection.
+/// Prints all parameters as a JSON Schema (draft 7) of a scene written as JSON, with an object for
+/// each subsection.
 void print_schema(std::ostream &stream);
 
 } // namespace billet::parameters

@@ -22,8 +22,8 @@ struct SceneUpdate {
   std::vector<std::string> left;
 };
 
-/// Replaces old names in a scene file, or in a file that a scene includes. Everything else stays, except that
-/// blanks before an equals sign may change to keep its column. Throws InputError.
+/// Replaces old names in a scene file, or in a file that a scene includes. Everything else stays,
+/// except that blanks before an equals sign may change to keep its column. Throws InputError.
 SceneUpdate update_scene(const std::string &file_name);
 
 } // namespace billet

@@ -24,14 +24,15 @@ struct Motion {
   Located<std::string> rotation_angle;             ///< expression of t and the amplitudes [radians]
   dealii::Tensor<1, 3> rotation_axis;
   dealii::Tensor<1, 3> centre;
-  /// Control of the tool in addition to this motion. `motion`: none. `force`: moves along `direction` until
-  /// the contact force equals `load`. `moment`: rotates until the contact moment equals `load`. `stop`: stops
-  /// once the contact force reaches `load`.
+  /// Control of the tool in addition to this motion. `motion`: none. `force`: moves along
+  /// `direction` until the contact force equals `load`. `moment`: rotates until the contact moment
+  /// equals `load`. `stop`: stops once the contact force reaches `load`.
   enum class Control { motion, force, moment, stop };
   Control control = Control::motion;
   Located<std::string> load;      ///< expression of t and the amplitudes [force or force length]
   dealii::Tensor<1, 3> direction; ///< unit; for force and stop
-  double inertia = 0.;          ///< mass, or moment of inertia about the axis, of a tool with force or moment
+  /// Mass, or moment of inertia about the axis, of a tool with force or moment.
+  double inertia = 0.;
   double initial_rate = 0.;     ///< speed along the direction, or about the axis
   Located<double> removal_time; ///< infinite: never
   double release_time;          ///< over which the forces of a removed tool fade

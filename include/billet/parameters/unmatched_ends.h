@@ -34,12 +34,12 @@ struct EndRepair {
   unsigned int line;
 };
 
-/// Finds where `end`s are probably missing, and which are probably one too many, in the order in which they
-/// are found. An `end` is missing in the first subsection that contains what belongs into one above, or that
-/// an `end` indented as one above would close. An `end` is one too many if what follows belongs into the
-/// subsection that it closes, or if it is indented more than that. Without such evidence there is no repair:
-/// subsections end with the file, and an `end` at the top level closes nothing. `outer`: path where the file
-/// is included.
+/// Finds where `end`s are probably missing, and which are probably one too many, in the order in
+/// which they are found. An `end` is missing in the first subsection that contains what belongs
+/// into one above, or that an `end` indented as one above would close. An `end` is one too many if
+/// what follows belongs into the subsection that it closes, or if it is indented more than that.
+/// Without such evidence there is no repair: subsections end with the file, and an `end` at the top
+/// level closes nothing. `outer`: path where the file is included.
 std::vector<EndRepair> find_end_repairs(std::vector<Statement> statements, const SceneFile::Path &outer);
 
 } // namespace billet

@@ -45,8 +45,8 @@ struct ProbedPoints {
 /// Faces of the probe's boundary ids, with their nodes.
 struct ProbedFaces {};
 
-/// Distance from faces to the opposite ones, along their inward normals: at the middle of each face, or at
-/// the point of the faces that was nearest to `point` before the deformation.
+/// Distance from faces to the opposite ones, along their inward normals. It is taken at the middle
+/// of each face, or at the point of the faces that was nearest to `point` before the deformation.
 struct ProbedThickness {
   std::optional<dealii::Point<3>> point;
 };
@@ -102,18 +102,20 @@ struct Probe {
 
 /// Weights of the sites in means.
 struct SiteWeights {
-  std::vector<double> all;           ///< of each site
-  std::vector<double> contact_areas; ///< of each site, for contact pressures [length²]; empty: `all`
+  std::vector<double> all; ///< of each site
+  /// Area of each site, for contact pressures [length²]; empty: `all`.
+  std::vector<double> contact_areas;
 };
 
-/// Returns the columns' values from those at the sites, one for each component. The mean of a contact
-/// pressure is the force over the area in contact; 0 without contact. Values that are not numbers, where
-/// there is nothing to read, count in no statistic; if there are no others, it is not a number itself.
+/// Returns the columns' values from those at the sites, one for each component. The mean of a
+/// contact pressure is the force over the area in contact; 0 without contact. Values that are not
+/// numbers, where there is nothing to read, count in no statistic. If there are no others, it is
+/// not a number itself.
 std::vector<double> evaluate_columns(const Probe &probe, const std::vector<std::vector<double>> &values,
                                      const SiteWeights &weights);
 
-/// Probes that scene files can name. A new one is a file in source/probes/ with a function that returns its
-/// type, and its name in the table of probe_types.cc.
+/// Probes that scene files can name. A new one is a file in source/probes/ with a function that
+/// returns its type, and its name in the table of probe_types.cc.
 using ProbeType = RegisteredType<Probe>;
 TypeTable<Probe> &probe_types();
 

@@ -19,11 +19,13 @@ struct SceneSource {
   std::vector<SceneFile::Setting> settings;
 };
 
-/// Returns all errors of a scene file that was refused with `first`. Each stage of the checks shows errors
-/// only if those before pass. So the function takes the parts with errors out of the scene, and checks what
-/// is left in the same way, until that passes. Parts are a mesh, a material, a support, a load, a tool, a
-/// pair, a probe, an amplitude, and each parameter of another section. What depends on a part that is missing
-/// counts as unchecked, and the last message, a note, names it. Collective.
+/// Returns all errors of a scene file that was refused with `first`. Each stage of the checks shows
+/// errors only if those before pass. So the function takes the parts with errors out of the scene,
+/// and checks what is left in the same way, until that passes.
+///
+/// Parts are a mesh, a material, a support, a load, a tool, a pair, a probe, an amplitude, and each
+/// parameter of another section. What depends on a part that is missing counts as unchecked, and
+/// the last message, a note, names it. Collective.
 DiagnosticList find_all_errors(const SceneSource &source, const DiagnosticList &first, MPI_Comm communicator);
 
 } // namespace billet

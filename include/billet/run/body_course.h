@@ -16,8 +16,8 @@ public:
   /// `extent`: report of the body, for its box.
   BodyCourse(const Scene &scene, std::size_t body, const BodyReport &extent);
 
-  /// Returns the displacement. Where supports deform the body, it counts as 0. Throws SolutionFailure if a
-  /// value is undefined.
+  /// Returns the displacement. Where supports deform the body, it counts as 0. Throws
+  /// SolutionFailure if a value is undefined.
   dealii::Tensor<1, 3> displacement(double t) const;
   /// Returns the initial velocity; 0 in static scenes [length/time].
   const dealii::Tensor<1, 3> &initial_velocity() const { return velocity_; }

@@ -15,15 +15,15 @@ struct MeshLevelError {
   bool is_known = true; ///< whether the differences fall, as they do where errors have an order
 };
 
-/// Extrapolates the error from the differences between each mesh and the next finer one, at least one,
-/// coarsest first, (W6) of doc/theory/error_estimate.md. A single difference counts as of order
-/// `expected_order`. Differences that hardly fall have no order; then the largest of the last two stands for
-/// the error.
+/// Extrapolates the error from the differences between each mesh and the next finer one, at least
+/// one, coarsest first, (W6) of doc/theory/error_estimate.md. A single difference counts as of
+/// order `expected_order`. Differences that hardly fall have no order; then the largest of the last
+/// two stands for the error.
 MeshLevelError extrapolate(const std::vector<double> &differences, double expected_order = 1.);
 
-/// Chooses levels of the bodies' meshes from run to run until the error is small enough. All bodies begin at
-/// one level and rise together, to the given one at least. A body whose part of the error is small, (W7),
-/// stays behind then; its part stays, too.
+/// Chooses levels of the bodies' meshes from run to run until the error is small enough. All bodies
+/// begin at one level and rise together, to the given one at least. A body whose part of the error
+/// is small, (W7), stays behind then; its part stays, too.
 class BodyLevels {
 public:
   /// `target`: the error allowed, until allow() gives another.
@@ -33,7 +33,8 @@ public:
   const std::vector<int> &levels() const { return levels_; }
   /// Level of the bodies that still rise.
   int level() const { return level_; }
-  /// Adds the run on levels(), with its difference from the run before; the first run's does not count.
+  /// Adds the run on levels(), with its difference from the run before; the first run's does not
+  /// count.
   void add(double difference, const std::vector<BodyMesh> &bodies);
   void allow(double error) { target_ = error; }
   double allowed() const { return target_; }
@@ -41,14 +42,15 @@ public:
   bool has_error() const { return n_runs_ > 1; }
   /// Error of the last run, and the order of the bodies that have risen last.
   const MeshLevelError &error() const { return error_; }
-  /// Whether the error is within the target. On meshes coarser than given it takes three of them, which show
-  /// an order: two may miss the same detail.
+  /// Whether the error is within the target. On meshes coarser than given it takes three of them,
+  /// which show an order: two may miss the same detail.
   bool is_met() const {
     return has_error() && error_.is_known && error_.error <= target_ && (n_resolved_ > 2 || level_ >= 0);
   }
   /// Returns the elements of the next run but n − 1, over those of the last one.
   double growth(unsigned int n = 1) const;
-  /// Returns how many times meshes have to rise until the target is met at this order, once error() is known.
+  /// Returns how many times meshes have to rise until the target is met at this order, once error()
+  /// is known.
   unsigned int rises_to_target() const;
   /// Begins the next run, on the levels that the last one asks for.
   void rise();
@@ -66,9 +68,10 @@ private:
   std::vector<int> levels_;
   std::vector<bool> has_risen_; ///< in the last run
   std::vector<BodyMesh> bodies_;
-  std::vector<double> errors_;               ///< by body
-  std::vector<double> growths_;              ///< of the elements of each body, at its last rise
-  unsigned int n_runs_ = 0, n_resolved_ = 0; ///< the second: the last ones, all of whose meshes are resolved
+  std::vector<double> errors_;  ///< by body
+  std::vector<double> growths_; ///< of the elements of each body, at its last rise
+  /// Number of runs, and of the last ones, all of whose meshes are resolved.
+  unsigned int n_runs_ = 0, n_resolved_ = 0;
   double difference_ = 0.; ///< of the last run, by the bodies that rise next once these are chosen
   MeshLevelError error_;
 };

@@ -16,9 +16,9 @@ enum class PageFormat { text, markdown };
 /// Prints the findings about a law.
 void print(const Certificate &certificate, const std::string &title, PageFormat format, std::ostream &stream);
 
-/// Certifies the law of each body of a scene (certificate.h) with the scene's first step and temperature, or
-/// that of a file with nothing but the parameters of a material. Prints the findings. Returns whether all
-/// laws pass. Throws InputError.
+/// Certifies the law of each body of a scene (certificate.h) with the scene's first step and
+/// temperature. The file may also have nothing but the parameters of a material, whose law it then
+/// certifies. Prints the findings. Returns whether all laws pass. Throws InputError.
 bool certify_laws(const std::string &file, const std::vector<SceneFile::Setting> &settings, PageFormat format,
                   std::ostream &stream);
 

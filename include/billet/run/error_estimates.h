@@ -15,17 +15,17 @@ namespace billet {
 /// Returns the estimate of a static run, with its costs.
 ErrorReport make_report(const ErrorWatch &watch, const StepReport &report);
 
-/// Returns the estimate of a dynamic run, without costs. `shorter_steps`: the advice that reduces the errors
-/// of steps.
+/// Returns the estimate of a dynamic run, without costs. `shorter_steps`: the advice that reduces
+/// the errors of steps.
 ErrorReport make_report(const EnergyErrors &errors, const std::string &shorter_steps);
 
-/// Adds the errors of elements and soft contact, reports the estimate, and writes error_estimate.csv.
-/// Collective.
+/// Adds the errors of elements and soft contact, reports the estimate, and writes
+/// error_estimate.csv. Collective.
 void report_errors(ErrorReport report, const MeshErrors &mesh, const Discretization &discretization,
                    const parameters::Scene &parameters, const RunReview &review, RunOutput &output);
 
-/// Returns the message on the errors of the mesh at the end of a run; none if nothing has deformed. If the
-/// mesh does not resolve the contact, the message says that the error is unknown.
+/// Returns the message on the errors of the mesh at the end of a run; none if nothing has deformed.
+/// If the mesh does not resolve the contact, the message says that the error is unknown.
 DiagnosticList describe_mesh_errors(const MeshErrors &mesh, const RunReview &review,
                                     const parameters::Scene &parameters);
 

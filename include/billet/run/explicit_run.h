@@ -15,8 +15,8 @@
 
 namespace billet {
 
-/// Run of explicit dynamics; every step is accepted. step() completes the state at the current time.
-/// after_step() checks it at intervals and advances to the next time.
+/// Run of explicit dynamics; every step is accepted. The function step() completes the state at the
+/// current time. Then after_step() checks it at intervals and advances to the next time.
 class ExplicitRun final : public Run {
 public:
   ExplicitRun(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
@@ -51,8 +51,8 @@ private:
   template <class Part> void attempt(RunOutput &output, const Part &part);
   /// Reports the refinement with which the run began, after its first forces.
   void report_change(RunOutput &output);
-  /// Whether the state is to be watched: at the start, at regular times unless the last one is too near, and
-  /// at the end. Call it once for each step.
+  /// Whether the state is to be watched: at the start, at regular times unless the last one is too
+  /// near, and at the end. Call it once for each step.
   bool is_watch_due();
   /// Adds a state to the error of the mesh, unless the last one is too near.
   void estimate_mesh_error();
@@ -72,8 +72,10 @@ private:
   ExplicitDynamics problem_;
   const Stops stops_;
   RegularTimes history_times_;
-  RegularTimes watch_times_;                            ///< the same whatever the history's interval
-  std::unique_ptr<EnergyErrors> errors_;                ///< only for scenes that control their errors
+  /// Times that do not depend on the history's interval.
+  RegularTimes watch_times_;
+  /// Exists only for scenes that control their errors.
+  std::unique_ptr<EnergyErrors> errors_;
   EnergyWatch energies_{EnergyWatch::Balance::is_left}; ///< check_drift() ends the run
   Stopwatch stopwatch_;                                 ///< for the steps, without output
   LastTimes last_;

@@ -7,8 +7,8 @@
 
 namespace billet {
 
-/// Returns sentences, without the last full stop, if a prescribed force or moment may exceed the limit load
-/// of a body without hardening; otherwise an empty text.
+/// Returns sentences, without the last full stop, if a prescribed force or moment may exceed the
+/// limit load of a body without hardening. Otherwise returns an empty text.
 std::string describe_limit_load(const parameters::Scene &parameters);
 
 /// Whether a yielding body has elastic strains so large that its law, unlike Hencky's, computes the
@@ -16,8 +16,8 @@ std::string describe_limit_load(const parameters::Scene &parameters);
 bool has_inexact_dissipation(const Scene &scene, const Discretization &discretization,
                              const Solution &solution);
 
-/// Explains why an implicit run fails in the step between these times. `is_unstable`: a body is strained
-/// beyond the stability of its law.
+/// Explains why an implicit run fails in the step between these times. `is_unstable`: a body is
+/// strained beyond the stability of its law.
 Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, double from, double to,
                                bool is_unstable);
 
@@ -25,8 +25,8 @@ Diagnostic explain_failed_step(const Scene &scene, const StepReport &report, dou
 Diagnostic explain_imbalance(const parameters::Scene &parameters, const StepReport &report, double time,
                              const Explanation &imbalance);
 
-/// Explains why an explicit run ends with energies that fail to balance or are not finite. `advice` replaces
-/// the usual advice unless it is empty.
+/// Explains why an explicit run ends with energies that fail to balance or are not finite. `advice`
+/// replaces the usual advice unless it is empty.
 Diagnostic explain_drift(const Scene &scene, const ExplicitDynamics &problem, const std::string &advice);
 
 /// Explains why an explicit run ends with a step that failed for this reason.

@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Returns a warning for each body whose major strain exceeds the forming limit of its material, with the
-/// largest ratio of the two. Collective.
+/// Returns a warning for each body whose major strain exceeds the forming limit of its material,
+/// with the largest ratio of the two. Collective.
 DiagnosticList check_forming_limits(const Scene &scene, const Solution &solution);
 
 } // namespace billet

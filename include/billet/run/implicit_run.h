@@ -33,7 +33,8 @@ protected:
   void save_method(StateWriter &writer) const override;
 
 private:
-  /// Loads the checkpoint into the problem, if there is one. Returns the times at which steps have to end.
+  /// Loads the checkpoint into the problem, if there is one. Returns the times at which steps have
+  /// to end.
   std::vector<double> load_problem(Resumption *resumption);
   /// Returns the time over which unbalanced forces fade; 0: until the end.
   double release_time(const Resumption &resumption) const;
@@ -49,8 +50,9 @@ private:
 
   ImplicitSolution problem_;
   StepControl control_;
-  std::unique_ptr<ErrorWatch> watch_;    ///< only for static scenes that control their errors
-  std::unique_ptr<EnergyErrors> errors_; ///< only for dynamic ones; their steps follow another estimate
+  std::unique_ptr<ErrorWatch> watch_; ///< only for static scenes that control their errors
+  /// Exists only for dynamic ones; their steps follow another estimate.
+  std::unique_ptr<EnergyErrors> errors_;
   EnergyWatch energies_;
   StepReport report_;
   unsigned int n_failed_ = 0; ///< attempts in a row

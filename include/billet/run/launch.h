@@ -8,19 +8,22 @@
 
 namespace billet {
 
-/// Performs `billet --ranks N ...`: starts the program on N processes of this machine by mpirun and returns
-/// its exit code; nothing if the arguments have no --ranks. The processes end with 0 and leave their exit
-/// code in a file, since mpirun adds a message of its own to any other code. Ctrl-C and SIGTERM stop the run
-/// as SIGUSR1 does, with a checkpoint. To be called before MPI starts.
+/// Performs `billet --ranks N ...`. It starts the program on N processes of this machine by mpirun
+/// and returns its exit code. It returns nothing if the arguments have no --ranks. The processes
+/// end with 0 and leave their exit code in a file, since mpirun adds a message of its own to any
+/// other code.
+///
+/// Ctrl-C and SIGTERM stop the run as SIGUSR1 does, with a checkpoint. To be called before MPI
+/// starts.
 std::optional<int> launch(const std::vector<std::string> &arguments);
 
 /// Lets a process that no launcher started begin MPI without networks: the search for these takes a
-/// third of the time of `billet --version`. To be called before MPI starts; other MPIs than Open MPI ignore
-/// it.
+/// third of the time of `billet --version`. To be called before MPI starts; other MPIs than Open
+/// MPI ignore it.
 void prepare_for_one_process();
 
-/// Returns the exit code of a process: `code`, or 0 if launch() reads the code from its file. `is_first`: on
-/// the first rank.
+/// Returns the exit code of a process: `code`, or 0 if launch() reads the code from its file.
+/// `is_first`: on the first rank.
 int report_exit_code(int code, bool is_first);
 
 } // namespace billet

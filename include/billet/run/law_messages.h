@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Returns what material subroutines have said on all ranks since the last call; it costs nothing in scenes
-/// without them. Collective.
+/// Returns what material subroutines have said on all ranks since the last call; it costs nothing
+/// in scenes without them. Collective.
 DiagnosticList gather_law_messages(const Scene &scene, MPI_Comm communicator, double time);
 
 } // namespace billet

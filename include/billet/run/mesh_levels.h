@@ -8,14 +8,15 @@
 
 namespace billet {
 
-/// Returns how many times every mesh of the scene can be made coarser by a factor of two, at most `most`
-/// times: by fewer 'Refinements', or, of a subdivided box, by half the numbers of elements where these are
-/// even. A single element across a body remains one on all levels if symmetry planes hold both of its sides.
-/// Else the mesh cannot be made coarser: its levels would be no family, and have no order of convergence.
+/// Returns how many times every mesh of the scene can be made coarser by a factor of two, at most
+/// `most` times. A level has fewer 'Refinements', or, of a subdivided box, half the numbers of
+/// elements where these are even. A single element across a body remains one on all levels if
+/// symmetry planes hold both of its sides. Else the mesh cannot be made coarser: its levels would
+/// be no family, and have no order of convergence.
 unsigned int count_coarser_levels(const parameters::Scene &scene, unsigned int most);
 
-/// Returns the scene with meshes of other levels, one for each body: elements of 2^−level times the size. A
-/// negative level is at least −count_coarser_levels().
+/// Returns the scene with meshes of other levels, one for each body: elements of 2^−level times the
+/// size. A negative level is at least −count_coarser_levels().
 parameters::Scene at_mesh_levels(const parameters::Scene &scene, const std::vector<int> &levels);
 
 } // namespace billet

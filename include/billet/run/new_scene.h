@@ -15,8 +15,8 @@ struct SceneTemplate {
 /// All templates, in alphabetic order. The build makes them from their files.
 const std::vector<SceneTemplate> &scene_templates();
 
-/// Writes the scene of the template `name` into the current folder, NAME.prm, or into `file`. Returns the
-/// name of the file. Throws InputError for an unknown name, or if the file exists.
+/// Writes the scene of the template `name` into the current folder, NAME.prm, or into `file`.
+/// Returns the name of the file. Throws InputError for an unknown name, or if the file exists.
 std::string write_new_scene(const std::string &name, const std::string &file = "");
 
 } // namespace billet

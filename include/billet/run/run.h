@@ -15,10 +15,10 @@
 
 namespace billet {
 
-/// Solution method in the loop of run_to_end(), with its own mesh. All objects that depend on the mesh end
-/// with the run. Files and console (RunOutput) outlive it, so that another run, on another mesh, can continue
-/// them. The constructor of a method sets up its problem, from a checkpoint if there is one; it throws
-/// InputError before anything is written.
+/// Solution method in the loop of run_to_end(), with its own mesh. All objects that depend on the
+/// mesh end with the run. Files and console (RunOutput) outlive it, so that another run, on another
+/// mesh, can continue them. The constructor of a method sets up its problem, from a checkpoint if
+/// there is one; it throws InputError before anything is written.
 class Run {
 public:
   /// `resumption`: null at time 0.
@@ -33,15 +33,17 @@ public:
   Run(const Run &) = delete;
   Run &operator=(const Run &) = delete;
 
-  /// Starts the run before the first step: shows the model and reports warnings about the scene, unless the
-  /// run continues another one. `resumption`: null at time 0. Collective, as all functions below.
+  /// Starts the run before the first step: shows the model and reports warnings about the scene,
+  /// unless the run continues another one. `resumption`: null at time 0. Collective, as all
+  /// functions below.
   virtual void begin(RunOutput &output, const Resumption *resumption) = 0;
   /// Whether the run has reached its end time.
   virtual bool is_finished() const = 0;
-  /// Tries a step. Returns whether it is accepted. If the run cannot continue, writes the last state and
-  /// throws SolutionFailure.
+  /// Tries a step. Returns whether it is accepted. If the run cannot continue, writes the last
+  /// state and throws SolutionFailure.
   virtual bool step(RunOutput &output) = 0;
-  /// Completes an accepted step: writes rows and fields, checks the state, and advances. Throws as step().
+  /// Completes an accepted step: writes rows and fields, checks the state, and advances. Throws as
+  /// step().
   virtual void after_step(RunOutput &output) = 0;
   /// Completes the run after the last step: reports results of the whole run.
   virtual void end(RunOutput &output) = 0;
@@ -58,15 +60,15 @@ public:
   virtual bool can_refine() const { return true; }
   /// Saves the state that resumes the run bitwise, and the data that check whether a scene fits it.
   void save(StateWriter &writer) const;
-  /// Ends the run at time(), for a run on another mesh that goes on from what save() has saved: completes the
-  /// state there, and returns its energies. Nothing may follow. Throws as step().
+  /// Ends the run at time(), for a run on another mesh that continues from what save() has saved.
+  /// Completes the state there, and returns its energies. Nothing may follow. Throws as step().
   virtual EnergyLedger hand_over(RunOutput &output) = 0;
 
 protected:
   /// Saves the method's own part of the state.
   virtual void save_method(StateWriter &writer) const = 0;
-  /// Performs the part of begin() that all methods share. Unbalanced forces above this relative tolerance are
-  /// reported.
+  /// Performs the part of begin() that all methods share. Unbalanced forces above this relative
+  /// tolerance are reported.
   void announce(const Solution &solution, RunOutput &output, const Resumption *resumption,
                 double force_tolerance) const;
 
@@ -80,14 +82,15 @@ protected:
   const ProbeReader probes_;
 };
 
-/// Builds the scene. It reads mesh files, which may fail on one rank alone. Throws InputError. Collective.
+/// Builds the scene. It reads mesh files, which may fail on one rank alone. Throws InputError.
+/// Collective.
 std::unique_ptr<const Scene> build_scene(const parameters::Scene &parameters, MPI_Comm communicator);
 
 /// Makes the method that the scene selects. `resumption`: null at time 0. Collective.
 std::unique_ptr<Run> make_run(const Scene &scene, MPI_Comm communicator, Resumption *resumption);
 
-/// Runs from begin() to end(), or until a signal requests the end. At 'Refinement times' another run, on the
-/// finer mesh, replaces `run`. Collective.
+/// Runs from begin() to end(), or until a signal requests the end. At 'Refinement times' another
+/// run, on the finer mesh, replaces `run`. Collective.
 ExitCode run_to_end(std::unique_ptr<Run> run, const Scene &scene, RunOutput &output,
                     const Resumption *resumption);
 

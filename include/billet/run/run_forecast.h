@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// Returns what an explicit run will be like. Computes the forces at the start, and the steps where the pairs
-/// meet, as far as `report` knows; `problem` cannot continue then. Without a stable step if the start fails,
-/// as the run will. Collective.
+/// Returns what an explicit run will be like. Computes the forces at the start, and the steps where
+/// the pairs meet, as far as `report` knows; `problem` cannot continue then. Without a stable step
+/// if the start fails, as the run will. Collective.
 RunReport forecast_run(const Scene &scene, ExplicitDynamics &problem, const SceneReport &report);
 
 /// Returns what an implicit run will be like. Collective.

@@ -17,8 +17,9 @@ struct ErrorReport;
 
 /// Mesh of a body in a run that has reached its end.
 struct BodyMesh {
-  std::size_t n_elements;  ///< of all ranks
-  double error;            ///< its part of the relative error of the forces, by (W5) and (W8) of the theory
+  std::size_t n_elements; ///< of all ranks
+  /// Part of the relative error of the forces, by (W5) and (W8) of the theory.
+  double error;
   bool is_resolved = true; ///< whether that sees all: what varies in single elements, and contact
 };
 
@@ -33,10 +34,13 @@ struct RunOptions {
   bool replaces_results = false; ///< rather than to move those of an earlier run aside
   ConsoleLog *log = nullptr;     ///< to be opened in the output folder; null: none
   bool is_quiet = false;         ///< the console gets warnings and errors only, the log all
-  std::string changes = {};      ///< options that changed the scene, for the command that resumes the run
-  std::ostream *steps = nullptr; ///< gets lines of steps if the console is quiet and the log is open already
-  /// Judges a run that has reached its end, with these meshes of bodies and its estimated errors; its history
-  /// is complete. Collective. Empty: none. A run that is judged is one of several, and cannot be resumed.
+  /// Options that changed the scene, for the command that resumes the run.
+  std::string changes = {};
+  /// Gets lines of steps if the console is quiet and the log is open already.
+  std::ostream *steps = nullptr;
+  /// Judges a run that has reached its end, with these meshes of bodies and its estimated errors;
+  /// its history is complete. Collective. Empty: none. A run that is judged is one of several, and
+  /// cannot be resumed.
   std::function<Verdict(const std::vector<BodyMesh> &, const ErrorReport &)> judge = {};
 };
 

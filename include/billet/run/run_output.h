@@ -18,12 +18,12 @@
 
 namespace billet {
 
-/// Files and console of a run: copy of the scene, history, fields, messages and checkpoints. Also handles the
-/// signals that request a checkpoint or the end.
+/// Files and console of a run: copy of the scene, history, fields, messages and checkpoints. Also
+/// handles the signals that request a checkpoint or the end.
 class RunOutput {
 public:
-  /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at time 0.
-  /// Collective.
+  /// Makes the folder, or continues the files in it. `resumption`: null if the run begins at
+  /// time 0. Collective.
   RunOutput(const Scene &scene, MPI_Comm communicator, Diagnostics &diagnostics, Resumption *resumption,
             const RunOptions &options = {});
   ~RunOutput() { diagnostics_.set_print({}); }
@@ -42,8 +42,8 @@ public:
 
   const Checkpoints &checkpoints() const { return checkpoints_; }
   Signals &signals() { return signals_; }
-  /// Writes a checkpoint with the state from `save`. Returns whether that succeeded; a full disk does not end
-  /// the run.
+  /// Writes a checkpoint with the state from `save`. Returns whether that succeeded; a full disk
+  /// does not end the run.
   bool write_checkpoint(double time, const std::function<void(StateWriter &)> &save);
 
   /// Ends a run that has reached its end time. Collective.

@@ -18,8 +18,8 @@ struct BoundaryReport {
   std::size_t n_faces = 0;
   double area = 0.;
   dealii::Tensor<1, 3> centre; ///< of the area
-  dealii::Tensor<1, 3>
-      normal;           ///< unit vector along the sum of all area vectors, out of the body; 0 if that is 0
+  /// Unit vector along the sum of all area vectors, out of the body; 0 if that is 0.
+  dealii::Tensor<1, 3> normal;
   double flatness = 0.; ///< length of that sum over the area: 1 for a plane, 0 for a closed surface
 };
 
@@ -35,11 +35,12 @@ struct BodyReport {
   std::optional<double> smooth_volume;
   /// Volume and mass of the full circle over those of the body, which is a wedge; 1 if it is none.
   double circle_factor = 1.;
-  /// Edges of the elements [length], without those of no length that prisms on an axis have; in the mean,
-  /// each element counts its own.
+  /// Edges of the elements [length], without those of no length that prisms on an axis have; in the
+  /// mean, each element counts its own.
   double min_edge = 0., mean_edge = 0., max_edge = 0.;
-  /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three axes
-  /// through the centre. An axis stands for an edge of no length. 1 for a box, <= 0 if inverted.
+  /// Least scaled Jacobian: the product of three edges' unit vectors at a corner, or of the three
+  /// axes through the centre. An axis stands for an edge of no length. 1 for a box, <= 0 if
+  /// inverted.
   double min_quality = 0.;
   dealii::Tensor<1, 3> worst_element;     ///< centre of the element that has it
   std::vector<BoundaryReport> boundaries; ///< by ascending id
@@ -48,8 +49,8 @@ struct BodyReport {
 /// Gaps at time 0 between nodes and what they may touch.
 struct GapReport {
   std::size_t n_nodes = 0; ///< of the pair's surfaces
-  /// Number of these that are in front of the other surface or behind it, and do not look away. If 0, the
-  /// rest is unset.
+  /// Number of these that are in front of the other surface or behind it, and do not look away. If
+  /// 0, the rest is unset.
   std::size_t n_facing = 0;
   double least = 0., mean = 0.; ///< [length]; a penetration is negative
   dealii::Tensor<1, 3> nearest; ///< node of the least gap
@@ -80,8 +81,8 @@ struct StableStepReport {
   dealii::Tensor<1, 3> element; ///< its centre
   double min_edge = 0.;         ///< of this element [length]
   double step = 0.;             ///< with contact, loads and 'Safety factor' [time]
-  /// Steps that contact makes shorter later, as the prescribed motions bring pairs together: the shortest,
-  /// and when they begin.
+  /// Steps that contact makes shorter later, as the prescribed motions bring pairs together: the
+  /// shortest, and when they begin.
   double shortest = 0., shortest_from = 0.;
   bool is_short_by_contact = false; ///< whether steps are less than a third of that of the elements
 };
@@ -89,9 +90,11 @@ struct StableStepReport {
 /// Forecast of the run.
 struct RunReport {
   std::size_t n_dofs = 0;
-  double memory = 0.;      ///< estimate for all ranks [bytes]
-  double n_steps = 0.;     ///< explicit and fixed steps: about, as the run prints; automatic: at least
-  double max_steps = 0.;   ///< explicit steps if contact lasts from where pairs meet; 0: it shortens none
+  double memory = 0.; ///< estimate for all ranks [bytes]
+  /// Approximate number of explicit and fixed steps, as the run prints; minimum of automatic ones.
+  double n_steps = 0.;
+  /// Number of explicit steps if contact lasts from where pairs meet; 0: it shortens none.
+  double max_steps = 0.;
   bool is_minimum = false; ///< whether there may be many more steps
   std::optional<StableStepReport> stable_step;
 };
@@ -99,8 +102,9 @@ struct RunReport {
 /// The physics of a scene at its start, for --check. The same on all ranks.
 struct SceneReport {
   std::vector<BodyReport> bodies;
-  std::vector<PairReport> pairs; ///< those with tools first; none for a restart, which begins deformed
-  std::optional<RunReport> run;  ///< none for a restart
+  /// Reports of pairs, those with tools first; none for a restart, which begins deformed.
+  std::vector<PairReport> pairs;
+  std::optional<RunReport> run; ///< none for a restart
 };
 
 } // namespace billet

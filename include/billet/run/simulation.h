@@ -10,10 +10,10 @@
 
 namespace billet {
 
-/// Runs a scene on its mesh as given, from start to end, or from a checkpoint. Throws InputError before
-/// anything is written, SolutionFailure after all results are on disk. Returns the exit code: success,
-/// warnings, target_missed, or stopped by a signal. A run that would resume at its own end reports that, and
-/// is a success. Collective.
+/// Runs a scene on its mesh as given, from start to end, or from a checkpoint. Throws InputError
+/// before anything is written, SolutionFailure after all results are on disk. Returns the exit
+/// code: success, warnings, target_missed, or stopped by a signal. A run that would resume at its
+/// own end reports that, and is a success. Collective.
 ExitCode run_simulation(const parameters::Scene &parameters, MPI_Comm communicator,
                         const RunOptions &options = {});
 

@@ -22,8 +22,8 @@ private:
   std::vector<double> stops_; ///< ascending; the last is the end
 };
 
-/// Schedule of what an explicit scene does at intervals: at the start, at the end of the first step that
-/// reaches the next multiple of the interval, and at the end.
+/// Schedule of what an explicit scene does at intervals. These are the start, the end of the first
+/// step that reaches the next multiple of the interval, and the end.
 class RegularTimes {
 public:
   static constexpr double n_by_default = 200.;

@@ -11,11 +11,12 @@
 
 namespace billet {
 
-/// Returns the least id, less one, that groups of a mesh file may get beside their numbers: more than any id
-/// that the scene gives.
+/// Returns the least id, less one, that groups of a mesh file may get beside their numbers: more
+/// than any id that the scene gives.
 unsigned int min_new_id(const parameters::Mesh &mesh);
 
-/// Parameters of a scene with the ids of all boundaries that it names, and what could not be resolved.
+/// Parameters of a scene with the ids of all boundaries that it names, and what could not be
+/// resolved.
 struct ResolvedScene {
   parameters::Scene parameters;
   std::vector<BoundaryNames> names = {}; ///< of each body
@@ -24,8 +25,8 @@ struct ResolvedScene {
   bool has_meshes = true;                    ///< whether all mesh files could be read
 };
 
-/// Returns the scene with the ids of all boundaries that it names, and of all groups whose numbers it has, or
-/// errors for unknown names. Reads mesh files.
+/// Returns the scene with the ids of all boundaries that it names, and of all groups whose numbers
+/// it has, or errors for unknown names. Reads mesh files.
 ResolvedScene resolve_boundaries(parameters::Scene scene);
 
 } // namespace billet

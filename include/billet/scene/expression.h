@@ -16,13 +16,14 @@ namespace billet {
 /// Returns the value of an amplitude at time t.
 double evaluate_amplitude(const parameters::Amplitude &amplitude, double t);
 
-/// Returns the times, ascending, at which the amplitude reverses, starts, stops, or changes its rate by a
-/// factor of more than two. There the rates of adjacent segments differ by more than half of the greater;
-/// before and after all points the rate is 0. A step across such a time would miss the corner.
+/// Returns the times, ascending, at which the amplitude reverses, starts, stops, or changes its
+/// rate by a factor of more than two. There the rates of adjacent segments differ by more than half
+/// of the greater; before and after all points the rate is 0. A step across such a time would miss
+/// the corner.
 std::vector<double> corners(const parameters::Amplitude &amplitude);
 
-/// muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the position x,
-/// y, z.
+/// muParser expression of the time t, the amplitudes by their names, pi and, where allowed, the
+/// position x, y, z.
 class Expression {
 public:
   using Variables = ExpressionVariables;
@@ -43,7 +44,8 @@ private:
   std::string variables_;
   std::vector<parameters::Amplitude> amplitudes_;
   bool is_uniform_ = true;
-  // The parser treats amplitudes as constants. If the text has any, it is rebuilt when the time changes.
+  // The parser treats amplitudes as constants. If the text has any, it is rebuilt when the time
+  // changes.
   mutable std::unique_ptr<dealii::FunctionParser<3>> parser_;
   mutable double parsed_time_ = 0.;
   mutable bool uses_amplitudes_ = false;

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Compares the tangents of users' laws with differences of their stresses, in scenes that need tangents.
-/// Throws SolutionFailure if a law crashes.
+/// Compares the tangents of users' laws with differences of their stresses, in scenes that need
+/// tangents. Throws SolutionFailure if a law crashes.
 DiagnosticList check_user_laws(const Scene &scene);
 
 /// Measures how much plastic work heats each body, and warns where units cannot fit each other.

@@ -26,11 +26,12 @@ struct LoadedMesh {
   NearNodes near_nodes;
 };
 
-/// Reads the mesh file of a body: of a section, as extrude_plane() makes it a layer. The first two new ids of
-/// its groups are then those of both sides. Throws InputError.
+/// Reads the mesh file of a body: of a section, as extrude_plane() makes it a layer. The first two
+/// new ids of its groups are then those of both sides. Throws InputError.
 LoadedMesh load_mesh_file(const parameters::Mesh &parameters);
 
-/// Builds the mesh of one body. `sets`: if given, gets the node sets of its file. Throws InputError.
+/// Builds the mesh of one body. `sets`: if given, gets the node sets of its file. Throws
+/// InputError.
 void build_body_mesh(const parameters::Body &body, MeshDetail detail, dealii::Triangulation<3> &mesh,
                      NodeSets *sets = nullptr);
 
@@ -40,8 +41,8 @@ bool has_curves(const parameters::Mesh &parameters);
 /// Returns the number of elements of the full mesh, from its outline and the requested refinements.
 std::size_t count_full_elements(const parameters::Mesh &parameters, const dealii::Triangulation<3> &outline);
 
-/// Merges all bodies into one unrefined mesh, without shared nodes: cell material ids are the indices of
-/// `meshes`, boundary ids are kept.
+/// Merges all bodies into one unrefined mesh, without shared nodes: cell material ids are the
+/// indices of `meshes`, boundary ids are kept.
 void merge_bodies(const std::vector<const dealii::Triangulation<3> *> &meshes,
                   dealii::Triangulation<3> &merged);
 

@@ -12,7 +12,8 @@
 
 namespace billet {
 
-/// Finds the nodes that supports and loads of one body select. Builds its mesh once, for the first of them.
+/// Finds the nodes that supports and loads of one body select. Builds its mesh once, for the first
+/// of them.
 class NodeFinder {
 public:
   explicit NodeFinder(const parameters::Body &body) : body_(body) {}

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Undeformed positions of nodes of one body, without repetitions. Positions identify nodes over all ranks:
-/// meshes have the same numbers wherever they are made.
+/// Undeformed positions of nodes of one body, without repetitions. Positions identify nodes over
+/// all ranks: meshes have the same numbers wherever they are made.
 class NodePlaces {
 public:
   explicit NodePlaces(const std::vector<dealii::Point<3>> &points);

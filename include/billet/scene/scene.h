@@ -63,14 +63,16 @@ struct Constraint {
   unsigned int component = 0;        ///< of these axes
   SupportTimes times;
 
-  /// Distance from a plane or an axis, relative to the size of the body, below which a place is on it.
+  /// Distance from a plane or an axis, relative to the size of the body, below which a place is on
+  /// it.
   static constexpr double rounding = 1e-8;
 
   /// Returns the unit normal at an undeformed position.
   dealii::Tensor<1, 3> direction(const dealii::Tensor<1, 3> &position) const {
     return axes ? axes->at(position)[component] : normal;
   }
-  /// Whether it has a direction there: on the line of cylindrical axes, none is radial or circumferential.
+  /// Whether it has a direction there: on the line of cylindrical axes, none is radial or
+  /// circumferential.
   bool has_direction(const dealii::Tensor<1, 3> &position, const double tolerance) const {
     return !axes || !axes->are_cylindrical() || component == 2 || axes->radius(position) > tolerance;
   }
@@ -90,7 +92,8 @@ struct LoadTimes {
   bool changes_at(const double t) const {
     return acts_after(t) != acts_after(t * (1. - 4. * times::rounding)) && t > 0.;
   }
-  /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none yet.
+  /// Returns the factor of the load at time t. At `from` itself, the end of a step, there is none
+  /// yet.
   double factor(const double t) const {
     if (from > 0. && !times::is_after(t, from))
       return 0.;
@@ -120,7 +123,8 @@ struct Body {
   std::string name;
   BoundaryNames boundary_names; ///< of its mesh
   std::shared_ptr<const PointLaw> law;
-  std::size_t material; ///< its number, the same for bodies whose materials have the same parameters
+  /// Number of the material, the same for bodies whose materials have the same parameters.
+  std::size_t material;
   ElementFormulation formulation; ///< for implicit scenes
   double young_modulus;
   double max_modulus;                      ///< uniaxial-strain modulus, K + 4/3 G [stress]
@@ -142,8 +146,8 @@ struct InitialOverlap {
 
   /// Whether a gap counts as closed.
   bool closes(const double gap) const { return gap > 0. && gap <= closed_gap; }
-  /// Returns the part of an initial penetration `penetration` that counts as none. A depth < 0 is an initial
-  /// gap that counts as closed permanently.
+  /// Returns the part of an initial penetration `penetration` that counts as none. A depth < 0 is
+  /// an initial gap that counts as closed permanently.
   static double counted(const double penetration, const double part) {
     return penetration > 0. ? part * penetration : penetration;
   }
@@ -152,9 +156,9 @@ struct InitialOverlap {
   double allowed_part(const double t) const { return ramp_time > 0. ? std::max(0., 1. - t / ramp_time) : 1.; }
 };
 
-/// Returns the length h of penalties E/h. It is the facet size, or, for default penalties in dynamics, the
-/// element thickness if that is smaller. Thin elements shorten the stable step enough for such stiff springs;
-/// springs of wide facets would be as soft as these elements.
+/// Returns the length h of penalties E/h. It is the facet size, or, for default penalties in
+/// dynamics, the element thickness if that is smaller. Thin elements shorten the stable step enough
+/// for such stiff springs; springs of wide facets would be as soft as these elements.
 inline double penalty_length(const bool counts_thickness, const double facet_size, const double thickness) {
   return counts_thickness ? std::min(facet_size, thickness) : facet_size;
 }
@@ -168,7 +172,8 @@ struct PairSettings {
   bool penalty_counts_thickness; ///< see penalty_length()
   double normal_penalty, tangential_penalty;
   std::optional<double> penetration_tolerance; ///< [facet sizes]; 0: pure penalty; none: (L7)
-  bool is_raised;                              ///< in dynamics, while penetration is too large, (L8)
+  /// Whether it is raised in dynamics while penetration is too large, (L8).
+  bool is_raised;
   InitialOverlap overlap;
 
   /// Whether augmentation continues until penetration is a small part of the deformation.
@@ -184,8 +189,8 @@ struct ContactPair : PairSettings {
   std::vector<unsigned int> boundary_ids;
   std::size_t tool;
 
-  /// Returns k [force/length³] from the scene's number, for a penalty_length() h on a body with Young's
-  /// modulus E.
+  /// Returns k [force/length³] from the scene's number, for a penalty_length() h on a body with
+  /// Young's modulus E.
   double scaled_penalty(const double penalty, const double young_modulus, const double h) const {
     return penalty_is_factor ? penalty * young_modulus / h : penalty;
   }
@@ -235,16 +240,17 @@ public:
   /// Returns the scene's choice, with `automatic` resolved.
   parameters::ContactTangent contact_tangent() const { return contact_tangent_; }
 
-  /// Returns the times at which something begins or ends, so that a step has to end there. In implicit
-  /// schemes they include corners() of amplitudes in use, unless they are close to another stop.
+  /// Returns the times at which something begins or ends, so that a step has to end there. In
+  /// implicit schemes they include corners() of amplitudes in use, unless they are close to another
+  /// stop.
   std::vector<double> stops() const;
 
-  /// Returns for x, y, z whether the direction is unconstrained and unloaded: no support, symmetry plane,
-  /// tool or load.
+  /// Returns for x, y, z whether the direction is unconstrained and unloaded: no support, symmetry
+  /// plane, tool or load.
   std::array<bool, 3> free_directions() const;
 
-  /// Builds the meshes of all bodies in one; see merge_bodies(). Checks boundary ids, nodes on symmetry
-  /// planes, supports and initial penetration. Throws InputError. Serial.
+  /// Builds the meshes of all bodies in one; see merge_bodies(). Checks boundary ids, nodes on
+  /// symmetry planes, supports and initial penetration. Throws InputError. Serial.
   void build_mesh(MeshDetail detail, dealii::Triangulation<3> &mesh) const;
 
   /// Returns the number of elements of all bodies, from the outlines of the meshes.
@@ -278,8 +284,8 @@ private:
   /// Notes all errors that show on the meshes, except about the support of unsound bodies.
   void check_on_mesh(const dealii::Triangulation<3> &mesh, MeshDetail detail, ErrorNotes &errors,
                      std::set<std::size_t> unsound) const;
-  /// Refuses a static body that supports which begin or end leave free, after the last of its tools is
-  /// removed. Returns false if it has no such supports.
+  /// Refuses a static body that supports which begin or end leave free, after the last of its tools
+  /// is removed. Returns false if it has no such supports.
   bool check_support_times(std::size_t b, const dealii::Triangulation<3> &mesh, double last_removal) const;
   void check_initial_penetration(const dealii::Triangulation<3> &mesh) const;
 

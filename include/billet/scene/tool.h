@@ -21,8 +21,8 @@ public:
   const RigidSurface &surface() const { return *surface_; }
   /// Returns the shapes of the surface's parts in words.
   const std::string &shapes() const { return shapes_; }
-  /// Returns the placement of the prescribed motion plus `offset`: along the force direction [length], or,
-  /// for a tool with a moment, about its axis [radians].
+  /// Returns the placement of the prescribed motion plus `offset`: along the force direction
+  /// [length], or, for a tool with a moment, about its axis [radians].
   Placement placement(double t, double offset = 0.) const;
   using Control = parameters::Motion::Control;
   Control control() const { return control_; }
@@ -30,7 +30,8 @@ public:
   bool is_driven() const { return control_ == Control::force || control_ == Control::moment; }
   /// Returns the unit direction of a force or a stop force.
   const dealii::Tensor<1, 3> &force_direction() const { return force_direction_; }
-  /// Returns the force or moment that drives it or stops it. Throws SolutionFailure if a force is negative.
+  /// Returns the force or moment that drives it or stops it. Throws SolutionFailure if a force is
+  /// negative.
   double load(double t) const;
   double removal_time() const { return removal_time_; }
   double release_time() const { return release_time_; }

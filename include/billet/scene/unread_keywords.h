@@ -11,8 +11,8 @@
 
 namespace billet {
 
-/// Returns a note about the keywords of a mesh file that are not read, with what takes their place in a
-/// scene; none if there are none.
+/// Returns a note about the keywords of a mesh file that are not read, with what takes their place
+/// in a scene. Returns nothing if there are none.
 DiagnosticList describe_unread_keywords(const std::map<std::string, std::size_t> &unread,
                                         const Located<std::string> &file, const std::string &body);
 

@@ -13,21 +13,23 @@ namespace billet {
 class ContactLosses {
 public:
   enum Cause {
-    impacts,   ///< steps damped by (I4): springs that close, open or change their length within a step
-    friction,  ///< the tangential springs in such steps, (E4) with θ = 0
-    crossings, ///< undamped steps: nodes that enter or leave within a step, areas and facets that change
+    /// Steps damped by (I4): springs that close, open or change their length within a step.
+    impacts,
+    friction, ///< the tangential springs in such steps, (E4) with θ = 0
+    /// Undamped steps: nodes that enter or leave within a step, areas and facets that change.
+    crossings,
     n_causes
   };
 
   void add(const Cause cause, const double energy) { energies_[cause] += energy; }
-  /// Subtracts up to this energy from the losses by crossings, then from those by impacts. Returns the energy
-  /// that was subtracted.
+  /// Subtracts up to this energy from the losses by crossings, then from those by impacts. Returns
+  /// the energy that was subtracted.
   double give_back(double energy);
   double of(const Cause cause) const { return energies_[cause]; }
   double total() const;
 
-  /// Returns a warning if the total exceeds a twentieth of the largest energy, and again whenever its part
-  /// has doubled.
+  /// Returns a warning if the total exceeds a twentieth of the largest energy, and again whenever
+  /// its part has doubled.
   DiagnosticList watch(double max_energy, double time);
 
   std::vector<double> save() const;

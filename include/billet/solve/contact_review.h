@@ -18,42 +18,45 @@ namespace billet {
 
 /// Distribution of a pair's force over nodes, each counted with its mirror images.
 struct ForceSpread {
-  double force = 0., squares = 0.;                          ///< Σ m F, Σ m F²
-  double nodes = 0., pressures = 0., pressure_squares = 0.; ///< Σ 1, Σ p, Σ p² of the nodes themselves
+  double force = 0., squares = 0.; ///< Σ m F, Σ m F²
+  /// Σ 1, Σ p, Σ p² of the nodes themselves.
+  double nodes = 0., pressures = 0., pressure_squares = 0.;
   double on_coarse_curves = 0.; ///< force of nodes with fewer than five facets on a quarter turn
   double coarsest = 0.;         ///< facet size / radius of the tool, largest
-  /// Energy Σ F²/(2 E h) of the indentation by single nodes, and the energy of all deformation and contact at
-  /// that time [energy].
+  /// Energy Σ F²/(2 E h) of the indentation by single nodes, and the energy of all deformation and
+  /// contact at that time [energy].
   double indentation = 0., deformation = 0.;
 
   /// Returns the number of equal forces with the same spread: (Σ m F)²/Σ m F².
   double effective_nodes() const { return squares > 0. ? force * force / squares : 0.; }
   /// Whether pressures are uniform, as between flat faces, which need no more nodes.
   bool is_uniform() const;
-  /// Whether the nodes are too few to resolve the indentation, if its energy is a relevant part of the
-  /// deformation. For a strip that bends over a roll one row of nodes is enough.
+  /// Whether the nodes are too few to resolve the indentation, if its energy is a relevant part of
+  /// the deformation. For a strip that bends over a roll one row of nodes is enough.
   bool has_few_nodes() const;
   bool is_coarse_on_curves() const;
 };
 
-/// Reviews contact over a whole run. It checks the part of penetration in each load path's deformation, pairs
-/// with few contact nodes, and facets that are coarse for the tool's radius. It also checks for tangential
-/// penalties that are too low, pairs and tools without contact, and implausible forces.
+/// Reviews contact over a whole run. It checks the part of penetration in each load path's
+/// deformation, pairs with few contact nodes, and facets that are coarse for the tool's radius. It
+/// also checks for tangential penalties that are too low, pairs and tools without contact, and
+/// implausible forces.
 class ContactReview {
 public:
   ContactReview(const Scene &scene, const Discretization &discretization);
 
-  /// Adds an accepted step; in explicit scenes a step now and then. Returns what it shows of forces that are
-  /// past their maximum. Collective.
+  /// Adds an accepted step; in explicit scenes a step now and then. Returns what it shows of forces
+  /// that are past their maximum. Collective.
   DiagnosticList add(const Solution &solution);
   /// Returns the diagnostics at the end of the run.
   DiagnosticList finish() const;
 
-  /// Returns the part by which penetration makes forces too small, along the softest load path, (L6); 0 if it
-  /// is below the limit of the warning.
+  /// Returns the part by which penetration makes forces too small, along the softest load path,
+  /// (L6). Returns 0 if it is below the limit of the warning.
   double penalty_error() const;
 
-  /// Whether no pair has facets that are too coarse for its tool's curves, or too few nodes that bear force.
+  /// Whether no pair has facets that are too coarse for its tool's curves, or too few nodes that
+  /// bear force.
   bool is_resolved() const;
 
   /// Whether any surface has touched itself.
@@ -73,9 +76,11 @@ private:
     bool has_touched = false;
     double max_force = 0., time = 0.; ///< of the largest force
     ForceSpread spread;               ///< at the largest force
-    StickSoftness max_friction;       ///< largest friction and largest lost friction, each over the run
-    double max_of_edges = 0.;         ///< lower bound of the force on crossing edges [force]
-    bool is_spread_reported = false;  ///< whether few nodes at the largest force so far were reported
+    /// Largest friction and largest lost friction, each over the run.
+    StickSoftness max_friction;
+    double max_of_edges = 0.; ///< lower bound of the force on crossing edges [force]
+    /// Whether few nodes at the largest force so far were reported.
+    bool is_spread_reported = false;
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
@@ -90,11 +95,13 @@ private:
   const Discretization &discretization_;
   /// Numbers of mirror images of a node by symmetry planes.
   struct Images {
-    double apart = 1., on_it = 1.; ///< by planes away from it, itself included; by planes through it
+    /// Images by planes away from it, itself included; images by planes through it.
+    double apart = 1., on_it = 1.;
   };
   std::map<DofIndex, Images> images_; ///< by first dof, on this rank
-  std::vector<double> sections_;      ///< of the bodies: the largest face of the bounding box [length²]
-  std::vector<Pair> pairs_;           ///< with tools first
+  /// Largest face of the bounding box of each body [length²].
+  std::vector<double> sections_;
+  std::vector<Pair> pairs_; ///< with tools first
   std::vector<LoadPath> paths_;
   std::vector<PathSoftness> softness_; ///< by path
   std::vector<double> tool_forces_;    ///< largest, by tool

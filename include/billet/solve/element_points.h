@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// States of the points of an element, and its axis through the thickness if there are more than two along
-/// it.
+/// States of the points of an element, and its axis through the thickness if there are more than
+/// two along it.
 struct ElementPoints {
   ElementStress stress;
   ThicknessAxis axis = {};
@@ -19,7 +19,8 @@ struct ElementPoints {
 class HasElementPoints {
 public:
   virtual ~HasElementPoints() = default;
-  /// Returns one entry for each owned element of the body, in the order of Discretization::elements().
+  /// Returns one entry for each owned element of the body, in the order of
+  /// Discretization::elements().
   virtual std::vector<ElementPoints> element_points(std::size_t body) const = 0;
 };
 

@@ -12,11 +12,11 @@
 
 namespace billet {
 
-/// Compares the elements of each body with elements that are accurate in bending, (L1) of doc/theory.md.
-/// Warns of elements that are too stiff or too soft. The final warning refers to the state of largest
-/// deformation energy, or to the last state if it is still loaded. In statics a note is printed at the first
-/// loaded step. A sheet that bends first and is stretched later may be inaccurate there and accurate in the
-/// end.
+/// Compares the elements of each body with elements that are accurate in bending, (L1) of
+/// doc/theory.md. Warns of elements that are too stiff or too soft. The final warning refers to the
+/// state of largest deformation energy, or to the last state if it is still loaded. In statics a
+/// note is printed at the first loaded step. A sheet that bends first and is stretched later may be
+/// inaccurate there and accurate in the end.
 class ElementWatch {
 public:
   ElementWatch(const Scene &scene, const Discretization &discretization);
@@ -24,8 +24,9 @@ public:
   /// Checks an accepted step. Collective.
   DiagnosticList watch(const SolutionState &state, bool is_last);
 
-  /// Returns the relative error of forces (of driven tools) over all bodies at the last comparison. If they
-  /// are too large, it is a lower bound; if too small, an estimate. It is 0 if no body is doubtful.
+  /// Returns the relative error of forces (of driven tools) over all bodies at the last comparison.
+  /// If they are too large, it is a lower bound; if too small, an estimate. It is 0 if no body is
+  /// doubtful.
   double error() const;
   /// Returns the energies of the bodies at the last comparison.
   const std::vector<ElementEnergies> &energies() const { return energies_; }
@@ -41,8 +42,9 @@ public:
 
 private:
   void compare(const SolutionState &state);
-  /// Returns warnings about plastic bending, (L3) and (L10): of bodies with too few one-point elements
-  /// through the thickness, or with flow between the points of assumed-strain bricks or at their faces.
+  /// Returns warnings about plastic bending, (L3) and (L10). They concern bodies with too few
+  /// one-point elements through the thickness, or with flow between the points of assumed-strain
+  /// bricks or at their faces.
   DiagnosticList judge_bending() const;
   /// Returns warnings about probes that read stresses of one-point elements that bend.
   DiagnosticList judge_probes() const;

@@ -12,8 +12,9 @@
 
 namespace billet {
 
-/// Controls the steps of a static scene, and the penetration allowed, by one ErrorControl for each group of
-/// ImplicitSolution::Results. Makes the measurements that these need. The strictest control decides.
+/// Controls the steps of a static scene, and the penetration allowed, by one ErrorControl for each
+/// group of ImplicitSolution::Results. Makes the measurements that these need. The strictest
+/// control decides.
 class ErrorWatch {
 public:
   /// Whether the scene has an 'Error tolerance' of steps or a 'Target error'.
@@ -23,8 +24,8 @@ public:
   /// Begins at this time, from the state of another method.
   void begin(double time);
 
-  /// Tries a step of twice the length and steps back, if a measurement is due before the next step. Returns
-  /// the iterations of the measurement. `previous_step`: see ImplicitSolution::step().
+  /// Tries a step of twice the length and steps back, if a measurement is due before the next step.
+  /// Returns the iterations of the measurement. `previous_step`: see ImplicitSolution::step().
   unsigned int before_step(StepControl &control, double previous_step);
   /// Updates the controls after an accepted step of this length, and control.accept().
   void after_step(StepControl &control, double length, const NewtonReport &report);
@@ -46,13 +47,15 @@ public:
   /// Whether steps, or penetration, are a source of errors in this scene.
   bool measures_steps() const { return measures_steps_; }
   bool measures_penetration() const { return measures_penetration_; }
-  /// Returns messages before the end of the run: very many steps remain, or no step can be compared any more.
+  /// Returns messages before the end of the run: very many steps remain, or no step can be compared
+  /// any more.
   DiagnosticList check(const StepControl &control) const;
   /// Returns the iterations of all measurements.
   unsigned int n_iterations() const { return n_iterations_; }
 
   void save(StateWriter &writer) const;
-  /// Loads the controls. If the earlier run had no account of some or all results, these start at begin().
+  /// Loads the controls. If the earlier run had no account of some or all results, these start at
+  /// begin().
   void load(StateReader &reader);
 
 private:
@@ -73,7 +76,8 @@ private:
   double residual_factor_;             ///< residual of a resultant force over that of nodal forces
   double end_time_;
   bool measures_steps_, measures_penetration_, controls_penetration_;
-  double accuracy_of_measurements_; ///< residual tolerance of steps that are compared, over that of others
+  /// Residual tolerance of steps that are compared, over that of others.
+  double accuracy_of_measurements_;
   ImplicitSolution::Probe probe_;
   double probe_length_ = 0.; ///< length of the two steps that are compared with the probe; 0: none
   double probe_end_ = 0.;

@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Returns a warning for each pair whose tool penetrates facets between their nodes by more than a tenth of
-/// the facets' present length.
+/// Returns a warning for each pair whose tool penetrates facets between their nodes by more than a
+/// tenth of the facets' present length.
 DiagnosticList check_facet_penetrations(const Scene &scene, const Solution &solution);
 
 } // namespace billet

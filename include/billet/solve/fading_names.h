@@ -10,8 +10,8 @@
 
 namespace billet {
 
-// Checkpoints name the supports and pairs whose forces fade. A scene that resumes may not have them; their
-// index is then empty.
+// Checkpoints name the supports and pairs whose forces fade. A scene that resumes may not have
+// them; their index is then empty.
 
 /// Saves the names of supports by their indices in named_supports(); nothing if there are none.
 void save_fading_supports(StateWriter &writer, const Scene &scene,

@@ -17,8 +17,8 @@ public:
 
   /// Begins at this time.
   void begin(const double time) { time_ = start_ = time; }
-  /// Sets the least size that forces count with: errors of forces far below it matter little. It is a
-  /// function of the last accepted state, and not part of checkpoints.
+  /// Sets the least size that forces count with: errors of forces far below it matter little. It is
+  /// a function of the last accepted state, and not part of checkpoints.
   void set_min_size(const double size) { min_size_ = size; }
   /// Returns S of these forces, at least the least size.
   double size_of(const ResultGroup &forces) const { return std::max(billet::size_of(forces), min_size_); }
@@ -36,8 +36,8 @@ public:
   double force() const { return force_; }
   /// Returns ∫S dt.
   double work() const { return work_; }
-  /// Returns a reference value of the forces: the largest of S now, its mean so far, and its extrapolated
-  /// mean.
+  /// Returns a reference value of the forces: the largest of S now, its mean so far, and its
+  /// extrapolated mean.
   double scale() const;
 
   // For checkpoints.

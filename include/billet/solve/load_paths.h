@@ -9,11 +9,13 @@
 
 namespace billet {
 
-/// Bodies that contact pairs connect, directly or by others, and the pairs. Forces pass through all of them,
-/// and their penetrations add up. Tools are rigid and connect nothing.
+/// Bodies that contact pairs connect, directly or by others, and the pairs. Forces pass through all
+/// of them, and their penetrations add up. Tools are rigid and connect nothing.
 struct LoadPath {
   std::vector<std::size_t> bodies, pairs;
-  bool bears_given_loads = false; ///< on bodies or driven tools: its forces are right at any penalty
+  /// Whether it bears given loads, on bodies or driven tools. Then its forces are right at any
+  /// penalty.
+  bool bears_given_loads = false;
 };
 /// Finds the load paths. `bodies_of`: the one or two bodies of each pair.
 std::vector<LoadPath> find_load_paths(std::size_t n_bodies,

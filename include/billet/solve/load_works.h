@@ -20,7 +20,8 @@ public:
   /// Computes the forces at time t, and adds them to `sum`.
   void evaluate(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                 NodalVectors &sum);
-  /// Does the same with the loads that act after t, the end of a step at which loads may begin or end.
+  /// Does the same with the loads that act after t, the end of a step at which loads may begin or
+  /// end.
   void evaluate_after(double t, const NodalVectors &displacements, const NodalVectors &velocities,
                       NodalVectors &sum);
   /// Whether the force of a load jumps at t: it begins there, or it ends and does not fade.

@@ -11,19 +11,23 @@
 
 namespace billet {
 
-/// Estimates the error that the size of the elements makes in the forces, (W4) and (W5) of doc/theory.md. On
-/// the exact solution tractions pass from element to element without a jump. The jumps, and how easily the
-/// elements deform, yield the work that finer elements would save; over the work of deformation, this is the
-/// relative error of the forces that do it, ∫|F − F*| ds over ∫|F| ds. It is no bound: elements much larger
-/// than what they resolve hide their error. The error of flat facets in place of curved surfaces is apart,
-/// (W8).
+/// Estimates the error that the size of the elements makes in the forces, (W4) and (W5) of
+/// doc/theory.md. On the exact solution tractions pass from element to element without a jump. The
+/// jumps, and how easily the elements deform, yield the work that finer elements would save. Over
+/// the work of deformation, this is the relative error of the forces that do it, ∫|F − F*| ds over
+/// ∫|F| ds.
+///
+/// It is no bound: elements much larger than what they resolve hide their error. The error of flat
+/// facets in place of curved surfaces is apart, (W8).
 class MeshErrors {
 public:
-  /// `fixed_nodes`: first dofs of nodes that supports hold in all directions, by collect_fixed_nodes().
+  /// `fixed_nodes`: first dofs of nodes that supports hold in all directions, by
+  /// collect_fixed_nodes().
   MeshErrors(const Discretization &discretization, const std::set<DofIndex> &fixed_nodes);
 
-  /// Adds a state; the first one begins. An interval of (W4) reaches over the states until one that ends it,
-  /// with their mean stresses, so that waves to and fro in it cancel. Collective.
+  /// Adds a state; the first one begins. An interval of (W4) reaches over the states until one that
+  /// ends it. It has their mean stresses, so that waves in opposite directions in it cancel.
+  /// Collective.
   void add(const Solution &solution, bool ends_interval = true);
 
   /// Whether add() has been called.
@@ -34,17 +38,19 @@ public:
   double error() const;
   /// Returns the part of it that each body makes.
   std::vector<double> of_bodies() const;
-  /// Whether the jumps can tell the error, (W9). They cannot if much of the strain varies within elements
-  /// that have no neighbour on either side, such as those of a wall of one element that bends. Nor can they
-  /// where supports hold all nodes of an element, as in a bonded layer of one element.
+  /// Whether the jumps can tell the error, (W9). They cannot if much of the strain varies within
+  /// elements that have no neighbour on either side. Examples are those of a wall of one element
+  /// that bends. Nor can they where supports hold all nodes of an element, as in a bonded layer of
+  /// one element.
   bool sees_variation() const;
-  /// Returns the part of the work of deformation that the space between the facets and the smooth surfaces
-  /// would do if it deformed as the elements at the facets do, (W8): the relative error of the geometry.
+  /// Returns the relative error of the geometry, (W8). It is the part of the work of deformation
+  /// that the space between the facets and the smooth surfaces would do. The space is assumed to
+  /// deform as the elements at the facets do.
   double geometry_error() const;
   /// Returns the part of it that each body makes.
   std::vector<double> geometry_of_bodies() const;
-  /// Returns an owned element's error so far, per volume, over the work per volume of all bodies: its mean
-  /// over the undeformed volume is the relative error.
+  /// Returns an owned element's error so far, per volume, over the work per volume of all bodies.
+  /// Its mean over the undeformed volume is the relative error.
   double of_element(std::size_t body, std::size_t element) const;
 
   void save(StateWriter &writer) const;
@@ -58,9 +64,11 @@ private:
     Stress stress_sum{};            ///< over the states of the interval, its ends by half [stress]
     ElementVectors displacements{}; ///< at the start of the interval [length]
     double error = 0.;              ///< work that finer elements would save so far [energy]
-    double outside = 0.;            ///< volume between its facets and the smooth surface, over its own
-    std::array<bool, 3> is_alone{}; ///< whether it has no neighbour on either side, by its own direction
-    bool is_fixed = false;          ///< whether supports hold all of its nodes
+    /// Volume between its facets and the smooth surface, over its own.
+    double outside = 0.;
+    /// Whether it has no neighbour on either side, in each of its own directions.
+    std::array<bool, 3> is_alone{};
+    bool is_fixed = false; ///< whether supports hold all of its nodes
   };
   /// Element in an interval.
   struct Interval {
@@ -76,7 +84,8 @@ private:
   static OwnedElement part_of(const OwnedElement &element, unsigned int child);
   Interval compare(const ElementVectors &positions, const OwnedElement &element,
                    const ElementVectors &displacements) const;
-  /// Computes the interval of the owned elements, and gets that of the ghost elements. By active cell index.
+  /// Computes the interval of the owned elements, and gets that of the ghost elements. By active
+  /// cell index.
   std::vector<Interval> compare_all(const Solution &solution);
   /// Compares the facets of each element with the smooth surface.
   void measure_facets();
@@ -88,13 +97,15 @@ private:
 
   const Discretization &discretization_;
   bool has_begun_ = false;
-  unsigned int n_states_ = 0;                       ///< in the interval so far, without that at its start
+  /// Number in the interval so far, without that at its start.
+  unsigned int n_states_ = 0;
   std::vector<std::vector<OwnedElement>> elements_; ///< by body
   std::vector<double> errors_;                      ///< by body, of all ranks [energy]
   double work_ = 0.;                                ///< ∫|dW| of all elements of all ranks [energy]
-  std::vector<double> work_outside_;                ///< the same of the space beyond the facets, by body
-  double squared_strain_ = 0., unseen_ = 0.;        ///< see Interval, of all elements of all ranks
-  double volume_ = 0.;                              ///< of all undeformed bodies [length³]
+  /// Work of the space beyond the facets, by body.
+  std::vector<double> work_outside_;
+  double squared_strain_ = 0., unseen_ = 0.; ///< see Interval, of all elements of all ranks
+  double volume_ = 0.;                       ///< of all undeformed bodies [length³]
 };
 
 } // namespace billet

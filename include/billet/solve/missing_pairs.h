@@ -13,18 +13,19 @@
 
 namespace billet {
 
-/// Finds bodies that penetrate each other, a tool, or themselves where no contact pair connects the faces
-/// that meet. Bodies and tools all of whose faces are in pairs need no check.
+/// Finds bodies that penetrate each other, a tool, or themselves where no contact pair connects the
+/// faces that meet. Bodies and tools all of whose faces are in pairs need no check.
 ///
-/// For two bodies with overlapping bounding boxes, a surface node of one counts if it is inside an element of
-/// the other. Its depth below the surface must exceed a tenth of a facet or a fifth of the element's
-/// thickness there, whichever is smaller. Faces on symmetry planes, as of a wedge, are not surfaces. The node
-/// does not count if both it and the nearest face are in pairs of the two bodies. Bodies that overlap at the
-/// start are left out.
+/// For two bodies with overlapping bounding boxes, a surface node of one counts if it is inside an
+/// element of the other. Its depth below the surface must exceed a tenth of a facet or a fifth of
+/// the element's thickness there, whichever is smaller. Faces on symmetry planes, as of a wedge,
+/// are not surfaces. The node does not count if both it and the nearest face are in pairs of the
+/// two bodies. Bodies that overlap at the start are left out.
 ///
-/// A node that is in no pair with a tool counts as inside it under two conditions. It was in front of the
-/// tool at the last check. It is now behind by a tenth of a facet more than the nodes in pairs. A body
-/// without a pair with itself penetrates itself if the centre of a facet is well within an element.
+/// A node that is in no pair with a tool counts as inside it under two conditions. It was in front
+/// of the tool at the last check. It is now behind by a tenth of a facet more than the nodes in
+/// pairs. A body without a pair with itself penetrates itself if the centre of a facet is well
+/// within an element.
 class MissingPairs {
 public:
   /// Collective.
@@ -44,8 +45,8 @@ private:
     dealii::Point<3> position; ///< undeformed
     double facet_size;         ///< the smallest around it [length]
   };
-  /// Flags of the nodes and facets of a surface, in the order of nodes_ and facets_, that are in pairs of the
-  /// couple.
+  /// Flags of the nodes and facets of a surface, in the order of nodes_ and facets_, that are in
+  /// pairs of the couple.
   struct Named {
     std::vector<bool> nodes, facets;
   };
@@ -68,8 +69,8 @@ private:
   bool is_complete(const Couple &couple) const;
   Positions positions_at(const Vector *displacements) const;
   std::vector<BoundingBox> boxes_around(const Positions &positions) const;
-  /// Finds the deepest node of the couple's first body in the other, whose boxes overlap, or the reverse.
-  /// Collective.
+  /// Finds the deepest node of the couple's first body in the other, whose boxes overlap, or the
+  /// reverse. Collective.
   Deepest find_deepest(const Couple &couple, bool other_in_first, const Positions &positions,
                        const std::vector<BoundingBox> &boxes, const Vector *displacements) const;
   std::optional<Deepest> find_overlap(const Couple &couple, const Positions &positions,

@@ -11,17 +11,18 @@
 
 namespace billet {
 
-/// Finds prescribed motions, such as oscillations or full turns, that a step misses because it samples them
-/// at its ends only. It follows four points of each tool with a contact pair, and some nodes of the supports.
-/// A step is too long if a point's path exceeds the chord by more than that of an arc of 15 degrees. Paths
-/// that are small compared with the point's motion in the whole run do not count.
+/// Finds prescribed motions, such as oscillations or full turns, that a step misses because it
+/// samples them at its ends only. It follows four points of each tool with a contact pair, and some
+/// nodes of the supports. A step is too long if a point's path exceeds the chord by more than that
+/// of an arc of 15 degrees. Paths that are small compared with the point's motion in the whole run
+/// do not count.
 class MotionWatch {
 public:
   /// Collective.
   MotionWatch(const Scene &scene, const Supports &supports, const Discretization &discretization);
 
-  /// Returns the name of an object with such a motion between these times ("tool 'punch'", "a support");
-  /// empty if there is none. Collective.
+  /// Returns the name of an object with such a motion between these times ("tool 'punch'", "a
+  /// support"); empty if there is none. Collective.
   std::string find_unseen(double from, double to) const;
 
 private:
@@ -32,8 +33,8 @@ private:
     double end;         ///< time at which it is removed
     double extent = 0.; ///< largest distance from its start, in the whole run [length]
   };
-  /// Adds a track. A point that moves no further than `rounding`, such as one on the axis of rotation, is at
-  /// rest and left out.
+  /// Adds a track. A point that moves no further than `rounding`, such as one on the axis of
+  /// rotation, is at rest and left out.
   void add(Track track, double rounding);
   /// Returns the positions at these times, except times at which the motion has no value.
   static std::vector<Point> places(const Track &track, const std::vector<double> &times);

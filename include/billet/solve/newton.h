@@ -21,7 +21,8 @@ public:
   double residual_scale() const final { return force_scale(); }
   /// Returns the reference value of the residual at the last x [force].
   virtual double force_scale() const = 0;
-  /// Returns the residual of an exact solution that round-off of displacements alone causes [force].
+  /// Returns the residual of an exact solution that round-off of displacements alone causes
+  /// [force].
   virtual double round_off_force() const = 0;
   /// Returns the additional residual by round-off of positions where penalties bear [force].
   virtual double contact_round_off_force() const = 0;
@@ -38,9 +39,9 @@ struct ConvergenceMeasures {
   double n_status_changes = 0.; ///< since the last tangent
   bool has_correction = false;  ///< false before the first iteration: then only `force` is known
 
-  /// Returns a text such as "residual 0.03 of the forces (tolerance 0.005), ...". It lists the residual, the
-  /// measures above their tolerances, and changes of contact status. `accuracy`: factor of the tolerances of
-  /// the residual, its work and the correction.
+  /// Returns a text such as "residual 0.03 of the forces (tolerance 0.005), ...". It lists the
+  /// residual, the measures above their tolerances, and changes of contact status. `accuracy`:
+  /// factor of the tolerances of the residual, its work and the correction.
   std::string describe(const parameters::Solver &tolerances, double accuracy = 1.) const;
 };
 
@@ -61,8 +62,8 @@ struct NewtonReport {
   std::string criteria;         ///< measures in words, if the last iteration did not converge
   /// The residual no longer falls, but is small enough for the step to be accepted with a warning.
   bool is_stalled = false;
-  /// Round-off of contact exceeds its permitted part of the forces: residuals come no nearer to their
-  /// tolerance.
+  /// Round-off of contact exceeds its permitted part of the forces: residuals come no nearer to
+  /// their tolerance.
   bool is_lost_in_round_off = false;
   bool is_cycling = false; ///< it did not converge: is_cycling()
   bool is_slow = false;    ///< it did not converge: at their rate, too many iterations would be needed
@@ -70,8 +71,8 @@ struct NewtonReport {
   std::optional<StepFailure::Kind> rejection;
   unsigned int linear_iterations = 0;
   DiagnosticList diagnostics; ///< messages for the user
-  /// Maximum number of iterations of the solutions that were appended. It controls the step length: each of
-  /// many augmentations may be easy.
+  /// Maximum number of iterations of the solutions that were appended. It controls the step length:
+  /// each of many augmentations may be easy.
   std::size_t hardest = 0;
 
   /// Whether the iterations are not the cause of `failure`, so that others do not help.
@@ -108,35 +109,37 @@ struct NewtonReport {
   }
 };
 
-/// Whether the last residuals rise and fall and repeat those of two to four iterations before: Newton's
-/// method cycles between the same states.
+/// Whether the last residuals rise and fall and repeat those of two to four iterations before:
+/// Newton's method cycles between the same states.
 bool is_cycling(const std::vector<NewtonIteration> &iterations);
 
 /// Limits of the iterations that other classes know.
 struct NewtonLimits {
-  /// Maximum part of the force scale that round-off of contact penalties may leave as residual. Below it
-  /// forces are as exact as contact by penalties permits, and two digits better than noise. Above it they no
-  /// longer represent the scene.
+  /// Maximum part of the force scale that round-off of contact penalties may leave as residual.
+  /// Below it forces are as exact as contact by penalties permits, and two digits better than
+  /// noise. Above it they no longer represent the scene.
   static constexpr double max_round_off = 0.005;
   /// Maximum residual over the estimate of round-off of contact penalties that is still due to it.
   static constexpr double near_round_off = 10.;
-  /// Maximum residual, as part of the forces, up to which a stalled step is accepted with a warning, ...
+  /// Maximum residual, as part of the forces, up to which a stalled step is accepted with a
+  /// warning, ...
   static constexpr double max_stalled_residual = 0.02;
-  /// ... if the last correction is at most this part of the step's increment. A larger correction indicates
-  /// an unconstrained motion.
+  /// ... if the last correction is at most this part of the step's increment. A larger correction
+  /// indicates an unconstrained motion.
   static constexpr double max_stalled_correction = 0.03;
-  /// Residual, as part of the forces, below which neither a small correction nor an unchanged contact status
-  /// is required. Newton's method would change the state by about this part, and contact is already in
-  /// balance.
+  /// Residual, as part of the forces, below which neither a small correction nor an unchanged
+  /// contact status is required. Newton's method would change the state by about this part, and
+  /// contact is already in balance.
   static constexpr double exact_residual = 5e-6;
 };
 
 /// Whether the smallest of the last residuals is hardly smaller than the smallest of those before.
 bool is_stagnant(const std::vector<NewtonIteration> &iterations, double last_force, std::size_t window);
 
-/// Solves by Newton's method. Starts from, and overwrites, `x`; the step's increment is x − x_n. If the
-/// iterations stall close to balance, they converge if `accepts_stalled`, else they fail; `is_stalled` is set
-/// in both cases. `accuracy`: factor of the tolerances of the residual, its work and the correction.
+/// Solves by Newton's method. Starts from, and overwrites, `x`; the step's increment is x − x_n. If
+/// the iterations stall close to balance, they converge if `accepts_stalled`, else they fail;
+/// `is_stalled` is set in both cases. `accuracy`: factor of the tolerances of the residual, its
+/// work and the correction.
 NewtonReport solve_newton(NonlinearProblem &problem, const parameters::Solver &settings, const Vector &x_n,
                           Vector &x, bool accepts_stalled = true, double accuracy = 1.);
 

@@ -7,19 +7,21 @@
 
 namespace billet {
 
-/// Part of penetration in the deformation along a load path, (L6) of doc/theory.md. It compares the energy of
-/// penetration with that of the bodies' deformation, over the time in which the pairs bear load.
+/// Part of penetration in the deformation along a load path, (L6) of doc/theory.md. It compares the
+/// energy of penetration with that of the bodies' deformation, over the time in which the pairs
+/// bear load.
 class PathSoftness {
 public:
   struct Limits {
-    /// Energy of penetration, as part of all energy, below which penetration is irrelevant to forces.
+    /// Energy of penetration, as part of all energy, below which penetration is irrelevant to
+    /// forces.
     static constexpr double counts = 0.01;
   };
 
   /// Adds energies at this time. `all_energy`: total energy of reference, (L6).
   void add(double time, double penetration, double deformation, double all_energy);
-  /// Returns the part by which forces of driven tools are too small. It is 0 if penetration holds less than
-  /// the part `counts` of all energy, and so is irrelevant.
+  /// Returns the part by which forces of driven tools are too small. It is 0 if penetration holds
+  /// less than the part `counts` of all energy, and so is irrelevant.
   double part(double counts = Limits::counts) const;
   /// Forgets all but the last energies.
   void restart() { penetration_ = deformation_ = all_ = 0.; }

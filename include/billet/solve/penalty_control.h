@@ -19,9 +19,10 @@
 
 namespace billet {
 
-/// Raises penalties of dynamic scenes for pairs with automatic penalties. Normal penalties rise while
-/// penetration exceeds a small part of the deformation along their load path, (L8) of doc/theory.md.
-/// Tangential penalties rise while sticking friction is too small by more than a small part, (L9).
+/// Raises penalties of dynamic scenes for pairs with automatic penalties. Normal penalties rise
+/// while penetration exceeds a small part of the deformation along their load path, (L8) of
+/// doc/theory.md. Tangential penalties rise while sticking friction is too small by more than a
+/// small part, (L9).
 class PenaltyControl {
 public:
   struct Pair {
@@ -33,8 +34,9 @@ public:
     double normal = 1., tangential = 1.;
     bool raises() const { return normal > 1. || tangential > 1.; }
   };
-  /// Maximum factors by which normal penalties rise at a time. In explicit scenes they rise slowly, so that
-  /// nodes settle without an impact; in implicit ones softness is measured anew after a raise.
+  /// Maximum factors by which normal penalties rise at a time. In explicit scenes they rise slowly,
+  /// so that nodes settle without an impact; in implicit ones softness is measured anew after a
+  /// raise.
   static constexpr double in_explicit_scenes = 1.1, in_implicit_scenes = 4.;
   /// Pairs with tools come first.
   PenaltyControl(std::vector<Pair> pairs, const std::vector<LoadPath> &paths, double max_raise);
@@ -61,8 +63,8 @@ public:
   }
   /// Returns the energies of a solution whose ledger is that of this time. Collective.
   Energies measure(const Solution &solution, std::size_t n_bodies, double time, MPI_Comm communicator) const;
-  /// Returns the factors by which the penalties of each pair are to be raised now, at most by `room`; 1 means
-  /// unchanged. A time that is not later than the last one raises nothing.
+  /// Returns the factors by which the penalties of each pair are to be raised now, at most by
+  /// `room`; 1 means unchanged. A time that is not later than the last one raises nothing.
   std::vector<Factors> raises(const Energies &energies, const std::vector<Factors> &room);
   /// Returns messages about raises that the last raises() began.
   DiagnosticList take_diagnostics();
@@ -71,8 +73,8 @@ public:
   void load(const StateReader &reader);
 
 private:
-  /// Maximum raise beyond 10 E/h. Bodies that are confined and nearly incompressible are many times as stiff
-  /// as E.
+  /// Maximum raise beyond 10 E/h. Bodies that are confined and nearly incompressible are many times
+  /// as stiff as E.
   static constexpr double max_in_all = 1e5;
   struct Controlled {
     LoadPath parts;

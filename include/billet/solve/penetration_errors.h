@@ -18,12 +18,14 @@ public:
   /// `tolerance`: part of the forces; 0: penetration is not controlled.
   explicit PenetrationErrors(const double tolerance) : tolerance_(tolerance) {}
 
-  /// Adds an accepted step of length `h`, with the sum of forces and the deepest penetration at its end.
+  /// Adds an accepted step of length `h`, with the sum of forces and the deepest penetration at its
+  /// end.
   void accept(double h, double force, double penetration);
-  /// Whether the next measurement should include penetration. The first one does; later ones are the rarer,
-  /// the smaller and steadier the error is.
+  /// Whether the next measurement should include penetration. The first one does; later ones are
+  /// the rarer, the smaller and steadier the error is.
   bool wants_measurement() const { return interval_.is_due(); }
-  /// Returns the maximum error by penetration, as part of the forces, in the first step that measures it.
+  /// Returns the maximum error by penetration, as part of the forces, in the first step that
+  /// measures it.
   double allowed_at_first() const {
     return is_measured_ || tolerance_ == 0. ? std::numeric_limits<double>::infinity()
                                             : max_over_mean * tolerance_;
@@ -51,7 +53,8 @@ private:
 
   double tolerance_;
   double integral_ = 0.;
-  double slope_ = 0.; ///< error, as part of the forces, over the deepest penetration, at the last measurement
+  /// Error, as part of the forces, over the deepest penetration, at the last measurement.
+  double slope_ = 0.;
   double unmeasured_ = 0.; ///< ∫ penetration Σ|F| dt of the steps since the last measurement
   bool is_measured_ = false;
   MeasurementInterval interval_{0};

@@ -13,20 +13,22 @@
 
 namespace billet {
 
-/// Saves the node keys of all elements, from which RefinedReader finds the nodes of elements of the mesh
-/// before. Collective.
+/// Saves the node keys of all elements, from which RefinedReader finds the nodes of elements of the
+/// mesh before. Collective.
 void save_mesh(StateWriter &writer, const Discretization &discretization);
 
-/// State of a run, read on a mesh on which each element of some bodies is divided into eight. Rows of nodes
-/// are interpolated between the nodes of the element before, (R3) of doc/theory; nodal forces of refined
-/// bodies are 0, for the mesh has others. An element of a refined body gets the row of the element of which
-/// it is a part: set_parent_state() takes its own history from it. Rows of contact at nodes are interpolated
-/// between those of the facet before; of friction, the traction is. Everything else is read as it is. The
-/// entry "refined bodies", in each group, names the refined bodies, see refined_bodies().
+/// State of a run, read on a mesh on which each element of some bodies is divided into eight. Rows
+/// of nodes are interpolated between the nodes of the element before, (R3) of doc/theory. Nodal
+/// forces of refined bodies are 0, for the mesh has others. An element of a refined body gets the
+/// row of the element of which it is a part: set_parent_state() takes its own history from it.
+///
+/// Rows of contact at nodes are interpolated between those of the facet before; of friction, the
+/// traction is. Everything else is read as it is. The entry "refined bodies", in each group, names
+/// the refined bodies, see refined_bodies().
 class RefinedReader final : public StateReader {
 public:
-  /// `before`: the state, with save_mesh() in its group "mesh". `discretization`: the new mesh; `is_refined`:
-  /// which of its bodies have been refined once. Collective.
+  /// `before`: the state, with save_mesh() in its group "mesh". `discretization`: the new mesh;
+  /// `is_refined`: which of its bodies have been refined once. Collective.
   RefinedReader(StateReader &before, const Discretization &discretization, std::vector<bool> is_refined);
 
   bool has(const std::string &name) const override;

@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Steps that were rejected for one reason. If it remains in much shorter steps, anywhere within the first
-/// rejected one, it belongs to the solution: no step is short enough.
+/// Steps that were rejected for one reason. If it remains in much shorter steps, anywhere within
+/// the first rejected one, it belongs to the solution: no step is short enough.
 class RejectedSteps {
 public:
   /// Length, as part of the first rejected step, down to which steps are cut.

@@ -18,9 +18,10 @@ namespace billet {
 /// Findings of a restart, beside the state itself.
 struct RestartReport {
   double time = 0.;
-  bool is_exact = true;             ///< as if the run had not been interrupted
-  double kinetic_energy = 0.;       ///< lost when a static scene starts [energy]
-  double imbalance = 0.;            ///< forces out of balance, which fade from the restart on [force]
+  bool is_exact = true;       ///< as if the run had not been interrupted
+  double kinetic_energy = 0.; ///< lost when a static scene starts [energy]
+  /// Forces out of balance, which fade from the restart on [force].
+  double imbalance = 0.;
   double release_end = 0.;          ///< time at which they have faded
   double force_scale = 0.;          ///< reference value of the imbalance [force]
   double energy_change = 0.;        ///< by other elements or another scheme [energy]
@@ -28,27 +29,28 @@ struct RestartReport {
   std::vector<std::string> changed; ///< parameters of materials with another value now
 };
 
-/// Returns which bodies' elements are those of the state, each divided into eight; empty if the mesh is that
-/// of the state. See RefinedReader.
+/// Returns which bodies' elements are those of the state, each divided into eight; empty if the
+/// mesh is that of the state. See RefinedReader.
 std::vector<bool> refined_bodies(const StateReader &reader);
 /// Returns whether a contact pair has such a body.
 bool is_refined(const StateReader &reader, const ContactInterface &contact);
 
-/// Returns the time over which unbalanced forces, and gaps of a coarser mesh, fade after a refinement.
+/// Returns the time over which unbalanced forces, and gaps of a coarser mesh, fade after a
+/// refinement.
 double refinement_release_time(const parameters::Scene &parameters);
-/// Returns when gaps of a coarser mesh have faded that a refinement at this time makes finer, (R7) of
-/// doc/theory.
+/// Returns when gaps of a coarser mesh have faded that a refinement at this time makes finer, (R7)
+/// of doc/theory.
 double end_of_fading(const parameters::Scene &parameters, double time);
 
-/// Saves the properties that must agree between the scenes before and after a restart: bodies, their meshes
-/// and the kinds of their materials.
+/// Saves the properties that must agree between the scenes before and after a restart: bodies,
+/// their meshes and the kinds of their materials.
 void save_scene(StateWriter &writer, const Scene &scene, const Discretization &discretization);
 /// Checks these properties. Throws InputError that names the difference. Returns the parameters of
 /// materials that have another value now: "'Yield stress' of body 'cube' (300, now 900)".
 std::vector<std::string> check_scene(StateReader &reader, const Scene &scene,
                                      const Discretization &discretization);
-/// Returns the refinement levels of the bodies of the state. Throws InputError if they exceed those of the
-/// scene at this time.
+/// Returns the refinement levels of the bodies of the state. Throws InputError if they exceed those
+/// of the scene at this time.
 MeshLevels load_levels(StateReader &reader, const Scene &scene, double time);
 
 /// Nodes whose dofs this rank owns, with their keys.
@@ -65,7 +67,8 @@ void load_nodal(const StateReader &reader, const std::string &name, const OwnedN
 /// Returns the keys of the elements of a body that this rank owns.
 std::vector<std::uint64_t> element_keys(const Discretization &discretization, std::size_t body);
 
-/// Saves the axes of a body's elements through the thickness, if they have more than two points along them.
+/// Saves the axes of a body's elements through the thickness, if they have more than two points
+/// along them.
 void save_thickness_axes(StateWriter &writer, const ElementBlock &block,
                          const std::vector<std::uint64_t> &keys);
 std::vector<ThicknessAxis> load_thickness_axes(const StateReader &reader,
@@ -92,21 +95,21 @@ HistoryFormat load_format(const StateReader &reader);
 
 /// Saves the names of the fields of a law's state, beside the histories that have them.
 void save_fields(StateWriter &writer, const PointLaw &law);
-/// Reads the histories of a body's elements, which have the states of the law at `points`, and orders the
-/// fields of these states by name as the law has them. Throws InputError if the fields differ.
+/// Reads the histories of a body's elements, which have the states of the law at `points`. Orders
+/// the fields of these states by name as the law has them. Throws InputError if the fields differ.
 std::vector<double> load_history(const StateReader &reader, const std::string &body, const PointLaw &law,
                                  const PointStates &points, std::size_t width,
                                  const std::vector<std::uint64_t> &keys);
 
-/// Returns the stresses of a body that its saved history implies at these displacements (ghosted) and at the
-/// temperature of time t. Reads the
-/// current group, which any formulation may have written.
+/// Returns the stresses of a body that its saved history implies at these displacements (ghosted)
+/// and at the temperature of time t. Reads the current group, which any formulation may have
+/// written.
 std::vector<ElementStress> load_stress(const StateReader &reader, const Scene &scene, std::size_t body,
                                        const Discretization &discretization, const Vector &displacements,
                                        double t);
 
-/// Returns the index, among the groups "KIND 0", "KIND 1", ..., of the one with this name; none if there is
-/// none.
+/// Returns the index, among the groups "KIND 0", "KIND 1", ..., of the one with this name; none if
+/// there is none.
 std::optional<std::size_t> find_group(StateReader &reader, const std::string &kind, const std::string &name);
 /// Returns the names of these groups.
 std::vector<std::string> group_names(StateReader &reader, const std::string &kind);
@@ -114,13 +117,13 @@ inline std::string group(const std::string &kind, const std::size_t index) {
   return kind + " " + std::to_string(index);
 }
 
-/// Adds to the report the checkpoint's tools and pairs that are not in the scene, and whether all are the
-/// same.
+/// Adds to the report the checkpoint's tools and pairs that are not in the scene, and whether all
+/// are the same.
 void compare_parts(StateReader &reader, const Scene &scene, RestartReport &report);
 /// Writes the name and partners of a pair to its group.
 void save_pair(StateWriter &writer, const ContactInterface &contact);
-/// Calls load() in the group of the pair of this name. Throws InputError if its partners differ. Returns
-/// false if there is no such pair.
+/// Calls load() in the group of the pair of this name. Throws InputError if its partners differ.
+/// Returns false if there is no such pair.
 bool load_pair(StateReader &reader, const ContactInterface &contact, const std::function<void()> &load);
 
 std::vector<double> to_numbers(const Placement &placement);
@@ -130,8 +133,9 @@ ContactLoad to_contact_load(const std::vector<double> &numbers);
 std::vector<double> to_numbers(const EnergyLedger &energies);
 EnergyLedger to_energies(const std::vector<double> &numbers);
 
-/// Saves the forces of a removed tool on the bodies in rows under keys of each rank. A node may have parts on
-/// several ranks. load_sums() returns the sums at these nodes, from any number of ranks.
+/// Saves the forces of a removed tool on the bodies in rows under keys of each rank. A node may
+/// have parts on several ranks. load_sums() returns the sums at these nodes, from any number of
+/// ranks.
 void save_parts(StateWriter &writer, const std::string &name, unsigned int rank,
                 const std::vector<std::uint64_t> &keys, const std::vector<double> &values);
 std::vector<double> load_sums(const StateReader &reader, const std::string &name,
@@ -140,7 +144,8 @@ std::vector<double> load_sums(const StateReader &reader, const std::string &name
 std::vector<double> load_part(const StateReader &reader, const std::string &name, unsigned int rank,
                               const std::vector<std::uint64_t> &keys);
 
-/// Saves where nodes were when supports began, at these times: `save` writes the displacements under a name.
+/// Saves where nodes were when supports began, at these times: `save` writes the displacements
+/// under a name.
 void save_support_starts(StateWriter &writer, const std::set<double> &times,
                          const std::function<void(const std::string &name, double time)> &save);
 /// Calls `load` for those of the times that the state knows. Returns the others.

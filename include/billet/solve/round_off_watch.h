@@ -8,17 +8,20 @@
 
 namespace billet {
 
-/// Part of the forces that round-off may reach without a warning, whatever tolerance the scene sets.
+/// Part of the forces that round-off may reach without a warning, whatever tolerance the scene
+/// sets.
 constexpr double notable_round_off = 1e-8;
 
-/// Compares the round-off of contact forces by positions with the largest forces of the run. At first contact
-/// the forces are small, and their round-off is irrelevant.
+/// Compares the round-off of contact forces by positions with the largest forces of the run. At
+/// first contact the forces are small, and their round-off is irrelevant.
 class RoundOffWatch {
 public:
-  /// Adds an accepted step; both are in the same unit of force. `round_off`: 0 if contact bears no force.
+  /// Adds an accepted step; both are in the same unit of force. `round_off`: 0 if contact bears no
+  /// force.
   void add(double time, double round_off, double forces);
-  /// Returns a message at the end of the run. `tolerance`: 'Force tolerance'. `accepts_all`: whether steps
-  /// may converge at any round-off, as in dynamics, where inertia balances the residual.
+  /// Returns a message at the end of the run. `tolerance`: 'Force tolerance'. `accepts_all`:
+  /// whether steps may converge at any round-off, as in dynamics, where inertia balances the
+  /// residual.
   DiagnosticList finish(double tolerance, bool accepts_all) const;
 
   std::vector<double> save() const { return {time_, round_off_, forces_}; }

@@ -10,24 +10,26 @@
 
 namespace billet {
 
-/// Reviews a run by its accepted steps, for both kinds of schemes. It checks whether the scene is plausible
-/// and complete, and whether its elements, contact and steps are fine enough.
+/// Reviews a run by its accepted steps, for both kinds of schemes. It checks whether the scene is
+/// plausible and complete, and whether its elements, contact and steps are fine enough.
 class RunReview {
 public:
   RunReview(const Scene &scene, const Discretization &discretization);
 
   /// Returns diagnostics before the first step. Collective.
   DiagnosticList start() const;
-  /// Returns diagnostics after an accepted step; in explicit scenes a step now and then. Collective.
+  /// Returns diagnostics after an accepted step; in explicit scenes a step now and then.
+  /// Collective.
   DiagnosticList after_step(const Solution &solution, bool is_last);
   /// Returns diagnostics after the last step. Collective.
   DiagnosticList finish() const;
 
-  /// Returns the largest kinetic energy of the run over the largest internal energy. It is small in a
-  /// quasi-static process.
+  /// Returns the largest kinetic energy of the run over the largest internal energy. It is small in
+  /// a quasi-static process.
   double kinetic_part() const { return max_internal_ > 0. ? max_kinetic_ / max_internal_ : 0.; }
 
-  /// Returns the relative error of forces by elements that are too stiff or too soft; 0 if none is found.
+  /// Returns the relative error of forces by elements that are too stiff or too soft; 0 if none is
+  /// found.
   double element_error() const { return elements_.error(); }
 
   /// Returns the part by which penetration makes forces too small; 0 if it is small.

@@ -11,14 +11,15 @@
 
 namespace billet {
 
-/// Warns once for each body that flows while heat softens its material by more than it hardens, (H20) of
-/// doc/theory. Strains then localise in one layer of elements, and results depend on the mesh.
+/// Warns once for each body that flows while heat softens its material by more than it hardens,
+/// (H20) of doc/theory. Strains then localise in one layer of elements, and results depend on the
+/// mesh.
 class SofteningWatch {
 public:
   explicit SofteningWatch(const Scene &scene);
 
-  /// Returns messages at this state, one for each body that newly softens. An element counts if it has flowed
-  /// since the last call; so the first call finds none. Collective.
+  /// Returns messages at this state, one for each body that newly softens. An element counts if it
+  /// has flowed since the last call; so the first call finds none. Collective.
   DiagnosticList check(const Solution &solution);
   /// Whether a body has softened so far.
   bool has_softened() const { return has_softened_; }

@@ -55,11 +55,13 @@ public:
   virtual const SolutionState &state() const = 0;
   /// Returns the mesh of the state.
   virtual const Discretization &discretization() const = 0;
-  /// Returns one entry for each owned element of the body, in the order of Discretization::elements().
+  /// Returns one entry for each owned element of the body, in the order of
+  /// Discretization::elements().
   virtual std::vector<ElementSummary> summarize(std::size_t body) const = 0;
   /// Returns the same for the layers; empty if the body has two points through the thickness.
   virtual std::vector<LayerSummaries> summarize_layers(std::size_t) const { return {}; }
-  /// Returns averages of the laws' states for the same elements, with layers where the body has them.
+  /// Returns averages of the laws' states for the same elements, with layers where the body has
+  /// them.
   virtual std::vector<StateAverages> average_states(std::size_t body) const = 0;
   /// Returns the slave nodes on this rank of every contact pair, tools first.
   virtual std::vector<std::vector<ContactNodeReport>> report_contacts() const = 0;

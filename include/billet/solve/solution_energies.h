@@ -12,8 +12,8 @@ namespace billet {
 std::vector<double> energies_of_penetration(const std::vector<std::vector<ContactNodeReport>> &reports,
                                             MPI_Comm communicator);
 
-/// Returns the energy in the elements of each of these bodies [energy]: stored, and dissipated by yielding.
-/// Collective; the same on all ranks.
+/// Returns the energy in the elements of each of these bodies [energy]: stored, and dissipated by
+/// yielding. Collective; the same on all ranks.
 std::vector<double> energies_of_bodies(const Solution &solution, const std::vector<std::size_t> &bodies,
                                        MPI_Comm communicator);
 

@@ -14,14 +14,15 @@
 
 namespace billet {
 
-/// Warns once for each elastic body that is strained beyond the stability of its law, (M7) of doc/theory.md.
-/// Ellipticity is lost then, and results depend on the mesh. It checks the centres of the elements. Bodies
-/// that yield, whose elastic strains are small, are left out.
+/// Warns once for each elastic body that is strained beyond the stability of its law, (M7) of
+/// doc/theory.md. Ellipticity is lost then, and results depend on the mesh. It checks the centres
+/// of the elements. Bodies that yield, whose elastic strains are small, are left out.
 class StabilityWatch {
 public:
   StabilityWatch(const Scene &scene, const Discretization &discretization);
 
-  /// Returns messages at this state, one for each body that has newly lost its stability. Collective.
+  /// Returns messages at this state, one for each body that has newly lost its stability.
+  /// Collective.
   DiagnosticList check(const SolutionState &state);
   /// Whether any body has lost its stability.
   bool has_unstable_bodies() const { return has_unstable_bodies_; }
@@ -42,7 +43,8 @@ private:
     double stiffness; ///< over the shear modulus
     Stretches stretches;
   };
-  /// Returns the largest of some ranges in which a law is stable; an empty one if it is stable in none.
+  /// Returns the largest of some ranges in which a law is stable; an empty one if it is stable in
+  /// none.
   static Range find_safe_range(const PointLaw &law);
   /// Finds the weakest element of all ranks.
   Weakest find_weakest(const Watched &watched, const Vector &displacements) const;

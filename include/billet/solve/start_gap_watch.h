@@ -10,16 +10,17 @@
 
 namespace billet {
 
-/// Watches pairs that close initial gaps or allow initial penetrations. Nodes keep what they had at the
-/// start. Where that differs from node to node, it no longer fits once the partner has slid by a facet.
+/// Watches pairs that close initial gaps or allow initial penetrations. Nodes keep what they had at
+/// the start. Where that differs from node to node, it no longer fits once the partner has slid by
+/// a facet.
 class StartGapWatch {
 public:
   explicit StartGapWatch(const Scene &scene);
 
   /// Adds an accepted step that ends at time `t`. Collective.
   void add(const Contacts &contacts, double t, MPI_Comm communicator);
-  /// Returns a warning for each pair whose gaps at the start differ by more than a tenth of the indentation
-  /// F/(E √A) of the softer body, after a slide by a facet.
+  /// Returns a warning for each pair whose gaps at the start differ by too much after a slide by a
+  /// facet. The limit is a tenth of the indentation F/(E √A) of the softer body.
   DiagnosticList judge() const;
 
   void save(StateWriter &writer) const;

@@ -12,15 +12,16 @@
 
 namespace billet {
 
-/// Errors of forces by the length of steps, and the maximum length of the next step. ErrorControl describes
-/// how errors depend on the length.
+/// Errors of forces by the length of steps, and the maximum length of the next step. ErrorControl
+/// describes how errors depend on the length.
 class StepErrors {
 public:
   struct Rules {
     double tolerance = 0.; ///< part of the forces; 0: steps are not controlled
     bool fade = false;     ///< errors of steps fade, else they add up
-    /// Sudden growth of errors persists, as in the rate of a tool under a force whose body yields. Otherwise
-    /// it may be a single event, such as a node that begins to slip, and does not count for all steps.
+    /// Sudden growth of errors persists, as in the rate of a tool under a force whose body yields.
+    /// Otherwise it may be a single event, such as a node that begins to slip, and does not count
+    /// for all steps.
     bool stays = false;
   };
   explicit StepErrors(const Rules &rules) : rules_(rules) {}
@@ -69,12 +70,12 @@ private:
   void add_step(double h);
   /// Returns the maximum growth rate of the error of forces from now on.
   double allowed_rate(const ForceCourse &course) const;
-  /// Returns the error of the forces at the end by steps of length `h`, if each pair of them adds `slope`
-  /// times 2 h².
+  /// Returns the error of the forces at the end by steps of length `h`, if each pair of them adds
+  /// `slope` times 2 h².
   double left_at_the_end(const ForceCourse &course, double slope, double h) const;
   double rough_target() const { return rules_.fade ? rules_.tolerance : 2. * rules_.tolerance; }
-  /// Chooses the maximum length after a measurement with steps of length `h`. `matter`: errors are relevant
-  /// for the target; `is_known`: they exceed the noise.
+  /// Chooses the maximum length after a measurement with steps of length `h`. `matter`: errors are
+  /// relevant for the target; `is_known`: they exceed the noise.
   void choose_longest_step(const ForceCourse &course, double h, bool matter, bool is_known);
   /// Returns the factor by which steps may be longer than `h`.
   double allowed_stretch(const ForceCourse &course, double h) const;
@@ -84,9 +85,11 @@ private:
   double last_slope_ = 0.; ///< Σ|c| at the last measurement
   ResultGroup errors_;     ///< of each force, by all steps so far
   double last_error_ = 0., integral_ = 0.;
-  double unmeasured_ = 0., unmeasured_span_ = 0.; ///< Σ h², Σ h of the steps since the last measurement
-  double measured_step_ = 0.;                     ///< h of the last one
-  double part_ = 0.;                              ///< difference of the last one, over h and the forces
+  /// Σ h², Σ h of the steps since the last measurement.
+  double unmeasured_ = 0., unmeasured_span_ = 0.;
+  double measured_step_ = 0.; ///< h of the last one
+  /// Difference of the last one, over h and the forces.
+  double part_ = 0.;
   bool is_little_ = false; ///< whether errors by steps are small, at the last measurement
   MeasurementInterval interval_{1};
   unsigned int n_measurements_ = 0;

@@ -21,8 +21,8 @@ struct StepFailure {
   Explanation why;
 };
 
-/// Asks the judges one after the other, up to the first failure; none: all accept. A judge is a function
-/// without arguments that returns a std::optional<StepFailure>.
+/// Asks the judges one after the other, up to the first failure; none: all accept. A judge is a
+/// function without arguments that returns a std::optional<StepFailure>.
 template <class... Judges> std::optional<StepFailure> find_first_failure(const Judges &...judges) {
   std::optional<StepFailure> failure;
   static_cast<void>((... || (failure = judges()).has_value()));

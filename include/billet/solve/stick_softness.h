@@ -13,8 +13,9 @@ namespace billet {
 struct StickSoftness {
   double pressure = 0.; ///< Σ p A [force]
   double friction = 0.; ///< Σ |t| A [force]
-  double lost = 0.;     ///< upper bound of the additional friction of sticking nodes on rigid springs [force]
-  double stored = 0.;   ///< in the springs [energy]
+  /// Upper bound of the additional friction of sticking nodes on rigid springs [force].
+  double lost = 0.;
+  double stored = 0.; ///< in the springs [energy]
 
   /// Returns the lost part of the friction on rigid springs.
   double part() const { return lost > 0. ? lost / (friction + lost) : 0.; }
@@ -26,7 +27,8 @@ public:
   /// Collective.
   StickSprings(const Scene &scene, const Discretization &discretization);
 
-  /// Measures each pair, pairs with tools first; `reports`: of each pair. Collective; the same on all ranks.
+  /// Measures each pair, pairs with tools first; `reports`: of each pair. Collective; the same on
+  /// all ranks.
   std::vector<StickSoftness> measure(const std::vector<std::vector<ContactNodeReport>> &reports) const;
 
 private:
@@ -38,8 +40,8 @@ private:
   std::vector<Pair> pairs_; ///< with tools first
 };
 
-/// Returns the thickness of each undeformed body [length]. It is the smallest edge of a box with the same
-/// volume and the same smallest moment ∫ x² dV about the centre. Collective.
+/// Returns the thickness of each undeformed body [length]. It is the smallest edge of a box with
+/// the same volume and the same smallest moment ∫ x² dV about the centre. Collective.
 std::vector<double> body_thicknesses(const Discretization &discretization);
 
 } // namespace billet

@@ -14,13 +14,13 @@
 
 namespace billet {
 
-/// Returns an estimate of the memory of a direct solver on one rank [bytes]; many ranks need more. It was
-/// measured with MUMPS for two blocks of 50 000 to 500 000 dofs: doc/results/linear-solvers.md. The fill of
-/// solids grows as n^(4/3).
+/// Returns an estimate of the memory of a direct solver on one rank [bytes]; many ranks need more.
+/// It was measured with MUMPS for two blocks of 50 000 to 500 000 dofs:
+/// doc/results/linear-solvers.md. The fill of solids grows as n^(4/3).
 double direct_memory(double n_dofs, bool symmetric);
 
-/// Linear solver of a scene: a direct one, or an iterative one that a direct one replaces for every matrix
-/// with which it stagnates.
+/// Linear solver of a scene: a direct one, or an iterative one that a direct one replaces for every
+/// matrix with which it stagnates.
 class TangentSolver {
 public:
   /// Resolves `automatic`. `matrix` must outlive the solver.
@@ -32,7 +32,8 @@ public:
   /// ... then set the next one.
   void set_matrix(const Matrix &matrix);
 
-  /// Sets whether the next matrices are nearly singular: a direct solver then replaces an iterative one.
+  /// Sets whether the next matrices are nearly singular: a direct solver then replaces an iterative
+  /// one.
   void expect_nearly_singular(const bool is) { is_nearly_singular_ = is; }
   bool is_iterative() const { return iterative_ != nullptr; }
   /// Pass these to the iterative solver; see IterativeSolver. They require is_iterative().
@@ -48,8 +49,8 @@ public:
   const std::string &failure() const { return failure_; }
   /// Returns the iterations of an iterative solver since the last call.
   unsigned int take_iterations();
-  /// Returns messages since the last call: the memory of an iterative solver, and its replacement by a direct
-  /// one.
+  /// Returns messages since the last call: the memory of an iterative solver, and its replacement
+  /// by a direct one.
   DiagnosticList take_diagnostics();
   /// Returns a warning if the matrix factorised last is ill-conditioned; once.
   DiagnosticList check_condition();

@@ -6,8 +6,8 @@
 
 namespace billet {
 
-/// Returns the part of a tool's forces at its removal that is left at t: 1 up to the removal, then linearly
-/// less. 0 if the scene never removes the tool, or lets its forces go at once.
+/// Returns the part of a tool's forces at its removal that is left at t: 1 up to the removal, then
+/// linearly less. 0 if the scene never removes the tool, or lets its forces go at once.
 double left_after_removal(const Tool &tool, double t);
 
 } // namespace billet

@@ -22,8 +22,8 @@ std::vector<int> find_two_passes(const std::vector<std::vector<ContactNodeReport
   return all;
 }
 
-/// Replaces pressures and tractions of a pair, which are those of one pass, by all forces over the area.
-/// Collective.
+/// Replaces pressures and tractions of a pair, which are those of one pass, by all forces over the
+/// area. Collective.
 void take_total_forces(const Discretization &discretization, std::vector<ContactNodeReport> &reports) {
   Vector forces = discretization.make_additive_vector(), sums = discretization.make_additive_vector();
   for (const auto &node : reports)

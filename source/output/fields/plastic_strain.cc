@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char *name = "equivalent plastic strain";
 
-/// Whether the law has it: by its plasticity, or as a state variable of this name of a user's subroutine.
+/// Whether the law has it: by its plasticity, or as a state variable of this name of a user's
+/// subroutine.
 bool has_plastic_strain(const PointLaw &law) {
   const std::vector<StateField> fields = law.fields();
   return law.has_plasticity() || std::any_of(fields.begin(), fields.end(),

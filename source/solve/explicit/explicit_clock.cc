@@ -14,10 +14,11 @@ namespace {
 
 /// Limits of steps, as factors unless they say otherwise.
 struct Limits {
-  /// Growth of steps of the allowed length, as part of them, and maximum factor of shorter steps. The error
-  /// of a step change by a part p scales with p (ω Δt)²: short steps may grow faster.
+  /// Growth of steps of the allowed length, as part of them, and maximum factor of shorter steps.
+  /// The error of a step change by a part p scales with p (ω Δt)²: short steps may grow faster.
   static constexpr double growth = 0.02, max_growth = 2.;
-  /// Parts of the allowed step: below the first, steps begin to grow, and they grow up to the second.
+  /// Parts of the allowed step: below the first, steps begin to grow, and they grow up to the
+  /// second.
   static constexpr double short_step = 0.9, long_step = 0.99;
   /// Maximum number of steps that are planned at once, for the counter's range.
   static constexpr double max_planned = 1e9;

@@ -172,11 +172,13 @@ RestartReport ExplicitDynamics::load(StateReader &reader) {
 }
 
 void ExplicitDynamics::load_contacts(StateReader &reader, const NodeKeys &keys) {
-  // Contact was committed with the last forces. The step is 0 if they are those of the present time.
+  // Contact was committed with the last forces. The step is 0 if they are those of the present
+  // time.
   const NodalVectors u_before = parts_.motion.displacements_before(step_length());
   const std::vector<Placement> placements = parts_.tools.placements_before();
   for (auto &contact : parts_.contacts) {
-    const bool begins = is_refined(reader, contact); // what the coarser mesh cannot tell remains as it begins
+    // Contact keeps its initial state where the coarser mesh has no data.
+    const bool begins = is_refined(reader, contact);
     if (begins)
       contact.without_matrix().begin({0., 0., 0., placements, placements}, u_before);
     if (!load_pair(reader, contact, [&] { contact.load(reader, keys); }) && !begins)

@@ -87,10 +87,10 @@ double ExplicitElements::stable_step_of(const std::size_t body, const std::size_
   const std::unique_ptr<ExplicitBlock> block = make_explicit_block(
       of_scene.law, of_scene.density, formulation_of(scene_.parameters(), scene_.parameters().bodies[body]));
   const auto &elements = nodes_.elements(body);
-  std::size_t offender = 0;
+  std::size_t offender = 0; // remains: make_blocks() has refused elements that offend
   block->initialize({elements.begin() + static_cast<std::ptrdiff_t>(begin),
                      elements.begin() + static_cast<std::ptrdiff_t>(end)},
-                    nodes_.positions().data(), offender); // make_blocks() has refused elements that offend
+                    nodes_.positions().data(), offender);
   if (min_step > 0.)
     block->scale_mass(min_step);
   if (of_scene.temperature)

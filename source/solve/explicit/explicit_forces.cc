@@ -57,7 +57,8 @@ void ExplicitForces::find_touched_nodes(const Scene &scene) {
       has_bounds_ = has_bounds_ || load.load.limits_steps();
     }
   }
-  const NodalVectors is_touched = mark_boundaries(nodes_, scene.bodies().size()); // all else acts there
+  // All other forces act there.
+  const NodalVectors is_touched = mark_boundaries(nodes_, scene.bodies().size());
   // Forces of removed tools and of supports fade.
   const bool may_be_loaded = has_loads || may_let_go || !scene.tools().empty();
   for (unsigned int node = 0; node < nodes_.size(); ++node) {

@@ -22,7 +22,8 @@ void ExplicitMotion::find_twins() {
   for (std::size_t b = 0; b < nodes_.discretization().n_bodies(); ++b)
     for (const auto &element : nodes_.elements(b))
       for (unsigned int v = 0; v < n_element_nodes; ++v)
-        for (unsigned int bit = 1; bit < n_element_nodes; bit *= 2) { // an edge's corners differ in one bit
+        for (unsigned int bit = 1; bit < n_element_nodes; bit *= 2) {
+          // An edge's corners differ in one bit.
           const unsigned int first = element[v & ~bit], second = element[v | bit];
           const auto apart =
               get_vector(nodes_.positions().data(), first) - get_vector(nodes_.positions().data(), second);

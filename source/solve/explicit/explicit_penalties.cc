@@ -20,8 +20,8 @@ void ExplicitPenalties::raise(const Solution &solution, double &external_work) {
       continue;
     const auto [normal, tangential] = factors[p];
     parts_.contacts[p].penalties().scale(normal, tangential);
-    // Compressed springs receive the energy that stiffer ones store. The force of friction stays, and its
-    // springs store less.
+    // Compressed springs receive the energy that stiffer ones store. The force of friction stays,
+    // and its springs store less.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       external_work +=
           (normal - 1.) * energies.of_pairs[p] - (1. - 1. / tangential) * energies.sticking[p].stored;
@@ -30,7 +30,8 @@ void ExplicitPenalties::raise(const Solution &solution, double &external_work) {
 
 DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   DiagnosticList messages = control_.take_diagnostics();
-  // Maxima over all ranks: the displacement, and for each pair the penetration, in facet sizes and as length.
+  // Maxima over all ranks: the displacement, and for each pair the penetration, in facet sizes and
+  // as length.
   std::vector<double> maxima{parts_.motion.max_displacement()};
   for (const auto &contact : parts_.contacts) {
     const Penetration deepest = contact.measures().penetration();
@@ -38,7 +39,8 @@ DiagnosticList ExplicitPenalties::check(const EnergyLedger &energies) {
   }
   dealii::Utilities::MPI::max(maxima, parts_.communicator(), maxima);
 
-  const double part = energies.total() > 0. ? energies.contact / energies.total() : 0.; // of all pairs
+  // Part of the energy in the springs of all pairs.
+  const double part = energies.total() > 0. ? energies.contact / energies.total() : 0.;
   const double time = parts_.clock.time();
   auto next = maxima.begin() + 1;
   for (const auto &contact : parts_.contacts) {

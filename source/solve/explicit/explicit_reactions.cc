@@ -13,7 +13,8 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Force by round-off of displacements over that by the last bit of a displacement of the scene's size.
+  /// Force by round-off of displacements over that by the last bit of a displacement of the scene's
+  /// size.
   static constexpr double last_bits = 100.;
 };
 
@@ -113,7 +114,8 @@ void ExplicitReactions::sum_forces() {
                        v_before = get_vector(motion.velocities_before().data(), node);
     const double factor = parts_.masses.values()[node] / duration;
     inertia -= factor * (v - v_before);
-    size += factor * (l1_norm(v) + l1_norm(v_before)); // whose last bits are round-off of the accelerations
+    // The last bits of these are round-off of the accelerations.
+    size += factor * (l1_norm(v) + l1_norm(v_before));
     size += l1_norm(get_vector(motion.support_forces().data(), node));
   }
   const std::array<double, 7> own{loads[0], loads[1], loads[2], inertia[0], inertia[1], inertia[2], size};

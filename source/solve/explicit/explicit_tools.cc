@@ -51,9 +51,10 @@ void ExplicitTools::add_load(const ContactInterface &contact, const std::size_t 
 double ExplicitTools::max_frequency_square() const {
   if (!has_free_tools_)
     return 0.;
-  // Springs k_i, between nodes that move by u_i along a_i and a tool that moves by s, hold
-  //   k_i (u_i − s)² <= k_i (1/m_i + Σ_j k_j/(k_i M)) (m_i u_i² + k_i/(Σ_j k_j) M s²),
-  // so that ω² <= max k_i/m_i + Σ_j k_j/M: the second is the tool's share. With a_i·a_i in k_i of the tool.
+  // Springs k_i are between nodes that move by u_i along a_i and a tool that moves by s. They hold
+  //   k_i (u_i − s)² <= k_i (1/m_i + Σ_j k_j/(k_i M)) (m_i u_i² + k_i/(Σ_j k_j) M s²).
+  // Thus ω² <= max k_i/m_i + Σ_j k_j/M. The second term is the tool's share, with a_i·a_i in k_i of
+  // the tool.
   std::vector<double> sums(stiffness_.size());
   dealii::Utilities::MPI::sum(stiffness_, communicator(), sums);
   double share = 0.;
@@ -71,7 +72,8 @@ void ExplicitTools::remove(const std::size_t tool, Contacts &contacts, double &e
       contact.without_matrix().add_forces(fading_forces_[tool]->back().forces, ignored);
       contact.remove_tool();
     }
-  // The energy of its penalty springs is removed with it, and its kinetic energy, which all ranks know.
+  // The energy of its penalty springs is removed with it, and its kinetic energy, which all ranks
+  // know.
   external_work -= loads_[tool].stored_energy;
   if (dealii::Utilities::MPI::this_mpi_process(communicator()) == 0)
     external_work -= tools_[tool].kinetic_energy();

@@ -31,8 +31,8 @@ constexpr const char *flat_element_advice =
 } // namespace
 
 bool StableStep::update(const StepBounds &own, const double of_tools, const MPI_Comm communicator) {
-  // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1.
-  // Each bound is reduced over all ranks before they are combined: else the step would depend on the
+  // ω² <= ω_e² + max Σ k/m by Gershgorin, and with damping ω² Δt²/4 + Δt c/(2 m) <= 1. Each bound
+  // is reduced over all ranks before they are combined: else the step would depend on the
   // partition.
   std::array<double, 3> bounds{own.element_step, -own.frequency_square, -own.damping_rate};
   MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 3, MPI_DOUBLE, MPI_MIN, communicator);

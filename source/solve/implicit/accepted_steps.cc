@@ -35,8 +35,8 @@ void AcceptedSteps::commit(const double t) {
 
 void AcceptedSteps::add_works(const AcceptedStep &step) {
   EnergyLedger &energies = p_.problem.state().energies;
-  // Work of the supports and of the tools, by the trapezoidal rule, but with (I4) that of contact by its
-  // forces at the end.
+  // Work of the supports and of the tools, by the trapezoidal rule, but with (I4) that of contact
+  // by its forces at the end.
   energies.external -= parts_.removal().work(step.start_time, step.end_time, step.increment);
   if (!parts_.released().are_of_refinement())
     energies.external += parts_.released().work(step.start_time, step.end_time, step.increment);

@@ -42,28 +42,28 @@ private:
 
 /// Limits of augmentation, as factors unless they say otherwise.
 struct Augmentation::Limits {
-  /// Maximum number of augmentations for softness alone. Remaining softness fails no step, but is reported at
-  /// the end.
+  /// Maximum number of augmentations for softness alone. Remaining softness fails no step, but is
+  /// reported at the end.
   static constexpr unsigned int max_for_softness = 6;
-  /// If an augmentation leaves more than `slow_error` of the error, residuals may cause the gaps: their
-  /// tolerance is reduced by `accuracy`, down to `min_accuracy`.
+  /// If an augmentation leaves more than `slow_error` of the error, residuals may cause the gaps:
+  /// their tolerance is reduced by `accuracy`, down to `min_accuracy`.
   static constexpr double slow_error = 0.5, accuracy = 0.1, min_accuracy = 0.01;
-  /// The same for sheets, unless the residual is below this part of the largest force of a pair: it cannot
-  /// change forces then.
+  /// The same for sheets, unless the residual is below this part of the largest force of a pair: it
+  /// cannot change forces then.
   static constexpr double noise = 2e-3;
-  /// An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the penalty's. A
-  /// contact that leaves more than `slow` becomes stiffer, so that `wanted` is left (Bertsekas, Constrained
-  /// Optimization, 1982, sec. 2.2.5).
+  /// An augmentation leaves K/(K + k) of the gap, K the stiffness of the bodies there and k the
+  /// penalty's. A contact that leaves more than `slow` becomes stiffer, so that `wanted` is left
+  /// (Bertsekas, Constrained Optimization, 1982, sec. 2.2.5).
   static constexpr double slow = 0.25, wanted = 0.1;
-  /// Limits for softness. Stiff springs between facets that do not fit carry more force than their mean gaps.
-  /// Therefore pairs of bodies become that stiff only in confined bodies: the error is above `much`, and an
-  /// augmentation adds `nearly_all` of the spring force.
+  /// Limits for softness. Stiff springs between facets that do not fit carry more force than their
+  /// mean gaps. Therefore pairs of bodies become that stiff only in confined bodies: the error is
+  /// above `much`, and an augmentation adds `nearly_all` of the spring force.
   static constexpr double nearly_all = 0.98, much = 100., more_of_tools = 100., more_of_confined = 1e4;
-  /// If bodies hardly yield, springs keep the part `kept` of their force, and as much is added to the contact
-  /// force. Without extrapolation, `nearly_all` implies `kept`. An augmentation that MultiplierOffsets
-  /// extrapolates by the secant adds up to four times as much: `kept` excludes those of bodies that yield. If
-  /// springs hold less than `min_held` of the force, this is not significant: friction may be augmented
-  /// instead.
+  /// If bodies hardly yield, springs keep the part `kept` of their force, and as much is added to
+  /// the contact force. Without extrapolation, `nearly_all` implies `kept`. An augmentation that
+  /// MultiplierOffsets extrapolates by the secant adds up to four times as much: `kept` excludes
+  /// those of bodies that yield. If springs hold less than `min_held` of the force, this is not
+  /// significant: friction may be augmented instead.
   static constexpr double min_held = 0.05, kept = 0.9;
   /// The same for the stiffness of sheets, whose forces change little beside the residual.
   static constexpr double min_held_of_sheet = 0.01;
@@ -84,9 +84,11 @@ struct Augmentation::Series {
 
   Pace pace;
   std::vector<ContactSprings> springs;
-  std::vector<double> before;         ///< demands before the last augmentation
-  std::vector<double> stiffer, added; ///< see stiffen_slow_contacts(); of all augmentations, of the last
-  /// Of sheets: change of the normal force by the last augmentation over the force that springs held; else 1
+  std::vector<double> before; ///< demands before the last augmentation
+  /// Factors of stiffness by all augmentations, and parts of the forces added by the last.
+  std::vector<double> stiffer, added;
+  /// Of sheets: change of the normal force by the last augmentation over the force that springs
+  /// held; else 1
   std::vector<double> granted;
   std::unique_ptr<Vector> soft; ///< the state from which augmentations are for softness alone
   std::vector<double> soft_offsets;
@@ -95,8 +97,8 @@ struct Augmentation::Series {
 
 namespace {
 
-/// Whether the pair is with a driven tool that has neither a load nor a mass: it gives way to bodies, and any
-/// force is an error of the iterations.
+/// Whether the pair is with a driven tool that has neither a load nor a mass. Such a tool gives way
+/// to bodies, and any force is an error of the iterations.
 bool bears_nothing(const ImplicitProblem &problem, const std::optional<std::size_t> &tool) {
   if (!tool)
     return false;
@@ -233,8 +235,8 @@ Augmentation::Demands Augmentation::find_demands(const std::vector<ContactSpring
   demands.maximum = demands.by_tolerances;
   if (springs.empty())
     return demands;
-  // Equilibrium within its tolerance leaves friction this uncertain: further augmentations would only follow
-  // the iterations, and raise penalties for that.
+  // Equilibrium within its tolerance leaves friction this uncertain: further augmentations would
+  // only follow the iterations, and raise penalties for that.
   const double resolved = n > 0 ? parts_.parameters().solver.force_tolerance * solver_.accuracy() : 0.;
   const std::vector<double> excess = softness_.excess(springs, resolved);
   for (std::size_t i = 0; i < excess.size(); ++i) {

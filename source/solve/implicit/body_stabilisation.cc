@@ -18,7 +18,8 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
                          const ConstraintFilter &acts, const LoadFilter &springs_act) {
   const std::size_t n_bodies = scene.bodies().size();
   const double far = 10. * discretization.radius();
-  std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far); // about the scene's centre, negative
+  // Both are about the scene's centre; the high ones are negative.
+  std::vector<double> low(3 * n_bodies, far), high(3 * n_bodies, far);
   for (std::size_t body = 0; body < n_bodies; ++body)
     for (const auto &element : discretization.elements(body))
       for (const unsigned int v : element.cell->vertex_indices())
@@ -64,7 +65,8 @@ RigidBodies::RigidBodies(const Scene &scene, const Discretization &discretizatio
 
 namespace {
 
-/// Returns Σ ∫ N_a dV of the undeformed elements at their nodes, in each of the three directions. Collective.
+/// Returns Σ ∫ N_a dV of the undeformed elements at their nodes, in each of the three directions.
+/// Collective.
 Vector nodal_volumes(const Discretization &discretization, const std::size_t body) {
   Vector sum = discretization.make_additive_vector();
   for (const auto &element : discretization.elements(body)) {

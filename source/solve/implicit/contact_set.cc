@@ -9,8 +9,8 @@ namespace billet {
 namespace {
 
 struct Limits {
-  /// Unit of penetration in pairs without a tolerance [facet size]: the tightest tolerance that a target
-  /// error sets.
+  /// Unit of penetration in pairs without a tolerance [facet size]: the tightest tolerance that a
+  /// target error sets.
   static constexpr double penetration = 1e-5;
   /// Error of a position in penalties, as multiple of its last bit.
   static constexpr double last_bits = 3.;

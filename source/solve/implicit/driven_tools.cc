@@ -12,8 +12,8 @@ namespace {
 struct Factors {
   /// Travel of a tool beyond its first touch, as part of the scene's radius, so that it does touch.
   static constexpr double beyond_touch = 1e-6;
-  /// Tolerance of the solutions with the columns of the border over that of the residual: a tool may have to
-  /// move far while the bodies' residual is small.
+  /// Tolerance of the solutions with the columns of the border over that of the residual. A tool
+  /// may have to move far while the bodies' residual is small.
   static constexpr double of_columns = 1e-2;
 };
 

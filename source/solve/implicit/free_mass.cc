@@ -67,7 +67,8 @@ Vector FreeMass::accelerations_by(const Vector &forces) const {
   try {
     solver.solve(CondensedMass{*this, supports_}, result, rhs, LumpedMass{row_sums_});
   } catch (const dealii::SolverControl::NoConvergence &) {
-    // Round-off in bodies of very different densities prevents convergence; the error is of that size.
+    // Round-off in bodies of very different densities prevents convergence; the error is of that
+    // size.
   }
   supports_.homogeneous().distribute(result);
   return result;

@@ -16,14 +16,15 @@ namespace billet {
 namespace {
 
 struct Limits {
-  /// Limits of quasi-static motion, beyond what tools and supports prescribe: of a step and of the run, in
-  /// diameters of the scene.
+  /// Limits of quasi-static motion, beyond what tools and supports prescribe: of a step and of the
+  /// run, in diameters of the scene.
   static constexpr double max_step = 1., max_path = 10.;
   /// Minimum size of the set of resisting points, as part of the scene's radius.
   static constexpr double min_size = 1e-6;
 };
 
-/// Whether supports constrain a dof. A hanging node, which depends on dofs of other nodes, moves as they do.
+/// Whether supports constrain a dof. A hanging node, which depends on dofs of other nodes, moves as
+/// they do.
 bool is_held(const Constraints &constraints, const DofIndex dof) {
   if (!constraints.is_constrained(dof))
     return false;

@@ -73,8 +73,8 @@ void HeavyTools::commit(const std::size_t tool, const double offset, const doubl
   const double acceleration = accelerate(heavy, offset);
   heavy.rate =
       weights.increment * way + weights.velocity * rate_n + weights.acceleration * start_acceleration(heavy);
-  // The works of tools contain the exerted force, which the kinetic energy accounts for; the load is
-  // external.
+  // The works of tools contain the exerted force, which the kinetic energy accounts for; the load
+  // is external.
   const double mean_exerted = contact_.is_on() ? exerted : 0.5 * (heavy.exerted + exerted);
   const double work = (0.5 * (heavy.load + load) - mean_exerted) * way;
   energies.external += work;

@@ -171,8 +171,8 @@ double ImplicitMotion::step_error(const Vector &displacements) const {
 std::vector<LoadResult> ImplicitMotion::commit(const Vector &displacements, const Vector &increment,
                                                const Vector &mean_forces, const double /*touching*/,
                                                EnergyLedger &energies) {
-  // With p = M Δv and the mean forces F̄, the part of v̄·p + F̄·Δu on prescribed motions is the supports'
-  // work. The rest, with opposite sign, is the dissipation of the integrator.
+  // With p = M Δv and the mean forces F̄, the part of v̄·p + F̄·Δu on prescribed motions is the
+  // supports' work. The rest, with opposite sign, is the dissipation of the integrator.
   Vector change = trial_.velocity, mean_velocity = trial_.velocity;
   change -= start_.velocity;
   mean_velocity += start_.velocity;

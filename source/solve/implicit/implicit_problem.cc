@@ -14,14 +14,15 @@ namespace billet {
 namespace {
 
 struct Limits {
-  /// Force by round-off of displacements over that by the last bit of a displacement of the scene's size.
+  /// Force by round-off of displacements over that by the last bit of a displacement of the scene's
+  /// size.
   static constexpr double last_bits = 100.;
   /// Part of a correction below which it is useless.
   static constexpr double min_part = 1e-3;
 };
 
-/// Makes the motion of a dynamic scene; null for a static one. Throws InputError if prescribed displacements
-/// contradict each other.
+/// Makes the motion of a dynamic scene; null for a static one. Throws InputError if prescribed
+/// displacements contradict each other.
 std::unique_ptr<ImplicitMotion> make_motion(const Scene &scene, const Discretization &discretization,
                                             const Supports &supports) {
   check_agreement(scene, discretization);
@@ -40,7 +41,8 @@ std::unique_ptr<ImplicitScheme> make_statics(const Scene &scene, const Discretiz
   return std::make_unique<ImplicitScheme>();
 }
 
-/// Returns the stiffness of all springs of a load on a surface of a body [force/length]. Collective.
+/// Returns the stiffness of all springs of a load on a surface of a body [force/length].
+/// Collective.
 double find_surface_stiffness(const AppliedLoad &load, const Discretization &discretization,
                               const std::size_t body, const double young_modulus) {
   const auto *action = std::get_if<std::shared_ptr<const SurfaceLoad>>(&load.load.action);
@@ -57,7 +59,8 @@ double find_surface_stiffness(const AppliedLoad &load, const Discretization &dis
   return (*action)->bound(surface).stiffness * sums[0];
 }
 
-/// Returns a hundred times the force by the last bit of a displacement of the scene's size. Collective.
+/// Returns a hundred times the force by the last bit of a displacement of the scene's size.
+/// Collective.
 double find_round_off_force(const Scene &scene, const Discretization &discretization) {
   double stiffest = 0.; // [force/length]
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {

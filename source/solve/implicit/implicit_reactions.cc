@@ -76,7 +76,8 @@ void ImplicitReactions::start() {
   // Residuals have the opposite sign of forces.
   balance.loads = sums[1] + sums[2] - sums[0];
   balance.free = -weighted.free;
-  // The inertia that is in balance with the forces at the end of the step, but for the free residual.
+  // The inertia that is in balance with the forces at the end of the step, but for the free
+  // residual.
   if (parts_.scheme().has_inertia())
     balance.inertia = balance.free + sums[0] - balance.reactions;
   balance.round_off = problem_.round_off_force();

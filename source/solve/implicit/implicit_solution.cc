@@ -12,8 +12,8 @@ namespace {
 
 /// Limits of repeated steps.
 struct Limits {
-  /// Maximum number of raises of penalties in a step, each by a factor of at least 2: they exhaust the factor
-  /// of 100 by which default penalties may rise.
+  /// Maximum number of raises of penalties in a step, each by a factor of at least 2. They exhaust
+  /// the factor of 100 by which default penalties may rise.
   static constexpr unsigned int max_raises = 6;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 /// Completes a report about the forces of a finer mesh.
 void begin_on_finer_mesh(ImplicitProblem &problem, RestartReport &report) {
-  // They are those after yielding, at displacements that may be far from balance, and so are the energies.
+  // They are those after yielding, at displacements that may be far from balance, and so are the
+  // energies.
   EnergyLedger &energies = problem.state().energies;
   const double drift = energies.drift();
   const auto now =

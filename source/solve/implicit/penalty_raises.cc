@@ -58,8 +58,8 @@ std::vector<double> PenaltyRaises::find_factors() const {
       stepping.control == parameters::TimeStepping::Control::automatic &&
       problem_.step().time - problem_.state().time < Limits::short_step * stepping.initial_step;
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    // A penalty of the scene is kept while possible; warnings report its softness. It has to rise if nodes
-    // are about to go deeper than contact follows them.
+    // A penalty of the scene is kept while possible; warnings report its softness. It has to rise
+    // if nodes are about to go deeper than contact follows them.
     const PairSettings &pair = contacts[i].settings();
     const bool is_too_much =
         !pair.has_tolerance() && factors[i] > (pair.input->penalty.is_given && !is_short ? Limits::deep : 1.);
@@ -140,8 +140,8 @@ DiagnosticList DynamicPenalties::control(const Solution &solution) {
       continue;
     const double normal = factors[i].normal, tangential = factors[i].tangential;
     contacts[i].penalties().scale_under_load(normal, tangential);
-    // A stiffer spring with the same force stores less energy: the rest stays in the penetration that is now
-    // allowed.
+    // A stiffer spring with the same force stores less energy: the rest stays in the penetration
+    // that is now allowed.
     const double lost =
         (1. - 1. / normal) * energies.of_pairs[i] + (1. - 1. / tangential) * energies.sticking[i].stored;
     books_.add(i, -lost);

@@ -111,8 +111,8 @@ bool Predictor::follow_probe(const double t) {
 
 bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   // K Δu = −∂R/∂t Δt at the last state. The change of the prescribed displacements is lifted to the
-  // right-hand side, so that it spreads through the bodies. On the boundary nodes alone it would crush the
-  // elements beside them.
+  // right-hand side, so that it spreads through the bodies. On the boundary nodes alone it would
+  // crush the elements beside them.
   StepState &step = problem_.step();
   DrivenTools &tools = parts_.tools();
   bool supports_move = false;
@@ -144,8 +144,9 @@ bool Predictor::follow_tangent(const double t, NewtonIteration &iteration) {
   push *= parts_.scheme().contact().at_end();
   parts_.supports().condense(push);
   rhs += push;
-  // Whether points on the yield surface will load or unload is not known yet. The elastic guess is the safe
-  // one, and takes the fewer iterations: the soft plastic one overshoots wherever they unload.
+  // Whether points on the yield surface will load or unload is not known yet. The elastic guess is
+  // the safe one, and takes the fewer iterations: the soft plastic one overshoots wherever they
+  // unload.
   if (!problem_.assemble_tangent({change, parts_.tangent().matrix(), &lift}, Limits::yield_slack))
     return false;
   lift.compress(dealii::VectorOperation::add);

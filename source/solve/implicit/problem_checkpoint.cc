@@ -119,7 +119,8 @@ void ProblemCheckpoint::load_contacts(StateReader &reader, const NodeKeys &keys)
   for (auto &contact : parts_.contacts()) {
     ContactLoad *const load = contact.rigid_tool() ? nullptr : &*body_pair_load++;
     const ContactStep at{state.time, state.time, 0., state.placements, state.placements};
-    const bool begins = is_refined(reader, contact); // what the coarser mesh cannot tell remains as it begins
+    // Contact keeps its initial state where the coarser mesh has no data.
+    const bool begins = is_refined(reader, contact);
     if (begins)
       contact.with_matrix().begin(at, state.displacements);
     const bool is_known = load_pair(reader, contact, [&] {

@@ -13,8 +13,8 @@ using dealii::Tensor;
 namespace {
 
 struct Limits {
-  /// Maximum number of failures in a row that count; each beyond the first doubles the number of steps
-  /// without a trial, and adds one.
+  /// Maximum number of failures in a row that count; each beyond the first doubles the number of
+  /// steps without a trial, and adds one.
   static constexpr unsigned int max_failures = 7;
 };
 

@@ -11,7 +11,8 @@ namespace {
 struct Limits {
   /// Maximum number of refinements in a step.
   static constexpr unsigned int max_refinements = 2;
-  /// Part of what may be out of balance that a refinement aims at, and the minimum factor of its tolerance.
+  /// Part of what may be out of balance that a refinement aims at, and the minimum factor of its
+  /// tolerance.
   static constexpr double aim = 0.5, min_factor = 1e-3;
 };
 
@@ -95,8 +96,8 @@ NewtonReport StepAttempt::solve(const double t, const double previous_step, cons
                : p_.continuation.iterate(way == Way::by_low_penalties ? PenaltyContinuation::Start::low
                                                                       : PenaltyContinuation::Start::enough,
                                          x.offsets, x.displacements);
-  if (linear_step.force > 0.)
-    report.iterations.insert(report.iterations.begin(), linear_step); // its cost is that of an iteration
+  if (linear_step.force > 0.) // its cost is that of an iteration
+    report.iterations.insert(report.iterations.begin(), linear_step);
   if (is_direct)
     report.hardest = report.iterations.size();
   p_.augmentation.augment(report, x.offsets, x.displacements);
@@ -130,8 +131,8 @@ void StepAttempt::stop_tools(const double t, Unknowns &x, NewtonReport &report) 
 void StepAttempt::evaluate(Unknowns &x, NewtonReport &report) {
   ImplicitProblem &problem = p_.problem;
   ImplicitParts &parts = problem.parts();
-  // The line search may have evaluated other states since: the histories have to be those of the accepted
-  // state.
+  // The line search may have evaluated other states since: the histories have to be those of the
+  // accepted state.
   Vector accepted = parts.tools().pack(x.displacements, x.offsets);
   Vector residual(accepted);
   problem.compute_residual(accepted, residual);

@@ -66,9 +66,9 @@ std::map<std::size_t, std::set<std::string>> StepRules::switch_supports(const do
   std::map<std::size_t, std::set<std::string>> ended;
   const auto &bodies = parts_.scene().bodies();
   for (std::size_t body = 0; body < bodies.size(); ++body)
-    for (const Constraint &constraint : bodies[body].constraints)
+    for (const Constraint &constraint : bodies[body].constraints) // planes hold always
       if (parts_.supports().acting()(constraint) && !constraint.times.acts_after(t))
-        ended[body].insert(constraint.name.substr(std::string("support ").size())); // planes hold always
+        ended[body].insert(constraint.name.substr(std::string("support ").size()));
   ForceState &start = problem_.step().start;
   Vector reactions = start.supports;
   reactions += inertia;

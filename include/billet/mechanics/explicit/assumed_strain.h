@@ -6,8 +6,8 @@
 #include "billet/mechanics/explicit/mean_gradient.h"
 #include "billet/mechanics/strain_modes.h"
 
-// Eight points with assumed strains, (B1) to (B7) of doc/theory.md: j_q = Y_q J̄ replaces ∂x/∂ξ. The law
-// receives j_q up to a factor, and det J̄.
+// Eight points with assumed strains, (B1) to (B7) of doc/theory.md: j_q = Y_q J̄ replaces ∂x/∂ξ.
+// The law receives j_q up to a factor, and det J̄.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -244,12 +244,14 @@ BILLET_INLINE void update_assumed_point(const Material &material, const LaneFunc
                                      history, dev_tau, sums.watch);
 }
 
-/// Adds the contribution of a point to the sums. Sets `forces` = weight dev τ j⁻ᵀ, those of its columns.
+/// Adds the contribution of a point to the sums. Sets `forces` = weight dev τ j⁻ᵀ, those of its
+/// columns.
 template <bool is_plastic>
 BILLET_INLINE void add_assumed_point(const unsigned int q, const Real weight, const Real metric[6],
                                      const Real h[6], const Map &map, const Real dev_tau[6],
                                      AssumedSums &sums, Real forces[3][3]) {
-  // Condition that Y is positive definite: minors of a_a·Y a_b, of which the largest is det j det J̄.
+  // Condition that Y is positive definite: minors of a_a·Y a_b, of which the largest is det j det
+  // J̄.
   const Real c_11 = metric[0] + h[0], c_22 = metric[1] + h[1], c_12 = metric[3] + h[3];
   sums.inadmissible |=
       !(c_11 > 0._r && c_11 * c_22 > c_12 * c_12 && map.det > 0._r && map.det < finite_bound);
@@ -267,7 +269,8 @@ BILLET_INLINE void add_assumed_point(const unsigned int q, const Real weight, co
   sums.lambda[q] = bound_eigenvalue(bound) * (map.inverse_det * map.inverse_det);
 }
 
-/// Returns a bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (X13), from the row sums of its matrix.
+/// Returns a bound of ⅛ Σ_q λ_q |∂v/∂ξ|²_q over the modes' squares, (X13), from the row sums of its
+/// matrix.
 BILLET_INLINE Real bound_points(const Real lambda[8]) {
   constexpr Number g = gauss, g2 = gauss * gauss, g3 = gauss * gauss * gauss;
   Real m[8]; // moments, indexed by the bits ξ, η, ζ
@@ -308,9 +311,9 @@ BILLET_INLINE void sum_points(const Real points[8][3][3], ColumnForces &sums) {
     }
 }
 
-/// Computes the forces of one strain mode of j = a_b + Σ_a a^a h_ab. `stress`, work-conjugate to h_ab,
-/// follows from the forces f_b of the columns; their effect on the duals, a^k·(Σ_b h_ab f_b), is added at
-/// [a][k].
+/// Computes the forces of one strain mode of j = a_b + Σ_a a^a h_ab. `stress`, work-conjugate to
+/// h_ab, follows from the forces f_b of the columns; their effect on the duals, a^k·(Σ_b h_ab f_b),
+/// is added at [a][k].
 BILLET_INLINE void add_strain_forces(const Real duals[3][3], const Real f[3][3], const Real h[6],
                                      Real stress[6], Real of_duals[3][3]) {
   Real t[3][3]; // a^k·f_b
@@ -420,8 +423,9 @@ BILLET_INLINE void advance_assumed_strain_batch(const Elements &elements, const 
 
   const Real per_mass = reference_volume * load(constants + mean_gradient::bound * n_lanes);
   const Real omega = per_mass * bound_points(sums.lambda);
+  // The sum is tr J̄⁻¹ J̄⁻ᵀ.
   const Real of_volume =
-      per_mass * (frame.inverse_metric[0] + frame.inverse_metric[1] + frame.inverse_metric[2]); // tr J̄⁻¹ J̄⁻ᵀ
+      per_mass * (frame.inverse_metric[0] + frame.inverse_metric[1] + frame.inverse_metric[2]);
   const Real mean_tau = material.bulk * volume.logarithm_of_J;
   const Damping damping = compute_viscosity(material, volume, history, static_cast<Number>(step.inverse_dt));
   store(history + last::omega * n_lanes, omega);

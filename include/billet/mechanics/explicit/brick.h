@@ -11,8 +11,8 @@
 namespace billet::explicit_kernels {
 namespace {
 
-/// Vectors of the modes except the mean: a_1, a_2, a_3, b_1, b_2, b_3, c; for positions or for the conjugate
-/// forces.
+/// Vectors of the modes except the mean: a_1, a_2, a_3, b_1, b_2, b_3, c; for positions or for the
+/// conjugate forces.
 struct Modes {
   Real m[7][3];
 };
@@ -41,8 +41,8 @@ BILLET_INLINE void compute_modes(const Real x[8][3], Modes &modes) {
   }
 }
 
-/// Modes of the positions of a batch, and of its displacements in the step. The latter are set only on
-/// request, in float always.
+/// Modes of the positions of a batch, and of its displacements in the step. The latter are set only
+/// on request, in float always.
 struct Motion {
   Modes x, delta;
 };
@@ -62,7 +62,8 @@ BILLET_INLINE void gather_modes(const double *p, const double scale, const std::
   compute_modes(x, modes);
 }
 
-/// Gathers the motion; `reference` points at the modes of the reference positions among the constants.
+/// Gathers the motion; `reference` points at the modes of the reference positions among the
+/// constants.
 template <bool with_step>
 BILLET_INLINE void gather_motion(const Elements &, const Step &step, const std::uint32_t *nodes,
                                  const Number *reference, Motion &motion) {
@@ -124,8 +125,8 @@ BILLET_INLINE void scatter_modes(const Modes &forces, const std::uint32_t *nodes
 #endif
 }
 
-/// Returns the exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}: linear in the modes
-/// a1 and b1 of x, in a2 and b2 of y, in a3 and b3 of z.
+/// Returns the exact volume, 8 {[a1 a2 a3] − ([a1 b2 b3] + [b1 a2 b3] + [b1 b2 a3])/3}. It is
+/// linear in the modes a1 and b1 of x, in a2 and b2 of y, and in a3 and b3 of z.
 BILLET_INLINE Real compute_volume(const Modes &x, const Modes &y, const Modes &z) {
   Real a[3], b[3], t[3];
   cross(y.m[1], z.m[2], a);
@@ -137,15 +138,15 @@ BILLET_INLINE Real compute_volume(const Modes &x, const Modes &y, const Modes &z
   return 8._r * (dot(x.m[0], a) - (1._r / 3._r) * (dot(x.m[3], b) + dot(x.m[3], t)));
 }
 
-/// Returns the volume at the modes `after` minus that at `before`. It uses their difference, so there is no
-/// cancellation error.
+/// Returns the volume at the modes `after` minus that at `before`. It uses their difference, so
+/// there is no cancellation error.
 BILLET_INLINE Real compute_volume_change(const Modes &before, const Modes &difference, const Modes &after) {
   return compute_volume(difference, after, after) +
          (compute_volume(before, difference, after) + compute_volume(before, before, difference));
 }
 
-/// Columns ∂x/∂ξ_k at the four lines along ξ_k through the Gauss points: [k][line], bit 0 of the line for the
-/// first of the other two directions. Also used for the conjugate forces.
+/// Columns ∂x/∂ξ_k at the four lines along ξ_k through the Gauss points. The index is [k][line],
+/// bit 0 of the line for the first of the other two directions. Also used for the conjugate forces.
 struct Columns {
   Real c[3][4][3];
 };
@@ -191,8 +192,8 @@ namespace eight_point {
 constexpr unsigned int volume = 0, inverse_mass = 1, modes = 2, point_volumes = is_single ? 23 : 2;
 } // namespace eight_point
 
-/// Current volume of an element, ln J̄, the change in the step, and the sum of the volumes before and after
-/// it.
+/// Current volume of an element, ln J̄, the change in the step, and the sum of the volumes before
+/// and after it.
 struct VolumeChange {
   Real now, logarithm_of_J, change, sum;
 };
@@ -228,8 +229,8 @@ struct Damping {
   Real rate;     ///< rate of the damping, ∂pressure/∂d · d-weight, see bound_rate()
 };
 
-/// Computes the bulk viscosity. The characteristic length of the brick is L² = 4/(ρ Ω) with the Ω of the last
-/// call, which `history` stores. Also stores the pressure there.
+/// Computes the bulk viscosity. The characteristic length of the brick is L² = 4/(ρ Ω) with the Ω
+/// of the last call, which `history` stores. Also stores the pressure there.
 BILLET_INLINE Damping compute_viscosity(const Material &material, const VolumeChange &volume, Number *history,
                                         const Number inverse_dt) {
   const Real last_omega = load(history + last::omega * n_lanes);
@@ -260,7 +261,8 @@ BILLET_INLINE Real bound_rate(const Real omega_squared, const Real c) {
   return 0.5_r * (0.5_r * c + square_root(0.25_r * c * c + omega_squared));
 }
 
-/// Prefetches into the second-level cache: the first has no room for two batches and the work on a third.
+/// Prefetches into the second-level cache: the first has no room for two batches and the work on a
+/// third.
 template <class T> BILLET_INLINE void prefetch(const T *p, const std::size_t n) {
   for (std::size_t k = 0; k < n; k += 64 / sizeof(T))
     __builtin_prefetch(p + k, 0, 2);
@@ -356,7 +358,8 @@ BILLET_INLINE Real compute_dilatation_energy(const Material &material, const Rea
   return mean_tau * mean_tau * (0.5_r / material.bulk);
 }
 
-/// Maximum determinant; larger ones come from numbers that are not finite, or are about to overflow.
+/// Maximum determinant; larger ones come from numbers that are not finite, or are about to
+/// overflow.
 constexpr Number finite_bound = is_single ? 1e30_r : 1e300_r;
 
 /// Stores the first bad lane of a batch in the result, unless an earlier element failed.

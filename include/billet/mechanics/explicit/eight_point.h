@@ -4,9 +4,9 @@
 
 #include "billet/mechanics/explicit/brick.h"
 
-// The mean-dilatation brick. The eight points have twelve columns of j = ∂x/∂ξ, four in each direction. With
-// Cauchy's σ = (w/det j) dev τ + p 1 the forces of a point's columns are σ cof j. Since the p part integrates
-// to p ∂v/∂x, mean dilatation needs no gradients of its own.
+// The mean-dilatation brick. The eight points have twelve columns of j = ∂x/∂ξ, four in each
+// direction. With Cauchy's σ = (w/det j) dev τ + p 1 the forces of a point's columns are σ cof j.
+// Since the p part integrates to p ∂v/∂x, mean dilatation needs no gradients of its own.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -36,9 +36,9 @@ struct MotionColumns {
   Columns x, delta;
 };
 
-/// Computes the stress dev τ of a point from the law, and completes `map`. Returns the factor that converts
-/// it to Cauchy's stress times the weight of the Jacobian: reference_volume/det j with the point's share of
-/// the volume, or 1/J̄ for a rate form.
+/// Computes the stress dev τ of a point from the law, and completes `map`. Returns the factor that
+/// converts it to Cauchy's stress times the weight of the Jacobian. This is reference_volume/det j
+/// with the point's share of the volume, or 1/J̄ for a rate form.
 template <class Law, bool is_plastic>
 BILLET_INLINE Real compute_stress(const Material &material, const LaneFunctions &functions,
                                   const unsigned int q, const MotionColumns &columns, const Number *weights,

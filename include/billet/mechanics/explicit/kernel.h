@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// Interface between ExplicitBlock and its kernels: plain numbers and pointers only. A kernel is compiled with
-// instructions that not every processor supports. If it instantiated an inline function of the standard
-// library, the linker might keep that copy for the whole program.
+// Interface between ExplicitBlock and its kernels: plain numbers and pointers only. A kernel is
+// compiled with instructions that not every processor supports. If it instantiated an inline
+// function of the standard library, the linker might keep that copy for the whole program.
 
 namespace billet::explicit_kernels {
 
@@ -26,18 +26,18 @@ struct LaneFlow {
 struct LaneFunctions {
   /// Solves q − m Δα − σ_y(α + Δα) = 0 for the Δα > 0; `yield_stress` becomes σ_y(α + Δα).
   double (*harden)(const void *hardening, double q, double m, double alpha, double &yield_stress);
-  /// Solves q − m Δα = flow stress for the Δα > 0 of a step of dt, and advances the flow stress' `state`, see
-  /// FlowStress.
+  /// Solves q − m Δα = flow stress for the Δα > 0 of a step of dt, and advances the flow stress'
+  /// `state`, see FlowStress.
   LaneFlow (*flow)(const void *hardening, double q, double m, double alpha, double dt, double *state);
   /// Returns σ_y(α), at rest; `slope` becomes its derivative.
   double (*yield_stress)(const void *hardening, double alpha, double &slope);
-  /// Computes dev ln b and tr ln b / 3 of a symmetric b (11, 22, 33, 12, 13, 23). Returns false if b is not
-  /// positive definite.
+  /// Computes dev ln b and tr ln b / 3 of a symmetric b (11, 22, 33, 12, 13, 23). Returns false if
+  /// b is not positive definite.
   bool (*logarithm)(const double *b, double *deviator, double &mean);
 };
 
-// The constants of the body and of the step are in the kernel's units. `Number` is the number type of the
-// kernel.
+// The constants of the body and of the step are in the kernel's units. `Number` is the number type
+// of the kernel.
 
 /// Parameters of hardening laws. Those of other laws are not set.
 template <class Number> struct BasicHardening {
@@ -70,8 +70,8 @@ template <class Number> struct BasicMaterial {
   BasicViscosity<Number> viscosity;
 };
 
-/// Count of numbers per element, stored in batches of as many elements as there are lanes: number k of batch
-/// b and lane l is at (b n + k) n_lanes + l.
+/// Count of numbers per element, stored in batches of as many elements as there are lanes. Number k
+/// of batch b and lane l is at (b n + k) n_lanes + l.
 struct Layout {
   std::size_t n_constants;
   std::size_t n_history;
@@ -80,15 +80,16 @@ struct Layout {
 
 template <class Number> struct BasicElements {
   std::size_t n_elements;
-  const std::uint32_t *nodes; ///< 8 for each element, in batches as below; padded with the last element
+  /// 8 for each element, in batches as below; padded with the last element.
+  const std::uint32_t *nodes;
   const double *reference_positions; ///< stride 4
   const Number *constants;
   Number *history;
   Layout layout;
 };
 
-/// Input and output of a step. Nodal vectors are in the user's units, everything else is in the kernel's
-/// units.
+/// Input and output of a step. Nodal vectors are in the user's units, everything else is in the
+/// kernel's units.
 struct Step {
   const double *displacements, *velocities;
   double *forces;
@@ -109,19 +110,22 @@ template <class Number>
 using Kernel = void (*)(const BasicElements<Number> &, const BasicMaterial<Number> &, const LaneFunctions &,
                         const Step &, Result &);
 
-// Order of these numbers. Constants of the eight-point element: V, 1/(smallest nodal mass), then, unless
-// hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the viscous pressure of
-// the last call, then the history of each point. Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹
-// in the element's own coordinates) or dev τ (11, 22, 12, 13, 23); then, with plasticity, α, unless
-// hardening is linear, σ_y(α), and the state of the flow stress, in the user's units. The constants of the
-// other elements are listed below.
+// Order of these numbers. Constants of the eight-point element: V, 1/(smallest nodal mass), then,
+// unless hypoelastic, the reference volume of each point. History: v, the step bound's Ω and the
+// viscous pressure of the last call, then the history of each point.
 //
-// In float, differences must be formed before rounding, so the modes of the reference positions (21 numbers)
-// are constants, too. History: J̄ − 1 instead of v; for each point spatial b_e − 1 up to a factor (6 numbers)
-// or dev τ; then α in two parts, σ_y(α), and each number of the flow stress' state in two parts.
+// Point history: H = j⁻¹ b_e j⁻ᵀ (6 numbers, convected: C_p⁻¹ in the element's own coordinates) or
+// dev τ (11, 22, 12, 13, 23). With plasticity follow α, unless hardening is linear, σ_y(α), and the
+// state of the flow stress, in the user's units. The constants of the other elements are listed
+// below.
+//
+// In float, differences must be formed before rounding, so the modes of the reference positions (21
+// numbers) are constants, too. The history has J̄ − 1 instead of v. Each point has spatial b_e − 1
+// up to a factor (6 numbers) or dev τ. Then follow α in two parts, σ_y(α), and each number of the
+// flow stress' state in two parts.
 
-/// Offsets of the data of the last call that every element stores; data of its kind follow. In float J̄ − 1
-/// replaces the volume.
+/// Offsets of the data of the last call that every element stores; data of its kind follow. In
+/// float J̄ − 1 replaces the volume.
 namespace last {
 constexpr unsigned int volume = 0, omega = 1, viscous_pressure = 2, n = 3;
 } // namespace last
@@ -136,10 +140,13 @@ constexpr unsigned int n = 21;
 /// Offsets of the data of the one-point element.
 namespace one_point {
 using namespace mean_gradient;
-constexpr unsigned int bound_of_all = mean_gradient::n; ///< as `bound`, for the columns and the modes b, c
-constexpr unsigned int hourglass_modulus = 22;          ///< maximum modulus of the hourglass strains
-constexpr unsigned int metric = 23; ///< a_k·a_k, then a_2·a_3, a_3·a_1, a_1·a_2, over the maximum square
-constexpr unsigned int modes = 29;  ///< modes of the reference positions, in float
+/// Like `bound`, for the columns and the modes b, c.
+constexpr unsigned int bound_of_all = mean_gradient::n;
+/// Maximum modulus of the hourglass strains.
+constexpr unsigned int hourglass_modulus = 22;
+/// a_k·a_k, then a_2·a_3, a_3·a_1, a_1·a_2, over the maximum square.
+constexpr unsigned int metric = 23;
+constexpr unsigned int modes = 29; ///< modes of the reference positions, in float
 // History: data of the last call, ĥ_0 (in float ĥ itself), then the history of the point.
 constexpr unsigned int hourglass = last::n, point = hourglass + 12;
 } // namespace one_point

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Before it includes this file, a translation unit defines BILLET_LANES, the number of elements computed at
-// once, and BILLET_SINGLE, 1 for float or 0 for double.
+// A translation unit defines two macros before it includes this file. BILLET_LANES is the number of
+// elements computed at once; BILLET_SINGLE is 1 for float or 0 for double.
 #ifndef BILLET_MECHANICS_EXPLICIT_LANES_H
 #define BILLET_MECHANICS_EXPLICIT_LANES_H
 
@@ -12,7 +12,8 @@
 
 #define BILLET_INLINE inline __attribute__((always_inline))
 
-// Everything here is in an unnamed namespace: each instruction set and number type has its own copy.
+// Everything here is in an unnamed namespace: each instruction set and number type has its own
+// copy.
 namespace billet::explicit_kernels {
 namespace {
 
@@ -176,8 +177,8 @@ BILLET_INLINE Real split(const Real x, Real &m) {
   return from_bits(k + Format::shift_bits) - Format::shift;
 }
 
-/// Returns ln m = 2 artanh y, y = (m − 1)/(m + 1), |y| ≤ 0.172. The relative truncation error is below 1e-17
-/// (float: 2e-11).
+/// Returns ln m = 2 artanh y, y = (m − 1)/(m + 1), |y| ≤ 0.172. The relative truncation error is
+/// below 1e-17 (float: 2e-11).
 BILLET_INLINE Real double_artanh(const Real y) {
   const Real z = y * y;
   Real sum = broadcast(series.reciprocal[2 * Format::n_artanh + 1]);
@@ -205,7 +206,8 @@ BILLET_INLINE Real logarithm_of_one_plus(const Real x) {
 /// Returns exp x; x is clipped to ±700 (float: ±80).
 BILLET_INLINE Real exponential(const Real x) {
   const Real bounded = min(max(x, broadcast(-Format::max_exponent)), broadcast(Format::max_exponent));
-  // x = k ln 2 + r, with ln 2 in two parts; |r| ≤ 0.35, the truncation error is below 1e-17 (float: 6e-9)
+  // x = k ln 2 + r, with ln 2 in two parts; |r| ≤ 0.35, the truncation error is below 1e-17 (float:
+  // 6e-9)
   const Real shifted = bounded * 1.44269504088896340736_r + Format::shift;
   const Real k = shifted - Format::shift;
   const Real r = (bounded - k * Format::ln_2_high) - k * Format::ln_2_low;
@@ -217,8 +219,9 @@ BILLET_INLINE Real exponential(const Real x) {
 
 /// Returns x^{-1/3} for positive x.
 BILLET_INLINE Real inverse_cube_root(const Real x) {
-  // The initial guess divides exponent and fraction by −3: i/3 = i/4 + i/16 + i/64 + ... Its error is at most
-  // 4 %. Two corrections y (1 + e/3 + 2 e²/9 + ...), e = 1 − x y³, follow, with four terms and with two.
+  // The initial guess divides exponent and fraction by −3: i/3 = i/4 + i/16 + i/64 + ... Its error
+  // is at most 4 %. Two corrections y (1 + e/3 + 2 e²/9 + ...), e = 1 − x y³, follow, with four
+  // terms and with two.
   const Bits bits = to_bits(x);
   Bits third = (bits >> 2) + (bits >> 4);
   third += third >> 4;

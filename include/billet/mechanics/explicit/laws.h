@@ -4,9 +4,10 @@
 
 #include "billet/mechanics/explicit/lanes.h"
 
-// Material laws at a point. `hourglass` is the term 6 G W (X7) that the stabilisation of a one-point element
-// adds to the squared stress in the yield condition; zero for eight points. Symmetric tensors have the order
-// 11, 22, 33, 12, 13, 23. Matrices are arrays of columns: m[k][i] is row i of column k.
+// Material laws at a point. `hourglass` is the term 6 G W (X7) that the stabilisation of a
+// one-point element adds to the squared stress in the yield condition. It is zero for eight points.
+// Symmetric tensors have the order 11, 22, 33, 12, 13, 23. Matrices are arrays of columns: m[k][i]
+// is row i of column k.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -89,8 +90,8 @@ struct Map {
   }
 };
 
-/// Computes Σ_m d_m ∂ξ_m/∂x at a point, for vectors d that belong to the element's directions; l[k][i] is
-/// L_ik.
+/// Computes Σ_m d_m ∂ξ_m/∂x at a point, for vectors d that belong to the element's directions;
+/// l[k][i] is L_ik.
 BILLET_INLINE void compute_gradient(const Map &map, const Real d[3][3], Real l[3][3]) {
   for (unsigned int k = 0; k < 3; ++k)
     for (unsigned int i = 0; i < 3; ++i)
@@ -98,8 +99,8 @@ BILLET_INLINE void compute_gradient(const Map &map, const Real d[3][3], Real l[3
                 (d[0][i] * map.cofactor[0][k] + d[1][i] * map.cofactor[1][k] + d[2][i] * map.cofactor[2][k]);
 }
 
-/// Computes M + Mᵀ + M Lᵀ. With M = L (1 + Y) this is the change of Y when 1 + Y becomes (1 + L)(1 + Y)(1 +
-/// L)ᵀ, without cancellation error for small L.
+/// Computes M + Mᵀ + M Lᵀ. With M = L (1 + Y) this is the change of Y when 1 + Y becomes (1 +
+/// L)(1 + Y)(1 + L)ᵀ, without cancellation error for small L.
 BILLET_INLINE void compute_change(const Real l[3][3], const Real m[3][3], Real change[6]) {
   for (unsigned int r = 0; r < 6; ++r) {
     const unsigned int i = row_of[r], j = column_of[r];
@@ -133,7 +134,8 @@ BILLET_INLINE Real bound_eigenvalue(const Real a[6]) {
   return max(max(a[0] + a3 + a4, a[1] + a3 + a5), a[2] + a4 + a5);
 }
 
-/// Results of a law other than stress and history. Energies are those of the last point, per volume.
+/// Results of a law other than stress and history. Energies are those of the last point, per
+/// volume.
 struct Watch {
   Real distortion = {};   ///< elastic energy without the volumetric part
   Real plastic_work = {}; ///< plastic work of the step: mean yield stress times the change of α
@@ -142,8 +144,8 @@ struct Watch {
   Mask failed = {};       ///< inadmissible
 };
 
-/// Returns the slope of a hardening law that the kernels support. The yield stress at α is given, which saves
-/// an exponential.
+/// Returns the slope of a hardening law that the kernels support. The yield stress at α is given,
+/// which saves an exponential.
 BILLET_INLINE Real compute_slope(const Hardening &hardening, const Real alpha, const Real yield_stress) {
   if (hardening.kind == HardeningKind::voce)
     return hardening.saturation_rate *
@@ -164,10 +166,11 @@ BILLET_INLINE Real compute_yield_stress(const Hardening &hardening, const Real a
   return hardening.strength * exponential(hardening.exponent * logarithm(hardening.prestrain + alpha));
 }
 
-constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r; ///< relative to the yield stress
+/// Tolerance relative to the yield stress.
+constexpr Number consistency_tolerance = is_single ? 1e-6_r : 4e-15_r;
 
-/// Solves q − m Δα = σ_y(α + Δα) for Δα > 0 in the lanes that yield; `yield_stress` becomes the new one. With
-/// a concave σ_y Newton's method approaches the root from one side.
+/// Solves q − m Δα = σ_y(α + Δα) for Δα > 0 in the lanes that yield; `yield_stress` becomes the new
+/// one. With a concave σ_y Newton's method approaches the root from one side.
 BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctions &functions,
                                      const Mask yields, const Real q, const Real m, const Real alpha,
                                      Real &yield_stress) {
@@ -193,8 +196,8 @@ BILLET_INLINE Real solve_consistency(const Material &material, const LaneFunctio
   return delta;
 }
 
-/// Offsets of a point's plastic data. In float α and the state of the flow stress are sums of two parts,
-/// since increments may be below the last digit of the first.
+/// Offsets of a point's plastic data. In float, α and the state of the flow stress are sums of two
+/// parts. Increments may be below the last digit of the first part.
 constexpr unsigned int n_parts = is_single ? 2 : 1, place_of_yield_stress = n_parts;
 
 BILLET_INLINE std::size_t place_of_state(const Material &material) {
@@ -222,8 +225,8 @@ struct Flow {
   Real plastic_work; ///< of the step, per volume
 };
 
-/// Computes the flow in the lanes that yield, one after the other, and advances their state. Lanes without
-/// time to flow no longer yield. `history` points at α, `before` is σ_y(α).
+/// Computes the flow in the lanes that yield, one after the other, and advances their state. Lanes
+/// without time to flow no longer yield. `history` points at α, `before` is σ_y(α).
 BILLET_INLINE Flow flow_by_lane(const Material &material, const LaneFunctions &functions, const Real q,
                                 const Real m, const Real before, Number *history, Mask &yields) {
   Flow flow{Real{}, before, q, Real{}};
@@ -275,10 +278,10 @@ BILLET_INLINE Real power(const Real x, const Number p) { return exponential(p * 
 /// Bound on the last change of Δα, relative to Δα: the rest is below consistency_tolerance.
 constexpr Number root_tolerance = is_single ? 1e-3_r : 6e-8_r;
 
-/// Computes the flow at a rate, q − m Δα = σ_y(α + Δα) (1 + x) with x = (Δα/DΔt)^{1/p}, in the lanes that
-/// yield; `before` is σ_y(α). In x the slope at rest is finite. Each side alone bounds x from above; Halley's
-/// method starts at the smaller bound, and bisects where it would leave the bracket. Without time to flow no
-/// lane yields.
+/// Computes the flow at a rate, q − m Δα = σ_y(α + Δα) (1 + x) with x = (Δα/DΔt)^{1/p}, in the
+/// lanes that yield; `before` is σ_y(α). In x the slope at rest is finite. Each side alone bounds x
+/// from above; Halley's method starts at the smaller bound, and bisects where it would leave the
+/// bracket. Without time to flow no lane yields.
 BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &functions, const Real all_q,
                                 const Real m, const Real alpha, const Real before, Mask &yields) {
   const Number p = material.rate.exponent, unit = material.rate.reference_increment;
@@ -286,16 +289,18 @@ BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &f
     yields = Mask{};
     return {Real{}, before, all_q, Real{}};
   }
-  const Real q = select(yields, all_q, 2._r * before), excess = q - before; // other lanes: any number
+  // Other lanes have any number.
+  const Real q = select(yields, all_q, 2._r * before), excess = q - before;
   Real x = min(excess / before, power(excess / (unit * m), 1._r / p));
   Real low{}, high = x, step{}, delta{}, yield = before, slope{};
   for (unsigned int iteration = 0; iteration < 60; ++iteration) {
     delta = unit * power(x, p);
     evaluate_hardening(material, functions, yields, alpha + delta, yield, slope);
     const Real residual = q - m * delta - yield * (1._r + x);
-    const Real stiffness = m + slope * (1._r + x), change = p * delta / x;  // dΔα/dx
-    const Real descent = stiffness * change + yield;                        // −d residual/dx
-    const Real bend = ((p - 1._r) * stiffness / x + 2._r * slope) * change; // its derivative, but for σ_y''
+    const Real stiffness = m + slope * (1._r + x), change = p * delta / x; // dΔα/dx
+    const Real descent = stiffness * change + yield;                       // −d residual/dx
+    // `bend` is its derivative, but for σ_y''.
+    const Real bend = ((p - 1._r) * stiffness / x + 2._r * slope) * change;
     const Real newton = residual / descent;
     const Real halley = newton / (1._r + 0.5_r * newton * bend / descent);
     const Mask is_below = residual > Real{};
@@ -309,7 +314,8 @@ BILLET_INLINE Flow flow_at_rate(const Material &material, const LaneFunctions &f
       break;
   }
   const Real part = step / (x - step);
-  const Real last = p * part * (1._r + (0.5_r * (p - 1._r)) * part) * delta; // change of Δα by the last step
+  // Change of Δα by the last step.
+  const Real last = p * part * (1._r + (0.5_r * (p - 1._r)) * part) * delta;
   delta = select(yields, delta + last, Real{});
   yield = select(yields, yield + slope * last, before);
   const Real factor = 1._r + x;
@@ -333,8 +339,8 @@ __attribute__((noinline)) Flow flow_with_state(const Material &material, const L
   return flow;
 }
 
-/// Performs the return map: if the yield condition is exceeded, α increases. Returns β = (q − m Δα)/q, or 1.
-/// `history` points at α, then as in kernel.h.
+/// Performs the return map: if the yield condition is exceeded, α increases. Returns β = (q − m
+/// Δα)/q, or 1. `history` points at α, then as in kernel.h.
 template <bool is_plastic>
 BILLET_INLINE Real return_map(const Material &material, const LaneFunctions &functions, const Real q,
                               const Real m, Number *history, Mask &yields, Watch &watch) {
@@ -411,10 +417,10 @@ BILLET_INLINE Polynomial exponential_series(const Real i2, const Real i3, const 
   return p;
 }
 
-// Eigenvalues of a traceless X are at most √(4 i2/3). Up to `small_strain`, as in metals, few terms suffice;
-// up to `moderate_strain` more are needed; beyond that each lane is computed from its eigenvalues. The
-// truncation error relative to X in double is 0.02⁹/10 with nine terms, 0.2²⁴/25 with 24; in float it is
-// 0.05⁶/7 = 2e-9 with six, 0.35¹⁵/16 = 9e-9 with 15.
+// Eigenvalues of a traceless X are at most √(4 i2/3). Up to `small_strain`, as in metals, few terms
+// suffice; up to `moderate_strain` more are needed; beyond that each lane is computed from its
+// eigenvalues. In double, the truncation error relative to X is 0.02⁹/10 with nine terms, and
+// 0.2²⁴/25 with 24. In float it is 0.05⁶/7 = 2e-9 with six, and 0.35¹⁵/16 = 9e-9 with 15.
 constexpr Number small_strain = is_single ? 0.05_r : 0.02_r, moderate_strain = is_single ? 0.35_r : 0.2_r;
 constexpr Number small_i2 = 0.75_r * small_strain * small_strain,
                  moderate_i2 = 0.75_r * moderate_strain * moderate_strain;
@@ -450,7 +456,8 @@ BILLET_INLINE void compute_logarithm(const LaneFunctions &functions, const Real 
       }
 }
 
-/// Elastic strain at a point, in the form of the history of float kernels: Y = b_e − 1 up to a factor of b_e.
+/// Elastic strain at a point, in the form of the history of float kernels: Y = b_e − 1 up to a
+/// factor of b_e.
 struct Strain {
   Real y[6];
 
@@ -464,8 +471,8 @@ struct Strain {
       store(history + k * n_lanes, y[k]);
   }
 
-  /// Advances the strain by a step of displacements d, which belong to the element's directions; `before` is
-  /// the map at the start of the step.
+  /// Advances the strain by a step of displacements d, which belong to the element's directions;
+  /// `before` is the map at the start of the step.
   BILLET_INLINE void advance(const Map &before, const Real d[3][3], const Number *history) {
     Real l[3][3];
     compute_gradient(before, d, l);
@@ -478,8 +485,8 @@ struct Strain {
 
 /// Hencky's law: dev τ = G dev ln b_e, which does not depend on a factor of b_e.
 struct Hencky {
-  /// Computes the response for `x` = 3 b_e/tr b_e − 1. Returns the lanes that yield; β is in `watch`.
-  /// `plastic` points at α.
+  /// Computes the response for `x` = 3 b_e/tr b_e − 1. Returns the lanes that yield; β is in
+  /// `watch`. `plastic` points at α.
   template <bool is_plastic>
   BILLET_INLINE static Mask respond(const Material &material, const LaneFunctions &functions, const Real x[6],
                                     const Real hourglass, Number *plastic, Real log_b[6], Real &mean,
@@ -579,8 +586,8 @@ struct Hencky {
 
 /// Simo's neo-Hookean law: dev τ = G dev b̄_e, det b̄_e = 1.
 struct NeoHookean {
-  /// Computes the response for `dev_tau` = G dev b̄_e of the trial state; the caller applies the factor β.
-  /// Returns the lanes that yield; `own` becomes 3/2 dev τ : dev τ of the trial state.
+  /// Computes the response for `dev_tau` = G dev b̄_e of the trial state; the caller applies the
+  /// factor β. Returns the lanes that yield; `own` becomes 3/2 dev τ : dev τ of the trial state.
   template <bool is_plastic>
   BILLET_INLINE static Mask respond(const Material &material, const LaneFunctions &functions,
                                     const Real dev_tau[6], const Real mean_bar, const Real hourglass,
@@ -657,15 +664,15 @@ struct NeoHookean {
     strain.store_to(history);
   }
 
-  /// Returns ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e: x³ − 1 = i2 x − i3. This
-  /// avoids the difference of numbers close to 1.
+  /// Returns ½ G (tr b̄_e − 3) with x = tr b̄_e / 3 and the invariants of dev b̄_e:
+  /// x³ − 1 = i2 x − i3. This avoids the difference of numbers close to 1.
   BILLET_INLINE static Real compute_distortion(const Material &material, const Real x, const Real i2,
                                                const Real i3) {
     return (1.5_r * material.shear) * (i2 * x - i3) / (x * (x + 1._r) + 1._r);
   }
 
-  /// Sets b̄_e = dev τ/G + x 1 with the x for which det b̄_e = 1: x³ − i2 x + i3 − 1 = 0. In H this adds only a
-  /// multiple of j⁻¹ j⁻ᵀ.
+  /// Sets b̄_e = dev τ/G + x 1 with the x for which det b̄_e = 1: x³ − i2 x + i3 − 1 = 0. In H this
+  /// adds only a multiple of j⁻¹ j⁻ᵀ.
   BILLET_INLINE static void flow(const Material &material, const Map &map, const Mask yields,
                                  const Real scale, const Real mean_bar, const Real beta,
                                  const Real dev_tau[6], Number *history, Watch &watch) {
@@ -707,8 +714,8 @@ struct NeoHookean {
   }
 };
 
-/// Rate form: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, ΔL = ∂Δu/∂x at mid-step, and R = (1 − W/2)⁻¹ (1 + W/2), W
-/// = skew ΔL (Hughes & Winget 1980).
+/// Rate form: dev τ ← R dev τ Rᵀ + 2 G dev sym ΔL, ΔL = ∂Δu/∂x at mid-step, and R = (1 − W/2)⁻¹
+/// (1 + W/2), W = skew ΔL (Hughes & Winget 1980).
 struct Hypoelastic {
   template <bool is_plastic>
   BILLET_INLINE static void update(const Material &material, const LaneFunctions &functions,

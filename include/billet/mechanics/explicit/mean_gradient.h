@@ -4,8 +4,8 @@
 
 #include "billet/mechanics/explicit/brick.h"
 
-// Mean deformation gradient F̄ = (1/V) ∫ F dV of a brick, from J̄ = F̄ (a_1, a_2, a_3)_0, which is linear in the
-// modes.
+// Mean deformation gradient F̄ = (1/V) ∫ F dV of a brick, from J̄ = F̄ (a_1, a_2, a_3)_0, which is
+// linear in the modes.
 
 namespace billet::explicit_kernels {
 namespace {

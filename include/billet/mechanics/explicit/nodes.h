@@ -66,7 +66,8 @@ BILLET_INLINE void gather(const double *p, const double *q, const std::uint32_t 
 #endif
 }
 
-/// Subtracts the forces of all nodes, one element after another, since elements of a batch may share nodes.
+/// Subtracts the forces of all nodes, one element after another, since elements of a batch may
+/// share nodes.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
                            double *forces) {
 #if BILLET_LANES >= 4
@@ -99,8 +100,8 @@ BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const
 
 #if BILLET_LANES == 1
 
-/// Vector of an element's first node, multiplied by a scale. gather_from() returns differences from it,
-/// computed in double and then rounded.
+/// Vector of an element's first node, multiplied by a scale. gather_from() returns differences from
+/// it, computed in double and then rounded.
 struct FirstNode {
   double vector[3];
 };
@@ -151,7 +152,8 @@ BILLET_INLINE void scale_first(const double *p, const double scale, const std::u
     first.vector[lane] = scale * row_of_node(p, nodes[lane]);
 }
 
-/// Returns the numbers i, j, k, l of each block of four lanes; those of the second vector start at `other`.
+/// Returns the numbers i, j, k, l of each block of four lanes; those of the second vector start at
+/// `other`.
 template <int i, int j, int k, int l> BILLET_INLINE Real shuffle(const Real &a, const Real &b) {
 #if BILLET_LANES == 16
   return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8,
@@ -164,7 +166,8 @@ template <int i, int j, int k, int l> BILLET_INLINE Real shuffle(const Real &a, 
 }
 constexpr int other = n_lanes;
 
-/// Gets x, y, z from four vectors of rows; the k-th vector holds the elements k, k + 4, k + 8 and k + 12.
+/// Gets x, y, z from four vectors of rows; the k-th vector holds the elements k, k + 4, k + 8 and
+/// k + 12.
 BILLET_INLINE void transpose(const Real rows[4], Real x[3]) {
   const Real t0 = shuffle<0, other, 1, other + 1>(rows[0], rows[1]),
              t1 = shuffle<2, other + 2, 3, other + 3>(rows[0], rows[1]),
@@ -215,8 +218,8 @@ BILLET_INLINE void unstack_rows(const Real &x, FloatRow rows[n_lanes / 4]) {
 #endif
 }
 
-/// Gathers `scale` p of one node of each element minus the first node's vector: the difference in double,
-/// then rounded.
+/// Gathers `scale` p of one node of each element minus the first node's vector: the difference in
+/// double, then rounded.
 BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const double scale,
                                const std::uint32_t *nodes, Real x[3]) {
   Real rows[4];
@@ -232,8 +235,8 @@ BILLET_INLINE void gather_from(const FirstNode &first, const double *p, const do
   transpose(rows, x);
 }
 
-/// Subtracts the forces of all nodes, one element after another, since elements of a batch may share nodes.
-/// The force of the first node balances the others, in double.
+/// Subtracts the forces of all nodes, one element after another, since elements of a batch may
+/// share nodes. The force of the first node balances the others, in double.
 BILLET_INLINE void scatter(const Real f[8][3], const std::uint32_t *nodes, const std::size_t n,
                            const double unit, double *forces) {
   FloatRow rows[8][4][n_lanes / 4];

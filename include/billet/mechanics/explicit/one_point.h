@@ -5,9 +5,10 @@
 #include "billet/mechanics/explicit/mean_gradient.h"
 #include "billet/mechanics/hourglass_energy.h"
 
-// The one-point brick. It stores the energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F dV, plus
-// that of the hourglass strains ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄ (a_1, a_2, a_3)_0. These are zero
-// in linear fields and invariant under rotations. doc/theory.md has the derivation.
+// The one-point brick. It stores the energy V ψ(F̄) of the mean deformation gradient F̄ = (1/V) ∫ F
+// dV, plus that of the hourglass strains. These are ĥ = J̄⁻¹ (b_1, b_2, b_3, c) − ĥ_0 with J̄ = F̄
+// (a_1, a_2, a_3)_0. They are zero in linear fields and invariant under rotations. doc/theory.md
+// has the derivation.
 
 namespace billet::explicit_kernels {
 namespace {
@@ -15,16 +16,16 @@ namespace {
 using HourglassModuli = hourglass::Moduli<Number>;
 using HourglassMetric = hourglass::Metric<Real>;
 
-/// Hourglass strains at the end of a step before plastic flow: ĉ = J̄⁻¹ (b_1, b_2, b_3, c), ĥ, their stresses
-/// and energy.
+/// Hourglass strains at the end of a step before plastic flow: ĉ = J̄⁻¹ (b_1, b_2, b_3, c), ĥ,
+/// their stresses and energy.
 struct HourglassTrial {
   Real c[4][3], h[4][3], s[4][3];
   HourglassMetric metric;
   Real density; ///< energy per reference volume
 };
 
-/// Computes the hourglass strains. In float they advance by the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2, b_3, c) − ΔJ̄
-/// ĉ}, and likewise ĥ, which the history stores.
+/// Computes the hourglass strains. In float they advance by the step: ĉ ← ĉ + J̄⁻¹ {Δ(b_1, b_2,
+/// b_3, c) − ΔJ̄ ĉ}, and likewise ĥ, which the history stores.
 BILLET_INLINE void compute_hourglass(const HourglassModuli &moduli, const Motion &motion,
                                      const MeanMotion &mean, const Number *constants, Number *history,
                                      HourglassTrial &trial) {
@@ -57,8 +58,8 @@ BILLET_INLINE void compute_hourglass(const HourglassModuli &moduli, const Motion
   trial.density = hourglass::respond(moduli, trial.metric, trial.h, trial.s);
 }
 
-/// Applies plastic flow: it scales the elastic part of the hourglass strains by the factor `share` of the
-/// point's stress, (X8). If the history stores ĥ_0, the remainder is added to it.
+/// Applies plastic flow: it scales the elastic part of the hourglass strains by the factor `share`
+/// of the point's stress, (X8). If the history stores ĥ_0, the remainder is added to it.
 BILLET_INLINE void flow(const Real share, Number *history, HourglassTrial &trial) {
   if (!any(share < 1._r))
     return;
@@ -92,9 +93,9 @@ BILLET_INLINE void add_hourglass(const Real volume, const HourglassTrial &hourgl
   }
 }
 
-/// Returns the bound (X12) of the stiffness per volume of the columns and of the modes b and c. `of_mean` is
-/// that of the mean gradient, `metric` and `eigenvalue` are J̄⁻¹ J̄⁻ᵀ and a bound of its eigenvalues, `modulus`
-/// is that of the hourglass strains.
+/// Returns the bound (X12) of the stiffness per volume of the columns and of the modes b and c.
+/// `of_mean` is that of the mean gradient, `modulus` that of the hourglass strains. `metric` is
+/// J̄⁻¹ J̄⁻ᵀ, and `eigenvalue` a bound of its eigenvalues.
 BILLET_INLINE Real bound_stiffness(const HourglassTrial &hourglass, const Real of_mean, const Real metric[6],
                                    const Real eigenvalue, const Real modulus) {
   const auto &own = hourglass.metric;

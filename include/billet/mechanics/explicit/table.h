@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// No include guard: one file for each instruction set and number type includes this once. It first defines
-// BILLET_LANES, BILLET_SINGLE and BILLET_KERNEL_TABLE (the name of its table in kernel.h).
+// No include guard: one file for each instruction set and number type includes this once. It first
+// defines BILLET_LANES, BILLET_SINGLE and BILLET_KERNEL_TABLE (the name of its table in kernel.h).
 #include "billet/mechanics/explicit/assumed_strain.h"
 #include "billet/mechanics/explicit/eight_point.h"
 #include "billet/mechanics/explicit/one_point.h"

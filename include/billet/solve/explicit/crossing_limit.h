@@ -13,13 +13,13 @@ class CrossingLimit {
 public:
   explicit CrossingLimit(const ExplicitParts &parts) : parts_(parts) {}
 
-  /// Computes the step at the last forces. Errors are measured against `energy`, or the kinetic energy of all
-  /// bodies at the speed with which nodes come. Collective.
+  /// Computes the step at the last forces. Errors are measured against `energy`, or the kinetic
+  /// energy of all bodies at the speed with which nodes come. Collective.
   void update(double stable_step, double energy);
   /// Returns that step; infinite if no node comes through a surface [time].
   double value() const { return value_; }
-  /// Returns the longest step by (E5), from the springs of `step` [time]; see Crossings. `energy`: that of
-  /// reference.
+  /// Returns the longest step by (E5), from the springs of `step` [time]; see Crossings. `energy`:
+  /// that of reference.
   static double longest_step(double step, double springs, double energy);
 
 private:

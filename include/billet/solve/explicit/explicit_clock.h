@@ -9,8 +9,9 @@
 
 namespace billet {
 
-/// Time of explicit dynamics, and the steps that lead to the next event. Equal or slowly changing steps
-/// conserve energy best. Steps grow by 2 % at a time, and faster while they are much shorter than allowed.
+/// Time of explicit dynamics, and the steps that lead to the next event. Equal or slowly changing
+/// steps conserve energy best. Steps grow by 2 % at a time, and faster while they are much shorter
+/// than allowed.
 class ExplicitClock {
 public:
   /// Failures name the scene's file.
@@ -27,8 +28,8 @@ public:
   /// Returns the time since the last forces, 0 for the first ones; before plan().
   double since_forces() const { return is_at_start() ? 0. : step_; }
 
-  /// Chooses the step from time() on, at most `allowed`: a whole number of equal steps leads to `event`, as
-  /// long as they may stay equal. Throws SolutionFailure if time would not advance.
+  /// Chooses the step from time() on, at most `allowed`: a whole number of equal steps leads to
+  /// `event`, as long as they may stay equal. Throws SolutionFailure if time would not advance.
   void plan(double event, double allowed);
   /// Moves to the end of the step.
   void advance();
@@ -46,10 +47,12 @@ public:
 private:
   std::string file_name_;
   double time_ = 0., step_ = 0., step_before_ = 0.;
-  bool is_growing_ = false;                  ///< steps were much shorter than allowed, and are still short
-  double event_ = 0.;                        ///< end of the planned steps
-  unsigned int n_steps_ = 0, n_planned_ = 0; ///< steps taken; steps of the present length before the event
-  double time_before_ = 0.;                  ///< time of the last forces, after advance()
+  /// Whether steps were much shorter than allowed, and are still short.
+  bool is_growing_ = false;
+  double event_ = 0.; ///< end of the planned steps
+  /// Steps taken; steps of the present length before the event.
+  unsigned int n_steps_ = 0, n_planned_ = 0;
+  double time_before_ = 0.; ///< time of the last forces, after advance()
 };
 
 } // namespace billet

@@ -16,17 +16,19 @@ namespace billet {
 
 /// M a = F_ext + F_c − F_int by central differences with a lumped mass:
 ///   v_{n+½} = v_{n−½} + ½ (Δt_{n−1} + Δt_n) M⁻¹ F_n,   u_{n+1} = u_n + Δt_n v_{n+½}.
-/// A step has two parts. prepare_step() computes the forces at t_n and the velocities after it, which
-/// completes the state at t_n. finish_step() moves on to t_{n+1}.
+/// A step has two parts. The first, prepare_step(), computes the forces at t_n and the velocities
+/// after it, which completes the state at t_n. The second, finish_step(), moves on to t_{n+1}.
 ///
-/// In a linear system with equal steps the sum of the energies of ExplicitLedger is constant to round-off.
+/// In a linear system with equal steps the sum of the energies of ExplicitLedger is constant to
+/// round-off.
 class ExplicitDynamics final : public Solution, public HasElementPoints {
 public:
   ExplicitDynamics(const Scene &scene, const Discretization &discretization);
   ~ExplicitDynamics() override;
 
-  /// Computes the forces at the current time, a stable step that leads to `event` (see ExplicitClock), and
-  /// the velocities after the forces. Throws SolutionFailure if the state is not admissible.
+  /// Computes the forces at the current time, a stable step that leads to `event` (see
+  /// ExplicitClock), and the velocities after the forces. Throws SolutionFailure if the state is
+  /// not admissible.
   void prepare_step(double event);
   void finish_step();
   /// Multiplies all further steps by this factor, beside the safety factor.
@@ -36,8 +38,9 @@ public:
   double step_length() const { return parts_.clock.step(); }
   /// Returns the maximum step while no node comes through a surface.
   double usual_step() const { return std::max(step_length(), stable_step_.usual()); }
-  /// Returns the maximum step, as usual_step(), if at time t the bodies had moved without deformation by
-  /// these translations; for forecasts, after which there are no further steps. Collective.
+  /// Returns the maximum step, as usual_step(), if at time t the bodies had moved without
+  /// deformation by these translations. It is for forecasts, after which there are no further
+  /// steps. Collective.
   double usual_step_at(double t, const std::vector<dealii::Tensor<1, 3>> &translations);
   unsigned int n_steps() const { return parts_.clock.n_steps(); }
   /// Returns this rank's element with the shortest stable step at the start.
@@ -56,26 +59,26 @@ public:
   void update_ledger();
   /// Updates these and the fields. Collective.
   void update_state();
-  /// Returns the energy that the refinement of bodies has made, and counts it as initial energy, after the
-  /// first update_ledger() [energy]. `before`: on the coarser mesh at the same time.
+  /// Returns the energy that the refinement of bodies has made, and counts it as initial energy,
+  /// after the first update_ledger() [energy]. `before`: on the coarser mesh at the same time.
   double count_refinement(const EnergyLedger &before) { return ledger_.count_refinement(state_, before); }
   /// Returns warnings about penalties, after prepare_step(). Collective.
   DiagnosticList check_penalties() { return penalties_.check(state_.energies); }
-  /// Returns messages about causes of much shorter steps, contact or flat elements, each once, after
-  /// prepare_step(). Collective.
+  /// Returns messages about causes of much shorter steps, contact or flat elements, each once,
+  /// after prepare_step(). Collective.
   DiagnosticList check_steps() const;
   /// Returns messages at the end of the run, about pairs that close initial gaps.
   DiagnosticList finish() const { return start_gaps_.judge(); }
   /// Whether check_penalties() has ever found a penalty too low.
   bool has_low_penalties() const { return penalties_.has_low_penalties(); }
-  /// Returns the part of the largest energy so far by which the energies of the last update fail to balance;
-  /// see ExplicitLedger.
+  /// Returns the part of the largest energy so far by which the energies of the last update fail to
+  /// balance; see ExplicitLedger.
   double relative_drift() const { return ledger_.relative_drift(state_.energies, stable_step_.value()); }
 
   /// Saves the state from which the next prepare_step() resumes, after finish_step().
   void save(StateWriter &writer) const;
-  /// Resumes from such a state instead of starting at time 0: prepare_step() comes next. From another method
-  /// or formulation it takes displacements, stresses and, if present, velocities.
+  /// Resumes from such a state instead of starting at time 0: prepare_step() comes next. From
+  /// another method or formulation it takes displacements, stresses and, if present, velocities.
   RestartReport load(StateReader &reader);
   /// Makes steps that were planned earlier lead to this event, after load().
   void plan_to(const double event) { parts_.clock.plan_to(event); }

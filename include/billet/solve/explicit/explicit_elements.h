@@ -24,30 +24,33 @@ struct ExplicitWorks {
 
 /// Element of a rank with its stable step, undeformed and at rest.
 struct LimitingElement {
-  std::size_t body = 0, element = 0;                     ///< index of Discretization::elements(body)
-  double step = std::numeric_limits<double>::infinity(); ///< infinite if the rank has no elements [time]
+  /// Index of Discretization::elements(body).
+  std::size_t body = 0, element = 0;
+  /// Infinite if the rank has no elements [time].
+  double step = std::numeric_limits<double>::infinity();
 };
 
 /// Elements of all bodies on a rank, for central differences.
 class ExplicitElements {
 public:
-  /// Throws InputError, on all ranks, for a formulation or an element that is not admissible. Collective.
+  /// Throws InputError, on all ranks, for a formulation or an element that is not admissible.
+  /// Collective.
   ExplicitElements(const Scene &scene, const LocalNodes &nodes);
 
   /// Returns this rank's share of the lumped mass of each of its nodes [mass].
   std::vector<double> lumped_masses() const;
-  /// Multiplies densities so that no element has a shorter stable step than `min_step` [time]. Returns the
-  /// mass that this adds on this rank.
+  /// Multiplies densities so that no element has a shorter stable step than `min_step` [time].
+  /// Returns the mass that this adds on this rank.
   double scale_mass(double min_step);
 
-  /// Returns this rank's element that has the shortest stable step, undeformed and at rest, with the masses
-  /// that scale_mass(`min_step`) adds if `min_step` > 0. It leaves the elements as they are, and costs three
-  /// evaluations of them.
+  /// Returns this rank's element that has the shortest stable step, undeformed and at rest, with
+  /// the masses that scale_mass(`min_step`) adds if `min_step` > 0. It leaves the elements as they
+  /// are, and costs three evaluations of them.
   LimitingElement find_limiting_element(double min_step) const;
 
-  /// Subtracts internal and viscous forces from those of `nodes`, advances histories by the time since the
-  /// last forces, and adds to `works`. Returns the stable step of this rank's elements [time]. Throws
-  /// SolutionFailure, on this rank alone, if an element is inverted.
+  /// Subtracts internal and viscous forces from those of `nodes`, advances histories by the time
+  /// since the last forces, and adds to `works`. Returns the stable step of this rank's elements
+  /// [time]. Throws SolutionFailure, on this rank alone, if an element is inverted.
   double add_forces(const ExplicitBlock::Nodes &nodes, const ExplicitClock &clock, ExplicitWorks &works);
   /// Return energies of this rank at the last forces [energy].
   double elastic_energy() const { return elastic_energy_; }
@@ -70,14 +73,15 @@ public:
   bool has_same_formulations(StateReader &reader) const;
   /// `displacements`: those of the last forces.
   void load(StateReader &reader, double t, const NodalVectors &displacements);
-  /// Sets histories that give the stresses of another formulation at these displacements, in both forms
-  /// (`ghosted`: with ghosts).
+  /// Sets histories that give the stresses of another formulation at these displacements, in both
+  /// forms (`ghosted`: with ghosts).
   void load_stresses(StateReader &reader, const NodalVectors &displacements, const Vector &ghosted, double t);
 
 private:
   void make_blocks();
   void set_temperatures(double t);
-  /// Loads a refined body from the histories of the elements before, one row for each of their parts.
+  /// Loads a refined body from the histories of the elements before, one row for each of their
+  /// parts.
   void load_parents(std::size_t body, const std::vector<double> &rows, const NodalVectors &displacements);
   double stable_step_of(std::size_t body, std::size_t begin, std::size_t end, double min_step) const;
   void count_memory();

@@ -9,8 +9,8 @@
 
 namespace billet {
 
-/// Energies, works and momenta of an explicit scene, and their balance. Energies are those that the scheme
-/// conserves: kinetic ½ v_{n−½}·M v_{n+½}, works by the trapezoidal rule.
+/// Energies, works and momenta of an explicit scene, and their balance. Energies are those that the
+/// scheme conserves: kinetic ½ v_{n−½}·M v_{n+½}, works by the trapezoidal rule.
 class ExplicitLedger {
 public:
   explicit ExplicitLedger(const ExplicitParts &parts) : parts_(parts) {}
@@ -28,13 +28,13 @@ public:
   void update(SolutionState &state);
   /// Returns the largest energy so far at steps when an update was due.
   double max_energy_when_due() const { return max_energy_when_due_; }
-  /// Returns the part of the largest energy so far by which `energies` fail to balance. If min_energy() is
-  /// larger, it is the reference.
+  /// Returns the part of the largest energy so far by which `energies` fail to balance. If
+  /// min_energy() is larger, it is the reference.
   double relative_drift(const EnergyLedger &energies, double stable_step) const;
 
-  /// Returns the energy that the refinement of bodies has made, (R6) of doc/theory, after the first update().
-  /// Counts it as initial energy, so that the drift remains the one `before`, on the coarser mesh at the same
-  /// time.
+  /// Returns the energy that the refinement of bodies has made, (R6) of doc/theory, after the first
+  /// update(). Counts it as initial energy, so that the drift remains the one `before`, on the
+  /// coarser mesh at the same time.
   double count_refinement(SolutionState &state, const EnergyLedger &before);
 
   /// `energies`: those of the last update. Collective.
@@ -47,17 +47,18 @@ private:
   std::vector<double> sum_own();
   void add_tools(SolutionState &state) const;
   double kinetic_energy() const;
-  /// Returns the energy below which round-off of positions alone violates the balance by the allowed part.
-  /// With coordinates up to R, round-off of positions is ε R. The fastest oscillation has ω = 2/Δt for the
-  /// bound Δt on the step. With amplitude a its energy is at most ½ m ω² a², of which round-off is the part 2
-  /// ε R/a.
+  /// Returns the energy below which round-off of positions alone violates the balance by the
+  /// allowed part. With coordinates up to R, round-off of positions is ε R. The fastest oscillation
+  /// has ω = 2/Δt for the bound Δt on the step. With amplitude a its energy is at most ½ m ω² a²,
+  /// of which round-off is the part 2 ε R/a.
   double min_energy(double stable_step) const;
 
   const ExplicitParts &parts_;
   ExplicitWorks works_;
   double max_energy_ = 0., max_energy_when_due_ = 0.;
-  double drift_ = 0.;  ///< at the last update(), also before a restart [energy]
-  double extent_ = 0.; ///< largest coordinate of the nodes of all ranks, at the last update [length]
+  double drift_ = 0.; ///< at the last update(), also before a restart [energy]
+  /// Largest coordinate of the nodes of all ranks, at the last update [length].
+  double extent_ = 0.;
 };
 
 } // namespace billet

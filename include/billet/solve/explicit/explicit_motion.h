@@ -22,8 +22,8 @@ class ExplicitMotion {
 public:
   ExplicitMotion(const Scene &scene, const LocalNodes &nodes);
 
-  /// Sets the motion at time 0. Throws InputError if initial velocities or supports are not admissible.
-  /// Collective.
+  /// Sets the motion at time 0. Throws InputError if initial velocities or supports are not
+  /// admissible. Collective.
   void begin(const Scene &scene);
 
   /// Returns the displacements at t_n [length].
@@ -39,14 +39,14 @@ public:
   /// Returns the largest displacement of a node of this rank [length].
   double max_displacement() const;
 
-  /// Returns the constrained nodes, and the forces of supports on them, the same on all their ranks [force].
-  /// Forces of other nodes are 0.
+  /// Returns the constrained nodes, and the forces of supports on them, the same on all their ranks
+  /// [force]. Forces of other nodes are 0.
   const std::vector<unsigned int> &constrained_nodes() const { return held_.nodes(); }
   const NodalVectors &support_forces() const { return supports_; }
 
-  /// Changes velocities by `forces`, which it sets to 0. The two nodes at one place of a prism, on the axis
-  /// of a wedge, move as one: each takes the part of their forces that its mass has of theirs. A failure of
-  /// supports is reported at the next forces; see check().
+  /// Changes velocities by `forces`, which it sets to 0. The two nodes at one place of a prism, on
+  /// the axis of a wedge, move as one. Each takes the part of their forces that its mass has of
+  /// theirs. A failure of supports is reported at the next forces; see check().
   void kick(const ExplicitClock &clock, const NodalMasses &masses, NodalVectors &forces);
   /// Throws SolutionFailure if supports have failed on this rank in the last kick.
   void check() const {
@@ -54,8 +54,8 @@ public:
       std::rethrow_exception(failure_);
   }
   void move(double step);
-  /// Lets supports go and takes others as they are due at t, between steps; `t_forces`: time of the last
-  /// kick. The reactions of those that let go fade from there on. Failures: as of kick().
+  /// Lets supports go and takes others as they are due at t, between steps; `t_forces`: time of the
+  /// last kick. The reactions of those that let go fade from there on. Failures: as of kick().
   void switch_supports(double t_forces, double t);
   /// Returns the constraints that act.
   const ActingConstraints &acting() const { return held_.acting(); }

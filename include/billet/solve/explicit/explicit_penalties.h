@@ -16,8 +16,9 @@ public:
 
   /// Whether there is a pair with an automatic penalty.
   bool are_controlled() const { return control_.is_used(); }
-  /// Raises penalties if penetration is too large a part of the deformation. `solution` has the energies of
-  /// this time. Energy that the raise adds to springs is added to `external_work`. Collective.
+  /// Raises penalties if penetration is too large a part of the deformation. `solution` has the
+  /// energies of this time. Energy that the raise adds to springs is added to `external_work`.
+  /// Collective.
   void raise(const Solution &solution, double &external_work);
   /// Returns messages about penalties, at the last forces. Collective.
   DiagnosticList check(const EnergyLedger &energies);

@@ -8,8 +8,8 @@
 namespace billet {
 
 /// Reactions of an explicit scene at t_n, after the kick: M a − F at constrained nodes, with
-/// a = (v_{n+½} − v_{n−½})/(½ (Δt_{n−1} + Δt_n)). Supports that have ended and removed tools have the forces
-/// that fade.
+/// a = (v_{n+½} − v_{n−½})/(½ (Δt_{n−1} + Δt_n)). Supports that have ended and removed tools have
+/// the forces that fade.
 class ExplicitReactions {
 public:
   explicit ExplicitReactions(const ExplicitParts &parts);
@@ -20,8 +20,8 @@ public:
 
 private:
   void sum_forces();
-  /// Count what is left of removed tools' forces as contact, and of supports' forces as their reactions.
-  /// Collective.
+  /// Count what is left of removed tools' forces as contact, and of supports' forces as their
+  /// reactions. Collective.
   void add_fading_tools();
   void add_fading_supports();
 

@@ -14,8 +14,8 @@
 
 namespace billet {
 
-/// All tools of an explicit scene: their motion, their loads on the bodies, and their removal. The forces of
-/// a removed tool fade over its release time.
+/// All tools of an explicit scene: their motion, their loads on the bodies, and their removal. The
+/// forces of a removed tool fade over its release time.
 class ExplicitTools {
 public:
   ExplicitTools(const Scene &scene, const LocalNodes &nodes);
@@ -38,15 +38,15 @@ public:
   const ContactLoad &pair_load(const std::size_t pair) const { return pair_loads_[pair]; }
   /// Whether forces of a removed tool are left at t.
   bool is_fading(std::size_t tool, double t) const;
-  /// Returns what is left at t of a removed tool's load, on this rank at these displacements: through this
-  /// pair, or through all.
+  /// Returns what is left at t of a removed tool's load, on this rank at these displacements:
+  /// through this pair, or through all.
   ContactLoad fading_load(std::size_t tool, double t, const NodalVectors &displacements,
                           std::optional<std::size_t> pair = {}) const;
   /// Returns the addition of the free tools' masses to ω² of the contacts [1/time²]. Collective.
   double max_frequency_square() const;
 
-  /// Removes tools that are due from their contacts, after a step to t: their forces of the last update fade
-  /// from there on, and a checkpoint has them. Their energies leave `external_work`.
+  /// Removes tools that are due from their contacts, after a step to t. Their forces of the last
+  /// update fade from there on, and a checkpoint has them. Their energies leave `external_work`.
   void remove_due(double t, Contacts &contacts, double &external_work);
   /// Adds what is left at t of removed tools' forces at these nodes.
   void add_fading(double t, const std::vector<unsigned int> &nodes, NodalVectors &forces) const;

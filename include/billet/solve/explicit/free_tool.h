@@ -8,10 +8,10 @@
 
 namespace billet {
 
-/// Tool in an explicit scene. A tool with a force or moment has a mass, or moment of inertia, m. It moves by
-/// an offset s beyond its prescribed motion along its direction, or about its axis,
+/// Tool in an explicit scene. A tool with a force or moment has a mass, or moment of inertia, m.
+/// Its offset s beyond its prescribed motion is along its direction, or about its axis. It obeys
 ///   m s̈ = load − resistance of the bodies,
-/// by the same central differences as the nodes.
+/// and is integrated by the same central differences as the nodes.
 class FreeTool {
 public:
   FreeTool(const Tool &tool, const parameters::Motion &motion);
@@ -31,9 +31,9 @@ public:
   /// Returns 1/m; 0 for a tool with prescribed motion, or a removed one.
   double inverse_inertia() const { return tool_.is_driven() && !is_removed_ ? 1. / inertia_ : 0.; }
 
-  /// Updates the rate of the offset at time t, from half a step before to half a step after it. The first
-  /// kick of a run leads from rest to half a step. `load`: of the tool on the bodies. A tool that reaches its
-  /// stop force stops permanently.
+  /// Updates the rate of the offset at time t, from half a step before to half a step after it. The
+  /// first kick of a run leads from rest to half a step. `load`: of the tool on the bodies. A tool
+  /// that reaches its stop force stops permanently.
   void kick(double t, const ContactLoad &load, double step_before, double step, bool is_first);
   /// Moves on to t + dt.
   void move(double t, double dt);
@@ -44,11 +44,11 @@ public:
   double kinetic_energy() const { return 0.5 * inertia_ * rate_before_ * rate_; }
   /// Returns the momentum; 0 for a tool that rotates, whose axis is fixed.
   dealii::Tensor<1, 3> momentum() const;
-  /// Returns the angular momentum about the origin, with the mass at the centre of rotation. It is 0 for a
-  /// tool with prescribed motion.
+  /// Returns the angular momentum about the origin, with the mass at the centre of rotation. It is
+  /// 0 for a tool with prescribed motion.
   dealii::Tensor<1, 3> angular_momentum() const;
-  /// Returns the work of the prescribed motion against `local` on the scene, in one half of the step from
-  /// before() to now(), ...
+  /// Returns the work of the prescribed motion against `local` on the scene, in one half of the
+  /// step from before() to now(), ...
   double motion_work(const ContactLoad &local) const;
   /// ... and that of the load of the last kick, the same on all ranks.
   double load_work() const { return 0.5 * load_ * (offset_ - offset_before_); }

@@ -11,8 +11,8 @@ namespace billet {
 /// Lumped masses of the nodes of a rank, including mass scaling.
 class NodalMasses {
 public:
-  /// Scales the elements' masses so that none has a shorter stable step than `min_step` [time]; no scaling if
-  /// it is 0. Collective.
+  /// Scales the elements' masses so that none has a shorter stable step than `min_step` [time]; no
+  /// scaling if it is 0. Collective.
   NodalMasses(const LocalNodes &nodes, ExplicitElements &elements, double min_step);
 
   /// Returns one mass for each node, the same on all its ranks [mass].

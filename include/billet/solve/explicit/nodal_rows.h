@@ -12,7 +12,8 @@
 
 namespace billet {
 
-/// Nodal vectors in a checkpoint: rows of three numbers under keys that do not depend on the partition.
+/// Nodal vectors in a checkpoint: rows of three numbers under keys that do not depend on the
+/// partition.
 class NodalRows {
 public:
   explicit NodalRows(const LocalNodes &nodes);

@@ -26,8 +26,8 @@ struct AcceptedStep {
   }
 };
 
-/// Records the works, energies and loads of accepted steps, and makes their ends the starts of the next
-/// ones.
+/// Records the works, energies and loads of accepted steps, and makes their ends the starts of the
+/// next ones.
 class AcceptedSteps {
 public:
   /// Components that record a step, too. They must outlive this object.

@@ -11,8 +11,8 @@
 
 namespace billet {
 
-/// Augmented Lagrangian method for contacts: tractions are augmented and iterated anew until all pairs meet
-/// their 'Penetration tolerance' or their limit of softness.
+/// Augmented Lagrangian method for contacts: tractions are augmented and iterated anew until all
+/// pairs meet their 'Penetration tolerance' or their limit of softness.
 class Augmentation {
 public:
   Augmentation(ImplicitProblem &problem, EquilibriumSolver &solver, PenetrationMeasurement &measurement);
@@ -22,7 +22,8 @@ public:
 
   /// Sets the factor of the pairs' tolerances above which tractions are augmented.
   void allow_penetration(const double factor) { penetration_allowed_ = factor; }
-  /// Accepts steps whose remaining penetration exceeds the tolerance: it counts as an error to be reported.
+  /// Accepts steps whose remaining penetration exceeds the tolerance: it counts as an error to be
+  /// reported.
   void may_leave_penetration() { may_leave_penetration_ = true; }
   /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value after a failure, with a
   /// message on each. Those of sheets fall to (T13), unless the iterations were merely slow. Returns false
@@ -49,8 +50,8 @@ private:
   struct Series;
   /// Errors that demand an augmentation where they are above 1.
   struct Demands {
-    /// Error of the augmentation of each contact over its tolerance, or its softness over the limit of
-    /// SoftnessLimit if that is larger.
+    /// Error of the augmentation of each contact over its tolerance, or its softness over the limit
+    /// of SoftnessLimit if that is larger.
     std::vector<double> of_contacts;
     double by_tolerances = 0., maximum = 0.; ///< over all contacts
   };
@@ -69,14 +70,14 @@ private:
   /// Returns the changes of the forces of each contact by an augmentation. Collective.
   std::vector<std::array<SoftnessLimit::Change, 2>>
   changes_of(const std::vector<ContactSprings> &before, const std::vector<ContactSprings> &after) const;
-  /// Raises the penalties of contacts whose errors are above 1 and fell little in the last augmentation.
-  /// Returns the factors, all 1 if none is raised. Collective.
+  /// Raises the penalties of contacts whose errors are above 1 and fell little in the last
+  /// augmentation. Returns the factors, all 1 if none is raised. Collective.
   std::vector<double> stiffen_slow_contacts(const std::vector<double> &errors, const Series &series);
-  /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair that is
-  /// farthest from its own.
+  /// Fails the step because augmentation does not converge to the pairs' tolerances. Names the pair
+  /// that is farthest from its own.
   void give_up(const Series &series, unsigned int n, const Demands &demands, NewtonReport &report) const;
-  /// Augments once and iterates. If that fails and only softness required it, restores the former state.
-  /// Returns whether to continue.
+  /// Augments once and iterates. If that fails and only softness required it, restores the former
+  /// state. Returns whether to continue.
   bool augment_once(Series &series, const Demands &demands, bool is_of_softness, NewtonReport &report,
                     std::vector<double> &offsets, Vector &displacements);
   /// Restores the state before augmentations for softness, and its penalties.

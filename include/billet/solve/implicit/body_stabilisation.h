@@ -13,8 +13,8 @@
 
 namespace billet {
 
-/// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports and springs
-/// constrain.
+/// Centres and sizes of the undeformed bodies of a static scene, and the nodes that supports and
+/// springs constrain.
 struct RigidBodies {
   using LoadFilter = std::function<bool(const LoadTimes &)>;
 
@@ -61,14 +61,15 @@ public:
   void hold(const std::size_t body) { stabilisation_->hold(body); }
 
   void start_step(double duration);
-  /// Adds the forces to the residual. Returns their reference value for residuals [force]. Collective.
+  /// Adds the forces to the residual. Returns their reference value for residuals [force].
+  /// Collective.
   double add_forces(const StepState &step, Vector &residual) const;
   void add_tangent(const TangentSystem &system) const;
   /// Returns the drifts of the bodies before the step, and their mean displacements in it, for
   /// RigidBodySupport::weigh_translations(). Only if the forces act. Collective.
   std::vector<std::vector<dealii::Tensor<1, 3>>> translations(const StepState &step) const;
-  /// Accepts the step: fades the forces on bodies that are not free, and adds drifts. Returns the work of the
-  /// forces. Collective.
+  /// Accepts the step: fades the forces on bodies that are not free, and adds drifts. Returns the
+  /// work of the forces. Collective.
   double commit(const StepState &step, const RigidBodySupport::Result &support_by_contact,
                 double driven_work);
 

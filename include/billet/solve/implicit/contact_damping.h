@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Weights of contact in implicit dynamics. In damped steps, those of (I4), the accelerations of iterations
-/// are a*, without contact at both ends.
+/// Weights of contact in implicit dynamics. In damped steps, those of (I4), the accelerations of
+/// iterations are a*, without contact at both ends.
 class ContactDamping final : public ContactWeights {
 public:
   /// `accelerations` are those at the start of the step. The arguments must outlive this object.

@@ -10,8 +10,8 @@
 
 namespace billet {
 
-/// All contacts of an implicit scene, with values over all ranks. Values of each contact are in the order of
-/// Contacts.
+/// All contacts of an implicit scene, with values over all ranks. Values of each contact are in the
+/// order of Contacts.
 class ContactSet : public Contacts {
 public:
   ContactSet(const Scene &scene, const Discretization &discretization);
@@ -35,16 +35,16 @@ public:
     return dealii::Utilities::MPI::max(maximum, communicator_);
   }
 
-  /// Computes gaps and tractions at `displacements` (ghosted), and adds −F_c [force] to `residual` (additive
-  /// vector), contact by contact. Collective.
+  /// Computes gaps and tractions at `displacements` (ghosted), and adds −F_c [force] to `residual`
+  /// (additive vector), contact by contact. Collective.
   void update(const Vector &displacements, Vector &residual);
   void restart();
   void take_back_augmentation();
 
   /// Returns the error of the augmentation of each contact, over its pair's tolerance. Collective.
   std::vector<double> augmentation_errors() const;
-  /// Returns the largest of these errors, or the penetration in pairs without a tolerance in units of 1e-5
-  /// facets, if that is larger. Collective.
+  /// Returns the largest of these errors, or the penetration in pairs without a tolerance in units
+  /// of 1e-5 facets, if that is larger. Collective.
   double find_penetration() const;
   /// Returns the force that round-off of positions causes in the stiffest penalty. Collective.
   double find_spring_round_off() const;
@@ -57,8 +57,8 @@ public:
   std::vector<FrictionUse> friction_uses() const;
   /// Returns the energy in the springs of each contact. Collective.
   std::vector<double> stored_energies() const;
-  /// Returns the works of all contacts in the step, before commit(); `weight` as in ContactMeasures.
-  /// Collective.
+  /// Returns the works of all contacts in the step, before commit(); `weight` as in
+  /// ContactMeasures. Collective.
   StepWorks compute_step_works(double weight) const;
   /// Returns the load that the contacts of a tool exert. Collective.
   ContactLoad compute_load(std::size_t tool) const;

@@ -6,8 +6,8 @@ namespace billet {
 
 struct ForceState;
 
-/// Weights of contact forces in a step. Here contact counts as all other forces; ContactDamping is implicit
-/// dynamics.
+/// Weights of contact forces in a step. Here contact counts as all other forces; ContactDamping is
+/// implicit dynamics.
 class ContactWeights {
 public:
   ContactWeights() = default;
@@ -17,7 +17,8 @@ public:
 
   /// Begins a step from these forces: chooses whether contact is damped in it. Collective.
   virtual void choose(const ForceState & /*start*/) {}
-  /// Damps contact in the step that begins from these forces, so that it generates no energy. Collective.
+  /// Damps contact in the step that begins from these forces, so that it generates no energy.
+  /// Collective.
   virtual void damp(const ForceState & /*start*/) {}
 
   /// Returns the weight of contact forces, and of their tangent, in the residual.

@@ -14,17 +14,18 @@
 
 namespace billet {
 
-/// Tools with a given force or moment: their offsets, beyond the prescribed motion, are unknowns beside the
-/// displacements. They border the tangent,
+/// Tools with a given force or moment: their offsets, beyond the prescribed motion, are unknowns
+/// beside the displacements. They border the tangent:
 ///   K du + B ds = r_u,   C du + D ds = r_s.
-/// The unknown of a tool that rotates, and its equation, are scaled by the scene's radius to a length and a
-/// force. Tools that have reached their stop force stay in place.
+/// The unknown of a tool that rotates, and its equation, are scaled by the scene's radius to a
+/// length and a force. Tools that have reached their stop force stay in place.
 class DrivenTools {
 public:
   DrivenTools(const Scene &scene, const Discretization &discretization, const Supports &supports,
               ContactSet &contacts, const ImplicitScheme &scheme);
 
-  /// Returns the offsets of all tools, in the trial state and at the start of the step [length or angle].
+  /// Returns the offsets of all tools, in the trial state and at the start of the step [length or
+  /// angle].
   const std::vector<double> &offsets() const { return offsets_; }
   void set_offsets(const std::vector<double> &offsets) { offsets_ = offsets; }
   const std::vector<double> &start_offsets() const { return offsets_n_; }
@@ -65,15 +66,16 @@ public:
   double exerted_load(std::size_t tool) const;
   /// Returns the residual of a tool, with its inertia if it has a mass. Collective.
   double imbalance(std::size_t tool, double t) const;
-  /// Returns the distance between the tool and the bodies; infinite if it cannot touch them. Collective.
+  /// Returns the distance between the tool and the bodies; infinite if it cannot touch them.
+  /// Collective.
   double distance_to_touch(std::size_t tool) const;
 
   /// Assembles B, C and D, after the contacts' update(). Collective.
   void assemble_tangent();
   /// Solves K x = b. Returns false on failure.
   using Solve = std::function<bool(const Vector &b, double relative_tolerance, Vector &x)>;
-  /// Solves the bordered system by elimination of du. A tool without contact moves until it touches. `sense`
-  /// is 1 if the solution is added to the unknowns, −1 if it is subtracted.
+  /// Solves the bordered system by elimination of du. A tool without contact moves until it
+  /// touches. `sense` is 1 if the solution is added to the unknowns, −1 if it is subtracted.
   bool solve(const Solve &solve, const Vector &r_u, const std::vector<double> &r_s, double sense,
              double relative_tolerance, Vector &du, std::vector<double> &ds);
   /// Returns the reason of the last failure of solve(); empty if no tool caused it.
@@ -102,8 +104,9 @@ private:
   const ImplicitScheme &scheme_;
   std::vector<double> offsets_, offsets_n_, last_increments_;
   std::vector<std::size_t> unknown_;
-  Vector layout_;                                   ///< zeros: displacements and unknown offsets
-  std::vector<std::unique_ptr<Placement>> stopped_; ///< placements of tools that have stopped permanently
+  Vector layout_; ///< zeros: displacements and unknown offsets
+  /// Placements of tools that have stopped permanently.
+  std::vector<std::unique_ptr<Placement>> stopped_;
   Border border_;
   std::string failure_;
 };

@@ -8,8 +8,8 @@
 
 namespace billet {
 
-/// Newton's method from the first guess of a step. The scene, the required accuracy and the purpose of the
-/// step determine its tolerances.
+/// Newton's method from the first guess of a step. The scene, the required accuracy and the purpose
+/// of the step determine its tolerances.
 class EquilibriumSolver {
 public:
   explicit EquilibriumSolver(ImplicitProblem &problem) : problem_(problem) {}
@@ -17,8 +17,8 @@ public:
   /// Iterates from these displacements and offsets of the tools, and overwrites them. Collective.
   NewtonReport iterate(std::vector<double> &offsets, Vector &displacements);
 
-  /// Continues from a solution with tolerances that are smaller by this factor, in a limited number of
-  /// iterations. Collective.
+  /// Continues from a solution with tolerances that are smaller by this factor, in a limited number
+  /// of iterations. Collective.
   NewtonReport refine(double factor, std::vector<double> &offsets, Vector &displacements);
 
   /// Returns the factor of the tolerances of residuals and their work; in (0, 1].

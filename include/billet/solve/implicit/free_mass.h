@@ -18,8 +18,8 @@ public:
   const Vector &row_sums() const { return row_sums_; }
   /// Returns M x of an owned vector x. Collective.
   Vector times(const Vector &x) const;
-  /// Returns −M⁻¹ F of these forces on the free dofs; constrained dofs satisfy the homogeneous constraints.
-  /// Collective.
+  /// Returns −M⁻¹ F of these forces on the free dofs; constrained dofs satisfy the homogeneous
+  /// constraints. Collective.
   Vector accelerations_by(const Vector &forces) const;
 
 private:

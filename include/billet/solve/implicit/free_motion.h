@@ -22,17 +22,17 @@ std::optional<FreeMode> find_free_mode(const ImplicitProblem &problem, std::size
 /// Throws InputError if a body without stabilisation has such a mode at the start.
 void check_free_modes(const ImplicitProblem &problem);
 
-/// Returns why the run ends if a body has such a mode without these tools or supports; else an empty text.
-/// `what_happens`: what they are at this time, such as "removed". Collective.
+/// Returns why the run ends if a body has such a mode without these tools or supports; else an
+/// empty text. `what_happens`: what they are at this time, such as "removed". Collective.
 std::string describe_free_mode(const ImplicitProblem &problem, std::size_t body,
                                const std::set<std::string> &removed, const std::string &what_happens);
 
-/// Returns how far tools and supports move by what the scene prescribes, in the step to time t [length].
-/// Collective.
+/// Returns how far tools and supports move by what the scene prescribes, in the step to time t
+/// [length]. Collective.
 double prescribed_motion(const ImplicitProblem &problem, double t);
 
-/// Returns a failure if the trial state moves farther, in the step or in the run, than tools and supports
-/// explain. For static scenes. Collective.
+/// Returns a failure if the trial state moves farther, in the step or in the run, than tools and
+/// supports explain. For static scenes. Collective.
 std::optional<StepFailure> judge_travel(const ImplicitProblem &problem, double t);
 
 } // namespace billet

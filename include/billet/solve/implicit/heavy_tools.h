@@ -11,7 +11,8 @@
 
 namespace billet {
 
-/// Driven tools with a mass: their motion at the start of the step, and the effect of their inertia.
+/// Driven tools with a mass: their motion at the start of the step, and the effect of their
+/// inertia.
 class HeavyTools final : public ToolInertia {
 public:
   /// `contact` weighs the forces that the tools exert. The arguments must outlive this object.
@@ -24,8 +25,8 @@ public:
   void start_step(double length, const std::vector<double> &offsets);
   /// Adds the change of the offsets at constant acceleration.
   void extrapolate(std::vector<double> &offsets) const;
-  /// Returns the residual by round-off of offsets, `last_bit` times their masses [force]. Moments are divided
-  /// by `radius`.
+  /// Returns the residual by round-off of offsets, `last_bit` times their masses [force]. Moments
+  /// are divided by `radius`.
   double round_off_force(double last_bit, double radius) const;
 
   double residual(std::size_t tool, double offset) const override;

@@ -13,14 +13,15 @@
 
 namespace billet {
 
-/// Implicit dynamics: velocities and accelerations of the bodies and of tools with a mass, their inertia, and
-/// loads. From the sum of all forces F(u_{n+1}) it computes
+/// Implicit dynamics: velocities and accelerations of the bodies and of tools with a mass, their
+/// inertia, and loads. From the sum of all forces F(u_{n+1}) it computes
 ///   R = F_{n+1} + α_f/(1 − α_f) F_n + M [(1 − α_m) a_{n+1} + α_m a_n]/(1 − α_f),
-/// see TimeIntegrator. New kinds of forces need no change here. The state at the start of the step changes on
-/// commit() only.
+/// see TimeIntegrator. New kinds of forces need no change here. The state at the start of the step
+/// changes on commit() only.
 ///
 /// Where supports move, velocity and acceleration along their normals are those of the prescribed
-/// displacement, by differences over a step. With (I2) they would oscillate between steps permanently.
+/// displacement, by differences over a step. With (I2) they would oscillate between steps
+/// permanently.
 class ImplicitMotion final : public ImplicitScheme {
 public:
   /// Starts at time 0, with the initial velocities. Throws InputError.
@@ -39,7 +40,8 @@ public:
   void add_mass(const TangentSystem &system) const { mass_.inertia().add_tangent(1., system); }
   /// Returns −F − M a for the accelerations that supports prescribe.
   Vector driving_forces(const Vector &forces) const;
-  /// Sets the solution of these equations. On constrained dofs it satisfies the homogeneous constraints.
+  /// Sets the solution of these equations. On constrained dofs it satisfies the homogeneous
+  /// constraints.
   void set_accelerations(const Vector &accelerations);
 
   /// Returns the weights of contact. Before step_error() and commit() they have to be finished.
@@ -56,21 +58,21 @@ public:
   /// Completes the residual after add_loads(); adds no inertia at the start of the run.
   double complete(const Vector &contact, Vector &residual) const override;
   double residual_weight() const override { return 1. / (1. + integrator_.forces_before()); }
-  /// Adds the tangent. The system's constraints are homogeneous: accelerations of constrained nodes do not
-  /// depend on u.
+  /// Adds the tangent. The system's constraints are homogeneous: accelerations of constrained nodes
+  /// do not depend on u.
   void add_tangent(double t, const TangentSystem &system) const override;
-  /// Returns the error of the step's time integration over the allowed one, at the last add_loads(); 0
-  /// without an 'Error tolerance'.
+  /// Returns the error of the step's time integration over the allowed one, at the last
+  /// add_loads(); 0 without an 'Error tolerance'.
   double step_error(const Vector &displacements) const;
 
-  /// Begins the next step with the loads that act after t, if loads jump there or if velocities do. Then
-  /// `forces`, the sum of all forces with the sign of the residual, changes with them, the accelerations have
-  /// to be computed anew, and it returns true. Collective.
+  /// Begins the next step with the loads that act after t, if loads jump there or if velocities do.
+  /// Then `forces`, the sum of all forces with the sign of the residual, changes with them. The
+  /// accelerations have to be computed anew, and it returns true. Collective.
   bool follow_loads(double t, bool velocities_jump, Vector &forces);
   void add_end_inertia(Vector &residual) const override;
 
-  /// Follows supports that have begun or ended at t: nodes of new ones take their velocities at once. Returns
-  /// the work that this does. The accelerations have to be computed anew. Collective.
+  /// Follows supports that have begun or ended at t: nodes of new ones take their velocities at
+  /// once. Returns the work that this does. The accelerations have to be computed anew. Collective.
   double follow_supports(double t);
 
   /// Makes the state of the last add_loads() the start of the next step.
@@ -80,8 +82,8 @@ public:
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const override;
   void load(const StateReader &reader, const OwnedNodes &nodes) override;
-  /// Replaces load() at time t of another method's state. Takes its velocities if it has some, else the
-  /// initial ones.
+  /// Replaces load() at time t of another method's state. Takes its velocities if it has some, else
+  /// the initial ones.
   void begin(const StateReader &reader, const OwnedNodes &nodes, double t);
 
 private:

@@ -68,8 +68,8 @@ private:
   TangentMatrix tangent_;
 };
 
-/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem: sums up
-/// its parts(). Evaluations never change the state at the start of the step.
+/// Balance of all forces at the end of a step, R = F_int − F_c + ... = 0, as one nonlinear problem:
+/// sums up its parts(). Evaluations never change the state at the start of the step.
 class ImplicitProblem final : public NonlinearProblem {
 public:
   ImplicitProblem(const Scene &scene, const Discretization &discretization);
@@ -91,11 +91,11 @@ public:
   void start_at_rest();
   /// Computes all forces at the start of the step. Collective.
   void evaluate_start();
-  /// Makes the forces of the trial state those at the start of the step, and sets the loads of contacts in
-  /// state(). Returns these loads. Collective.
+  /// Makes the forces of the trial state those at the start of the step, and sets the loads of
+  /// contacts in state(). Returns these loads. Collective.
   Contacts::Loads start_from_trial();
-  /// Return the unknowns, displacements and offsets of driven tools, at the start of the step and in the
-  /// trial state.
+  /// Return the unknowns, displacements and offsets of driven tools, at the start of the step and
+  /// in the trial state.
   Vector unknowns() const {
     return parts_.tools().pack(step_.start.displacements, parts_.tools().start_offsets());
   }
@@ -121,13 +121,13 @@ public:
   bool solve_bordered(const Vector &r_u, const std::vector<double> &r_s, double sense,
                       double relative_tolerance, Vector &du, std::vector<double> &ds);
   bool on_all_ranks(bool success) const;
-  /// Returns the part of the motion from the start of the step to the trial state in which no node passes
-  /// through anything. If it is below 1, obstacle() describes the passage. Collective.
+  /// Returns the part of the motion from the start of the step to the trial state in which no node
+  /// passes through anything. If it is below 1, obstacle() describes the passage. Collective.
   double find_free_part(bool is_thorough);
   const std::string &obstacle() const { return obstacle_; }
   void clear_obstacle() { obstacle_.clear(); }
-  /// Sets a function that judges each trial state after its contacts are known. It returns why the state is
-  /// not admissible; empty if it is. Collective.
+  /// Sets a function that judges each trial state after its contacts are known. It returns why the
+  /// state is not admissible; empty if it is. Collective.
   void judge_trials(std::function<std::string()> judge) { judge_ = std::move(judge); }
 
 private:
@@ -140,7 +140,8 @@ private:
   SolutionState state_;
   Vector raw_internal_, raw_contact_;               ///< additive
   std::vector<std::vector<SlaveForce>> linearised_; ///< of the contacts at the last tangent
-  StatusChanges status_changes_;                    ///< between the last tangent and the last residual
+  /// Changes between the last tangent and the last residual.
+  StatusChanges status_changes_;
   std::string obstacle_;
   std::function<std::string()> judge_; ///< of trial states; may be empty
 };

@@ -16,17 +16,17 @@
 
 namespace billet {
 
-/// Solution of a static or an implicit dynamic scene, step by step: attempts a step, recovers from failures,
-/// and commits the step on acceptance. A failure needs no undo, since the state at the start of a step never
-/// changes before.
+/// Solution of a static or an implicit dynamic scene, step by step: attempts a step, recovers from
+/// failures, and commits the step on acceptance. A failure needs no undo, since the state at the
+/// start of a step never changes before.
 class ImplicitSolution final : public Solution, public HasElementPoints {
 public:
   ImplicitSolution(const Scene &scene, const Discretization &discretization);
   ~ImplicitSolution() override;
 
-  /// Tries the step from the current time to `t`. On convergence the new state is committed. `previous_step`
-  /// is the length of the last accepted step if its increment may be continued, else 0. Throws
-  /// SolutionFailure, on all ranks, if the removal of tools has left a body free.
+  /// Tries the step from the current time to `t`. On convergence the new state is committed.
+  /// `previous_step` is the length of the last accepted step if its increment may be continued,
+  /// else 0. Throws SolutionFailure, on all ranks, if the removal of tools has left a body free.
   NewtonReport step(double t, double previous_step);
 
   using Results = StepResults::Groups;
@@ -38,26 +38,26 @@ public:
     NewtonReport newton;
     Results results; ///< at its end
   };
-  /// Tries the step to `t`, and leaves the state unchanged. The next steps up to `t` begin their iterations
-  /// from its solution.
+  /// Tries the step to `t`, and leaves the state unchanged. The next steps up to `t` begin their
+  /// iterations from its solution.
   Probe probe(double t, double previous_step);
 
-  /// Returns the measurement of the error of the results by penetration, which the next accepted step makes
-  /// if it is asked to.
+  /// Returns the measurement of the error of the results by penetration, which the next accepted
+  /// step makes if it is asked to.
   PenetrationMeasurement &measurement() { return measurement_; }
-  /// Returns the deepest penetration of the last accepted step, over the 'Penetration tolerance', or over
-  /// 1e-5 facets in pairs without one.
+  /// Returns the deepest penetration of the last accepted step, over the 'Penetration tolerance',
+  /// or over 1e-5 facets in pairs without one.
   double penetration() const { return penetration_; }
-  /// Sets the factor of the pairs' tolerances above which tractions are augmented. A remaining penetration
-  /// above that is an error to be reported, and fails no step.
+  /// Sets the factor of the pairs' tolerances above which tractions are augmented. A remaining
+  /// penetration above that is an error to be reported, and fails no step.
   void set_penetration_allowed(const double factor) {
     augmentation_.allow_penetration(factor);
     augmentation_.may_leave_penetration();
   }
   /// Sets the factor of the tolerances of residuals and their work; in (0, 1].
   void set_accuracy(const double factor) { solver_.set_accuracy(factor); }
-  /// Lets the step that failed, and shorter ones, begin with low penalties until one is accepted. Returns
-  /// false if they already could, or the scheme does without.
+  /// Lets the step that failed, and shorter ones, begin with low penalties until one is accepted.
+  /// Returns false if they already could, or the scheme does without.
   bool take_low_penalties() { return rules_->may_continue_penalties() && continuation_.permit_low(); }
 
   /// Returns the time error of the last step that was tried, and where the energies do not balance.
@@ -84,8 +84,9 @@ public:
   bool solves_iteratively() const override { return parts_.tangent().solver().is_iterative(); }
   const Reactions &reactions() const override { return reactions_.values(); }
 
-  /// Returns messages at the end of the run. They concern stabilised bodies, contact that has lost or
-  /// generated energy in total, round-off of penalties, and augmentation that was given up. Collective.
+  /// Returns messages at the end of the run. They concern stabilised bodies, contact that has lost
+  /// or generated energy in total, round-off of penalties, and augmentation that was given up.
+  /// Collective.
   DiagnosticList finish() const;
 
   /// Returns the equation of the steps.
@@ -96,10 +97,11 @@ public:
 
   /// Saves the state at the end of the last accepted step.
   void save(StateWriter &writer) const;
-  /// Resumes from such a state, instead of starting at time 0. From the state of another method it takes
-  /// displacements and stresses, and, in dynamic scenes, velocities. A static scene that has other tools or
-  /// pairs, or a state from elsewhere, is out of balance. The imbalance fades over `release_time`, or, if
-  /// that is 0, until the end time. In dynamic scenes it accelerates the bodies.
+  /// Resumes from such a state, instead of starting at time 0. From the state of another method it
+  /// takes displacements and stresses, and, in dynamic scenes, velocities. A static scene that has
+  /// other tools or pairs, or a state from elsewhere, is out of balance. The imbalance fades over
+  /// `release_time`, or, if that is 0, until the end time. In dynamic scenes it accelerates the
+  /// bodies.
   RestartReport load(StateReader &reader, double release_time);
 
 private:

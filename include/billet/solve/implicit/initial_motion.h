@@ -11,10 +11,11 @@ class InitialMotion {
 public:
   InitialMotion(ImplicitProblem &problem, ImplicitMotion &motion) : problem_(problem), motion_(motion) {}
 
-  /// Starts the run at time 0: forces, accelerations and energies. Throws InputError or SolutionFailure.
-  /// Collective.
+  /// Starts the run at time 0: forces, accelerations and energies. Throws InputError or
+  /// SolutionFailure. Collective.
   void start();
-  /// Computes the accelerations by the forces at the start of the step. Throws SolutionFailure. Collective.
+  /// Computes the accelerations by the forces at the start of the step. Throws SolutionFailure.
+  /// Collective.
   void accelerate();
   /// Reads the motion from a checkpoint, or begins it from another method's state. Collective.
   void load(StateReader &reader, RestartReport &report);

@@ -20,8 +20,8 @@ public:
   LoadForces(const Scene &scene, const Discretization &discretization, const LocalNodes &nodes,
              const std::function<std::vector<double>(const LocalNodes &)> &masses);
 
-  /// Subtracts the forces at these displacements and velocities from the residual. Returns their norm.
-  /// Collective.
+  /// Subtracts the forces at these displacements and velocities from the residual. Returns their
+  /// norm. Collective.
   double subtract(double t, const Vector &displacements, const Vector &velocities, Vector &residual);
   /// Adds the derivatives, after subtract(); `damping_factor` as TimeIntegrator's.
   void add_tangent(double t, double damping_factor, const TangentSystem &system) const;
@@ -31,10 +31,12 @@ public:
   void start();
   /// Whether the force of a load jumps at t, the end of a step.
   bool jump_at(const double t) const { return loads_ != nullptr && loads_->works.jumps_at(t); }
-  /// Begins the next step with the loads that act after t, at the displacements of the last subtract() and
-  /// these velocities. Returns their forces less those of the last subtract(). Collective.
+  /// Begins the next step with the loads that act after t, at the displacements of the last
+  /// subtract() and these velocities. Returns their forces less those of the last subtract().
+  /// Collective.
   Vector start_after(double t, const Vector &velocities);
-  /// Does the same as start() after a step. Returns the work of the forces, by the trapezoidal rule.
+  /// Does the same as start() after a step. Returns the work of the forces, by the trapezoidal
+  /// rule.
   double commit(const Vector &increment);
 
   /// Returns force and work of each load at the start of the step. Collective.

@@ -19,11 +19,11 @@ public:
               const Inertia &inertia, const Vector &lumped);
 
   bool is_wanted() const { return parameters_.error_tolerance > 0.; }
-  /// Returns the factor of the tolerances of iterations. If the scene requires smaller errors of steps than
-  /// the default, the iterations' errors must be smaller, too.
+  /// Returns the factor of the tolerances of iterations. If the scene requires smaller errors of
+  /// steps than the default, the iterations' errors must be smaller, too.
   double wanted_accuracy() const;
-  /// Returns the error that is `factor` times `change`, at these displacements, over the allowed one.
-  /// Collective.
+  /// Returns the error that is `factor` times `change`, at these displacements, over the allowed
+  /// one. Collective.
   double of_step(double factor, const Vector &change, const Vector &displacements) const;
   /// Accepts these displacements. Collective.
   void commit(const Vector &displacements);
@@ -34,7 +34,8 @@ public:
 private:
   struct Limits {
     static constexpr double default_tolerance = 1e-3;
-    /// Minimum displacement to resolve, as part of the scene's radius: at the start nothing has moved yet.
+    /// Minimum displacement to resolve, as part of the scene's radius: at the start nothing has
+    /// moved yet.
     static constexpr double min_displacement = 1e-6;
   };
   struct BodyAxis {
@@ -48,9 +49,9 @@ private:
   };
   std::vector<Spread> spread_of_bodies(const Vector &field) const;
   double mean_size(const Vector &field) const;
-  /// Returns the reference of the error tolerance, (I7): the displacements, root mean square over the mass.
-  /// The common motion of bodies counts up to the largest radius of gyration: a long flight does not enlarge
-  /// the impact at its end.
+  /// Returns the reference of the error tolerance, (I7): the displacements, root mean square over
+  /// the mass. The common motion of bodies counts up to the largest radius of gyration: a long
+  /// flight does not enlarge the impact at its end.
   double displacement_to_resolve(const Vector &displacements) const;
 
   const Discretization &discretization_;

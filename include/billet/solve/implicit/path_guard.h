@@ -7,8 +7,8 @@
 
 namespace billet {
 
-/// Rejects steps whose ends do not show the motion between them: nodes pass through tools or bodies, tools
-/// rotate too far, or prescribed motions oscillate. All members are collective.
+/// Rejects steps whose ends do not show the motion between them: nodes pass through tools or
+/// bodies, tools rotate too far, or prescribed motions oscillate. All members are collective.
 class PathGuard {
 public:
   explicit PathGuard(ImplicitProblem &problem)
@@ -26,8 +26,8 @@ public:
   std::optional<StepFailure> judge_turns(double t) const;
   /// ... a prescribed motion oscillates or turns within the step unseen, and the step can be cut;
   std::optional<StepFailure> judge_prescribed_motion(double t) const;
-  /// ... in dynamics, nodes approach so far in the step of first contact that the motion after the contact
-  /// is unknown.
+  /// ... in dynamics, nodes approach so far in the step of first contact that the motion after the
+  /// contact is unknown.
   std::optional<StepFailure> judge_first_contact(double t) const;
 
   /// Returns messages about such prescribed motions if steps cannot be cut.
@@ -35,8 +35,8 @@ public:
 
 private:
   struct Limits {
-    /// Maximum rotation of a tool in a step [rad]: by the chord of an arc of 15 degrees the moment of
-    /// friction is 0.9 % too small.
+    /// Maximum rotation of a tool in a step [rad]. By the chord of an arc of 15 degrees the moment
+    /// of friction is 0.9 % too small.
     static constexpr double max_turn = M_PI / 12.;
     /// Maximum approach of nodes in the step of first contact, as part of their facets.
     static constexpr double max_closing = 0.1;

@@ -10,9 +10,9 @@
 namespace billet {
 
 /// Recovery of a step in which Newton's method fails: continuation from lower penalties.
-/// StepRules::may_continue_penalties() says whether a scheme uses it. Penalties above 10 E/h may be too high
-/// for any body. Those of E/h are too high for a thin sheet, which bends much more easily than it compresses:
-/// nodes along it touch and open in turn.
+/// StepRules::may_continue_penalties() says whether a scheme uses it. Penalties above 10 E/h may be
+/// too high for any body. Those of E/h are too high for a thin sheet, which bends much more easily
+/// than it compresses. Nodes along it then touch and open in turn.
 class PenaltyContinuation {
 public:
   PenaltyContinuation(ImplicitProblem &problem, EquilibriumSolver &solver)
@@ -24,15 +24,16 @@ public:
     low     ///< E/h / 820, at which bricks with a fifth of the length in thickness bend as easily
   };
 
-  /// Whether penalties are above those of the start, so that lower ones may lead to them. Low ones also have
-  /// to be permitted. Collective.
+  /// Whether penalties are above those of the start, so that lower ones may lead to them. Low ones
+  /// also have to be permitted. Collective.
   bool is_possible(Start start = Start::enough) const;
-  /// Permits low penalties, a last resort: a long step by them may lead to another equilibrium than short
-  /// ones, such as that of nodes which have slid off an edge. Returns whether they were not permitted before.
+  /// Permits low penalties, a last resort. A long step by them may lead to another equilibrium than
+  /// short ones, such as that of nodes which have slid off an edge. Returns whether they were not
+  /// permitted before.
   bool permit_low() { return !std::exchange(permits_low_, true); }
   void forbid_low() { permits_low_ = false; }
-  /// Iterates like EquilibriumSolver::iterate(), with the penalties of the start first, which then rise to
-  /// their values.
+  /// Iterates like EquilibriumSolver::iterate(), with the penalties of the start first, which then
+  /// rise to their values.
   NewtonReport iterate(Start start, std::vector<double> &offsets, Vector &displacements);
   /// Returns a warning that a step needed continuation. Collective.
   Diagnostic describe() const;

@@ -44,23 +44,24 @@ class PenaltyRaises {
 public:
   PenaltyRaises(ImplicitProblem &problem, SpringBooks &books) : problem_(problem), books_(books) {}
 
-  /// Returns a failure if penetration is too large at the end of the step, which has to be repeated then.
-  /// Collective.
+  /// Returns a failure if penetration is too large at the end of the step, which has to be repeated
+  /// then. Collective.
   std::optional<StepFailure> judge();
-  /// Raises the penalties at the start of the step. Compressed springs receive the energy that stiffer ones
-  /// store, and start the step with their forces. Collective.
+  /// Raises the penalties at the start of the step. Compressed springs receive the energy that
+  /// stiffer ones store, and start the step with their forces. Collective.
   DiagnosticList raise();
 
 private:
   struct Limits {
     static constexpr double min_raise = 2., max_raise = 8.;
-    /// Contact follows nodes to 0.4 of a facet, four times the penetration that default penalties allow. A
-    /// penalty of the scene is kept up to this multiple of the allowed penetration.
+    /// Contact follows nodes to 0.4 of a facet, four times the penetration that default penalties
+    /// allow. A penalty of the scene is kept up to this multiple of the allowed penetration.
     static constexpr double deep = 3.6;
     /// Part of the first step below which a step counts as short: it can hardly be cut further.
     static constexpr double short_step = 0.01;
   };
-  /// Returns the factor by which the penalty of each contact should rise; 1 means unchanged. Collective.
+  /// Returns the factor by which the penalty of each contact should rise; 1 means unchanged.
+  /// Collective.
   std::vector<double> find_factors() const;
   DiagnosticList describe() const;
 
@@ -70,8 +71,8 @@ private:
   std::vector<double> factors_; ///< result of the last judge()
 };
 
-/// Raises penalties of dynamic scenes after a step. The contacts are then in their accepted state, so that a
-/// checkpoint contains the raised penalties.
+/// Raises penalties of dynamic scenes after a step. The contacts are then in their accepted state,
+/// so that a checkpoint contains the raised penalties.
 class DynamicPenalties {
 public:
   DynamicPenalties(ImplicitProblem &problem, SpringBooks &books)

@@ -11,8 +11,8 @@ namespace billet {
 
 class ImplicitMotion;
 
-/// First guess of a step, as the trial state. It is the last state if nothing drives the bodies, else an
-/// extrapolation of known motion, else one linear step.
+/// First guess of a step, as the trial state. It is the last state if nothing drives the bodies,
+/// else an extrapolation of known motion, else one linear step.
 class Predictor {
 public:
   explicit Predictor(ImplicitProblem &problem) : problem_(problem) {}
@@ -20,23 +20,24 @@ public:
   Predictor(const Predictor &) = delete;
   Predictor &operator=(const Predictor &) = delete;
 
-  /// Guesses the end of the step to t without a linear solution. Returns false if no known motion fits.
-  /// `previous_step`: length of the last step if its increment may be continued, else 0.
+  /// Guesses the end of the step to t without a linear solution. Returns false if no known motion
+  /// fits. `previous_step`: length of the last step if its increment may be continued, else 0.
   virtual bool guess(double t, double previous_step);
-  /// Whether another guess is to be tried if nodes would pass through something: follow_tangent() includes
-  /// contact.
+  /// Whether another guess is to be tried if nodes would pass through something: follow_tangent()
+  /// includes contact.
   virtual bool has_alternative() const { return true; }
-  /// Solves one linear step from the last state with the motion of tools and supports. Returns false if there
-  /// is no solution. Collective.
+  /// Solves one linear step from the last state with the motion of tools and supports. Returns
+  /// false if there is no solution. Collective.
   bool follow_tangent(double t, NewtonIteration &iteration);
 
-  /// Notes that a tool stopped or was removed at the end of the last step: the last increment cannot be
-  /// continued.
+  /// Notes that a tool stopped or was removed at the end of the last step: the last increment
+  /// cannot be continued.
   void lose_pace() { has_lost_pace_ = true; }
   void commit() { has_lost_pace_ = false; }
   bool has_lost_pace() const { return has_lost_pace_; }
 
-  /// Keeps the trial state as the solution of a probe to t: the steps up to t begin from a part of it.
+  /// Keeps the trial state as the solution of a probe to t: the steps up to t begin from a part of
+  /// it.
   void keep_probe(double t);
   void drop_probe() { probe_.reset(); }
 
@@ -51,10 +52,12 @@ protected:
 private:
   /// Limits of continued motion.
   struct Limits {
-    /// Maximum jump in the motion of tools or supports, as part of that motion. Above it the last increment
-    /// is a poor guess, and unevenly moving supports would crush the elements beside them.
+    /// Maximum jump in the motion of tools or supports, as part of that motion. Above it the last
+    /// increment is a poor guess, and unevenly moving supports would crush the elements beside
+    /// them.
     static constexpr double max_jump = 0.1;
-    /// Relative tolerance of the linear step if the solver is iterative: the iterations correct the rest.
+    /// Relative tolerance of the linear step if the solver is iterative: the iterations correct the
+    /// rest.
     static constexpr double linear_tolerance = 1e-3;
     /// Slack of the yield condition in the linear step, see HenckyPlasticity::update().
     static constexpr double yield_slack = 1e-9;

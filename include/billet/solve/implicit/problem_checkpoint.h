@@ -15,8 +15,8 @@ public:
   void save_bodies(StateWriter &writer) const;
   void save_tools(StateWriter &writer, const OwnedNodes &nodes) const;
   void save_contacts(StateWriter &writer, const NodeKeys &keys) const;
-  /// Loads histories at the displacements of the state. If a body had another formulation, it takes the
-  /// stresses from that, and the report is no longer exact.
+  /// Loads histories at the displacements of the state. If a body had another formulation, it takes
+  /// the stresses from that, and the report is no longer exact.
   void load_bodies(StateReader &reader, RestartReport &report);
   void load_tools(StateReader &reader, const OwnedNodes &nodes);
   void load_contacts(StateReader &reader, const NodeKeys &keys);

@@ -8,9 +8,9 @@
 
 namespace billet {
 
-/// Compares what residuals leave out of balance on each body with the forces of its supports and contact
-/// pairs, (Q4) of doc/theory. 'Force tolerance' is a part of all nodal forces. Those of bending are large
-/// beside the forces that bend, so that the latter need a smaller residual.
+/// Compares what residuals leave out of balance on each body with the forces of its supports and
+/// contact pairs, (Q4) of doc/theory. 'Force tolerance' is a part of all nodal forces. Those of
+/// bending are large beside the forces that bend, so that the latter need a smaller residual.
 class ResultantGuard {
 public:
   /// Part of the forces along an axis that may be out of balance.
@@ -21,8 +21,8 @@ public:
   /// Returns the largest part, over bodies and axes, that the last residual leaves out of balance.
   /// Collective.
   double find_part();
-  /// Whether the next unbalanced step is worth further iterations: where they have failed, some steps go
-  /// without.
+  /// Whether the next unbalanced step is worth further iterations: where they have failed, some
+  /// steps go without.
   bool is_hopeful() const { return n_left_out_ == 0; }
   void note(bool is_balanced) { has_failed_ = !is_balanced; }
   /// Accepts the step of the last find_part().
@@ -32,7 +32,8 @@ public:
   void load(StateReader &reader);
 
 private:
-  /// Largest forces on a body so far, along each axis, and the largest sum of its nodal forces [force].
+  /// Largest forces on a body so far, along each axis, and the largest sum of its nodal forces
+  /// [force].
   using OfBody = std::array<double, 4>;
 
   const ImplicitProblem &problem_;

@@ -7,14 +7,15 @@
 
 namespace billet {
 
-/// Judges the effect of round-off on the forces: of displacements, and of positions if penalties are high.
+/// Judges the effect of round-off on the forces: of displacements, and of positions if penalties
+/// are high.
 class RoundOffGuard {
 public:
   explicit RoundOffGuard(const ImplicitProblem &problem)
       : problem_(problem), is_balanced_by_inertia_(parts_.scheme().has_inertia()) {}
 
-  /// Returns a failure of a converged step if round-off of contact is too large a part of the forces, in
-  /// several such steps in succession or at the end of the run.
+  /// Returns a failure of a converged step if round-off of contact is too large a part of the
+  /// forces. This must be so in several such steps in succession, or at the end of the run.
   std::optional<StepFailure> judge(double t, const NewtonReport &report) const;
   /// Whether round-off of contacts may explain the residual of a failed step. Collective.
   bool may_explain(const NewtonReport &report) const;
@@ -23,11 +24,11 @@ public:
   /// Accepts the step to t.
   void commit(double t, const NewtonReport &report);
 
-  /// Returns a message if round-off limited the accepted residual to this part of the forces, above the
-  /// tolerance. `accuracy`: see EquilibriumSolver.
+  /// Returns a message if round-off limited the accepted residual to this part of the forces, above
+  /// the tolerance. `accuracy`: see EquilibriumSolver.
   DiagnosticList check(double part, double accuracy) const;
-  /// Returns a message at the end about round-off of contact penalties, relative to the largest forces of the
-  /// run.
+  /// Returns a message at the end about round-off of contact penalties, relative to the largest
+  /// forces of the run.
   DiagnosticList finish() const;
 
   void save(StateWriter &writer) const { writer.write("round-off", watch_.save()); }
@@ -35,8 +36,8 @@ public:
 
 private:
   struct Limits {
-    /// Maximum number of successive steps limited by round-off. When loads begin, or nodes lie on a tool to
-    /// the last bit, forces are small and soon grow.
+    /// Maximum number of successive steps limited by round-off. When loads begin, or nodes lie on a
+    /// tool to the last bit, forces are small and soon grow.
     static constexpr unsigned int max_lost_steps = 3;
     /// Part of the round-off of bodies below which they have no other forces.
     static constexpr double unloaded = 0.1;

@@ -14,10 +14,10 @@
 
 namespace billet {
 
-/// Contributions of time to the sum of all forces in a step: inertia, loads and the weights of a time
-/// integrator. Here weights are one, and inertia and loads are zero. Statics adds loads; ImplicitMotion is
-/// implicit dynamics. This class adds to the sum and advances; contact() weighs the forces of contact in it,
-/// and tools() have the inertia of driven tools.
+/// Contributions of time to the sum of all forces in a step: inertia, loads and the weights of a
+/// time integrator. Here weights are one, and inertia and loads are zero. Statics adds loads;
+/// ImplicitMotion is implicit dynamics. This class adds to the sum and advances; contact() weighs
+/// the forces of contact in it, and tools() have the inertia of driven tools.
 class ImplicitScheme {
 public:
   ImplicitScheme() = default;
@@ -54,27 +54,28 @@ public:
   virtual double add_loads(double /*t*/, const Vector & /*displacements*/, Vector & /*residual*/) {
     return 0.;
   }
-  /// Adds the change of the loads in the step, at these displacements at its start. Returns false without
-  /// loads, and where a predictor needs none. Collective.
+  /// Adds the change of the loads in the step, at these displacements at its start. Returns false
+  /// without loads, and where a predictor needs none. Collective.
   virtual bool add_load_change(double /*t*/, const Vector & /*displacements*/, Vector & /*forces*/) {
     return false;
   }
   /// Begins the next step from the loads of the last add_loads(), after a restart.
   virtual void start_loads() {}
-  /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the norm of
-  /// the inertia forces.
+  /// Completes the sum of all forces to the residual; `contact` is the part of contact. Returns the
+  /// norm of the inertia forces.
   virtual double complete(const Vector & /*contact*/, Vector & /*residual*/) const { return 0.; }
-  /// Adds the forces of inertia at the end of the step to the sum of all forces there, with the accelerations
-  /// of all forces.
+  /// Adds the forces of inertia at the end of the step to the sum of all forces there, with the
+  /// accelerations of all forces.
   virtual void add_end_inertia(Vector & /*residual*/) const {}
-  /// Returns the factor of the residual that makes the weights of its forces at both ends of the step sum up
-  /// to one.
+  /// Returns the factor of the residual that makes the weights of its forces at both ends of the
+  /// step sum up to one.
   virtual double residual_weight() const { return 1.; }
   /// Adds the derivatives of loads and inertia.
   virtual void add_tangent(double /*t*/, const TangentSystem &) const {}
 
-  /// Accepts the step, with its increment and mean forces, and records their works. `touching` is the work of
-  /// springs in contact, see StepWorks. Returns force and work of each load. Collective.
+  /// Accepts the step, with its increment and mean forces, and records their works. `touching` is
+  /// the work of springs in contact, see StepWorks. Returns force and work of each load.
+  /// Collective.
   virtual std::vector<LoadResult> commit(const Vector & /*displacements*/, const Vector &increment,
                                          const Vector &mean_forces, const double touching,
                                          EnergyLedger &energies) {

@@ -10,11 +10,13 @@
 
 namespace billet {
 
-/// Bounds how far forces slide bodies over each other, or over tools, in a static step. If an equilibrium is
-/// lost, Newton's method may find another one far away, and contact has not seen what is between them. With
-/// automatic steps, a solution that slides too far is rejected. Iterations may slide further, and return. If
-/// they fail, the next attempt takes trial states that slide too far as inadmissible, so that it finds an
-/// equilibrium that is near; the one after that does not, and so on in turn.
+/// Bounds how far forces slide bodies over each other, or over tools, in a static step. If an
+/// equilibrium is lost, Newton's method may find another one far away, and contact has not seen
+/// what is between them. With automatic steps, a solution that slides too far is rejected.
+/// Iterations may slide further, and return.
+///
+/// If they fail, the next attempt takes trial states that slide too far as inadmissible, so that it
+/// finds an equilibrium that is near. The one after that does not, and so on in turn.
 class SlidingGuard {
 public:
   explicit SlidingGuard(ImplicitProblem &problem);
@@ -24,18 +26,20 @@ public:
     ++n_attempts_;
     n_refused_ = 0;
   }
-  /// Records the friction of a converged step. If nodes slide too far, returns a failure, or adds a warning
-  /// if the step's length is fixed. Collective.
+  /// Records the friction of a converged step. If nodes slide too far, returns a failure, or adds a
+  /// warning if the step's length is fixed. Collective.
   std::optional<StepFailure> judge(double t, DiagnosticList &messages);
-  /// Explains a step that failed after states slid too far; empty if none did. `cause`: why bodies slide, if
-  /// it is known; from one attempt it holds for those after it.
+  /// Explains a step that failed after states slid too far; empty if none did. `cause`: why bodies
+  /// slide, if it is known; from one attempt it holds for those after it.
   Explanation explain(double t, const Explanation &cause);
 
 private:
   struct Limits {
-    /// Maximum sliding of a node in a step, beyond twice what tools and supports prescribe [facet sizes].
+    /// Maximum sliding of a node in a step, beyond twice what tools and supports prescribe [facet
+    /// sizes].
     static constexpr double max_sliding = 2.;
-    /// Maximum number of trial states that slide too far. Iterations with more of them do not return.
+    /// Maximum number of trial states that slide too far. Iterations with more of them do not
+    /// return.
     static constexpr unsigned int max_refused = 12;
   };
   struct Sliding {

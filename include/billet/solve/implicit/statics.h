@@ -7,8 +7,9 @@
 
 namespace billet {
 
-/// Statics with loads. Velocities, which dashpots resist, are the step's means, Δu/Δt: the time of the scene
-/// is that of the process. Before the first step there are no loads, so they grow during it.
+/// Statics with loads. Velocities, which dashpots resist, are the step's means, Δu/Δt: the time of
+/// the scene is that of the process. Before the first step there are no loads, so they grow during
+/// it.
 class Statics final : public ImplicitScheme {
 public:
   Statics(const Scene &scene, const Discretization &discretization);

@@ -14,11 +14,11 @@ class StepDiagnosis {
 public:
   explicit StepDiagnosis(ImplicitProblem &problem) : problem_(problem) {}
 
-  /// Finds tools whose load friction bears and that slip on nearly their whole contact, at the end of a step.
-  /// Collective.
+  /// Finds tools whose load friction bears and that slip on nearly their whole contact, at the end
+  /// of a step. Collective.
   void commit();
-  /// Returns reasons of a failed step: nodes that cycle, now or in an earlier attempt since the last accepted
-  /// step, and tools in full sliding. Collective.
+  /// Returns reasons of a failed step: nodes that cycle, now or in an earlier attempt since the
+  /// last accepted step, and tools in full sliding. Collective.
   Explanation describe_contacts();
   /// Returns the location of the largest residual of a failed step. Collective.
   Explanation describe_residual();

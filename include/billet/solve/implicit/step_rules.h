@@ -17,8 +17,8 @@
 
 namespace billet {
 
-/// Rules of a scheme for steps, beside its equation: how they begin, which are rejected, and what follows
-/// them. There is one class each for static and dynamic scenes.
+/// Rules of a scheme for steps, beside its equation: how they begin, which are rejected, and what
+/// follows them. There is one class each for static and dynamic scenes.
 class StepRules {
 public:
   StepRules(ImplicitProblem &problem, const PathGuard &paths, SpringBooks &books)
@@ -45,15 +45,16 @@ public:
   /// Explains a step for whose failure the iterations give no reason, if the bodies do. Throws
   /// SolutionFailure, on all ranks, if shorter steps will not help. Collective.
   virtual std::optional<StepFailure> explain(double /*t*/) { return {}; }
-  /// Whether lower penalties may help a step that failed for a known reason. In dynamics, converged steps
-  /// that are too long need shorter ones.
+  /// Whether lower penalties may help a step that failed for a known reason. In dynamics, converged
+  /// steps that are too long need shorter ones.
   virtual bool may_mend_explained() const = 0;
-  /// Whether a failed step may be approached by continuation from lower penalties. In dynamics, inertia and
-  /// shorter steps have the same effect.
+  /// Whether a failed step may be approached by continuation from lower penalties. In dynamics,
+  /// inertia and shorter steps have the same effect.
   virtual bool may_continue_penalties() const = 0;
   /// Raises penalties if a step requires it. Collective.
   virtual DiagnosticList raise_penalties() { return {}; }
-  /// Return clauses on the state before a step that failed for this reason, if it may explain the failure.
+  /// Return clauses on the state before a step that failed for this reason, if it may explain the
+  /// failure.
   virtual Explanation describe_sliding() const { return {}; }
   virtual Explanation describe_loss(const std::string & /*failure*/) const { return {}; }
 
@@ -72,15 +73,15 @@ public:
   virtual void load(StateReader &reader, bool is_exact) = 0;
   /// Takes over forces that are out of balance after a restart, as this residual.
   virtual void hold_imbalance(const Vector & /*residual*/) {}
-  /// Completes a restart after everything else is loaded. `release_time`: see ImplicitSolution::load().
-  /// Collective.
+  /// Completes a restart after everything else is loaded. `release_time`: see
+  /// ImplicitSolution::load(). Collective.
   virtual void finish_load(StateReader &reader, double release_time, RestartReport &report) = 0;
 
 protected:
   /// Removes tools that are due at t. Collective.
   ToolRemoval::Removal remove_tools(double t);
-  /// Switches the supports that are due at t. Returns the names of those that each body loses. `inertia`: its
-  /// forces. Collective.
+  /// Switches the supports that are due at t. Returns the names of those that each body loses.
+  /// `inertia`: its forces. Collective.
   std::map<std::size_t, std::set<std::string>> switch_supports(double t, const Vector &inertia);
 
   ImplicitProblem &problem_;
@@ -127,8 +128,8 @@ public:
   void finish_load(StateReader &reader, double release_time, RestartReport &report) override;
 
 private:
-  /// Sets free_body_ for the first body that what it loses, by body, leaves free; with the kind of these and
-  /// what happens to them. Collective.
+  /// Sets free_body_ for the first body that what it loses, by body, leaves free; with the kind of
+  /// these and what happens to them. Collective.
   void find_free_body(const std::map<std::size_t, std::set<std::string>> &losses, const std::string &kind,
                       const std::string &what_happens);
 

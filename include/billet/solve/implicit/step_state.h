@@ -6,7 +6,8 @@
 
 namespace billet {
 
-/// Displacements and forces of the bodies at one time, on owned dofs. Forces have the sign of the residual.
+/// Displacements and forces of the bodies at one time, on owned dofs. Forces have the sign of the
+/// residual.
 struct ForceState {
   explicit ForceState(const Discretization &discretization)
       : displacements(discretization.make_owned_vector()), supports(displacements), contact(displacements),
@@ -18,7 +19,8 @@ struct ForceState {
   Vector internal; ///< F_int
 };
 
-/// Step that is tried: its start, which changes in commits only, and the trial state of the iterations.
+/// Step that is tried: its start, which changes in commits only, and the trial state of the
+/// iterations.
 struct StepState {
   explicit StepState(const Discretization &discretization)
       : start(discretization), trial(discretization), ghosted(discretization.make_ghosted_vector()),

@@ -6,7 +6,8 @@
 
 namespace billet {
 
-/// Velocities and accelerations that supports prescribe, by differences over a step; other components are 0.
+/// Velocities and accelerations that supports prescribe, by differences over a step; other
+/// components are 0.
 class SupportRates {
 public:
   SupportRates(const Scene &scene, const Discretization &discretization, const Supports &supports);

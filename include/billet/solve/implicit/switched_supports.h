@@ -11,8 +11,8 @@
 
 namespace billet {
 
-/// Supports that begin and end between steps. Their reactions at the end become dead forces on their nodes,
-/// and fade.
+/// Supports that begin and end between steps. Their reactions at the end become dead forces on
+/// their nodes, and fade.
 class SwitchedSupports {
 public:
   SwitchedSupports(const Scene &scene, const Discretization &discretization)
@@ -21,17 +21,17 @@ public:
   const Supports &get() const { return supports_; }
   /// Whether the set of supports changes after t.
   bool is_due(const double t) const { return supports_.acting().differ(holding_after(t)); }
-  /// Lets supports go and takes others as they are due at t. `reactions`: sum of all forces on the bodies,
-  /// without constraints, with the sign of the residual. Returns the part of them that the supports that
-  /// ended have borne and that remains at t as forces on the bodies. Collective.
+  /// Lets supports go and takes others as they are due at t. `reactions`: sum of all forces on the
+  /// bodies, without constraints, with the sign of the residual. Returns the part of them that the
+  /// supports that ended have borne and that remains at t as forces on the bodies. Collective.
   Vector switch_supports(double t, const Vector &reactions, const Vector &displacements);
 
   /// Whether the fading forces differ between t and t_n.
   bool changes(double t_n, double t) const;
   /// Subtracts the fading forces at t from the residual.
   void add_forces(double t, Vector &residual) const;
-  /// Calls visit(index in named_supports(), part that is left at t, forces) for fading forces of supports of
-  /// this scene.
+  /// Calls visit(index in named_supports(), part that is left at t, forces) for fading forces of
+  /// supports of this scene.
   template <class Visit> void visit_fading(const double t, const Visit &visit) const {
     for (const Fading &fading : fading_)
       if (const double left = fading.times.left(t); left > 0. && fading.support)
@@ -41,8 +41,8 @@ public:
   double work(double t_n, double t, const Vector &increment) const;
 
   void save(StateWriter &writer, const OwnedNodes &nodes) const;
-  /// Takes the supports that act after t. Those of which the state does not know where their nodes were hold
-  /// them at these `displacements` (relevant dofs). Collective.
+  /// Takes the supports that act after t. Those of which the state does not know where their nodes
+  /// were hold them at these `displacements` (relevant dofs). Collective.
   void load(const StateReader &reader, const OwnedNodes &nodes, double t, const Vector &displacements);
 
 private:

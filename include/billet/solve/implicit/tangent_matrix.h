@@ -11,7 +11,8 @@
 
 namespace billet {
 
-/// Tangent matrix and its linear solver. Its pattern follows the couplings by contact between bodies.
+/// Tangent matrix and its linear solver. Its pattern follows the couplings by contact between
+/// bodies.
 class TangentMatrix {
 public:
   TangentMatrix(const Scene &scene, const Discretization &discretization, const Supports &supports,
@@ -19,12 +20,13 @@ public:
       : scene_(scene), discretization_(discretization), supports_(supports), contacts_(contacts),
         kind_(scene.contact_tangent()) {}
 
-  /// Builds matrix and solver for the present contacts, or, after a restart, for the contacts at the last
-  /// build. Collective.
+  /// Builds matrix and solver for the present contacts, or, after a restart, for the contacts at
+  /// the last build. Collective.
   void build(bool couplings_are_known = false);
   /// Builds them anew if contact has new couplings. Collective.
   void follow_couplings();
-  /// Builds them anew after supports have begun or ended, with the contacts at the last build. Collective.
+  /// Builds them anew after supports have begun or ended, with the contacts at the last build.
+  /// Collective.
   void follow_supports();
 
   Matrix &matrix() { return matrix_; }
@@ -32,15 +34,16 @@ public:
   const TangentSolver &solver() const { return *linear_; }
   ContactTangent kind() const { return kind_; }
   bool is_kind_of_scene() const { return kind_ == scene_.contact_tangent(); }
-  /// Switches to the exact contact tangent, with an unsymmetric matrix. Returns false without a change if it
-  /// is exact already, or no contact is possible. Collective.
+  /// Switches to the exact contact tangent, with an unsymmetric matrix. Returns false without a
+  /// change if it is exact already, or no contact is possible. Collective.
   bool take_exact();
 
   /// Solves K x = b; x satisfies the homogeneous constraints. Collective.
   bool solve(const Vector &b, double relative_tolerance, Vector &x);
   /// Passes the positions of the nodes at these displacements to an iterative solver.
   void set_geometry(const Vector &displacements);
-  /// Announces to an iterative solver that the matrix holds everything except contact between bodies.
+  /// Announces to an iterative solver that the matrix holds everything except contact between
+  /// bodies.
   void start_contact();
 
 private:

@@ -22,7 +22,8 @@ struct RemovedForces {
   DeadForces forces;
 };
 
-/// Removal of tools at given times: the forces by which they held the bodies fade over their release time.
+/// Removal of tools at given times: the forces by which they held the bodies fade over their
+/// release time.
 class ToolRemoval {
 public:
   ToolRemoval(const Scene &scene, const Discretization &discretization, ContactSet &contacts)
@@ -41,7 +42,8 @@ public:
   /// Tools that are removed at a time.
   struct Removal {
     std::vector<std::size_t> tools;
-    std::map<std::size_t, std::set<std::string>> let_go; ///< names of the tools that each body loses
+    /// Names of the tools that each body loses.
+    std::map<std::size_t, std::set<std::string>> let_go;
   };
   /// Removes the tools that are due at t from their contacts. Collective.
   Removal remove_due(double t);
@@ -67,8 +69,8 @@ private:
   std::vector<std::unique_ptr<std::vector<RemovedForces>>> forces_; ///< by tool; null: not removed
 };
 
-/// Forces that are out of balance when a run resumes from another scheme's state, or with other tools. They
-/// fade to zero.
+/// Forces that are out of balance when a run resumes from another scheme's state, or with other
+/// tools. They fade to zero.
 class ReleasedForces {
 public:
   bool are_there() const { return forces_ != nullptr; }
