@@ -30,7 +30,8 @@ public:
 
   /// Whether nodes of this rank chatter: they keep changing facet or status. Not collective.
   virtual bool has_restless() const = 0;
-  /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there are none.
+  /// Returns a clause about chattering nodes, which keep changing facet or status; empty if there
+  /// are none.
   virtual Explanation describe_restless() const { return {}; }
   /// Returns a clause about the obstacle that MatrixContact::find_free_part() found.
   virtual std::string describe_obstacle() const = 0;

@@ -6,11 +6,12 @@
 
 namespace billet {
 
-/// Penalty of sheets on tools in statics once nodes chatter [E/h], (T13) of doc/theory/contact_tools.md.
+/// Penalty of sheets on tools in statics once nodes chatter [E/h], (T13) of
+/// doc/theory/contact_tools.md.
 constexpr double sheet_penalty = 10. / 256.;
 
-/// Whether a pair with these facets may get it: its penalty is the default, and its body is thin beside their
-/// extent. Collective.
+/// Whether a pair with these facets may get it: its penalty is the default, and its body is thin
+/// beside their extent. Collective.
 bool may_have_sheet_penalty(const ContactPair &pair, const Discretization &discretization,
                             const std::vector<BoundaryFacet> &facets);
 

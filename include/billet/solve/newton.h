@@ -66,7 +66,7 @@ struct NewtonReport {
   /// their tolerance.
   bool is_lost_in_round_off = false;
   bool is_cycling = false; ///< it did not converge: is_cycling()
-  bool is_slow = false;    ///< it did not converge: at their rate, too many iterations would be needed
+  bool is_slow = false;    ///< it did not converge: it would need too many iterations
   /// Reason to reject the step; none: it is accepted, or the iterations are the cause of `failure`.
   std::optional<StepFailure::Kind> rejection;
   unsigned int linear_iterations = 0;

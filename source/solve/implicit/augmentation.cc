@@ -71,8 +71,8 @@ struct Augmentation::Limits {
   static constexpr double settled = 5e-3;
   /// Room that a penalty needs to rise, which it does by whole octaves.
   static constexpr double octave = 2.;
-  /// Number of steps with restless nodes after which the penalty of a sheet falls. Nodes may be restless in
-  /// the step in which they first touch.
+  /// Number of steps with restless nodes after which the penalty of a sheet falls. Nodes may be
+  /// restless in the step in which they first touch.
   static constexpr double restless_steps = 2.;
   /// Penalty above which a note about a raise is printed [E/h].
   static constexpr double notable_penalty = 1000.;

@@ -25,12 +25,12 @@ public:
   /// Accepts steps whose remaining penetration exceeds the tolerance: it counts as an error to be
   /// reported.
   void may_leave_penetration() { may_leave_penetration_ = true; }
-  /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value after a failure, with a
-  /// message on each. Those of sheets fall to (T13), unless the iterations were merely slow. Returns false
-  /// if there is none. Collective.
+  /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value after a failure,
+  /// with a message on each. Those of sheets fall to (T13), unless the iterations were merely slow.
+  /// Returns false if there is none. Collective.
   bool soften_contacts(const NewtonReport &failed, DiagnosticList &messages);
-  /// Reduces the penalties of sheets to (T13), before a step, if nodes have been restless in two steps so
-  /// far. Adds a message on each pair. Collective.
+  /// Reduces the penalties of sheets to (T13), before a step, if nodes have been restless in two
+  /// steps so far. Adds a message on each pair. Collective.
   void soften_sheets(DiagnosticList &messages);
 
   /// Returns the state of the softness estimate, which a probe restores.
@@ -38,7 +38,8 @@ public:
   void set_softness(const SoftnessLimit &softness) { softness_ = softness; }
   /// Accepts the step. Collective.
   void commit();
-  /// Returns messages at the end about pairs whose augmentation ended while it still changed forces.
+  /// Returns messages at the end about pairs whose augmentation ended while it still changed
+  /// forces.
   DiagnosticList finish() const;
 
   void save(StateWriter &writer) const;
@@ -57,10 +58,11 @@ private:
   };
   /// Returns the demands at the trial state after n augmentations. Collective.
   Demands find_demands(const std::vector<ContactSprings> &springs, unsigned int n) const;
-  /// Whether nodes are restless in the iterations so far, by contact; false but of sheets. Collective.
+  /// Whether nodes are restless in the iterations so far, by contact; false but of sheets.
+  /// Collective.
   std::vector<bool> restless_sheets() const;
-  /// Reduces penalties by whole octaves to at most `wanted` [E/h], with a message on each, and the reason in
-  /// it. Returns whether there is any. Collective.
+  /// Reduces penalties by whole octaves to at most `wanted` [E/h], with a message on each, and the
+  /// reason in it. Returns whether there is any. Collective.
   bool lower_penalties(const std::vector<double> &wanted, const std::string &reason,
                        DiagnosticList &messages);
   /// Returns the rules by which contacts limit their softness now.
@@ -93,9 +95,10 @@ private:
   PenetrationMeasurement &measurement_;
   SoftnessLimit softness_;
   double penetration_allowed_ = 1.;
-  bool may_leave_penetration_ = false, has_failed_ = false; ///< has_failed_: for softness, in some step
-  std::vector<bool> is_noted_;                              ///< contacts of note_stiff_contacts()
-  std::vector<double> restless_steps_; ///< number of steps with restless nodes, by contact; of sheets
+  bool may_leave_penetration_ = false;
+  bool has_failed_ = false;            ///< for softness, in some step
+  std::vector<bool> is_noted_;         ///< contacts of note_stiff_contacts()
+  std::vector<double> restless_steps_; ///< number of steps with restless nodes, of sheets
 };
 
 } // namespace billet
