@@ -56,6 +56,22 @@ void ToolPenalties::scale_under_load(const double normal, const double tangentia
   }
 }
 
+void ToolPenalties::lower_under_load(const double normal, const double tangential) {
+  std::vector<double> gaps; // without multipliers
+  for (std::size_t i = 0; i < parts_.slaves.nodes.size(); ++i)
+    gaps.push_back(parts_.states[i].gap + parts_.slaves.nodes[i].multiplier_offset);
+  scale(normal, tangential);
+  for (std::size_t i = 0; i < parts_.slaves.nodes.size(); ++i) {
+    ContactPoint &node = parts_.slaves.nodes[i];
+    ToolContactState &state = parts_.states[i];
+    if (node.is_fixed || !(state.pressure > 0.) || state.share != 1.)
+      continue;
+    state.gap = node.gap_n = -state.pressure / node.stiffness.normal;
+    node.multiplier_offset = node.multiplier_offset_n = gaps[i] - state.gap;
+    parts_.pressures.divide_penetration(i, normal);
+  }
+}
+
 double ToolPenalties::max_spring() const {
   double maximum = 0.;
   for (const auto &node : parts_.slaves.nodes)

@@ -24,6 +24,7 @@ public:
   ContactSprings compute_springs() const override;
   void scale(double normal, double tangential) override;
   void scale_under_load(double normal, double tangential) override;
+  void lower_under_load(double normal, double tangential) override;
   double stiffening() const override { return stiffening_; }
   double tangential_stiffening() const override { return tangential_stiffening_; }
   double max_spring() const override;

@@ -3,6 +3,7 @@
 
 #include "billet/contact/sheet_penalty.h"
 #include "billet/diagnostic_kinds.h"
+#include "billet/solve/implicit/penalty_raises.h"
 #include "billet/solve/penalty_control.h"
 
 #include <algorithm>
@@ -163,42 +164,57 @@ std::vector<bool> Augmentation::restless_sheets() const {
 }
 
 bool Augmentation::lower_penalties(const std::vector<double> &wanted, const std::string &reason,
-                                   DiagnosticList &messages) {
+                                   SpringBooks &books, DiagnosticList &messages) {
   constexpr double round_off = 1e-9;
   ContactSet &contacts = parts_.contacts();
   const std::vector<double> room = contacts.stiffening_left();
-  bool has_lowered = false;
-  for (std::size_t i = 0; i < room.size(); ++i) {
-    const double before = enough_penalty / room[i],
-                 factor = whole_octaves((1. + round_off) * wanted[i] / before), penalty = before * factor;
-    if (!(factor < 1.) || !contacts[i].settings().is_augmented())
+  std::vector<double> factors(room.size(), 1.);
+  for (std::size_t i = 0; i < room.size(); ++i)
+    if (contacts[i].settings().is_augmented())
+      factors[i] = std::min(1., whole_octaves((1. + round_off) * wanted[i] * room[i] / enough_penalty));
+  if (std::all_of(factors.begin(), factors.end(), [](const double factor) { return factor == 1.; }))
+    return false;
+  const double time = problem_.step().time;
+  problem_.evaluate_start();
+  const std::vector<double> before = contacts.stored_energies();
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i] == 1.)
       continue;
-    const bool keeps_tangential =
-        wanted[i] < enough_penalty && contacts[i].settings().input->penalty.is_tangential_given;
-    contacts[i].penalties().scale(factor, keeps_tangential ? 1. : factor);
-    has_lowered = true;
+    if (wanted[i] < enough_penalty)
+      contacts[i].penalties().lower_under_load(
+          factors[i], contacts[i].settings().input->penalty.is_tangential_given ? 1. : factors[i]);
+    else
+      contacts[i].penalties().scale(factors[i], factors[i]);
+    const double penalty = enough_penalty / room[i];
     std::ostringstream text;
-    text << "The penalty is reduced from " << before << " to " << penalty << " E/h, since " << reason
-         << "; augmentation enforces the constraint";
+    text << "The penalty is reduced from " << penalty << " to " << penalty * factors[i] << " E/h, since "
+         << reason << "; augmentation enforces the constraint";
     messages.push_back(Diagnostic(diagnostic::penalty_reduced, text.str())
                            .pair(contacts[i].name())
-                           .time(problem_.step().time)
-                           .value("penalty [E/h]", penalty));
+                           .time(time)
+                           .value("penalty [E/h]", penalty * factors[i]));
   }
   problem_.scales().spring_round_off = contacts.find_spring_round_off();
-  return has_lowered;
+  problem_.evaluate_start();
+  const std::vector<double> after = contacts.stored_energies();
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    if (factors[i] < 1. && wanted[i] < enough_penalty) {
+      books.add(i, after[i] - before[i]);
+      problem_.state().energies.external += after[i] - before[i];
+    }
+  return true;
 }
 
-bool Augmentation::soften_contacts(const NewtonReport &failed, DiagnosticList &messages) {
+bool Augmentation::soften_contacts(const NewtonReport &failed, SpringBooks &books, DiagnosticList &messages) {
   const std::vector<bool> restless = restless_sheets();
   std::vector<double> wanted(restless.size(), enough_penalty);
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (restless[i] || (!failed.is_slow && parts_.contacts()[i].penalties().is_of_sheet()))
       wanted[i] = sheet_penalty;
-  return lower_penalties(wanted, "Newton's method failed", messages);
+  return lower_penalties(wanted, "Newton's method failed", books, messages);
 }
 
-void Augmentation::soften_sheets(DiagnosticList &messages) {
+void Augmentation::soften_sheets(SpringBooks &books, DiagnosticList &messages) {
   std::vector<double> wanted(restless_steps_.size(), std::numeric_limits<double>::max());
   bool is_wanted = false;
   for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -208,7 +224,7 @@ void Augmentation::soften_sheets(DiagnosticList &messages) {
       is_wanted = true;
     }
   if (is_wanted)
-    lower_penalties(wanted, "nodes of a thin sheet open and close in turn", messages);
+    lower_penalties(wanted, "nodes of a thin sheet open and close in turn", books, messages);
 }
 
 void Augmentation::commit() {

@@ -97,7 +97,7 @@ void ImplicitSolution::recover(const double t, const double previous_step, Newto
                                DiagnosticList &messages) {
   bool may_accept_stalled = report.is_stalled;
   if (!report.converged && (!report.is_explained() || rules_->may_mend_explained()) &&
-      augmentation_.soften_contacts(report, messages))
+      augmentation_.soften_contacts(report, books_, messages))
     report.append_anew(attempt(t, previous_step));
   const auto continue_from = [&](const PenaltyContinuation::Start start, const StepAttempt::Way way) {
     if (report.converged || report.is_explained() || report.iterations.empty() ||
@@ -123,7 +123,7 @@ bool ImplicitSolution::may_continue_penalties(const PenaltyContinuation::Start s
 NewtonReport ImplicitSolution::step(const double t, const double previous_step) {
   rules_->check_next_step();
   DiagnosticList messages;
-  augmentation_.soften_sheets(messages);
+  augmentation_.soften_sheets(books_, messages);
   parts_.scheme().contact().choose(problem_.step().start);
   // Iterations that stall with high penalties may converge by continuation from lower ones.
   solver_.accept_stalled(!may_continue_penalties(PenaltyContinuation::Start::enough));

@@ -11,6 +11,8 @@
 
 namespace billet {
 
+class SpringBooks;
+
 /// Augmented Lagrangian method for contacts: tractions are augmented and iterated anew until all
 /// pairs meet their 'Penetration tolerance' or their limit of softness.
 class Augmentation {
@@ -28,10 +30,10 @@ public:
   /// Reduces the penalties of augmented contacts that exceed 10 E/h to that value after a failure,
   /// with a message on each. Those of sheets fall to (T13), unless the iterations were merely slow.
   /// Returns false if there is none. Collective.
-  bool soften_contacts(const NewtonReport &failed, DiagnosticList &messages);
+  bool soften_contacts(const NewtonReport &failed, SpringBooks &books, DiagnosticList &messages);
   /// Reduces the penalties of sheets to (T13), before a step, if nodes have been restless in two
   /// steps so far. Adds a message on each pair. Collective.
-  void soften_sheets(DiagnosticList &messages);
+  void soften_sheets(SpringBooks &books, DiagnosticList &messages);
 
   /// Returns the state of the softness estimate, which a probe restores.
   const SoftnessLimit &softness() const { return softness_; }
@@ -62,8 +64,9 @@ private:
   /// Collective.
   std::vector<bool> restless_sheets() const;
   /// Reduces penalties by whole octaves to at most `wanted` [E/h], with a message on each, and the
-  /// reason in it. Returns whether there is any. Collective.
-  bool lower_penalties(const std::vector<double> &wanted, const std::string &reason,
+  /// reason in it. Those of sheets keep the tractions at the start of the step, and their springs
+  /// the energy of the lower penalty. Returns whether there is any. Collective.
+  bool lower_penalties(const std::vector<double> &wanted, const std::string &reason, SpringBooks &books,
                        DiagnosticList &messages);
   /// Returns the rules by which contacts limit their softness now.
   static std::vector<SoftnessLimit::Rule> softness_rules(const ContactSet &contacts);
