@@ -26,6 +26,7 @@ IN_NO_MENU = ("manual.md", "theory.md")  # lists of chapters, which old links le
 LEFT_OUT = {"site", "news"}  # folders of doc/ that are no pages
 BESIDE = (
     "cmake",
+    "examples",
     "include",
     "scripts",
     "source",
